@@ -1,0 +1,277 @@
+// Interval: a closed set of real numbers, [lower, upper], enclosed with outward-rounded endpoints.
+//
+// The promise. If x, y, ... lie in the operand intervals then f(x, y, ...) lies in the result. More: a result that
+// `is_finite` certifies that the expression was defined *and continuous* at every point of the operands. An operation
+// that is undefined or discontinuous somewhere on its operands (division by an interval that contains zero, the square
+// root of an interval that reaches below zero, the empty set, NaN, an infinite point) gives the empty interval, which
+// reads "nothing is known" and stays empty through whatever follows. Overflow gives an unbounded interval. Neither an
+// empty nor an unbounded interval ever satisfies a `certainly_...` predicate.
+//
+// Every operation needs the rounding mode held by an UpwardRounding object (rounding.hpp). Builds without NDEBUG
+// check this in each operation, all builds check it in each predicate.
+//
+// There is no conversion from double behind the reader's back: `Interval(0.1)` is the double nearest to 0.1 and not
+// the number 0.1, for which there is `parse_decimal` (decimal.hpp). Integers wider than 32 bits and long double do not
+// convert at all.
+#pragma once
+
+#include <algorithm>
+#include <boost/numeric/interval/arith.hpp>
+#include <boost/numeric/interval/checking.hpp>
+#include <boost/numeric/interval/interval.hpp>
+#include <boost/numeric/interval/policies.hpp>
+#include <boost/numeric/interval/utility.hpp>
+#include <cmath>
+#include <limits>
+
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::rigor {
+
+namespace detail {
+
+/// Boost.Interval's rounding policy, over the operations of rounding.hpp: the mode is held by the caller.
+struct HeldUpwardPolicy {
+  using unprotected_rounding = HeldUpwardPolicy;
+  static double conv_down(double x) { return x; }
+  static double conv_up(double x) { return x; }
+  static double add_down(double x, double y) { return rigor::add_down(x, y); }
+  static double add_up(double x, double y) { return rigor::add_up(x, y); }
+  static double sub_down(double x, double y) { return rigor::sub_down(x, y); }
+  static double sub_up(double x, double y) { return rigor::sub_up(x, y); }
+  static double mul_down(double x, double y) { return rigor::mul_down(x, y); }
+  static double mul_up(double x, double y) { return rigor::mul_up(x, y); }
+  static double div_down(double x, double y) { return rigor::div_down(x, y); }
+  static double div_up(double x, double y) { return rigor::div_up(x, y); }
+  static double sqrt_down(double x) { return rigor::sqrt_down(x); }
+  static double sqrt_up(double x) { return rigor::sqrt_up(x); }
+};
+
+using BoostInterval = boost::numeric::interval<
+    double, boost::numeric::interval_lib::policies<HeldUpwardPolicy,
+                                                   boost::numeric::interval_lib::checking_base<double>>>;
+
+}  // namespace detail
+
+/// A closed, possibly unbounded interval of reals, or the empty set. See the top of this file for its promise.
+class Interval {
+ public:
+  /// The empty interval, so that a forgotten value can never certify anything.
+  Interval() noexcept : value_(kNaN, kNaN, true) {}
+
+  /// The single real number that this double is. NaN and the infinities are no real numbers: empty.
+  explicit Interval(double point) noexcept : Interval() {
+    if (std::isfinite(point)) {
+      value_ = detail::BoostInterval(point, point, true);
+    }
+  }
+  explicit Interval(float point) noexcept : Interval(static_cast<double>(point)) {}
+  explicit Interval(int point) noexcept : Interval(static_cast<double>(point)) {}
+  template <typename T>
+  explicit Interval(T) = delete;  // wider integers and long double would be rounded silently
+
+  /// [lower, upper]. Empty unless lower <= upper, and for [+inf, +inf] and [-inf, -inf], which hold no real number.
+  [[nodiscard]] static Interval from_bounds(double lower, double upper) noexcept {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Interval result;
+    if (lower <= upper && lower < kInfinity && upper > -kInfinity) {
+      result.value_ = detail::BoostInterval(lower, upper, true);
+    }
+    return result;
+  }
+  [[nodiscard]] static Interval empty() noexcept { return {}; }
+  /// (-inf, +inf): a real number of which nothing else is known.
+  [[nodiscard]] static Interval entire() noexcept {
+    return from_bounds(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
+  }
+
+  /// NaN when empty.
+  [[nodiscard]] double lower() const noexcept { return value_.lower(); }
+  /// NaN when empty.
+  [[nodiscard]] double upper() const noexcept { return value_.upper(); }
+
+  Interval operator-() const noexcept { return Interval(-value_); }
+  Interval& operator+=(const Interval& other) {
+    value_ += other.value_;
+    return *this;
+  }
+  Interval& operator-=(const Interval& other) {
+    value_ -= other.value_;
+    return *this;
+  }
+  Interval& operator*=(const Interval& other) {
+    value_ *= other.value_;
+    return *this;
+  }
+  /// Empty when the divisor contains zero.
+  Interval& operator/=(const Interval& other) {
+    const bool divisor_is_nonzero = other.lower() > 0.0 || other.upper() < 0.0;
+    if (divisor_is_nonzero) {
+      value_ /= other.value_;
+    } else {
+      *this = Interval();
+    }
+    return *this;
+  }
+  friend Interval operator+(Interval a, const Interval& b) { return a += b; }
+  friend Interval operator-(Interval a, const Interval& b) { return a -= b; }
+  friend Interval operator*(Interval a, const Interval& b) { return a *= b; }
+  friend Interval operator/(Interval a, const Interval& b) { return a /= b; }
+
+  /// Certain equality of real numbers: both are the same single point. Its negation says nothing, so there is none.
+  friend bool operator==(const Interval& a, const Interval& b) noexcept {
+    return a.lower() == a.upper() && b.lower() == b.upper() && a.lower() == b.lower();
+  }
+  friend bool operator!=(const Interval& a, const Interval& b) = delete;
+
+ private:
+  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  explicit Interval(const detail::BoostInterval& value) noexcept : value_(value) {}
+  detail::BoostInterval value_;
+};
+
+// ---- what an interval is ------------------------------------------------------------------------------------------
+
+[[nodiscard]] inline bool is_empty(const Interval& x) noexcept {
+  const bool ordered = x.lower() <= x.upper();
+  return !ordered;
+}
+
+/// Not empty, and both endpoints finite. False for anything that may not enter a proof.
+[[nodiscard]] inline bool is_finite(const Interval& x) noexcept {
+  return std::isfinite(x.lower()) && std::isfinite(x.upper()) && x.lower() <= x.upper();
+}
+
+/// A finite double inside a finite interval, near its middle; NaN otherwise. Independent of the rounding mode up to one
+/// unit in the last place.
+[[nodiscard]] inline double midpoint(const Interval& x) noexcept {
+  if (!is_finite(x)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return std::clamp(0.5 * x.lower() + 0.5 * x.upper(), x.lower(), x.upper());
+}
+
+/// An upper bound on upper - lower; NaN when empty.
+[[nodiscard]] inline double width(const Interval& x) { return sub_up(x.upper(), x.lower()); }
+
+/// An upper bound on the distance from `midpoint(x)` to the points of x; NaN unless finite.
+[[nodiscard]] inline double radius(const Interval& x) {
+  const double middle = midpoint(x);
+  return std::max(sub_up(x.upper(), middle), sub_up(middle, x.lower()));
+}
+
+/// The largest |t| for t in x; NaN when empty.
+[[nodiscard]] inline double magnitude(const Interval& x) noexcept {
+  return std::max(std::fabs(x.lower()), std::fabs(x.upper()));
+}
+
+/// The smallest |t| for t in x; NaN when empty.
+[[nodiscard]] inline double mignitude(const Interval& x) noexcept {
+  if (x.lower() <= 0.0 && x.upper() >= 0.0) {
+    return 0.0;
+  }
+  return std::min(std::fabs(x.lower()), std::fabs(x.upper()));
+}
+
+[[nodiscard]] inline bool contains(const Interval& x, double point) noexcept {
+  return x.lower() <= point && point <= x.upper();
+}
+
+/// True when `inner` is a non-empty part of `outer`.
+[[nodiscard]] inline bool is_subset(const Interval& inner, const Interval& outer) noexcept {
+  return outer.lower() <= inner.lower() && inner.lower() <= inner.upper() && inner.upper() <= outer.upper();
+}
+
+/// True when `inner` is non-empty and lies in the topological interior of `outer`.
+[[nodiscard]] inline bool is_interior(const Interval& inner, const Interval& outer) noexcept {
+  return outer.lower() < inner.lower() && inner.lower() <= inner.upper() && inner.upper() < outer.upper();
+}
+
+/// Same endpoints, or both empty. Not an equality of real numbers.
+[[nodiscard]] inline bool identical(const Interval& a, const Interval& b) noexcept {
+  return (is_empty(a) && is_empty(b)) || (a.lower() == b.lower() && a.upper() == b.upper());
+}
+
+// ---- predicates: true only when certain ---------------------------------------------------------------------------
+// All require finite operands and the held rounding mode (RoundingModeError otherwise). None is the negation of another.
+
+/// Every point of a is less than every point of b.
+[[nodiscard]] inline bool certainly_less(const Interval& a, const Interval& b) {
+  require_upward_rounding();
+  return is_finite(a) && is_finite(b) && a.upper() < b.lower();
+}
+/// Every point of a is less than or equal to every point of b.
+[[nodiscard]] inline bool certainly_less_equal(const Interval& a, const Interval& b) {
+  require_upward_rounding();
+  return is_finite(a) && is_finite(b) && a.upper() <= b.lower();
+}
+[[nodiscard]] inline bool certainly_positive(const Interval& a) { return certainly_less(Interval(0.0), a); }
+[[nodiscard]] inline bool certainly_negative(const Interval& a) { return certainly_less(a, Interval(0.0)); }
+
+// ---- set operations -----------------------------------------------------------------------------------------------
+
+/// The smallest interval that holds both; empty when either is: what is not known is not known together with another.
+[[nodiscard]] inline Interval hull(const Interval& a, const Interval& b) noexcept {
+  if (is_empty(a) || is_empty(b)) {
+    return Interval::empty();
+  }
+  return Interval::from_bounds(std::min(a.lower(), b.lower()), std::max(a.upper(), b.upper()));
+}
+
+/// The common points; empty when there are none.
+[[nodiscard]] inline Interval intersection(const Interval& a, const Interval& b) noexcept {
+  if (is_empty(a) || is_empty(b)) {
+    return Interval::empty();
+  }
+  return Interval::from_bounds(std::max(a.lower(), b.lower()), std::min(a.upper(), b.upper()));
+}
+
+/// [-radius, radius]; empty unless radius >= 0.
+[[nodiscard]] inline Interval symmetric(double radius) noexcept { return Interval::from_bounds(-radius, radius); }
+
+// ---- algebraic functions ------------------------------------------------------------------------------------------
+
+[[nodiscard]] inline Interval abs(const Interval& x) noexcept {
+  if (is_empty(x)) {
+    return x;
+  }
+  return Interval::from_bounds(mignitude(x), magnitude(x));
+}
+
+[[nodiscard]] inline Interval min(const Interval& a, const Interval& b) noexcept {
+  if (is_empty(a) || is_empty(b)) {
+    return Interval::empty();
+  }
+  return Interval::from_bounds(std::min(a.lower(), b.lower()), std::min(a.upper(), b.upper()));
+}
+
+[[nodiscard]] inline Interval max(const Interval& a, const Interval& b) noexcept {
+  if (is_empty(a) || is_empty(b)) {
+    return Interval::empty();
+  }
+  return Interval::from_bounds(std::max(a.lower(), b.lower()), std::max(a.upper(), b.upper()));
+}
+
+/// {t^2 : t in x}: never negative, unlike x * x.
+[[nodiscard]] inline Interval square(const Interval& x) {
+  if (is_empty(x)) {
+    return x;
+  }
+  const double smallest = mignitude(x);
+  const double largest = magnitude(x);
+  return Interval::from_bounds(mul_down(smallest, smallest), mul_up(largest, largest));
+}
+
+/// Empty when x reaches below zero: for a quantity that is known to be non-negative write sqrt(max(x, Interval(0.0))).
+[[nodiscard]] inline Interval sqrt(const Interval& x) {
+  const bool defined = x.lower() >= 0.0 && x.lower() <= x.upper();
+  if (!defined) {
+    return Interval::empty();
+  }
+  return Interval::from_bounds(sqrt_down(x.lower()), sqrt_up(x.upper()));
+}
+
+/// x^exponent. Empty when the exponent is negative and x contains zero. x^0 is 1.
+[[nodiscard]] Interval pow(const Interval& x, int exponent);
+
+}  // namespace veritrack::rigor

@@ -1,0 +1,49 @@
+// What a published theorem says of a design: named quantities with enclosures, and conditions with verdicts.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/verdict.hpp"
+
+namespace veritrack::theorems {
+
+/// One constant of a theorem, evaluated for a design.
+struct Quantity {
+  std::string name;     ///< as in certificate.json, e.g. "rho_1"
+  std::string symbol;   ///< LaTeX, as the source writes it, e.g. "\\rho_1"
+  std::string formula;  ///< LaTeX, the right-hand side, e.g. "2(R_x + \\epsilon_r)"
+  std::string source;   ///< where the formula stands, e.g. "thesis, section 3.5"
+  rigor::Interval value;
+  /// Set when the quantity does not exist for this design (a division by q1 = 0, say): the reason, as a sentence. The
+  /// value is then empty.
+  std::optional<std::string> not_applicable;
+};
+
+/// One hypothesis of a theorem, lhs < rhs, decided for a design.
+struct Condition {
+  std::string id;         ///< the source's equation number, e.g. "2.43"
+  std::string statement;  ///< LaTeX, e.g. "\\beta(\\zeta + \\eta) + \\alpha < 1"
+  rigor::Verdict verdict = rigor::Verdict::undecided;
+  rigor::Interval lhs;
+  rigor::Interval rhs;
+  std::string reason;  ///< one sentence: what decided it, or why it could not be decided
+};
+
+/// A theorem, in one reading of its text, evaluated for a design.
+struct Derivation {
+  std::string id;     ///< e.g. "theorem-2.9/printed"
+  std::string title;  ///< one line
+  std::vector<Quantity> quantities;
+  std::vector<Condition> conditions;
+  std::vector<std::string> notes;  ///< sentences a reader needs, e.g. which of our choices entered
+  /// All conditions together.
+  rigor::Verdict verdict = rigor::Verdict::undecided;
+};
+
+/// The quantity of that name. Throws std::out_of_range when there is none.
+[[nodiscard]] const Quantity& find_quantity(const Derivation& derivation, const std::string& name);
+
+}  // namespace veritrack::theorems

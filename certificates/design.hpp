@@ -1,0 +1,83 @@
+// A design file, read: what the engineer chose, what is known, what is required; every number with the interval it
+// stands for and the place it came from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "analysis/rigor/interval.hpp"
+
+namespace veritrack::certificates {
+
+/// A place in a design file, both from 1; line 0 where there is none (a default).
+struct Position {
+  int line = 0;
+  int column = 0;
+};
+
+/// A number of a design file.
+struct Number {
+  rigor::Interval value;  ///< the tightest interval that holds the decimal and the double nearest to it
+  double nearest = 0.0;   ///< the double nearest to the decimal: what the filter runs with
+  std::string text;       ///< as written in the file
+  Position position;
+};
+
+/// [design] of the quadrature tracker: Q = diag(q1, q1, q2), R = r I (signal units squared, q2 in (rad/sample)^2).
+struct QuadratureEkfDesign {
+  Number q1, q2, r, epsilon;
+};
+
+/// What P(0|0) is, in the frame of the estimated phase: the filter's steady state, or a symmetric positive definite
+/// matrix, row by row.
+using CovarianceArray = std::array<std::array<Number, 3>, 3>;
+
+/// [assume].
+struct Assumptions {
+  Number amplitude;                          ///< signal units
+  std::array<Number, 2> frequency;           ///< [lowest, highest], rad/sample
+  Number noise;                              ///< |v(k)| <= noise for every k, signal units
+  Number slew;                               ///< |omega(k+1) - omega(k)| <= slew, rad/sample per sample
+  Number initial_frequency_error;            ///< rad/sample
+  Number initial_phase_error;                ///< rad
+  Number initial_amplitude_error;            ///< signal units
+  std::optional<CovarianceArray> initial_covariance;  ///< none: "steady-state"
+};
+
+/// [require]: what CI must find PROVED.
+struct Requirements {
+  std::optional<Number> frequency_error_below;  ///< rad/sample, for ever
+  std::optional<Number> settles_within;         ///< samples to come within twice the ultimate bound
+  [[nodiscard]] bool empty() const { return !frequency_error_below && !settles_within; }
+};
+
+/// [simulate]: the run that the audit and the figures use.
+struct SimulationSettings {
+  std::int64_t samples = 1000;
+  std::uint64_t seed = 1;
+  std::string signal = "constant";
+};
+
+/// [theorem_2_9]: the free parameters of the published theorem.
+struct Theorem29Parameters {
+  Number state_bound;     ///< R_x, signal units and rad/sample mixed, as in the thesis
+  Number sigma;           ///< the thesis's "arbitrarily small" number
+  Number gamma_fraction;  ///< gamma = gamma_fraction / (s p^2), in (0, 1)
+  Number c1;              ///< |w| <= c1 sqrt(q2)
+  Number c2;              ///< |v| <= c2 sqrt(r)
+};
+
+struct Design {
+  std::string name;
+  std::string tracker;
+  std::string source;
+  QuadratureEkfDesign design;
+  Assumptions assume;
+  Requirements require;
+  SimulationSettings simulate;
+  Theorem29Parameters theorem_2_9;
+};
+
+}  // namespace veritrack::certificates

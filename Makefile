@@ -1,0 +1,59 @@
+# The two commands a newcomer needs:
+#   make certificate   install what is missing, build, and certify a published design
+#   make test          the same for the tests
+# and the ones that continuous integration adds: make lint, make sanitize, make fuzz; and make bench.
+
+BUILD_PACKAGES := g++ cmake make pkg-config libeigen3-dev libboost-dev coinor-libipopt-dev libnlopt-cxx-dev \
+  libmpfr-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox
+# clang also compiles the arithmetic tests: the promise must hold under both compilers
+TEST_PACKAGES  := doctest-dev python3-jsonschema clang
+LINT_PACKAGES  := clang-format clang-tidy git
+FUZZ_PACKAGES  := clang libclang-rt-14-dev doctest-dev
+BENCH_PACKAGES := libbenchmark-dev libmpfi-dev
+
+DESIGN       ?= designs/la-scala-1994-figure-3.5.toml
+JOBS         ?= $(shell nproc)
+FUZZ_SECONDS ?= 60
+
+.PHONY: certificate test lint format sanitize fuzz bench clean
+
+certificate:
+	@scripts/install-packages $(BUILD_PACKAGES)
+	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack >&2
+	@build/release/veritrack certify $(DESIGN)
+
+test:
+	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES)
+	cmake --preset release -DVERITRACK_BUILD_TESTS=ON
+	cmake --build --preset release --parallel $(JOBS)
+	ctest --preset release --parallel $(JOBS)
+
+lint:
+	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) $(LINT_PACKAGES)
+	cmake --preset release -DVERITRACK_BUILD_TESTS=ON
+	scripts/lint build/release
+
+format:
+	git ls-files -- '*.hpp' '*.cpp' | xargs clang-format -i
+
+sanitize:
+	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) $(FUZZ_PACKAGES)
+	cmake --preset sanitizers
+	cmake --build --preset sanitizers --parallel $(JOBS)
+	VERITRACK_TEST_EFFORT=0.02 ctest --preset sanitizers --parallel $(JOBS)
+
+fuzz:
+	@scripts/install-packages $(BUILD_PACKAGES) $(FUZZ_PACKAGES)
+	cmake --preset fuzz
+	cmake --build --preset fuzz --parallel $(JOBS)
+	scripts/fuzz build/fuzz $(FUZZ_SECONDS)
+
+bench:
+	@scripts/install-packages $(BUILD_PACKAGES) $(BENCH_PACKAGES)
+	cmake --preset release -DVERITRACK_BUILD_BENCH=ON
+	cmake --build --preset release --parallel $(JOBS)
+	for program in build/release/bench/*_bench; do $$program; done
+
+clean:
+	rm -rf build certificates-out

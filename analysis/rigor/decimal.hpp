@@ -1,7 +1,7 @@
 // Numbers as text: decimals and hexadecimal floats, read and written outward.
 //
-// None of these functions depends on the rounding mode (they work through MPFR); they may be called inside and
-// outside an UpwardRounding scope.
+// None of these functions depends on the rounding mode (they work through MPFR); they may be called inside
+// and outside an UpwardRounding scope.
 #pragma once
 
 #include <stdexcept>
@@ -18,25 +18,29 @@ class NumberFormatError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// The tightest interval with double endpoints that holds the decimal number `text` stands for; since the endpoints are
-/// neighbours it also holds the double nearest to it. Grammar: [+-] digits [. digits] [(e|E) [+-] digits], with a digit
-/// on at least one side of the point. Throws NumberFormatError for anything else, for NaN and infinities, and for
-/// magnitudes above the largest double.
+/// The tightest interval with double endpoints that holds the decimal number `text` stands for; since the
+/// endpoints are neighbours it also holds the double nearest to it. Grammar: [+-] digits [. digits] [(e|E)
+/// [+-] digits], with a digit on at least one side of the point. Throws NumberFormatError for anything else,
+/// for NaN and infinities, and for magnitudes above the largest double.
 [[nodiscard]] Interval parse_decimal(std::string_view text);
 
-/// The same for a C99 hexadecimal float, [+-] 0x digits [. digits] p [+-] digits: a point where 53 bits suffice.
+/// The same for a C99 hexadecimal float, [+-] 0x digits [. digits] p [+-] digits in either case of letters: a
+/// point where 53 bits suffice.
 [[nodiscard]] Interval parse_hexadecimal(std::string_view text);
 
-/// The exact value as a C99 hexadecimal float, e.g. 0x1.8p+1; "nan", "inf" and "-inf" where that is the value.
+/// The exact value as a C99 hexadecimal float, e.g. 0x1.8p+1; "nan", "inf" and "-inf" where that is the
+/// value.
 [[nodiscard]] std::string to_hexadecimal(double value);
 
 enum class Direction { down, up };
 
-/// `value` as a decimal with `digits` significant digits, rounded in the given direction: plain notation for exponents
-/// from -5 to 9 and scientific (1.5e-12) beyond. Throws std::invalid_argument unless 1 <= digits <= 40.
+/// `value` as a decimal with `digits` significant digits, rounded in the given direction: plain notation for
+/// exponents from -5 to 9 and scientific (1.5e-12) beyond, without zeros at the end of the fraction; "nan",
+/// "inf" and "-inf" where that is the value. Throws std::invalid_argument unless 1 <= digits <= 40.
 [[nodiscard]] std::string to_decimal(double value, int digits, Direction direction);
 
-/// "[lower, upper]", outward-rounded; "[empty]" when empty. A point that the digits represent exactly is printed as
+/// "[lower, upper]", outward-rounded; "[empty]" when empty. A point that the digits represent exactly is
+/// printed as
 /// "[x, x]".
 [[nodiscard]] std::string to_decimal(const Interval& value, int digits = 17);
 

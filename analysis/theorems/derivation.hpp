@@ -17,8 +17,8 @@ struct Quantity {
   std::string formula;  ///< LaTeX, the right-hand side, e.g. "2(R_x + \\epsilon_r)"
   std::string source;   ///< where the formula stands, e.g. "thesis, section 3.5"
   rigor::Interval value;
-  /// Set when the quantity does not exist for this design (a division by q1 = 0, say): the reason, as a sentence. The
-  /// value is then empty.
+  /// Set when the quantity does not exist for this design (a division by q1 = 0, say): the reason, as a
+  /// sentence. The value is then empty.
   std::optional<std::string> not_applicable;
 };
 

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 
 #include "analysis/rigor/interval.hpp"
 
@@ -62,23 +61,18 @@ template <typename Derived>
   return matrix.unaryExpr([](const Interval& entry) { return radius(entry); }).eval();
 }
 
+/// Entry by entry, see magnitude(Interval).
+template <typename Derived>
+[[nodiscard]] auto magnitude(const Eigen::MatrixBase<Derived>& matrix) {
+  return matrix.unaryExpr([](const Interval& entry) { return magnitude(entry); }).eval();
+}
+
 /// Entry by entry, an upper bound on the distance from the double in `center` to the points of the interval;
 /// NaN where that is empty.
 template <typename DerivedA, typename DerivedB>
 [[nodiscard]] auto radius_around(const Eigen::MatrixBase<DerivedA>& matrix,
                                  const Eigen::MatrixBase<DerivedB>& center) {
-  return matrix
-      .binaryExpr(center,
-                  [](const Interval& x, double middle) {
-                    return std::max(sub_up(x.upper(), middle), sub_up(middle, x.lower()));
-                  })
-      .eval();
-}
-
-/// Entry by entry, see magnitude(Interval).
-template <typename Derived>
-[[nodiscard]] auto magnitude(const Eigen::MatrixBase<Derived>& matrix) {
-  return matrix.unaryExpr([](const Interval& entry) { return magnitude(entry); }).eval();
+  return magnitude(matrix - to_interval(center));
 }
 
 /// Entry by entry, see hull(Interval, Interval).

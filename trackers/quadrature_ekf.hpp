@@ -1,0 +1,282 @@
+// The extended Kalman filter that tracks the frequency of a quadrature (complex) sinusoid.
+//
+// B. F. La Scala, "Approaches to Frequency Tracking and Vibration Control", PhD thesis, Australian National
+// University, 1994, chapter 3; and B. F. La Scala and R. R. Bitmead, "Design of an extended Kalman filter
+// frequency tracker", IEEE Trans. Signal Processing 44(3), 1996. Equation numbers are the thesis's.
+//
+// State (x1, x2, x3): in-phase and quadrature part in signal units, frequency in rad/sample. With z = x1 + i
+// x2,
+//     z(k+1) = e^{i x3(k)} z(k),   x3(k+1) = (1 - epsilon) x3(k) + noise,   y(k) = z(k) + noise,     (3.1),
+//     (3.2)
+// Q = diag(q1, q1, q2), R = r I, and the EKF recursion (2.3)-(2.7) with F of (3.8) and H = [I 0] of (3.9).
+//
+// To use it in a program of your own, copy the folder trackers/; it needs a C++20 compiler and Eigen's
+// headers:
+//
+//     using namespace veritrack::trackers;
+//     QuadratureEkf<double> tracker({.q1 = 0.0023, .q2 = 0.0023, .r = 0.05, .epsilon = 0.0},
+//                                   {.in_phase = 1.0, .quadrature = 0.0, .frequency = 0.3,
+//                                    .covariance =
+//                                    FactoredCovariance<double>::from_matrix(initial_covariance)});
+//     for (const auto& [in_phase, quadrature] : samples) {
+//       tracker.step(in_phase, quadrature);
+//       use(tracker.filtered().frequency);
+//     }
+//
+// Everything is a template over the scalar, free of branches on scalar values: the code that tracks in double
+// is the code that encloses over intervals and differentiates over dual numbers. It does not allocate, and it
+// never throws unless the scalar does.
+//
+// Numerics. The covariance is kept factored (see FactoredCovariance), and both updates are written as sums
+// and quotients of non-negative terms, so that symmetry holds by construction and positive definiteness
+// survives any number of steps and any size of P(0). Expanding the factors gives back (2.4), (2.6) and (2.7);
+// a test holds that against the textbook matrices.
+//
+// Assumed, not checked: r > 0, q1 >= 0, q2 > 0, 0 <= epsilon < 1, P(0) symmetric and positive semidefinite,
+// all finite.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "trackers/scalar_functions.hpp"
+
+namespace veritrack::trackers {
+
+/// What the engineer chooses.
+template <typename Scalar>
+struct QuadratureEkfDesign {
+  Scalar q1;       ///< process noise variance of in-phase and quadrature part, signal units squared; >= 0
+  Scalar q2;       ///< process noise variance of the frequency, (rad/sample)^2; > 0
+  Scalar r;        ///< measurement noise variance of each channel, signal units squared; > 0
+  Scalar epsilon;  ///< leak of the frequency towards zero per sample; in [0, 1)
+};
+
+/// A symmetric positive semidefinite 3x3 matrix P = [[P_zz, P_z3], [P_z3', P_33]], kept as
+///     P_33 = d,   P_z3 = d u,   P_zz = M + d u u':
+/// the variance d of the frequency, the regression u of z on the frequency, and the covariance M of z given
+/// the frequency. P is positive definite exactly when M is and d > 0, so definiteness is not a matter of
+/// cancellation: a nearly singular P, such as the prediction from a huge P(0), keeps all digits of its small
+/// eigenvalues.
+template <typename Scalar>
+struct FactoredCovariance {
+  Scalar conditional_11, conditional_12, conditional_22;  ///< M, signal units squared
+  Scalar regression_1, regression_2;                      ///< u, signal units per (rad/sample)
+  Scalar frequency_variance;                              ///< d, (rad/sample)^2
+
+  /// The factors of a 3x3 matrix, of which only the upper triangle is read. A frequency variance of exactly
+  /// zero means that the frequency is known, and P_z3 is then taken to be zero too, as it must be in a
+  /// semidefinite matrix.
+  [[nodiscard]] static FactoredCovariance from_matrix(const Eigen::Matrix<Scalar, 3, 3>& matrix) {
+    using detail::square;
+    const Scalar p33 = matrix(2, 2);
+    if (p33 == Scalar(0.0)) {
+      return {matrix(0, 0), matrix(0, 1), matrix(1, 1), Scalar(0.0), Scalar(0.0), p33};
+    }
+    const Scalar p13 = matrix(0, 2);
+    const Scalar p23 = matrix(1, 2);
+    return {matrix(0, 0) - square(p13) / p33,
+            matrix(0, 1) - p13 * p23 / p33,
+            matrix(1, 1) - square(p23) / p33,
+            p13 / p33,
+            p23 / p33,
+            p33};
+  }
+
+  /// P itself, symmetric to the last bit.
+  [[nodiscard]] Eigen::Matrix<Scalar, 3, 3> matrix() const {
+    using detail::square;
+    const Scalar p13 = frequency_variance * regression_1;
+    const Scalar p23 = frequency_variance * regression_2;
+    const Scalar p12 = conditional_12 + p13 * regression_2;
+    Eigen::Matrix<Scalar, 3, 3> result;
+    result(0, 0) = conditional_11 + frequency_variance * square(regression_1);
+    result(0, 1) = p12;
+    result(0, 2) = p13;
+    result(1, 0) = p12;
+    result(1, 1) = conditional_22 + frequency_variance * square(regression_2);
+    result(1, 2) = p23;
+    result(2, 0) = p13;
+    result(2, 1) = p23;
+    result(2, 2) = frequency_variance;
+    return result;
+  }
+};
+
+/// A state estimate with its covariance: filtered, (k|k), or predicted, (k+1|k).
+template <typename Scalar>
+struct QuadratureEstimate {
+  Scalar in_phase;    ///< x1, signal units
+  Scalar quadrature;  ///< x2, signal units
+  Scalar frequency;   ///< x3, rad/sample
+  FactoredCovariance<Scalar> covariance;
+
+  /// (x1, x2, x3).
+  [[nodiscard]] Eigen::Matrix<Scalar, 3, 1> state() const {
+    Eigen::Matrix<Scalar, 3, 1> result;
+    result(0) = in_phase;
+    result(1) = quadrature;
+    result(2) = frequency;
+    return result;
+  }
+};
+
+/// The estimate turned about the origin of the plane by an angle given as its sine and cosine: z becomes e^{i
+/// angle} z, and P becomes U P U' with U = diag(Rot(angle), 1).
+template <typename Scalar>
+[[nodiscard]] inline QuadratureEstimate<Scalar> turned(const QuadratureEstimate<Scalar>& estimate,
+                                                       const Scalar& sine, const Scalar& cosine) {
+  using detail::square;
+  const FactoredCovariance<Scalar>& p = estimate.covariance;
+  // A symmetric 2x2 matrix is its mean times I, which stays, plus a part that turns twice as fast.
+  const Scalar sine_twice = (sine + sine) * cosine;
+  const Scalar sine_squared = square(sine);
+  const Scalar cosine_twice = Scalar(1.0) - (sine_squared + sine_squared);
+  const Scalar mean = Scalar(0.5) * (p.conditional_11 + p.conditional_22);
+  const Scalar half_difference = Scalar(0.5) * (p.conditional_11 - p.conditional_22);
+  const Scalar turned_difference = half_difference * cosine_twice - p.conditional_12 * sine_twice;
+  return {estimate.in_phase * cosine - estimate.quadrature * sine,
+          estimate.in_phase * sine + estimate.quadrature * cosine,
+          estimate.frequency,
+          {mean + turned_difference, half_difference * sine_twice + p.conditional_12 * cosine_twice,
+           mean - turned_difference, p.regression_1 * cosine - p.regression_2 * sine,
+           p.regression_1 * sine + p.regression_2 * cosine, p.frequency_variance}};
+}
+
+namespace detail {
+
+/// The time update in the frame that turns with the estimate, in which F = [[I, Jz], [0, 1 - epsilon]], J the
+/// quarter turn.
+template <typename Scalar>
+[[nodiscard]] inline QuadratureEstimate<Scalar> predicted_in_own_frame(
+    const QuadratureEstimate<Scalar>& filtered, const QuadratureEkfDesign<Scalar>& design) {
+  const FactoredCovariance<Scalar>& p = filtered.covariance;
+  const Scalar retention = Scalar(1.0) - design.epsilon;
+
+  // Per unit of frequency error e3, z errs by h = u + Jz after the step.
+  const Scalar h1 = p.regression_1 - filtered.quadrature;
+  const Scalar h2 = p.regression_2 + filtered.in_phase;
+
+  // Condition on the predicted frequency error (1 - epsilon) e3 + w3 in place of e3: what remains of e3 has
+  // the variance d q2 / ((1 - epsilon)^2 d + q2), and spreads z along h.
+  const Scalar variance = square(retention) * p.frequency_variance + design.q2;
+  const Scalar fraction = p.frequency_variance / variance;
+  const Scalar regression = retention * fraction;
+  const Scalar remaining = design.q2 * fraction;
+  return {
+      filtered.in_phase,
+      filtered.quadrature,
+      retention * filtered.frequency,
+      {p.conditional_11 + design.q1 + remaining * square(h1), p.conditional_12 + remaining * h1 * h2,
+       p.conditional_22 + design.q1 + remaining * square(h2), regression * h1, regression * h2, variance}};
+}
+
+}  // namespace detail
+
+/// From (k|k) to (k+1|k): equations (2.5) and (2.6) with F of (3.8).
+template <typename Scalar>
+[[nodiscard]] inline QuadratureEstimate<Scalar> time_update(const QuadratureEstimate<Scalar>& filtered,
+                                                            const QuadratureEkfDesign<Scalar>& design) {
+  using detail::sin_cos;
+  const auto [sine, cosine] = sin_cos(filtered.frequency);
+  return turned(detail::predicted_in_own_frame(filtered, design), sine, cosine);
+}
+
+/// From (k|k-1) to (k|k) with the measurement y(k) = (in_phase, quadrature), signal units: equations (2.3),
+/// (2.4) and (2.7) with H of (3.9).
+template <typename Scalar>
+[[nodiscard]] inline QuadratureEstimate<Scalar> measurement_update(
+    const QuadratureEstimate<Scalar>& predicted, const Scalar& in_phase, const Scalar& quadrature,
+    const QuadratureEkfDesign<Scalar>& design) {
+  using detail::square;
+  const FactoredCovariance<Scalar>& p = predicted.covariance;
+  const Scalar& r = design.r;
+  const Scalar innovation1 = in_phase - predicted.in_phase;
+  const Scalar innovation2 = quadrature - predicted.quadrature;
+
+  // W = M + r I is the innovation covariance if the frequency were known. det W is a sum of non-negative
+  // terms.
+  const Scalar w11 = p.conditional_11 + r;
+  const Scalar w22 = p.conditional_22 + r;
+  const Scalar determinant_m = p.conditional_11 * p.conditional_22 - square(p.conditional_12);
+  const Scalar determinant_w = determinant_m + r * (p.conditional_11 + w22);
+  const Scalar inverse = Scalar(1.0) / determinant_w;
+
+  // The gain for z with the frequency known, M W^-1 = (det(M) I + r M) / det W.
+  const Scalar scaled = r * inverse;
+  const Scalar isotropic = determinant_m * inverse;
+  const Scalar gain11 = isotropic + scaled * p.conditional_11;
+  const Scalar gain12 = scaled * p.conditional_12;
+  const Scalar gain22 = isotropic + scaled * p.conditional_22;
+
+  // t = W^-1 u. The innovation informs the frequency with u'W^-1 u = u't.
+  const Scalar t1 = (w22 * p.regression_1 - p.conditional_12 * p.regression_2) * inverse;
+  const Scalar t2 = (w11 * p.regression_2 - p.conditional_12 * p.regression_1) * inverse;
+  const Scalar information = p.regression_1 * t1 + p.regression_2 * t2;
+  const Scalar variance = p.frequency_variance / (Scalar(1.0) + p.frequency_variance * information);
+  const Scalar u1 = r * t1;
+  const Scalar u2 = r * t2;
+  const Scalar correction = variance * (t1 * innovation1 + t2 * innovation2);
+  return {predicted.in_phase + gain11 * innovation1 + gain12 * innovation2 + u1 * correction,
+          predicted.quadrature + gain12 * innovation1 + gain22 * innovation2 + u2 * correction,
+          predicted.frequency + correction,
+          {r * gain11, r * gain12, r * gain22, u1, u2, variance}};
+}
+
+/// A prediction and what the measurement made of it.
+template <typename Scalar>
+struct QuadratureStep {
+  QuadratureEstimate<Scalar> predicted;  ///< (k+1|k)
+  QuadratureEstimate<Scalar> filtered;   ///< (k+1|k+1)
+};
+
+/// One sample, from (k|k) to (k+1|k+1) with the measurement y(k+1), signal units: time_update, then
+/// measurement_update. The measurement is turned into the frame of the estimate and the result turned back,
+/// which is the same thing (the filter commutes with rotations) and lets the covariances be computed while
+/// sine and cosine are still on their way.
+template <typename Scalar>
+[[nodiscard]] inline QuadratureStep<Scalar> step(const QuadratureEstimate<Scalar>& filtered,
+                                                 const Scalar& in_phase, const Scalar& quadrature,
+                                                 const QuadratureEkfDesign<Scalar>& design) {
+  using detail::sin_cos;
+  const auto [sine, cosine] = sin_cos(filtered.frequency);
+  const QuadratureEstimate<Scalar> predicted = detail::predicted_in_own_frame(filtered, design);
+  const Scalar own_in_phase = in_phase * cosine + quadrature * sine;
+  const Scalar own_quadrature = quadrature * cosine - in_phase * sine;
+  return {turned(predicted, sine, cosine),
+          turned(measurement_update(predicted, own_in_phase, own_quadrature, design), sine, cosine)};
+}
+
+/// The tracker with its memory. It starts from one estimate, which serves as x(0|0) when `step` or
+/// `time_update` comes first, and as x(1|0) when `measurement_update` does.
+template <typename Scalar = double>
+class QuadratureEkf {
+ public:
+  QuadratureEkf(const QuadratureEkfDesign<Scalar>& design, const QuadratureEstimate<Scalar>& start)
+      : design_(design), predicted_(start), filtered_(start) {}
+
+  /// predicted() becomes (k+1|k), from filtered() at (k|k).
+  void time_update() { predicted_ = trackers::time_update(filtered_, design_); }
+
+  /// filtered() becomes (k|k), from predicted() at (k|k-1) and the measurement y(k) in signal units.
+  void measurement_update(const Scalar& in_phase, const Scalar& quadrature) {
+    filtered_ = trackers::measurement_update(predicted_, in_phase, quadrature, design_);
+  }
+
+  /// One sample: time_update, then measurement_update with y(k+1).
+  void step(const Scalar& in_phase, const Scalar& quadrature) {
+    const QuadratureStep<Scalar> next = trackers::step(filtered_, in_phase, quadrature, design_);
+    predicted_ = next.predicted;
+    filtered_ = next.filtered;
+  }
+
+  [[nodiscard]] const QuadratureEkfDesign<Scalar>& design() const { return design_; }
+  [[nodiscard]] const QuadratureEstimate<Scalar>& predicted() const { return predicted_; }
+  [[nodiscard]] const QuadratureEstimate<Scalar>& filtered() const { return filtered_; }
+
+ private:
+  QuadratureEkfDesign<Scalar> design_;
+  QuadratureEstimate<Scalar> predicted_;
+  QuadratureEstimate<Scalar> filtered_;
+};
+
+}  // namespace veritrack::trackers

@@ -1,8 +1,8 @@
-// Elementary functions of intervals. The promise of interval.hpp holds: a function that is undefined or discontinuous
-// somewhere on its argument gives the empty interval.
+// Elementary functions of intervals. The promise of interval.hpp holds: a function that is undefined or
+// discontinuous somewhere on its argument gives the empty interval.
 //
-// sin and cos have a fast path (see elementary.cpp for the proof of its error); the others, and sin and cos of large
-// arguments, evaluate MPFR with directed rounding at the endpoints.
+// sin and cos have a fast path (see elementary.cpp for the proof of its error); the others, and sin and cos
+// of large arguments, evaluate MPFR with directed rounding at the endpoints.
 #pragma once
 
 #include <utility>

@@ -204,16 +204,18 @@ void validate(const Theorem29Input& input) {
   if (input.q1.lower() < 0.0) {
     throw std::invalid_argument("Theorem 2.9 needs q1 >= 0");
   }
-  if (input.q1_equals_q2 && is_empty(intersection(input.q1, input.q2))) {
+  if (input.q1_equals_q2 && is_finite(input.q1) && is_finite(input.q2) &&
+      is_empty(intersection(input.q1, input.q2))) {
     throw std::invalid_argument("q1 and q2 are said to be equal but their enclosures are not");
   }
 }
 
 }  // namespace
 
-Theorem29 evaluate_theorem_2_9(Theorem29Variant variant, const Theorem29Input& input) {
-  validate(input);
+Theorem29 evaluate_theorem_2_9(Theorem29Variant variant, const Theorem29Input& unchecked) {
+  validate(unchecked);
   const rigor::UpwardRounding upward;
+  const Theorem29Input input = with_finite_members(unchecked);
   Theorem29 theorem;
   theorem.constants = theorem_2_9_constants(variant, input);
   const Theorem29Constants& c = theorem.constants;

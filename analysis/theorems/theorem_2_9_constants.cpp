@@ -109,8 +109,23 @@ void set_conditions(Theorem29Constants& c) {
 
 }  // namespace
 
-Theorem29Constants theorem_2_9_constants(Theorem29Variant variant, const Theorem29Input& input) {
+Theorem29Input with_finite_members(const Theorem29Input& input) {
+  Theorem29Input result = input;
+  for (Interval* member : {&result.q1, &result.q2, &result.r, &result.epsilon, &result.state_bound,
+                           &result.sigma, &result.gamma_fraction, &result.c1, &result.c2}) {
+    if (!is_finite(*member)) {
+      *member = Interval::empty();
+    }
+  }
+  if (result.initial_error && !is_finite(*result.initial_error)) {
+    *result.initial_error = Interval::empty();
+  }
+  return result;
+}
+
+Theorem29Constants theorem_2_9_constants(Theorem29Variant variant, const Theorem29Input& unchecked) {
   const rigor::UpwardRounding upward;
+  const Theorem29Input input = with_finite_members(unchecked);
   Theorem29Constants constants;
   set_observability(constants, variant, input);
   set_signal_model(constants, input);

@@ -32,6 +32,10 @@ struct Theorem29Input {
   std::optional<rigor::Interval> initial_error;
 };
 
+/// The input with every member that is not finite made empty: an unbounded input has to decide nothing, and
+/// some formulas would forget that it was unbounded (1/q1 is finite for every q1 >= 1).
+[[nodiscard]] Theorem29Input with_finite_members(const Theorem29Input& input);
+
 /// Every quantity of the theorem. A member is empty where its formula is undefined for the design (a division
 /// by q1 = 0), and unbounded or empty where it overflows.
 struct Theorem29Constants {

@@ -1,9 +1,10 @@
-// A design file, read: what the engineer chose, what is known, what is required; every number with the interval it
-// stands for and the place it came from.
+// A design file, read: what the engineer chose, what is known, what is required; every number with the
+// interval it stands for and the place it came from.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -25,24 +26,25 @@ struct Number {
   Position position;
 };
 
-/// [design] of the quadrature tracker: Q = diag(q1, q1, q2), R = r I (signal units squared, q2 in (rad/sample)^2).
+/// [design] of the quadrature tracker: Q = diag(q1, q1, q2), R = r I (signal units squared, q2 in
+/// (rad/sample)^2).
 struct QuadratureEkfDesign {
   Number q1, q2, r, epsilon;
 };
 
-/// What P(0|0) is, in the frame of the estimated phase: the filter's steady state, or a symmetric positive definite
-/// matrix, row by row.
+/// What P(0|0) is, in the frame of the estimated phase: the filter's steady state, or a symmetric positive
+/// definite matrix, row by row.
 using CovarianceArray = std::array<std::array<Number, 3>, 3>;
 
 /// [assume].
 struct Assumptions {
-  Number amplitude;                          ///< signal units
-  std::array<Number, 2> frequency;           ///< [lowest, highest], rad/sample
-  Number noise;                              ///< |v(k)| <= noise for every k, signal units
-  Number slew;                               ///< |omega(k+1) - omega(k)| <= slew, rad/sample per sample
-  Number initial_frequency_error;            ///< rad/sample
-  Number initial_phase_error;                ///< rad
-  Number initial_amplitude_error;            ///< signal units
+  Number amplitude;                 ///< signal units
+  std::array<Number, 2> frequency;  ///< [lowest, highest], rad/sample
+  Number noise;                     ///< |v(k)| <= noise for every k, signal units
+  Number slew;                      ///< |omega(k+1) - omega(k)| <= slew, rad/sample per sample
+  Number initial_frequency_error;   ///< rad/sample
+  Number initial_phase_error;       ///< rad
+  Number initial_amplitude_error;   ///< signal units
   std::optional<CovarianceArray> initial_covariance;  ///< none: "steady-state"
 };
 
@@ -78,6 +80,8 @@ struct Design {
   Requirements require;
   SimulationSettings simulate;
   Theorem29Parameters theorem_2_9;
+  /// Where the value of each key that the file gives stands, by its path, e.g. "design.q1"; defaults are not in it.
+  std::map<std::string, Position> positions;
 };
 
 }  // namespace veritrack::certificates

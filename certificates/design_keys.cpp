@@ -1,0 +1,269 @@
+#include "certificates/design_keys.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "analysis/rigor/definiteness.hpp"
+#include "analysis/rigor/matrix.hpp"
+#include "trackers/signals/test_signals.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using rigor::Interval;
+
+// ---- what holds without a key
+// ---------------------------------------------------------------------------------------
+
+constexpr Absence kRequired{};
+constexpr Absence kOptional{Absence::Rule::is_nothing, {}};
+constexpr Absence defaults_to(std::string_view toml) {
+  return {Absence::Rule::is_default, toml};
+}
+
+// ---- limits: true only when certain
+// -----------------------------------------------------------------------------------
+
+bool any_number(const Interval& x) {
+  return rigor::is_finite(x);
+}
+bool positive(const Interval& x) {
+  return rigor::certainly_positive(x);
+}
+bool not_negative(const Interval& x) {
+  return rigor::certainly_less_equal(Interval(0.0), x);
+}
+bool at_least_zero_below_one(const Interval& x) {
+  return not_negative(x) && rigor::certainly_less(x, Interval(1.0));
+}
+bool between_zero_and_one(const Interval& x) {
+  return positive(x) && rigor::certainly_less(x, Interval(1.0));
+}
+bool at_least_one(const Interval& x) {
+  return rigor::certainly_less_equal(Interval(1.0), x);
+}
+
+/// Sampled, omega and 2 pi - omega give conjugate signals: a frequency beyond pi is another one in disguise.
+bool frequency_of_a_sampled_signal(const Interval& x) {
+  constexpr double kLargestDoubleBelowPi = 0x1.921fb54442d18p+1;
+  return not_negative(x) && rigor::certainly_less_equal(x, Interval(kLargestDoubleBelowPi));
+}
+
+// ---- how a key is read
+// ------------------------------------------------------------------------------------------------
+
+template <typename Member>
+struct OwnerOf;
+template <typename Owner, typename Type>
+struct OwnerOf<Type Owner::*> {
+  using type = Owner;
+};
+template <auto member>
+using Owner = typename OwnerOf<decltype(member)>::type;
+
+template <auto member, RealPredicate is_allowed>
+void real(const TomlValue& value, Owner<member>& target) {
+  target.*member = value.real(is_allowed);
+}
+
+template <auto member, RealPredicate is_allowed>
+void whole_number(const TomlValue& value, Owner<member>& target) {
+  target.*member = value.whole_number(is_allowed);
+}
+
+template <auto member, std::int64_t lowest, std::int64_t highest>
+void integer(const TomlValue& value, Owner<member>& target) {
+  using Type = std::remove_reference_t<decltype(target.*member)>;
+  target.*member = static_cast<Type>(value.integer(lowest, highest));
+}
+
+template <auto member, std::size_t limit>
+void line_of_text(const TomlValue& value, Owner<member>& target) {
+  target.*member = value.line_of_text(limit);
+}
+
+/// Stores a string out of a list of choices.
+template <typename Choices>
+void choose(const TomlValue& value, const Choices& choices, std::string& target) {
+  if (!value.is_string()) {
+    value.refuse_kind();
+  }
+  constexpr std::size_t kLongest = 100;
+  const std::string text = value.line_of_text(kLongest);
+  if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
+    value.refuse(fmt::format("\"{}\"", text));
+  }
+  target = text;
+}
+
+void tracker(const TomlValue& value, Design& design) {
+  constexpr std::array<std::string_view, 1> kKnown{"quadrature-ekf"};
+  choose(value, kKnown, design.tracker);
+}
+
+void signal(const TomlValue& value, SimulationSettings& simulate) {
+  choose(value, trackers::signal_names(), simulate.signal);
+}
+
+void frequency(const TomlValue& value, Assumptions& assume) {
+  const std::vector<TomlValue> bounds = value.elements(2);
+  const Number lowest = bounds[0].real(frequency_of_a_sampled_signal);
+  const Number highest = bounds[1].real(frequency_of_a_sampled_signal);
+  // Two decimals within one ulp of each other pass in any order: what is certified is the hull of the two
+  // intervals.
+  const bool hull_is_ordered = lowest.value.lower() <= highest.value.upper();
+  if (!hull_is_ordered) {
+    value.refuse(fmt::format("[{}, {}]", printable(lowest.text, 40), printable(highest.text, 40)));
+  }
+  assume.frequency = {lowest, highest};
+}
+
+/// Symmetry is that of the intervals: they hold the symmetric matrices that a certificate is about.
+bool is_symmetric(const CovarianceArray& covariance) {
+  for (std::size_t row = 0; row < covariance.size(); ++row) {
+    for (std::size_t column = 0; column < row; ++column) {
+      if (!rigor::identical(covariance[row][column].value, covariance[column][row].value)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void initial_covariance(const TomlValue& value, Assumptions& assume) {
+  if (value.is_string()) {
+    if (value.line_of_text(100) != "steady-state") {
+      value.refuse_kind();
+    }
+    assume.initial_covariance.reset();
+    return;
+  }
+  CovarianceArray covariance;
+  rigor::IntervalMatrix<3> matrix;
+  const std::vector<TomlValue> rows = value.elements(covariance.size());
+  for (std::size_t row = 0; row < covariance.size(); ++row) {
+    const std::vector<TomlValue> entries = rows[row].elements(covariance.size());
+    for (std::size_t column = 0; column < covariance.size(); ++column) {
+      const Number number = entries[column].real(any_number);
+      covariance[row][column] = number;
+      matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = number.value;
+    }
+  }
+  if (!is_symmetric(covariance)) {
+    value.refuse("not symmetric");
+  }
+  switch (rigor::is_positive_definite(matrix)) {
+    case rigor::Verdict::proved:
+      break;
+    case rigor::Verdict::refuted:
+      value.refuse("not positive definite");
+    case rigor::Verdict::undecided:
+      value.refuse("too near to a singular matrix to be proved positive definite");
+  }
+  assume.initial_covariance = covariance;
+}
+
+// ---- the keys
+// ---------------------------------------------------------------------------------------------------------
+
+constexpr std::string_view kPositive = "a number above 0";
+constexpr std::string_view kNotNegative = "a number, 0 or more";
+constexpr std::string_view kOneLine = "a string on one line, of 1 to 200 bytes";
+
+constexpr std::array kTopKeys{
+    Key<Design>{"name", kOneLine, line_of_text<&Design::name, 200>, kRequired},
+    Key<Design>{"tracker", "\"quadrature-ekf\"", tracker, kRequired},
+    Key<Design>{"source", kOneLine, line_of_text<&Design::source, 200>, kOptional},
+};
+
+using Ekf = QuadratureEkfDesign;
+constexpr std::array kQuadratureEkfKeys{
+    Key<Ekf>{"q1", kNotNegative, real<&Ekf::q1, not_negative>, kRequired},
+    Key<Ekf>{"q2", kPositive, real<&Ekf::q2, positive>, kRequired},
+    Key<Ekf>{"r", kPositive, real<&Ekf::r, positive>, kRequired},
+    Key<Ekf>{"epsilon", "a number, 0 or more and below 1", real<&Ekf::epsilon, at_least_zero_below_one>,
+             kRequired},
+};
+
+using Assume = Assumptions;
+constexpr std::array kAssumeKeys{
+    Key<Assume>{"amplitude", kPositive, real<&Assume::amplitude, positive>, defaults_to("1")},
+    Key<Assume>{
+        "frequency",
+        "[lowest, highest] in rad/sample, 0 <= lowest <= highest <= 3.141592653589793 (beyond pi a sampled "
+        "frequency is the same as a lower one)",
+        frequency, kRequired},
+    Key<Assume>{"noise", kNotNegative, real<&Assume::noise, not_negative>, kRequired},
+    Key<Assume>{"slew", kNotNegative, real<&Assume::slew, not_negative>, defaults_to("0")},
+    Key<Assume>{"initial_frequency_error", kNotNegative, real<&Assume::initial_frequency_error, not_negative>,
+                kRequired},
+    Key<Assume>{"initial_phase_error", kNotNegative, real<&Assume::initial_phase_error, not_negative>,
+                kRequired},
+    Key<Assume>{"initial_amplitude_error", kNotNegative, real<&Assume::initial_amplitude_error, not_negative>,
+                kRequired},
+    Key<Assume>{"initial_covariance",
+                "\"steady-state\" or a symmetric positive definite 3x3 array of numbers", initial_covariance,
+                defaults_to("\"steady-state\"")},
+};
+
+using Require = Requirements;
+constexpr std::array kRequireKeys{
+    Key<Require>{"frequency_error_below", kPositive, real<&Require::frequency_error_below, positive>,
+                 kOptional},
+    Key<Require>{"settles_within", "a whole number of samples, 1 or more",
+                 whole_number<&Require::settles_within, at_least_one>, kOptional},
+};
+
+using Simulate = SimulationSettings;
+
+using Theorem = Theorem29Parameters;
+constexpr std::array kTheorem29Keys{
+    Key<Theorem>{"R_x", kPositive, real<&Theorem::state_bound, positive>, defaults_to("7")},
+    Key<Theorem>{"sigma", kPositive, real<&Theorem::sigma, positive>, defaults_to("1e-3")},
+    Key<Theorem>{"gamma_fraction", "a number above 0 and below 1",
+                 real<&Theorem::gamma_fraction, between_zero_and_one>, defaults_to("0.5")},
+    Key<Theorem>{"c1", kNotNegative, real<&Theorem::c1, not_negative>, defaults_to("3")},
+    Key<Theorem>{"c2", kNotNegative, real<&Theorem::c2, not_negative>, defaults_to("3")},
+};
+
+}  // namespace
+
+std::span<const Key<Design>> top_keys() {
+  return kTopKeys;
+}
+std::span<const Key<QuadratureEkfDesign>> quadrature_ekf_keys() {
+  return kQuadratureEkfKeys;
+}
+std::span<const Key<Assumptions>> assume_keys() {
+  return kAssumeKeys;
+}
+std::span<const Key<Requirements>> require_keys() {
+  return kRequireKeys;
+}
+
+std::span<const Key<SimulationSettings>> simulate_keys() {
+  static const std::string signals = fmt::format("\"{}\"", fmt::join(trackers::signal_names(), "\", \""));
+  static const std::array keys{
+      Key<Simulate>{"samples", "an integer from 1 to 10000000", integer<&Simulate::samples, 1, 10'000'000>,
+                    defaults_to("1000")},
+      Key<Simulate>{"seed", "an integer from 0 to 9223372036854775807",
+                    integer<&Simulate::seed, 0, std::numeric_limits<std::int64_t>::max()>, defaults_to("1")},
+      Key<Simulate>{"signal", signals, signal, defaults_to("\"constant\"")},
+  };
+  return keys;
+}
+
+std::span<const Key<Theorem29Parameters>> theorem_2_9_keys() {
+  return kTheorem29Keys;
+}
+
+}  // namespace veritrack::certificates

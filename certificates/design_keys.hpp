@@ -1,0 +1,54 @@
+// The keys of a design file, each declared once: its name, what is allowed, how it is read, and what holds
+// without it.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "certificates/design.hpp"
+#include "certificates/toml_value.hpp"
+
+namespace veritrack::certificates {
+
+/// What holds when a key is left out.
+struct Absence {
+  enum class Rule { is_an_error, is_nothing, is_default };
+  Rule rule = Rule::is_an_error;
+  std::string_view default_toml;  ///< for is_default: the value, as TOML
+};
+
+/// A key of the table that fills a Target.
+template <typename Target>
+struct Key {
+  std::string_view name;
+  std::string_view allowed;  ///< completes "allowed: ..."
+  /// Checks the value and stores it. Throws InputError. Needs the upward rounding mode.
+  void (*read)(const TomlValue& value, Target& target);
+  Absence absence;
+};
+
+/// The keys above the first table.
+[[nodiscard]] std::span<const Key<Design>> top_keys();
+/// [design], for the tracker "quadrature-ekf". A tracker with other design values will bring its own keys.
+[[nodiscard]] std::span<const Key<QuadratureEkfDesign>> quadrature_ekf_keys();
+/// [assume]
+[[nodiscard]] std::span<const Key<Assumptions>> assume_keys();
+/// [require]
+[[nodiscard]] std::span<const Key<Requirements>> require_keys();
+/// [simulate]
+[[nodiscard]] std::span<const Key<SimulationSettings>> simulate_keys();
+/// [theorem_2_9]
+[[nodiscard]] std::span<const Key<Theorem29Parameters>> theorem_2_9_keys();
+
+/// Calls visit(name, keys, member) for each table, in the order of a design file; `member` is the part of a
+/// Design that the table fills.
+template <typename Visitor>
+void for_each_table(Visitor visit) {
+  visit("design", quadrature_ekf_keys(), &Design::design);
+  visit("assume", assume_keys(), &Design::assume);
+  visit("require", require_keys(), &Design::require);
+  visit("simulate", simulate_keys(), &Design::simulate);
+  visit("theorem_2_9", theorem_2_9_keys(), &Design::theorem_2_9);
+}
+
+}  // namespace veritrack::certificates

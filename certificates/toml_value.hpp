@@ -1,0 +1,96 @@
+// One value of a TOML file: read with its position, and refused with a message that says what is allowed.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/rigor/interval.hpp"
+#include "certificates/design.hpp"
+#include "certificates/input_error.hpp"
+
+namespace veritrack::certificates {
+
+/// A parsed file beside the text that it came from: numbers are taken from the text, not from the parser.
+class TomlSource {
+ public:
+  /// Whose words these are: the user's, or our own default values, which have no position to report.
+  enum class Origin { file, built_in };
+
+  /// Parses `text` (copied). `file_name` is for messages. Throws InputError for whatever is not TOML 1.0, for
+  /// invalid UTF-8, and for text that is empty, larger than kSizeLimit, or nested beyond all use.
+  TomlSource(std::string_view text, std::string_view file_name, Origin origin = Origin::file);
+  TomlSource(const TomlSource&) = delete;
+  TomlSource& operator=(const TomlSource&) = delete;
+  TomlSource(TomlSource&&) = delete;
+  TomlSource& operator=(TomlSource&&) = delete;
+  ~TomlSource() = default;
+
+  [[nodiscard]] const toml::table& root() const noexcept { return root_; }
+  [[nodiscard]] Origin origin() const noexcept { return origin_; }
+  /// Line `number`, from 1, without its line feed. Throws std::out_of_range when there is none.
+  [[nodiscard]] std::string_view line(int number) const;
+  /// Just behind the last character.
+  [[nodiscard]] Position end() const;
+  /// Throws InputError with the file's name.
+  [[noreturn]] void fail(Position position, std::string_view message) const;
+
+  static constexpr std::size_t kSizeLimit = std::size_t{1} << 20;  // bytes
+
+ private:
+  void require_utf8() const;
+
+  std::string text_;
+  std::string file_name_;
+  Origin origin_;
+  std::vector<std::string_view> lines_;  // of text_, without the line feeds
+  toml::table root_;
+};
+
+/// A predicate on the number that an interval holds: true only when certain. Called with the rounding mode
+/// held.
+using RealPredicate = bool (*)(const rigor::Interval&);
+
+/// A value and what is allowed to stand there. Refers to the source: must not outlive it.
+class TomlValue {
+ public:
+  /// `path` as in "design.q1"; `allowed` completes "allowed: ...".
+  TomlValue(const TomlSource& source, const toml::node& node, std::string path, std::string_view allowed)
+      : source_(&source), node_(&node), path_(std::move(path)), allowed_(allowed) {}
+
+  /// The number, when `is_allowed` holds for its interval. Integers are numbers; hexadecimal, octal and
+  /// binary integers, inf and nan are not. Throws InputError otherwise. Needs the upward rounding mode.
+  [[nodiscard]] Number real(RealPredicate is_allowed) const;
+  /// As real, for decimal integers only.
+  [[nodiscard]] Number whole_number(RealPredicate is_allowed) const;
+  /// A decimal integer in [lowest, highest]. Throws InputError otherwise.
+  [[nodiscard]] std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
+  /// One line of text of 1 to `limit` bytes. Throws InputError otherwise.
+  [[nodiscard]] std::string line_of_text(std::size_t limit) const;
+  [[nodiscard]] bool is_string() const noexcept { return node_->is_string(); }
+  /// The elements of an array of exactly `count`. Throws InputError otherwise.
+  [[nodiscard]] std::vector<TomlValue> elements(std::size_t count) const;
+
+  [[nodiscard]] Position position() const;
+  /// `path` is `found`; allowed: ... Throws InputError.
+  [[noreturn]] void refuse(std::string_view found) const;
+  /// Refuses the value by what kind of thing it is.
+  [[noreturn]] void refuse_kind() const;
+
+ private:
+  /// What the file says, for numbers only: the characters that the value is made of.
+  [[nodiscard]] std::string_view number_text() const;
+
+  const TomlSource* source_;
+  const toml::node* node_;
+  std::string path_;
+  std::string_view allowed_;
+};
+
+[[nodiscard]] Position to_position(const toml::source_position& position) noexcept;
+
+}  // namespace veritrack::certificates

@@ -221,6 +221,33 @@ void drop_trailing_zeros(std::string& digits) {
   }
 }
 
+std::string zeros(long count) {
+  return std::string(static_cast<std::size_t>(count), '0');
+}
+
+/// 0.DIGITS * 10^scale in scientific notation.
+std::string scientific(const std::string& digits, long scale) {
+  std::string text = digits.substr(0, 1);
+  if (digits.size() > 1) {
+    text.append(".").append(digits, 1);
+  }
+  return text.append("e").append(std::to_string(scale - 1));
+}
+
+/// 0.DIGITS * 10^scale in plain notation.
+std::string plain(const std::string& digits, long scale) {
+  std::string text;
+  if (scale <= 0) {
+    return text.append("0.").append(zeros(-scale)).append(digits);
+  }
+  const auto count = static_cast<long>(digits.size());
+  if (count <= scale) {
+    return text.append(digits).append(zeros(scale - count));
+  }
+  const auto whole = static_cast<std::size_t>(scale);
+  return text.append(digits, 0, whole).append(".").append(digits, whole);
+}
+
 }  // namespace
 
 std::string to_decimal(double value, int digits, Direction direction) {
@@ -237,28 +264,19 @@ std::string to_decimal(double value, int digits, Direction direction) {
   }
   auto [significand, scale] = significant_digits(value, digits, direction);
   drop_trailing_zeros(significand);
-  const std::string sign = value < 0.0 ? "-" : "";
   const long exponent = scale - 1;  // of the first digit
-  if (exponent < kSmallestPlainExponent || exponent > kLargestPlainExponent) {
-    const std::string fraction = significand.size() > 1 ? "." + significand.substr(1) : "";
-    return sign + significand.front() + fraction + "e" + std::to_string(exponent);
-  }
-  if (exponent < 0) {
-    return sign + "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + significand;
-  }
-  const auto whole_digits = static_cast<std::size_t>(scale);
-  if (significand.size() <= whole_digits) {
-    return sign + significand + std::string(whole_digits - significand.size(), '0');
-  }
-  return sign + significand.substr(0, whole_digits) + "." + significand.substr(whole_digits);
+  const bool is_plain = exponent >= kSmallestPlainExponent && exponent <= kLargestPlainExponent;
+  const std::string magnitude = is_plain ? plain(significand, scale) : scientific(significand, scale);
+  return (value < 0.0 ? std::string("-") : std::string()).append(magnitude);
 }
 
 std::string to_decimal(const Interval& value, int digits) {
   if (is_empty(value)) {
     return "[empty]";
   }
-  return "[" + to_decimal(value.lower(), digits, Direction::down) + ", " +
-         to_decimal(value.upper(), digits, Direction::up) + "]";
+  std::string text = "[";
+  text.append(to_decimal(value.lower(), digits, Direction::down)).append(", ");
+  return text.append(to_decimal(value.upper(), digits, Direction::up)).append("]");
 }
 
 }  // namespace veritrack::rigor

@@ -77,8 +77,9 @@ std::string last_line(const std::string& text) {
   if (end == std::string::npos) {
     return "no message";
   }
-  const auto start = text.rfind('\n', end);
-  return text.substr(start + 1, end - start);
+  const auto line = text.rfind('\n', end);
+  const auto start = text.find_first_not_of(" \t", line == std::string::npos ? 0 : line + 1);
+  return text.substr(start, end + 1 - start);
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ Interval pow(const Interval& x, int exponent) {
   if (is_empty(x)) {
     return x;
   }
-  const unsigned int absolute = exponent < 0 ? 0U - static_cast<unsigned int>(exponent) : static_cast<unsigned int>(exponent);
+  const unsigned int absolute =
+      exponent < 0 ? 0U - static_cast<unsigned int>(exponent) : static_cast<unsigned int>(exponent);
   const Interval power = absolute % 2 == 1 ? odd_power(x, absolute) : even_power(x, absolute);
   return exponent < 0 ? Interval(1.0) / power : power;
 }

@@ -1,18 +1,19 @@
 // Interval: a closed set of real numbers, [lower, upper], enclosed with outward-rounded endpoints.
 //
-// The promise. If x, y, ... lie in the operand intervals then f(x, y, ...) lies in the result. More: a result that
-// `is_finite` certifies that the expression was defined *and continuous* at every point of the operands. An operation
-// that is undefined or discontinuous somewhere on its operands (division by an interval that contains zero, the square
-// root of an interval that reaches below zero, the empty set, NaN, an infinite point) gives the empty interval, which
-// reads "nothing is known" and stays empty through whatever follows. Overflow gives an unbounded interval. Neither an
-// empty nor an unbounded interval ever satisfies a `certainly_...` predicate.
+// The promise. If x, y, ... lie in the operand intervals then f(x, y, ...) lies in the result. More: a result
+// that `is_finite` certifies that the expression was defined *and continuous* at every point of the operands.
+// An operation that is undefined or discontinuous somewhere on its operands (division by an interval that
+// contains zero, the square root of an interval that reaches below zero, the empty set, NaN, an infinite
+// point) gives the empty interval, which reads "nothing is known" and stays empty through whatever follows.
+// Overflow gives an unbounded interval. Neither an empty nor an unbounded interval ever satisfies a
+// `certainly_...` predicate.
 //
-// Every operation needs the rounding mode held by an UpwardRounding object (rounding.hpp). Builds without NDEBUG
-// check this in each operation, all builds check it in each predicate.
+// Every operation needs the rounding mode held by an UpwardRounding object (rounding.hpp). Builds without
+// NDEBUG check this in each operation, all builds check it in each predicate.
 //
-// There is no conversion from double behind the reader's back: `Interval(0.1)` is the double nearest to 0.1 and not
-// the number 0.1, for which there is `parse_decimal` (decimal.hpp). Integers wider than 32 bits and long double do not
-// convert at all.
+// There is no conversion from double behind the reader's back: `Interval(0.1)` is the double nearest to 0.1
+// and not the number 0.1, for which there is `parse_decimal` (decimal.hpp). Integers wider than 32 bits and
+// long double do not convert at all.
 #pragma once
 
 #include <algorithm>
@@ -53,7 +54,8 @@ using BoostInterval = boost::numeric::interval<
 
 }  // namespace detail
 
-/// A closed, possibly unbounded interval of reals, or the empty set. See the top of this file for its promise.
+/// A closed, possibly unbounded interval of reals, or the empty set. See the top of this file for its
+/// promise.
 class Interval {
  public:
   /// The empty interval, so that a forgotten value can never certify anything.
@@ -70,7 +72,8 @@ class Interval {
   template <typename T>
   explicit Interval(T) = delete;  // wider integers and long double would be rounded silently
 
-  /// [lower, upper]. Empty unless lower <= upper, and for [+inf, +inf] and [-inf, -inf], which hold no real number.
+  /// [lower, upper]. Empty unless lower <= upper, and for [+inf, +inf] and [-inf, -inf], which hold no real
+  /// number.
   [[nodiscard]] static Interval from_bounds(double lower, double upper) noexcept {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Interval result;
@@ -118,7 +121,8 @@ class Interval {
   friend Interval operator*(Interval a, const Interval& b) { return a *= b; }
   friend Interval operator/(Interval a, const Interval& b) { return a /= b; }
 
-  /// Certain equality of real numbers: both are the same single point. Its negation says nothing, so there is none.
+  /// Certain equality of real numbers: both are the same single point. Its negation says nothing, so there is
+  /// none.
   friend bool operator==(const Interval& a, const Interval& b) noexcept {
     return a.lower() == a.upper() && b.lower() == b.upper() && a.lower() == b.lower();
   }
@@ -130,7 +134,8 @@ class Interval {
   detail::BoostInterval value_;
 };
 
-// ---- what an interval is ------------------------------------------------------------------------------------------
+// ---- what an interval is
+// ------------------------------------------------------------------------------------------
 
 [[nodiscard]] inline bool is_empty(const Interval& x) noexcept {
   const bool ordered = x.lower() <= x.upper();
@@ -142,8 +147,8 @@ class Interval {
   return std::isfinite(x.lower()) && std::isfinite(x.upper()) && x.lower() <= x.upper();
 }
 
-/// A finite double inside a finite interval, near its middle; NaN otherwise. Independent of the rounding mode up to one
-/// unit in the last place.
+/// A finite double inside a finite interval, near its middle; NaN otherwise. Independent of the rounding mode
+/// up to one unit in the last place.
 [[nodiscard]] inline double midpoint(const Interval& x) noexcept {
   if (!is_finite(x)) {
     return std::numeric_limits<double>::quiet_NaN();
@@ -152,7 +157,9 @@ class Interval {
 }
 
 /// An upper bound on upper - lower; NaN when empty.
-[[nodiscard]] inline double width(const Interval& x) { return sub_up(x.upper(), x.lower()); }
+[[nodiscard]] inline double width(const Interval& x) {
+  return sub_up(x.upper(), x.lower());
+}
 
 /// An upper bound on the distance from `midpoint(x)` to the points of x; NaN unless finite.
 [[nodiscard]] inline double radius(const Interval& x) {
@@ -192,8 +199,9 @@ class Interval {
   return (is_empty(a) && is_empty(b)) || (a.lower() == b.lower() && a.upper() == b.upper());
 }
 
-// ---- predicates: true only when certain ---------------------------------------------------------------------------
-// All require finite operands and the held rounding mode (RoundingModeError otherwise). None is the negation of another.
+// ---- predicates: true only when certain
+// --------------------------------------------------------------------------- All require finite operands and
+// the held rounding mode (RoundingModeError otherwise). None is the negation of another.
 
 /// Every point of a is less than every point of b.
 [[nodiscard]] inline bool certainly_less(const Interval& a, const Interval& b) {
@@ -205,12 +213,18 @@ class Interval {
   require_upward_rounding();
   return is_finite(a) && is_finite(b) && a.upper() <= b.lower();
 }
-[[nodiscard]] inline bool certainly_positive(const Interval& a) { return certainly_less(Interval(0.0), a); }
-[[nodiscard]] inline bool certainly_negative(const Interval& a) { return certainly_less(a, Interval(0.0)); }
+[[nodiscard]] inline bool certainly_positive(const Interval& a) {
+  return certainly_less(Interval(0.0), a);
+}
+[[nodiscard]] inline bool certainly_negative(const Interval& a) {
+  return certainly_less(a, Interval(0.0));
+}
 
-// ---- set operations -----------------------------------------------------------------------------------------------
+// ---- set operations
+// -----------------------------------------------------------------------------------------------
 
-/// The smallest interval that holds both; empty when either is: what is not known is not known together with another.
+/// The smallest interval that holds both; empty when either is: what is not known is not known together with
+/// another.
 [[nodiscard]] inline Interval hull(const Interval& a, const Interval& b) noexcept {
   if (is_empty(a) || is_empty(b)) {
     return Interval::empty();
@@ -227,9 +241,12 @@ class Interval {
 }
 
 /// [-radius, radius]; empty unless radius >= 0.
-[[nodiscard]] inline Interval symmetric(double radius) noexcept { return Interval::from_bounds(-radius, radius); }
+[[nodiscard]] inline Interval symmetric(double radius) noexcept {
+  return Interval::from_bounds(-radius, radius);
+}
 
-// ---- algebraic functions ------------------------------------------------------------------------------------------
+// ---- algebraic functions
+// ------------------------------------------------------------------------------------------
 
 [[nodiscard]] inline Interval abs(const Interval& x) noexcept {
   if (is_empty(x)) {
@@ -262,7 +279,8 @@ class Interval {
   return Interval::from_bounds(mul_down(smallest, smallest), mul_up(largest, largest));
 }
 
-/// Empty when x reaches below zero: for a quantity that is known to be non-negative write sqrt(max(x, Interval(0.0))).
+/// Empty when x reaches below zero: for a quantity that is known to be non-negative write sqrt(max(x,
+/// Interval(0.0))).
 [[nodiscard]] inline Interval sqrt(const Interval& x) {
   const bool defined = x.lower() >= 0.0 && x.lower() <= x.upper();
   if (!defined) {

@@ -1,15 +1,17 @@
 // Directed rounding: the mode, who holds it, and the scalar operations that rely on it.
 //
-// The whole of analysis/ computes with the processor rounding towards +infinity. The mode is held for the length of a
-// computation by an UpwardRounding object, not switched per operation; lower bounds come from negation,
+// The whole of analysis/ computes with the processor rounding towards +infinity. The mode is held for the
+// length of a computation by an UpwardRounding object, not switched per operation; lower bounds come from
+// negation,
 //     down(a + b) = -up(-a - b),
 // which is exact because negation is.
 //
-// A compiler does not know that the rounding mode is an operand of every operation. Each operation below therefore
-// passes its operands and its result through `opaque`, an empty assembly statement that the optimiser cannot look
-// through: it can neither fold the operation, nor reuse a result from another mode, nor contract it into a fused
-// multiply-add, nor move it across the instruction that changes the mode. This holds under every flag; the flags on
-// the CMake target (-frounding-math -ffp-contract=off) are a second line of defence.
+// A compiler does not know that the rounding mode is an operand of every operation. Each operation below
+// therefore passes its operands and its result through `opaque`, an empty assembly statement that the
+// optimiser cannot look through: it can neither fold the operation, nor reuse a result from another mode, nor
+// contract it into a fused multiply-add, nor move it across the instruction that changes the mode. This holds
+// under every flag; the flags on the CMake target (-frounding-math -ffp-contract=off) are a second line of
+// defence.
 #pragma once
 
 #include <bit>
@@ -18,13 +20,16 @@
 #include <stdexcept>
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0)
-#error "veritrack: interval arithmetic is meaningless under -ffast-math or -ffinite-math-only; remove the flag"
+#error \
+    "veritrack: interval arithmetic is meaningless under -ffast-math or -ffinite-math-only; remove the flag"
 #endif
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__ROUNDING_MATH__)
-#error "veritrack: compile with -frounding-math (link the CMake target veritrack_rigor, which carries the flag)"
+#error \
+    "veritrack: compile with -frounding-math (link the CMake target veritrack_rigor, which carries the flag)"
 #endif
 #if !defined(__x86_64__) || !defined(__SSE2_MATH__)
-#error "veritrack: the rounding-mode guard is written for x86-64 with SSE2 arithmetic; port rounding.hpp first"
+#error \
+    "veritrack: the rounding-mode guard is written for x86-64 with SSE2 arithmetic; port rounding.hpp first"
 #endif
 #if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0
 #error "veritrack: double operations must be evaluated in double"
@@ -34,7 +39,8 @@
 
 namespace veritrack::rigor {
 
-/// Thrown where a result that depends on the rounding mode is used while the mode is not held: a programming error.
+/// Thrown where a result that depends on the rounding mode is used while the mode is not held: a programming
+/// error.
 class RoundingModeError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -42,10 +48,11 @@ class RoundingModeError : public std::logic_error {
 
 namespace detail {
 
-inline constexpr unsigned int kRoundingMask = 0x6000;    // MXCSR: rounding control
-inline constexpr unsigned int kRoundUpward = 0x4000;     // MXCSR: towards +infinity
-inline constexpr unsigned int kFlushMask = 0x8040;       // MXCSR: flush-to-zero and denormals-are-zero
-inline constexpr unsigned int kExceptionFlags = 0x003F;  // MXCSR: sticky flags, which must survive a mode change
+inline constexpr unsigned int kRoundingMask = 0x6000;  // MXCSR: rounding control
+inline constexpr unsigned int kRoundUpward = 0x4000;   // MXCSR: towards +infinity
+inline constexpr unsigned int kFlushMask = 0x8040;     // MXCSR: flush-to-zero and denormals-are-zero
+inline constexpr unsigned int kExceptionFlags =
+    0x003F;  // MXCSR: sticky flags, which must survive a mode change
 
 [[noreturn]] void throw_rounding_mode_error();
 
@@ -80,9 +87,9 @@ inline void require_upward_rounding() {
   }
 }
 
-/// Holds a rounding mode for this thread from construction to destruction, and restores the previous one. Clears
-/// flush-to-zero and denormals-are-zero while it stands. Nests. Threads started inside inherit nothing that may be
-/// relied on: every task makes its own.
+/// Holds a rounding mode for this thread from construction to destruction, and restores the previous one.
+/// Clears flush-to-zero and denormals-are-zero while it stands. Nests. Threads started inside inherit nothing
+/// that may be relied on: every task makes its own.
 template <unsigned int Mode>
 class HeldRounding {
  public:
@@ -104,7 +111,8 @@ class HeldRounding {
 
 /// For interval computations.
 using UpwardRounding = HeldRounding<detail::kRoundUpward>;
-/// For floating-point proposals and simulations inside an interval computation: what the filter itself runs with.
+/// For floating-point proposals and simulations inside an interval computation: what the filter itself runs
+/// with.
 using NearestRounding = HeldRounding<0>;
 
 // The operations. All require the upward mode; builds without NDEBUG check it in each of them.
@@ -125,8 +133,12 @@ inline double add_down(double a, double b) {
   detail::debug_require_upward();
   return -detail::opaque(detail::opaque(-a) - detail::opaque(b));
 }
-inline double sub_up(double a, double b) { return add_up(a, -b); }
-inline double sub_down(double a, double b) { return add_down(a, -b); }
+inline double sub_up(double a, double b) {
+  return add_up(a, -b);
+}
+inline double sub_down(double a, double b) {
+  return add_down(a, -b);
+}
 inline double mul_up(double a, double b) {
   detail::debug_require_upward();
   return detail::opaque(detail::opaque(a) * detail::opaque(b));
@@ -147,8 +159,8 @@ inline double sqrt_up(double a) {
   detail::debug_require_upward();
   return detail::opaque(std::sqrt(detail::opaque(a)));
 }
-/// The upward root s satisfies s^2 >= a; it is exact if and only if s^2 rounded up is a itself, and otherwise the true
-/// root lies strictly between s and its predecessor.
+/// The upward root s satisfies s^2 >= a; it is exact if and only if s^2 rounded up is a itself, and otherwise
+/// the true root lies strictly between s and its predecessor.
 inline double sqrt_down(double a) {
   const double up = sqrt_up(a);
   const bool exact = mul_up(up, up) == a;

@@ -8,22 +8,22 @@
 
 namespace veritrack::rigor {
 
-/// PROVED: the computation shows the statement. REFUTED: it shows the negation. UNDECIDED: neither; the first value,
-/// so that a verdict nobody set claims nothing.
+/// PROVED: the computation shows the statement. REFUTED: it shows the negation. UNDECIDED: neither; the first
+/// value, so that a verdict nobody set claims nothing.
 enum class Verdict { undecided, proved, refuted };
 
 /// "proved", "refuted" or "undecided".
 [[nodiscard]] std::string_view to_string(Verdict verdict) noexcept;
 
-/// Is a < b, for all points of the two operands? REFUTED means a >= b for all points. UNDECIDED when the operands
-/// overlap, are empty or are unbounded. Throws RoundingModeError unless the upward mode is held.
+/// Is a < b, for all points of the two operands? REFUTED means a >= b for all points. UNDECIDED when the
+/// operands overlap, are empty or are unbounded. Throws RoundingModeError unless the upward mode is held.
 [[nodiscard]] Verdict decide_less(const Interval& a, const Interval& b);
 
 /// Is a <= b, for all points of the two operands? As decide_less.
 [[nodiscard]] Verdict decide_less_equal(const Interval& a, const Interval& b);
 
-/// All of them hold: PROVED when each is, REFUTED when one is, else UNDECIDED. The empty conjunction is UNDECIDED,
-/// although logic would call it true: nothing was examined.
+/// All of them hold: PROVED when each is, REFUTED when one is, else UNDECIDED. The empty conjunction is
+/// UNDECIDED, although logic would call it true: nothing was examined.
 [[nodiscard]] Verdict conjunction(std::initializer_list<Verdict> verdicts) noexcept;
 template <typename Range>
 [[nodiscard]] Verdict conjunction(const Range& verdicts) noexcept {

@@ -1,0 +1,54 @@
+// A certificate: a design, what was claimed of it, the verdict on each claim, and the ground for it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/rigor/verdict.hpp"
+#include "analysis/theorems/audit.hpp"
+#include "analysis/theorems/derivation.hpp"
+#include "certificates/design.hpp"
+#include "certificates/simulation.hpp"
+
+namespace veritrack::certificates {
+
+/// A statement about the design, decided.
+struct Claim {
+  std::string id;         ///< e.g. "ekf/frequency-error-bound"
+  std::string statement;  ///< one sentence of Markdown, with units
+  rigor::Verdict verdict = rigor::Verdict::undecided;
+  bool required = false;  ///< stands in [require] of the design file
+  Position position;      ///< of the requirement in the design file; line 0 when it is not required
+  std::string reason;     ///< one sentence: the ground for the verdict
+  std::vector<theorems::Quantity> evidence;
+};
+
+/// The audit of one reading of the theorem along the simulated trajectory.
+struct AuditedDerivation {
+  std::string derivation;  ///< the id of the derivation whose constants were audited
+  theorems::Audit audit;
+};
+
+struct Certificate {
+  Design design;
+  std::string design_file;  ///< its name, without folders
+  std::string design_text;  ///< as read
+  std::vector<theorems::Derivation> derivations;
+  std::vector<AuditedDerivation> audits;
+  std::vector<Claim> claims;
+  /// Of all required claims together; none when nothing is required, which is no verdict at all.
+  std::optional<rigor::Verdict> verdict;
+  Simulation simulation;  ///< the double-precision run behind the audits and the figures
+};
+
+/// "proved", "refuted", "undecided", or "nothing-required".
+[[nodiscard]] std::string verdict_text(const Certificate& certificate);
+
+/// Evaluates everything that can be said of the design. `design_text` is the file's text, for the documents.
+/// Opens its own rounding scope. Throws std::invalid_argument for a tracker that is not known.
+[[nodiscard]] Certificate certify(const Design& design, const std::string& design_file,
+                                  const std::string& design_text);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,217 @@
+#include "certificates/json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/rigor/decimal.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json enclosure(const rigor::Interval& value) {
+  return {{"lo", rigor::to_hexadecimal(value.lower())},
+          {"hi", rigor::to_hexadecimal(value.upper())},
+          {"decimal", rigor::to_decimal(value)}};
+}
+
+Json number(const Number& value) {
+  Json json{{"text", value.text}};
+  json.update(enclosure(value.value));
+  if (value.position.line > 0) {
+    json["line"] = value.position.line;
+  } else {
+    json["default"] = true;
+  }
+  return json;
+}
+
+Json optional_number(const std::optional<Number>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+Json initial_covariance(const std::optional<CovarianceArray>& covariance) {
+  if (!covariance) {
+    return "steady-state";
+  }
+  Json rows = Json::array();
+  for (const auto& row : *covariance) {
+    Json entries = Json::array();
+    for (const Number& entry : row) {
+      entries.push_back(number(entry));
+    }
+    rows.push_back(entries);
+  }
+  return rows;
+}
+
+Json design_json(const Certificate& certificate) {
+  const Design& design = certificate.design;
+  const Assumptions& assume = design.assume;
+  Json require = Json::object();
+  if (design.require.frequency_error_below) {
+    require["frequency_error_below"] = optional_number(design.require.frequency_error_below);
+  }
+  if (design.require.settles_within) {
+    require["settles_within"] = optional_number(design.require.settles_within);
+  }
+  return {{"file", certificate.design_file},
+          {"name", design.name},
+          {"tracker", design.tracker},
+          {"source", design.source},
+          {"design",
+           {{"q1", number(design.design.q1)},
+            {"q2", number(design.design.q2)},
+            {"r", number(design.design.r)},
+            {"epsilon", number(design.design.epsilon)}}},
+          {"assume",
+           {{"amplitude", number(assume.amplitude)},
+            {"frequency", {number(assume.frequency[0]), number(assume.frequency[1])}},
+            {"noise", number(assume.noise)},
+            {"slew", number(assume.slew)},
+            {"initial_frequency_error", number(assume.initial_frequency_error)},
+            {"initial_phase_error", number(assume.initial_phase_error)},
+            {"initial_amplitude_error", number(assume.initial_amplitude_error)},
+            {"initial_covariance", initial_covariance(assume.initial_covariance)}}},
+          {"require", require},
+          {"simulate",
+           {{"samples", design.simulate.samples},
+            {"seed", design.simulate.seed},
+            {"signal", design.simulate.signal}}},
+          {"theorem_2_9",
+           {{"R_x", number(design.theorem_2_9.state_bound)},
+            {"sigma", number(design.theorem_2_9.sigma)},
+            {"gamma_fraction", number(design.theorem_2_9.gamma_fraction)},
+            {"c1", number(design.theorem_2_9.c1)},
+            {"c2", number(design.theorem_2_9.c2)}}}};
+}
+
+Json quantities_json(const std::vector<theorems::Quantity>& quantities, Json& not_applicable) {
+  Json json = Json::object();
+  for (const theorems::Quantity& quantity : quantities) {
+    if (quantity.not_applicable) {
+      not_applicable[quantity.name] = {{"symbol", quantity.symbol},
+                                       {"formula", quantity.formula},
+                                       {"source", quantity.source},
+                                       {"reason", *quantity.not_applicable}};
+      continue;
+    }
+    Json entry = enclosure(quantity.value);
+    entry["symbol"] = quantity.symbol;
+    entry["formula"] = quantity.formula;
+    entry["source"] = quantity.source;
+    json[quantity.name] = entry;
+  }
+  return json;
+}
+
+Json condition_json(const theorems::Condition& condition) {
+  Json json{{"id", condition.id},
+            {"statement", condition.statement},
+            {"verdict", std::string(rigor::to_string(condition.verdict))},
+            {"reason", condition.reason}};
+  if (!rigor::is_empty(condition.lhs)) {
+    json["lhs"] = enclosure(condition.lhs);
+  }
+  if (!rigor::is_empty(condition.rhs)) {
+    json["rhs"] = enclosure(condition.rhs);
+  }
+  return json;
+}
+
+Json derivation_json(const theorems::Derivation& derivation) {
+  Json not_applicable = Json::object();
+  Json json{{"id", derivation.id}, {"title", derivation.title}};
+  json["quantities"] = quantities_json(derivation.quantities, not_applicable);
+  if (!not_applicable.empty()) {
+    json["not_applicable"] = not_applicable;
+  }
+  json["conditions"] = Json::array();
+  for (const theorems::Condition& condition : derivation.conditions) {
+    json["conditions"].push_back(condition_json(condition));
+  }
+  json["verdict"] = std::string(rigor::to_string(derivation.verdict));
+  json["notes"] = derivation.notes;
+  return json;
+}
+
+Json audit_point_json(const theorems::AuditPoint& point) {
+  Json json{{"step", point.step},
+            {"verdict", std::string(rigor::to_string(point.verdict))},
+            {"margin", enclosure(point.margin)}};
+  if (!rigor::is_empty(point.relative_margin)) {
+    json["relative_margin"] = enclosure(point.relative_margin);
+  }
+  return json;
+}
+
+Json audited_json(const theorems::Audit& audit, const theorems::AuditedInequality& inequality) {
+  Json json{{"id", inequality.id},
+            {"statement", inequality.statement},
+            {"source", inequality.source},
+            {"kind", inequality.kind == theorems::AuditKind::assumption ? "assumption" : "claim"}};
+  if (inequality.not_applicable) {
+    json["not_applicable"] = *inequality.not_applicable;
+    return json;
+  }
+  json["first_step"] = inequality.first_step;
+  json["satisfied"] = inequality.satisfied;
+  json["violated"] = inequality.violated;
+  json["undecided"] = inequality.undecided;
+  if (inequality.worst) {
+    json["worst"] = audit_point_json(*inequality.worst);
+  }
+  if (inequality.first_violation) {
+    json["first_violation"] = *inequality.first_violation;
+  }
+  if (inequality.before_first_step) {
+    json["before_first_step"] = audit_point_json(*inequality.before_first_step);
+  }
+  json["refuted_by_this_run"] = audit.refutes(inequality);
+  return json;
+}
+
+Json audit_json(const AuditedDerivation& audited) {
+  Json json{{"derivation", audited.derivation},
+            {"proved", false},
+            {"steps_within_assumptions", audited.audit.steps_within_assumptions},
+            {"inequalities", Json::array()}};
+  for (const theorems::AuditedInequality& inequality : audited.audit.inequalities) {
+    json["inequalities"].push_back(audited_json(audited.audit, inequality));
+  }
+  return json;
+}
+
+Json claim_json(const Claim& claim) {
+  Json not_applicable = Json::object();
+  return {{"id", claim.id},
+          {"statement", claim.statement},
+          {"verdict", std::string(rigor::to_string(claim.verdict))},
+          {"required", claim.required},
+          {"reason", claim.reason},
+          {"evidence", quantities_json(claim.evidence, not_applicable)}};
+}
+
+}  // namespace
+
+std::string to_json(const Certificate& certificate) {
+  Json json{{"schema", "veritrack/certificate/1"}, {"design", design_json(certificate)}};
+  json["derivations"] = Json::array();
+  for (const theorems::Derivation& derivation : certificate.derivations) {
+    json["derivations"].push_back(derivation_json(derivation));
+  }
+  json["audits"] = Json::array();
+  for (const AuditedDerivation& audited : certificate.audits) {
+    json["audits"].push_back(audit_json(audited));
+  }
+  json["claims"] = Json::array();
+  for (const Claim& claim : certificate.claims) {
+    json["claims"].push_back(claim_json(claim));
+  }
+  json["verdict"] = verdict_text(certificate);
+  // A file name need not be UTF-8; JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace veritrack::certificates

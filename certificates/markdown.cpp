@@ -1,0 +1,201 @@
+#include "certificates/markdown.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "analysis/rigor/versions.hpp"
+#include "certificates/markdown_text.hpp"
+#include "certificates/markdown_theorem.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using markdown::escaped;
+using markdown::math;
+using rigor::Verdict;
+
+/// "Theorem 2.9 guarantees nothing for it", or what else its readings together say.
+std::string theorem_sentence(const Certificate& certificate) {
+  const auto all_are = [&](Verdict verdict) {
+    return std::all_of(
+        certificate.derivations.begin(), certificate.derivations.end(),
+        [verdict](const theorems::Derivation& derivation) { return derivation.verdict == verdict; });
+  };
+  if (all_are(Verdict::refuted)) {
+    return "Theorem 2.9 guarantees nothing for it: its conditions are REFUTED";
+  }
+  if (all_are(Verdict::proved)) {
+    return "the conditions of Theorem 2.9 hold for it";
+  }
+  return "whether Theorem 2.9 applies to it is UNDECIDED";
+}
+
+std::string upper_case(std::string_view word) {
+  std::string text(word);
+  std::transform(text.begin(), text.end(), text.begin(), [](char letter) {
+    return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 32) : letter;
+  });
+  return text;
+}
+
+std::string requirement_section(const Certificate& certificate) {
+  std::string text = "## What was required\n\n";
+  if (!certificate.verdict) {
+    return text +
+           "Nothing: the design file's `[require]` is empty, so there is nothing here that was PROVED or "
+           "REFUTED of the "
+           "design itself. What follows is what the published theorem says of it.\n\n";
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const Claim& claim : certificate.claims) {
+    if (claim.required) {
+      rows.push_back({claim.statement, markdown::verdict(claim.verdict), claim.reason});
+    }
+  }
+  return text + markdown::table({"Requirement", "Verdict", "Ground"}, rows) + "\n";
+}
+
+std::string design_section(const Certificate& certificate) {
+  const Design& design = certificate.design;
+  std::string text = "## The design\n\n";
+  text += fmt::format("{} — tracker `{}`", escaped(design.name), design.tracker);
+  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
+  const auto row = [](const std::string& what, const std::string& symbol, const Number& number,
+                      const std::string& unit) {
+    return std::vector<std::string>{what, math(symbol), "`" + number.text + "`", unit};
+  };
+  text += markdown::table(
+      {"Design value", "Symbol", "Value", "Unit"},
+      {row("process noise variance, in-phase and quadrature", "q_1", design.design.q1, "signal units²"),
+       row("process noise variance, frequency", "q_2", design.design.q2, "(rad/sample)²"),
+       row("measurement noise variance, per channel", "r", design.design.r, "signal units²"),
+       row("leak of the frequency state", "\\epsilon", design.design.epsilon, "—")});
+  return text + "\n";
+}
+
+std::string covariance_text(const std::optional<CovarianceArray>& covariance) {
+  if (!covariance) {
+    return "the filter's steady state, in the frame of the estimated phase";
+  }
+  std::string text = "in the frame of the estimated phase, row by row:";
+  for (const auto& row : *covariance) {
+    text += fmt::format(" `[{}, {}, {}]`", row[0].text, row[1].text, row[2].text);
+  }
+  return text;
+}
+
+std::string assumptions_section(const Certificate& certificate) {
+  const Assumptions& assume = certificate.design.assume;
+  const auto row = [](const std::string& what, const std::string& relation, const std::string& value,
+                      const std::string& unit) {
+    return std::vector<std::string>{what, relation.empty() ? value : math(relation) + " " + value, unit};
+  };
+  const auto code = [](const Number& number) { return "`" + number.text + "`"; };
+  std::string text = "## Assumed of the signal and the start\n\n";
+  text += markdown::table(
+      {"Assumption", "Value", "Unit"},
+      {row("amplitude of the signal", "A =", code(assume.amplitude), "signal units"),
+       row("frequency, always within", "",
+           fmt::format("[{}, {}]", code(assume.frequency[0]), code(assume.frequency[1])), "rad/sample"),
+       row("measurement noise, every sample", "|v(k)| \\le", code(assume.noise), "signal units"),
+       row("change of frequency, every sample", "|\\omega(k+1) - \\omega(k)| \\le", code(assume.slew),
+           "rad/sample per sample"),
+       row("error of frequency at the start", "|\\hat x_3(0) - \\omega(0)| \\le",
+           code(assume.initial_frequency_error), "rad/sample"),
+       row("error of phase at the start", "\\le", code(assume.initial_phase_error), "rad"),
+       row("error of amplitude at the start", "\\le", code(assume.initial_amplitude_error), "signal units"),
+       row("covariance at the start", "P(0|0):", covariance_text(assume.initial_covariance), "")});
+  return text +
+         "\nA decimal in these tables stands for itself: every computation covers both the decimal and the "
+         "double "
+         "nearest to it, which is what the filter runs with.\n\n";
+}
+
+std::string figures_section(const Certificate& certificate, const MarkdownOptions& options) {
+  if (options.figures.empty()) {
+    return "";
+  }
+  const SimulationSettings& run = certificate.design.simulate;
+  std::string text = "## The simulated run\n\n";
+  text += fmt::format(
+      "The double-precision tracker on the signal `{}`, {} samples, seed {}, started at the edge of the "
+      "assumed start "
+      "errors. A simulation proves nothing; it shows what the bounds are to be compared with.\n\n",
+      run.signal, run.samples, run.seed);
+  for (const std::string& note : certificate.simulation.notes) {
+    text += note + "\n\n";
+  }
+  for (const FigureReference& figure : options.figures) {
+    text += fmt::format("![{}]({})\n\n*{}*\n\n", escaped(figure.caption), figure.path, figure.caption);
+  }
+  return text;
+}
+
+std::string coverage_section() {
+  return "## What this certificate covers, and what it does not\n\n"
+         "- Covered: every number under *Constants* and *Conditions* is an enclosure computed with "
+         "outward-rounded interval "
+         "arithmetic from the design values; the true value of the formula lies in it. A verdict PROVED or "
+         "REFUTED on a "
+         "condition follows from the enclosures; UNDECIDED means that neither could be shown.\n"
+         "- Covered is the formula in exact arithmetic, evaluated for this design. Not covered: rounding "
+         "errors of the "
+         "tracker when it runs in double precision.\n"
+         "- Not covered: whether the theorem's proof is sound. The readings *printed* and *errata* take the "
+         "thesis at its "
+         "word; conditions that hold in them are not, by themselves, a guarantee, and this program never "
+         "builds a PROVED "
+         "requirement on them.\n"
+         "- A REFUTED condition says that the theorem is silent about this design. It does not say that the "
+         "tracker fails.\n"
+         "- The audit and the figures are one simulated run in double precision; its numbers are marked ≈ "
+         "and prove "
+         "nothing. A bound that the run violates is no bound for that run.\n\n";
+}
+
+std::string reproduction_section(const Certificate& certificate, const MarkdownOptions& options) {
+  std::string text = "## How to reproduce it\n\n";
+  text += fmt::format("Save the design file below as `{}` and run\n\n", certificate.design_file);
+  text += markdown::fenced("veritrack certify " + certificate.design_file, "");
+  text +=
+      "\nThe same file gives the same bytes. `certificate.json` beside this document holds every number with "
+      "all its "
+      "digits, as hexadecimal floats.\n\n";
+  std::vector<std::vector<std::string>> rows{{"veritrack", VERITRACK_VERSION}};
+  for (const auto& [name, version] : rigor::arithmetic_versions()) {
+    rows.push_back({escaped(name), escaped(version)});
+  }
+  if (!options.drawn_with.empty()) {
+    rows.push_back({"figures", escaped(options.drawn_with)});
+  }
+  text += markdown::table({"Software", "Version"}, rows) + "\n";
+  return text + fmt::format("`{}`:\n\n", certificate.design_file) +
+         markdown::fenced(certificate.design_text, "toml");
+}
+
+}  // namespace
+
+std::string headline(const Certificate& certificate) {
+  if (!certificate.verdict) {
+    return "Nothing is required of this design, and " + theorem_sentence(certificate);
+  }
+  std::string text;
+  for (const Claim& claim : certificate.claims) {
+    if (claim.required) {
+      text += text.empty() ? "" : "; ";
+      text += upper_case(rigor::to_string(claim.verdict)) + ": " + claim.statement;
+    }
+  }
+  return (*certificate.verdict == Verdict::proved ? "" : "NOT PROVED. ") + text;
+}
+
+std::string to_markdown(const Certificate& certificate, const MarkdownOptions& options) {
+  return "# " + headline(certificate) + "\n\n" + requirement_section(certificate) +
+         design_section(certificate) + assumptions_section(certificate) + conditions_section(certificate) +
+         figures_section(certificate, options) + constants_section(certificate) + audit_section(certificate) +
+         coverage_section() + reproduction_section(certificate, options);
+}
+
+}  // namespace veritrack::certificates

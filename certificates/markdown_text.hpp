@@ -1,0 +1,33 @@
+// The small pieces that a Markdown document is made of.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/verdict.hpp"
+
+namespace veritrack::certificates::markdown {
+
+/// Inline mathematics that GitHub renders, safe inside a table cell.
+[[nodiscard]] std::string math(std::string_view latex);
+
+/// "∈ [lower, upper]", outward-rounded to `digits` significant digits; "= x" when the digits hold the point
+/// exactly; "unknown" when empty.
+[[nodiscard]] std::string enclosure(const rigor::Interval& value, int digits = 7);
+
+/// PROVED, REFUTED or UNDECIDED, in bold.
+[[nodiscard]] std::string verdict(rigor::Verdict value);
+
+/// Text from the user, with everything escaped that Markdown would interpret.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+/// A table; every row must have as many cells as the header.
+[[nodiscard]] std::string table(const std::vector<std::string>& header,
+                                const std::vector<std::vector<std::string>>& rows);
+
+/// A fenced block of text, with a fence longer than any in the text.
+[[nodiscard]] std::string fenced(std::string_view text, std::string_view language);
+
+}  // namespace veritrack::certificates::markdown

@@ -1,0 +1,19 @@
+// The part of certificate.md that shows a published theorem, in its several readings side by side.
+#pragma once
+
+#include <string>
+
+#include "certificates/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// Conditions with verdicts, reading by reading, and their notes.
+[[nodiscard]] std::string conditions_section(const Certificate& certificate);
+
+/// Every constant: symbol, formula, enclosure in each reading, source.
+[[nodiscard]] std::string constants_section(const Certificate& certificate);
+
+/// What the constants bound, tried along the simulated trajectory.
+[[nodiscard]] std::string audit_section(const Certificate& certificate);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,133 @@
+// The command line: reads arguments, calls certificates/ and reports/, prints, and chooses the exit status.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/rigor/self_test.hpp"
+#include "certificates/certificate.hpp"
+#include "certificates/design_reader.hpp"
+#include "certificates/markdown.hpp"
+#include "certificates/output_files.hpp"
+#include "reports/certificate_files.hpp"
+#include "reports/check_reports.hpp"
+
+namespace {
+
+namespace certificates = veritrack::certificates;
+namespace reports = veritrack::reports;
+namespace rigor = veritrack::rigor;
+
+enum ExitStatus : int { all_proved = 0, not_proved = 1, bad_input = 2, bad_arithmetic = 3 };
+
+/// 0 when everything required is PROVED, or nothing is required; else 1.
+ExitStatus status_of(const certificates::Certificate& certificate) {
+  const bool fine = !certificate.verdict || *certificate.verdict == rigor::Verdict::proved;
+  return fine ? all_proved : not_proved;
+}
+
+ExitStatus run_certify(const std::string& design_path, std::string directory) {
+  const certificates::Certificate certificate = certificates::certify_file(design_path);
+  if (directory.empty()) {
+    directory =
+        (std::filesystem::path("certificates-out") / std::filesystem::path(design_path).stem()).string();
+  }
+  const std::filesystem::path document = reports::write_certificate_files(certificate, directory);
+  fmt::print("{}: {}\n", document.string(), certificates::headline(certificate));
+  return status_of(certificate);
+}
+
+struct CheckOptions {
+  std::vector<std::string> designs;
+  std::string junit;
+  std::string sarif;
+};
+
+ExitStatus run_check(const CheckOptions& options) {
+  ExitStatus status = all_proved;
+  std::vector<reports::CheckedDesign> checked;
+  for (const std::string& path : options.designs) {
+    checked.push_back({path, certificates::certify_file(path)});
+  }
+  certificates::OutputFiles files;
+  if (!options.junit.empty()) {
+    files.stage(options.junit, reports::to_junit(checked));
+  }
+  if (!options.sarif.empty()) {
+    files.stage(options.sarif, reports::to_sarif(checked));
+  }
+  files.commit();
+  for (const auto& [path, certificate] : checked) {
+    if (!certificate.verdict) {
+      fmt::print("{}: nothing required\n", path);
+    }
+    for (const certificates::Claim& claim : certificate.claims) {
+      if (claim.required) {
+        fmt::print("{}:{}: {}: {} ({})\n", path, claim.position.line, rigor::to_string(claim.verdict),
+                   claim.statement, claim.reason);
+      }
+    }
+    if (status_of(certificate) != all_proved) {
+      status = not_proved;
+    }
+  }
+  return status;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Machine-checked certificates for frequency trackers.", "veritrack"};
+  app.set_version_flag("--version", std::string("veritrack ") + VERITRACK_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 everything required is PROVED (or nothing is required); 1 something is REFUTED or "
+      "UNDECIDED;\n"
+      "2 bad input; 3 this machine's arithmetic failed the self-test.");
+
+  std::string design;
+  std::string directory;
+  CLI::App* certify =
+      app.add_subcommand("certify", "write certificate.md, certificate.json and figures for a design");
+  certify->add_option("DESIGN", design, "design file (TOML)")->required();
+  certify->add_option("--out", directory,
+                      "folder for the certificate (default: certificates-out/<name of the design file>)");
+
+  CheckOptions check_options;
+  CLI::App* check =
+      app.add_subcommand("check", "the same verdicts without the documents: a line per requirement");
+  check->add_option("DESIGN", check_options.designs, "design files (TOML)")->required();
+  check->add_option("--junit", check_options.junit, "also write the verdicts as JUnit XML");
+  check->add_option("--sarif", check_options.sarif, "also write what is not PROVED as SARIF 2.1.0");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? all_proved : bad_input;
+  }
+
+  const rigor::SelfTestReport self_test = rigor::run_self_test();
+  if (!self_test.passed()) {
+    for (const std::string& failure : self_test.failures) {
+      fmt::print(stderr, "veritrack: arithmetic self-test: {}\n", failure);
+    }
+    fmt::print(
+        stderr,
+        "veritrack: this machine or this build cannot be trusted with a certificate; nothing was computed\n");
+    return bad_arithmetic;
+  }
+  return certify->parsed() ? run_certify(design, directory) : run_check(check_options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return bad_input;
+  }
+}

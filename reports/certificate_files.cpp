@@ -1,0 +1,30 @@
+#include "reports/certificate_files.hpp"
+
+#include "certificates/json.hpp"
+#include "certificates/markdown.hpp"
+#include "certificates/output_files.hpp"
+#include "reports/figures.hpp"
+#include "reports/gnuplot.hpp"
+
+namespace veritrack::reports {
+
+std::filesystem::path write_certificate_files(const certificates::Certificate& certificate,
+                                              const std::filesystem::path& directory) {
+  certificates::MarkdownOptions options;
+  certificates::OutputFiles files;
+  for (const Figure& figure : draw_figures(certificate)) {
+    const std::string path = "figures/" + figure.file;
+    files.stage(directory / path, figure.svg);
+    options.figures.push_back({path, figure.caption});
+  }
+  if (!options.figures.empty()) {
+    options.drawn_with = gnuplot_version();
+  }
+  const std::filesystem::path document = directory / "certificate.md";
+  files.stage(document, certificates::to_markdown(certificate, options));
+  files.stage(directory / "certificate.json", certificates::to_json(certificate));
+  files.commit();
+  return document;
+}
+
+}  // namespace veritrack::reports

@@ -1,0 +1,16 @@
+// A certificate's folder: the two documents and the figures, written together or not at all.
+#pragma once
+
+#include <filesystem>
+
+#include "certificates/certificate.hpp"
+
+namespace veritrack::reports {
+
+/// Writes certificate.md, certificate.json and figures/*.svg into `directory` (made when missing) and returns
+/// the path of certificate.md. Every file appears whole or not at all. Throws certificates::OutputError,
+/// FigureError.
+std::filesystem::path write_certificate_files(const certificates::Certificate& certificate,
+                                              const std::filesystem::path& directory);
+
+}  // namespace veritrack::reports

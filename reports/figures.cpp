@@ -1,0 +1,141 @@
+#include "reports/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "reports/gnuplot.hpp"
+
+namespace veritrack::reports {
+
+namespace {
+
+using certificates::Certificate;
+using theorems::TrajectoryRecord;
+
+constexpr std::size_t kLargestNumberOfPoints = 2000;
+
+/// Every how many samples a point is drawn.
+std::size_t stride(const Certificate& certificate) {
+  return (certificate.simulation.trajectory.size() + kLargestNumberOfPoints - 1) / kLargestNumberOfPoints;
+}
+
+std::string stride_remark(const Certificate& certificate) {
+  const std::size_t every = stride(certificate);
+  return every == 1 ? "" : fmt::format(" One sample in {} is drawn.", every);
+}
+
+/// A gnuplot data block: step, then the columns that `values` gives.
+template <typename Values>
+std::string data_block(const Certificate& certificate, Values values) {
+  std::string block = "$run << END\n";
+  const theorems::Trajectory& trajectory = certificate.simulation.trajectory;
+  for (std::size_t k = 0; k < trajectory.size(); k += stride(certificate)) {
+    block += std::to_string(k);
+    for (const double value : values(trajectory[k])) {
+      block += std::isfinite(value) ? fmt::format(" {:.9g}", value) : " NaN";
+    }
+    block += '\n';
+  }
+  return block + "END\n";
+}
+
+std::string preamble(int height) {
+  return fmt::format(
+      "set terminal svg size 820,{} font 'sans-serif,13' background '#ffffff' rounded\n"
+      "set datafile missing 'NaN'\n"
+      "set border 3 lw 1 lc rgb '#444444'\n"
+      "set xtics nomirror\n"
+      "set ytics nomirror\n"
+      "set grid ytics lw 0.5 lc rgb '#cccccc'\n"
+      "set key outside top center horizontal samplen 4\n"
+      "set xlabel 'sample k'\n",
+      height);
+}
+
+Figure frequency_figure(const Certificate& certificate) {
+  std::string script = preamble(340);
+  script += data_block(certificate, [](const TrajectoryRecord& record) {
+    return std::array{record.true_state[2], record.filtered_state[2]};
+  });
+  script +=
+      "set ylabel 'frequency, rad/sample'\n"
+      "set offsets 0, 0, graph 0.08, graph 0.08\n"
+      "plot $run using 1:2 with lines lw 3 lc rgb '#aaaaaa' title 'signal', "
+      "'' using 1:3 with lines lw 1.4 dt 1 lc rgb '#000000' title 'tracker'\n";
+  return {"frequency.svg",
+          "Frequency of the signal (broad grey) and of the tracker (thin black), rad/sample, along the "
+          "simulated run." +
+              stride_remark(certificate),
+          run_gnuplot(script)};
+}
+
+/// A horizontal line: what it stands for, and where.
+struct Level {
+  std::string title;
+  double value = 0.0;
+};
+
+/// Everything that the error is to be compared with, as far as it is a positive number.
+std::vector<Level> error_levels(const Certificate& certificate) {
+  std::vector<Level> levels;
+  if (certificate.design.require.frequency_error_below) {
+    levels.push_back(
+        {"required of the frequency error", certificate.design.require.frequency_error_below->nearest});
+  }
+  for (const theorems::Derivation& derivation : certificate.derivations) {
+    for (const theorems::Quantity& quantity : derivation.quantities) {
+      const double bound = quantity.value.lower();
+      if (quantity.name == "initial_error_bound" && std::isfinite(bound) && bound > 0.0) {
+        levels.push_back({fmt::format("start error that (2.45) admits, {}",
+                                      derivation.id.substr(derivation.id.find('/') + 1)),
+                          bound});
+      }
+    }
+  }
+  return levels;
+}
+
+Figure error_figure(const Certificate& certificate) {
+  const double amplitude = certificate.design.assume.amplitude.nearest;
+  std::string script = preamble(420);
+  script += data_block(certificate, [amplitude](const TrajectoryRecord& record) {
+    const auto positive = [](double value) { return value > 0.0 ? value : std::nan(""); };
+    Eigen::Vector3d error = record.true_state - record.filtered_state;
+    error.head<2>() /= amplitude;
+    return std::array{positive(std::fabs(error[2])), positive(error.norm())};
+  });
+  script +=
+      "set ylabel 'error'\n"
+      "set logscale y\n"
+      "set format y '10^{%L}'\n"
+      "set key maxcols 2\n"
+      "plot $run using 1:3 with lines lw 3 lc rgb '#aaaaaa' title 'whole error |e(k|k)|', "
+      "'' using 1:2 with lines lw 1.4 lc rgb '#000000' title 'frequency error, rad/sample'";
+  const std::vector<Level> levels = error_levels(certificate);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    script += fmt::format(", {:.9g} with lines lw 1.8 dt {} lc rgb '#000000' title '{}'", levels[i].value,
+                          i + 2, levels[i].title);
+  }
+  script += "\n";
+  std::string caption =
+      "Error of the tracker along the simulated run, logarithmic: the whole error |e(k|k)| (signal relative "
+      "to its "
+      "amplitude, and rad/sample) and the frequency error alone.";
+  if (!levels.empty()) {
+    caption += " The dashed lines are what it is to be compared with.";
+  }
+  return {"error.svg", caption + stride_remark(certificate), run_gnuplot(script)};
+}
+
+}  // namespace
+
+std::vector<Figure> draw_figures(const Certificate& certificate) {
+  if (certificate.simulation.trajectory.empty()) {
+    return {};
+  }
+  return {frequency_figure(certificate), error_figure(certificate)};
+}
+
+}  // namespace veritrack::reports

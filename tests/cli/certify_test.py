@@ -1,0 +1,120 @@
+"""veritrack certify on every design of designs/: the documents, whole."""
+
+import json
+import re
+import unittest
+import xml.etree.ElementTree
+
+import jsonschema
+from support import DESIGN, PROGRAM, ROOT, CliTestCase
+
+SCHEMA = json.loads((ROOT / "certificates/certificate.schema.json").read_text())
+DESIGNS = sorted((ROOT / "designs").glob("*.toml"))
+QUANTITIES = """R_x epsilon_r rho_1 rho_2 rho_3 rho_4 rho_5 delta_1 delta_2 a_1 a_2 b_1 b_2 p q s gamma beta
+    one_minus_alpha epsilon_z delta_p delta_k delta_k2 zeta_z eta zeta lhs_2_43 lhs_2_44 initial_error_bound""".split()
+
+
+class Certify(CliTestCase):
+    def certify(self, design, out="out"):
+        result = self.run_here("certify", design, "--out", out)
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        return result, json.loads((self.folder / out / "certificate.json").read_text())
+
+    def test_there_are_designs(self):
+        self.assertGreaterEqual(len(DESIGNS), 4)
+
+    def test_every_design_gives_a_valid_certificate(self):
+        validator = jsonschema.Draft202012Validator(SCHEMA)
+        for design in DESIGNS:
+            with self.subTest(design=design.name):
+                result, certificate = self.certify(design, design.stem)
+                self.assertEqual([], [error.message for error in validator.iter_errors(certificate)])
+                required = [claim["verdict"] for claim in certificate["claims"] if claim["required"]]
+                self.assertEqual(result.returncode, 0 if all(v == "proved" for v in required) else 1)
+                self.assertEqual(certificate["verdict"] == "nothing-required", not required)
+
+    def test_every_quantity_of_the_theorem_is_there(self):
+        _, certificate = self.certify(ROOT / "designs/la-scala-1994-figure-3.5.toml")
+        for derivation in certificate["derivations"]:
+            for name in QUANTITIES:
+                quantity = derivation["quantities"][name]
+                low, high = float.fromhex(quantity["lo"]), float.fromhex(quantity["hi"])
+                self.assertLessEqual(low, high, name)
+                self.assertLessEqual(high - low, 1e-12 * max(abs(low), abs(high)), name)
+
+    def test_design_values_carry_their_lines(self):
+        design = self.write(DESIGN)
+        _, certificate = self.certify(design)
+        lines = DESIGN.splitlines()
+        for name, value in certificate["design"]["design"].items():
+            self.assertEqual(lines[value["line"] - 1], f"{name} = {value['text']}")
+        self.assertTrue(certificate["design"]["theorem_2_9"]["sigma"]["default"])
+
+    def test_same_input_same_bytes_and_no_paths(self):
+        design = self.write(DESIGN)
+        self.certify(design, "first")
+        self.certify(design, "second")
+        names = sorted(p.relative_to(self.folder / "first") for p in (self.folder / "first").rglob("*") if p.is_file())
+        self.assertIn("certificate.md", map(str, names))
+        for name in names:
+            first = (self.folder / "first" / name).read_bytes()
+            self.assertEqual(first, (self.folder / "second" / name).read_bytes(), name)
+            for forbidden in (str(self.folder), str(ROOT), str(PROGRAM), "first"):
+                self.assertNotIn(forbidden.encode(), first.replace(b"at the first", b""), name)
+
+    def test_figures_are_well_formed_and_referred_to(self):
+        self.certify(self.write(DESIGN))
+        text = (self.folder / "out/certificate.md").read_text()
+        references = re.findall(r"\]\((figures/[^)]+)\)", text)
+        self.assertEqual(len(references), 2)
+        for reference in references:
+            root = xml.etree.ElementTree.parse(self.folder / "out" / reference).getroot()
+            self.assertTrue(root.tag.endswith("svg"))
+
+    def test_the_last_line_names_the_certificate_and_its_verdict(self):
+        result, _ = self.certify(self.write(DESIGN))
+        last = result.stdout.splitlines()[-1]
+        self.assertTrue(last.startswith("out/certificate.md: Nothing is required"), last)
+        self.assertIn("REFUTED", last)
+        self.assertEqual(result.stderr, "")
+
+    def test_default_folder_is_named_after_the_design(self):
+        self.write(DESIGN, "my-design.toml")
+        result = self.run_here("certify", "my-design.toml")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue((self.folder / "certificates-out/my-design/certificate.md").is_file())
+
+    def test_a_requirement_that_is_not_proved_stands_in_the_first_line(self):
+        design = self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.05\nsettles_within = 200\n")
+        result, certificate = self.certify(design)
+        first = (self.folder / "out/certificate.md").read_text().splitlines()[0]
+        self.assertTrue(first.startswith("# NOT PROVED."), first)
+        self.assertEqual(result.returncode, 1)
+        self.assertNotEqual(certificate["verdict"], "proved")
+
+    def test_a_start_outside_the_required_bound_refutes_it(self):
+        design = self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.005\n")
+        result, certificate = self.certify(design)
+        claim = next(claim for claim in certificate["claims"] if claim["required"])
+        self.assertEqual(claim["verdict"], "refuted")
+        self.assertIn("Witness", claim["reason"])
+        self.assertEqual(result.returncode, 1)
+
+    def test_q1_zero_is_not_an_error(self):
+        design = self.write(DESIGN.replace("q1 = 0.0023", "q1 = 0"))
+        _, certificate = self.certify(design)
+        for derivation in certificate["derivations"]:
+            self.assertIn("q", derivation["not_applicable"])
+            self.assertIn("p", derivation["quantities"])
+            self.assertEqual(derivation["verdict"], "undecided")
+
+    def test_q1_above_q2_is_noted(self):
+        design = self.write(DESIGN.replace("q1 = 0.0023", "q1 = 0.1"))
+        _, certificate = self.certify(design)
+        for derivation in certificate["derivations"]:
+            self.assertTrue(any("q_1" in note or "q1" in note for note in derivation["notes"]), derivation["notes"])
+            self.assertEqual(derivation["verdict"], "refuted")
+
+
+if __name__ == "__main__":
+    unittest.main()

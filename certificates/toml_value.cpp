@@ -59,6 +59,9 @@ double nearest_double(std::string_view decimal) {
   }
   double value = 0.0;
   const auto [end, error] = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
+  if (error == std::errc::result_out_of_range) {
+    return decimal.starts_with('-') ? -0.0 : 0.0;  // parse_decimal has refused what is too large
+  }
   const bool read_whole = error == std::errc() && end == decimal.data() + decimal.size();
   return read_whole ? value : std::numeric_limits<double>::quiet_NaN();
 }
@@ -70,7 +73,12 @@ std::string parser_message(const toml::parse_error& error) {
   if (text.starts_with(kPreamble)) {
     text.remove_prefix(kPreamble.size());
   }
-  return fmt::format("not valid TOML: {}; allowed: TOML 1.0", printable(text, InputError::kMessageLimit / 2));
+  const bool is_about_number = text.starts_with("floating-point") || text.starts_with("decimal integer") ||
+                               text.find("numeric value") != std::string_view::npos;
+  return fmt::format(
+      "cannot be read as TOML: {}; allowed: {}", printable(text, InputError::kMessageLimit / 2),
+      is_about_number ? "decimal numbers of up to 120 characters in the range of double precision"
+                      : "TOML 1.0");
 }
 
 std::string_view kind_name(const toml::node& node) {

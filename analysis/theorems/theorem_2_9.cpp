@@ -23,30 +23,40 @@ std::string at_most(const Interval& x) {
   return rigor::to_decimal(x.upper(), kDigits, Direction::up);
 }
 
-/// One side of an inequality: how the reason calls it, and what it is.
+/// One side of an inequality: how the reason calls it, and what it is. A literal (0 or 1) is its own value.
 struct Side {
   std::string words;
   Interval value;
+  bool is_literal = false;
 };
+
+std::string not_known(const std::string& words) {
+  return words + " is undefined, or overflows, for the values of this design.";
+}
 
 /// What decided left < right (or left <= right), in one sentence.
 std::string explain(const Side& left, const Side& right, Verdict verdict) {
-  switch (verdict) {
-    case Verdict::proved:
-      return left.words + " is at most " + at_most(left.value) + " and " + right.words + " at least " +
-             at_least(right.value) + ".";
-    case Verdict::refuted:
-      return left.words + " is at least " + at_least(left.value) + " but " + right.words + " at most " +
-             at_most(right.value) + ".";
-    case Verdict::undecided:
-      break;
+  if (verdict == Verdict::undecided) {
+    if (!is_finite(left.value) || !is_finite(right.value)) {
+      return not_known(is_finite(left.value) ? right.words : left.words);
+    }
+    const auto enclosed = [](const Side& side) {
+      return side.is_literal ? side.words : side.words + " in " + rigor::to_decimal(side.value, kDigits);
+    };
+    return enclosed(left) + " and " + enclosed(right) + " are not told apart.";
   }
-  if (!is_finite(left.value) || !is_finite(right.value)) {
-    return (is_finite(left.value) ? right.words : left.words) +
-           " is undefined, or overflows, for the values of this design.";
+  const bool holds = verdict == Verdict::proved;
+  const std::string left_end =
+      holds ? " at most " + at_most(left.value) : " at least " + at_least(left.value);
+  const std::string right_end =
+      holds ? " at least " + at_least(right.value) : " at most " + at_most(right.value);
+  if (left.is_literal) {
+    return right.words + " is" + right_end + ".";
   }
-  return left.words + " in " + rigor::to_decimal(left.value, kDigits) + " and " + right.words + " in " +
-         rigor::to_decimal(right.value, kDigits) + " are not told apart.";
+  if (right.is_literal) {
+    return left.words + " is" + left_end + ".";
+  }
+  return left.words + " is" + left_end + (holds ? " and " : " but ") + right.words + right_end + ".";
 }
 
 enum class Strictness { strict, weak };
@@ -76,10 +86,10 @@ Condition between(std::string id, std::string statement, const Side& low, Strict
 }
 
 Side zero() {
-  return {"0", Interval(0.0)};
+  return {"0", Interval(0.0), true};
 }
 Side one() {
-  return {"1", Interval(1.0)};
+  return {"1", Interval(1.0), true};
 }
 
 /// The ranges of the free parameters.

@@ -46,8 +46,8 @@ Interval tan(const Interval& x) {
   // decides the narrow intervals, down to one unit in the last place, and the count of quarter turns decides
   // the others.
   const bool is_point = x.lower() == x.upper();
-  const bool is_rising = width(x) < 3.0 && detail::reference_tan(x.lower(), Direction::up) <=
-                                               detail::reference_tan(x.upper(), Direction::down);
+  const bool is_rising = width(x) <= pi().lower() && detail::reference_tan(x.lower(), Direction::up) <=
+                                                         detail::reference_tan(x.upper(), Direction::down);
   if (is_point || is_rising || !detail::may_contain_quarter_turn(x, 1, 2)) {
     return Interval::from_bounds(lower, upper);
   }

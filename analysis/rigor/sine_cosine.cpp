@@ -11,9 +11,11 @@
 // last parenthesis by [0, next factor] gives an enclosure; the others are evaluated from the inside outward,
 // all quantities being non-negative, lower bounds from lower and upper ones.
 //
-// Narrow intervals, midpoint m and radius rho < 2^-10: for |d| <= rho
-//     sin(m + d) = sin m + cos m sin d + sin m (cos d - 1),    sin d in [-rho, rho],  cos d - 1 in [-rho^2/2,
-//     0], cos(m + d) = cos m - sin m sin d + cos m (cos d - 1),    intersected with [-1, 1].
+// Narrow intervals. With a point m of x, its middle, and the displacements d in D = x - m, all |d| <= rho <
+// 2^-10:
+//     sin(m + d) = sin m + cos m sin d + sin m (cos d - 1),    sin d in D (which holds 0),
+//     cos(m + d) = cos m - sin m sin d + cos m (cos d - 1),    cos d - 1 in [-rho^2/2, 0],
+// intersected with [-1, 1].
 //
 // Wide intervals: between two multiples of pi/2 both functions are monotone, so that their range is the hull
 // of the values at the endpoints and of each extremum +-1 that the interval holds. One that it only may hold
@@ -144,14 +146,13 @@ SineCosine sin_cos_of_point(double x) {
   return result;
 }
 
-/// The value at the midpoint, `value`, moved by at most `rho`; `slope` is the derivative there.
-Interval moved(const Interval& value, const Interval& slope, double rho) {
-  const double first_order = mul_up(magnitude(slope), rho);
-  const double second_order = mul_up(0.5, mul_up(rho, rho));
-  const double fall = add_up(first_order, mul_up(std::max(value.upper(), 0.0), second_order));
-  const double rise = add_up(first_order, mul_up(std::max(-value.lower(), 0.0), second_order));
-  return Interval::from_bounds(std::max(-1.0, sub_down(value.lower(), fall)),
-                               std::min(1.0, add_up(value.upper(), rise)));
+/// The value at a point, `value`, where the derivative is `slope`, over displacements d from that point.
+Interval moved(const Interval& value, const Interval& slope, const Interval& displacement) {
+  const double rho = magnitude(displacement);
+  const double largest_fall = mul_up(0.5, mul_up(rho, rho));  // of cos d below 1
+  const Interval bend = Interval::from_bounds(-mul_up(std::max(value.upper(), 0.0), largest_fall),
+                                              mul_up(std::max(-value.lower(), 0.0), largest_fall));
+  return intersection(value + slope * displacement + bend, symmetric(1.0));
 }
 
 /// The hull of the values at the endpoints, reaching 1 and -1 where an extremum may lie between them. The
@@ -177,10 +178,10 @@ SineCosine sin_cos(const Interval& x) {
     return sin_cos_of_point(x.lower());
   }
   const double middle = midpoint(x);
-  const double rho = std::max(sub_up(x.upper(), middle), sub_up(middle, x.lower()));
-  if (rho < kNarrowRadius) {
+  const Interval displacement = Interval::from_bounds(sub_down(x.lower(), middle), sub_up(x.upper(), middle));
+  if (magnitude(displacement) < kNarrowRadius) {
     const auto [sine, cosine] = sin_cos_of_point(middle);
-    return {moved(sine, cosine, rho), moved(cosine, sine, rho)};
+    return {moved(sine, cosine, displacement), moved(cosine, -sine, displacement)};
   }
   const SineCosine at_lower = sin_cos_of_point(x.lower());
   const SineCosine at_upper = sin_cos_of_point(x.upper());

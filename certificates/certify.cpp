@@ -81,12 +81,13 @@ Claim frequency_error_claim(const Certificate& certificate, const Number& requir
   claim.statement = fmt::format("the frequency error stays below {} rad/sample for ever", required.text);
   claim.required = true;
   claim.position = required.position;
-  if (rigor::certainly_less_equal(required.value, assume.initial_frequency_error.value)) {
+  if (same_number(required, assume.initial_frequency_error) ||
+      rigor::certainly_less_equal(required.value, assume.initial_frequency_error.value)) {
     claim.verdict = Verdict::refuted;
     claim.reason = fmt::format(
         "Witness: a start that is wrong by {} rad/sample is allowed by [assume] (initial_frequency_error) "
-        "and already "
-        "exceeds the bound at the first sample.",
+        "and is not "
+        "below the bound at the first sample.",
         assume.initial_frequency_error.text);
   } else {
     claim.reason = no_method_reason(certificate);

@@ -192,10 +192,11 @@ std::string headline(const Certificate& certificate) {
 }
 
 std::string to_markdown(const Certificate& certificate, const MarkdownOptions& options) {
-  return "# " + headline(certificate) + "\n\n" + requirement_section(certificate) +
-         design_section(certificate) + assumptions_section(certificate) + conditions_section(certificate) +
-         figures_section(certificate, options) + constants_section(certificate) + audit_section(certificate) +
-         coverage_section() + reproduction_section(certificate, options);
+  return "# " + headline(certificate) + "\n\n" + summary_section(certificate) +
+         requirement_section(certificate) + design_section(certificate) + assumptions_section(certificate) +
+         conditions_section(certificate) + figures_section(certificate, options) +
+         constants_section(certificate) + audit_section(certificate) + coverage_section() +
+         reproduction_section(certificate, options);
 }
 
 }  // namespace veritrack::certificates

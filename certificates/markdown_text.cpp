@@ -60,7 +60,12 @@ namespace {
 std::string table_row(const std::vector<std::string>& cells) {
   std::string row = "|";
   for (const std::string& cell : cells) {
-    row += " " + cell + " |";
+    row += " ";
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      const bool ends_the_cell = cell[i] == '|' && (i == 0 || cell[i - 1] != '\\');
+      row += ends_the_cell ? "\\|" : cell.substr(i, 1);
+    }
+    row += " |";
   }
   return row + "\n";
 }

@@ -23,7 +23,7 @@ namespace veritrack::certificates::markdown {
 /// Text from the user, with everything escaped that Markdown would interpret.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// A table; every row must have as many cells as the header.
+/// A table; every row must have as many cells as the header. Bars within a cell are escaped.
 [[nodiscard]] std::string table(const std::vector<std::string>& header,
                                 const std::vector<std::vector<std::string>>& rows);
 

@@ -7,6 +7,9 @@
 
 namespace veritrack::certificates {
 
+/// The theorem and the simulated run in a few lines of numbers.
+[[nodiscard]] std::string summary_section(const Certificate& certificate);
+
 /// Conditions with verdicts, reading by reading, and their notes.
 [[nodiscard]] std::string conditions_section(const Certificate& certificate);
 

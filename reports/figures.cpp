@@ -109,6 +109,7 @@ Figure error_figure(const Certificate& certificate) {
   script +=
       "set ylabel 'error'\n"
       "set logscale y\n"
+      "unset mytics\n"
       "set format y '10^{%L}'\n"
       "set key maxcols 2\n"
       "plot $run using 1:3 with lines lw 3 lc rgb '#aaaaaa' title 'whole error |e(k|k)|', "

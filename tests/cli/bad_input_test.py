@@ -12,7 +12,7 @@ DIGITS = "1" * 400
 # what is wrong -> (the design file, the line it must be reported at or None, what the message must say)
 REJECTED = {
     "unknown key": (DESIGN.replace("q1 =", "q3 ="), 5, r"q3.*did you mean.*q[12]"),
-    "unknown table": (DESIGN + "[requires]\n", 22, r"require"),
+    "unknown table": (DESIGN + "[requires]\n", 21, r"require"),
     "wrong type": (DESIGN.replace("r = 0.05", 'r = "0.05"'), 7, r"string"),
     "missing key": (DESIGN.replace("r = 0.05\n", ""), None, r"\br\b"),
     "negative q1": (DESIGN.replace("q1 = 0.0023", "q1 = -1e-9"), 5, r"q1"),
@@ -23,13 +23,14 @@ REJECTED = {
     "negative epsilon": (DESIGN.replace("epsilon = 0.01", "epsilon = -0.01"), 8, r"epsilon"),
     "not a number": (DESIGN.replace("r = 0.05", "r = nan"), 7, r"nan"),
     "infinity": (DESIGN.replace("r = 0.05", "r = inf"), 7, r"inf"),
-    "number out of range": (DESIGN.replace("r = 0.05", f"r = {DIGITS}.0"), 7, r"range|large"),
+    "four hundred digits": (DESIGN.replace("r = 0.05", f"r = 0.0{DIGITS}"), 7, r"digits.*allowed"),
+    "number out of range": (DESIGN.replace("r = 0.05", "r = 1e400"), 7, r"range|large"),
     "no table at all": ("name = 'x'\n", None, r"tracker"),
     "empty file": ("", None, r"empty"),
-    "syntax error": (DESIGN.replace("[assume]", "[assume"), 10, r""),
+    "syntax error": (DESIGN.replace("[assume]", "[assume"), 10, r"."),
     "invalid UTF-8": (DESIGN.encode().replace(b"a design", b"a \xff design"), 1, r"UTF-8"),
     "unknown tracker": (DESIGN.replace("quadrature-ekf", "quadrature-ukf"), 2, r"quadrature-ekf"),
-    "duplicate key": (DESIGN.replace("q2 =", "q1 = 1\nq2 ="), 6, r""),
+    "duplicate key": (DESIGN.replace("q2 =", "q1 = 1\nq2 ="), 6, r"."),
 }
 
 
@@ -55,10 +56,6 @@ class BadInput(CliTestCase):
                         self.assertRegex(found, rf"^design\.toml:{line}:\d+: ")
                     self.assertRegex(found, message)
                     self.assertEqual(self.files(), [])
-
-    def test_four_hundred_digits_within_range_are_fine(self):
-        self.write(DESIGN.replace("r = 0.05", f"r = 0.0{DIGITS}"))
-        self.assertEqual(self.run_here("certify", "design.toml").returncode, 0)
 
     def test_missing_file(self):
         self.assertRegex(self.reject("certify", "nowhere.toml"), r"nowhere\.toml")

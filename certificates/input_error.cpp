@@ -72,21 +72,25 @@ std::optional<std::size_t> utf8_length(std::string_view text) noexcept {
 std::string printable(std::string_view text, std::size_t limit) {
   constexpr std::string_view kCut = "...";
   std::string result;
+  std::size_t room_for_cut = 0;  // the length of the longest part that leaves room for kCut
   while (!text.empty()) {
     const std::optional<std::size_t> length = utf8_length(text);
     const std::string_view character = text.substr(0, length.value_or(1));
-    std::string piece(character);
-    if (!length) {
-      piece = fmt::format("\\x{:02X}", byte_at(character, 0));
-    } else if (const std::uint32_t value = decode(character); is_unprintable(value)) {
-      piece = value < 0x80 ? fmt::format("\\x{:02X}", value) : fmt::format("\\u{:04X}", value);
-    }
     text.remove_prefix(character.size());
-    const std::size_t reserve = text.empty() ? 0 : kCut.size();
-    if (result.size() + piece.size() + reserve > limit) {
+    if (!length) {
+      result += fmt::format("\\x{:02X}", byte_at(character, 0));
+    } else if (const std::uint32_t value = decode(character); is_unprintable(value)) {
+      result += value < 0x80 ? fmt::format("\\x{:02X}", value) : fmt::format("\\u{:04X}", value);
+    } else {
+      result += character;
+    }
+    if (result.size() > limit) {
+      result.resize(room_for_cut);
       return result.append(kCut);
     }
-    result += piece;
+    if (result.size() + kCut.size() <= limit) {
+      room_for_cut = result.size();
+    }
   }
   return result;
 }

@@ -1,0 +1,83 @@
+// Whatever the bytes: a Design whose numbers are finite and within their limits, or an InputError of one
+// line.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "certificates/design_reader.hpp"
+
+namespace {
+
+using namespace veritrack::certificates;
+
+void require(bool condition, const char* what) {
+  if (!condition) {
+    std::fprintf(stderr, "design_reader_fuzz: %s\n", what);
+    std::abort();
+  }
+}
+
+void check(const Number& number) {
+  const double lower = number.value.lower();
+  const double upper = number.value.upper();
+  require(std::isfinite(lower) && std::isfinite(upper) && lower <= upper,
+          "a number without a finite interval");
+  require(lower <= number.nearest && number.nearest <= upper, "the nearest double is not in the interval");
+  require(!number.text.empty(), "a number without a text");
+  require((number.position.line > 0) == (number.position.column > 0), "half a position");
+}
+
+void check(const Design& design) {
+  const Assumptions& assume = design.assume;
+  const Theorem29Parameters& theorem = design.theorem_2_9;
+  for (const Number& number :
+       {design.design.q1, design.design.q2, design.design.r, design.design.epsilon, assume.amplitude,
+        assume.frequency[0], assume.frequency[1], assume.noise, assume.slew, assume.initial_frequency_error,
+        assume.initial_phase_error, assume.initial_amplitude_error, theorem.state_bound, theorem.sigma,
+        theorem.gamma_fraction, theorem.c1, theorem.c2}) {
+    check(number);
+    require(number.value.lower() >= 0.0, "a negative number");
+  }
+  for (const Number& number : {design.design.q2, design.design.r, assume.amplitude, theorem.state_bound,
+                               theorem.sigma, theorem.gamma_fraction}) {
+    require(number.value.lower() > 0.0, "a number that may be zero");
+  }
+  require(design.design.epsilon.value.upper() < 1.0, "epsilon reaches 1");
+  require(theorem.gamma_fraction.value.upper() < 1.0, "gamma_fraction reaches 1");
+  require(assume.frequency[0].value.lower() <= assume.frequency[1].value.upper(),
+          "a reversed frequency band");
+  if (assume.initial_covariance) {
+    for (const auto& row : *assume.initial_covariance) {
+      std::for_each(row.begin(), row.end(), [](const Number& number) { check(number); });
+    }
+  }
+  require(design.simulate.samples >= 1 && design.simulate.samples <= 10'000'000, "samples out of range");
+  require(!design.name.empty() && design.name.size() <= 200, "a name out of range");
+  require(design.tracker == "quadrature-ekf", "an unknown tracker");
+}
+
+void check(const InputError& error) {
+  const std::string_view what = error.what();
+  require(what.starts_with("x.toml:") && what.size() < 800, "a message of the wrong form");
+  require(std::none_of(what.begin(), what.end(),
+                       [](char byte) { return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F; }),
+          "a message with control characters");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(data, data + size);
+  try {
+    check(read_design(text, "x.toml"));
+  } catch (const InputError& error) {
+    check(error);
+  }
+  return 0;
+}

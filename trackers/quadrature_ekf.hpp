@@ -252,31 +252,28 @@ template <typename Scalar = double>
 class QuadratureEkf {
  public:
   QuadratureEkf(const QuadratureEkfDesign<Scalar>& design, const QuadratureEstimate<Scalar>& start)
-      : design_(design), predicted_(start), filtered_(start) {}
+      : design_(design), current_{start, start} {}
 
   /// predicted() becomes (k+1|k), from filtered() at (k|k).
-  void time_update() { predicted_ = trackers::time_update(filtered_, design_); }
+  void time_update() { current_.predicted = trackers::time_update(current_.filtered, design_); }
 
   /// filtered() becomes (k|k), from predicted() at (k|k-1) and the measurement y(k) in signal units.
   void measurement_update(const Scalar& in_phase, const Scalar& quadrature) {
-    filtered_ = trackers::measurement_update(predicted_, in_phase, quadrature, design_);
+    current_.filtered = trackers::measurement_update(current_.predicted, in_phase, quadrature, design_);
   }
 
   /// One sample: time_update, then measurement_update with y(k+1).
   void step(const Scalar& in_phase, const Scalar& quadrature) {
-    const QuadratureStep<Scalar> next = trackers::step(filtered_, in_phase, quadrature, design_);
-    predicted_ = next.predicted;
-    filtered_ = next.filtered;
+    current_ = trackers::step(current_.filtered, in_phase, quadrature, design_);
   }
 
   [[nodiscard]] const QuadratureEkfDesign<Scalar>& design() const { return design_; }
-  [[nodiscard]] const QuadratureEstimate<Scalar>& predicted() const { return predicted_; }
-  [[nodiscard]] const QuadratureEstimate<Scalar>& filtered() const { return filtered_; }
+  [[nodiscard]] const QuadratureEstimate<Scalar>& predicted() const { return current_.predicted; }
+  [[nodiscard]] const QuadratureEstimate<Scalar>& filtered() const { return current_.filtered; }
 
  private:
   QuadratureEkfDesign<Scalar> design_;
-  QuadratureEstimate<Scalar> predicted_;
-  QuadratureEstimate<Scalar> filtered_;
+  QuadratureStep<Scalar> current_;
 };
 
 }  // namespace veritrack::trackers

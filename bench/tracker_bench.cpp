@@ -1,0 +1,201 @@
+// One sample of the quadrature tracker: double against the textbook's matrices, and over intervals and duals.
+//
+// The counter double_steps says how many double steps one step costs, in the same run: wanted are at
+// least 1.5 for the textbook and at most 40 for intervals. Every tracker runs through the same 1024
+// measurements of a locked signal, so that a step waits for the one before it as in use.
+#include <benchmark/benchmark.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <ctime>
+#include <vector>
+
+#include "analysis/rigor/dual.hpp"
+#include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/matrix.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "tests/trackers/textbook_ekf.hpp"
+#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature_rotating_frame.hpp"
+#include "trackers/signals/test_signals.hpp"
+
+namespace {
+
+using veritrack::rigor::Interval;
+using namespace veritrack::trackers;
+
+constexpr double kFrequency = 0.3;
+
+const std::vector<Sample>& signal() {
+  static const std::vector<Sample> samples = make_signal(
+      "constant",
+      {.samples = 1024, .frequency_low = kFrequency, .frequency_high = kFrequency, .noise_bound = 0.1});
+  return samples;
+}
+
+/// The design of Table 3.2, Figure 3.5.
+template <typename Scalar>
+QuadratureEkfDesign<Scalar> design() {
+  return {Scalar(0.0023), Scalar(0.0023), Scalar(0.05), Scalar(0.01)};
+}
+
+template <typename Scalar>
+QuadratureEstimate<Scalar> start() {
+  const Scalar zero(0.0);
+  const Scalar variance(0.01);
+  return {Scalar(1.0), zero, Scalar(kFrequency), {variance, zero, variance, zero, zero, variance}};
+}
+
+/// Processor time of `run`, in seconds.
+template <typename Run>
+double processor_time(const Run& run) {
+  const std::clock_t begin = std::clock();
+  run();
+  return static_cast<double>(std::clock() - begin) / static_cast<double>(CLOCKS_PER_SEC);
+}
+
+void run_double(QuadratureEkf<double>& tracker) {
+  for (const Sample& sample : signal()) {
+    tracker.step(sample.in_phase, sample.quadrature);
+  }
+  benchmark::DoNotOptimize(tracker.filtered().frequency);
+}
+
+/// Seconds of one double step: the shortest of several runs.
+double double_step() {
+  static const double shortest = [] {
+    const veritrack::rigor::NearestRounding nearest;
+    QuadratureEkf<double> tracker(design<double>(), start<double>());
+    constexpr int kRuns = 2000;
+    double result = 1.0;
+    for (int repetition = 0; repetition < 5; ++repetition) {
+      result = std::min(result, processor_time([&] {
+                          for (int i = 0; i < kRuns; ++i) {
+                            run_double(tracker);
+                          }
+                        }));
+    }
+    return result / (kRuns * static_cast<double>(signal().size()));
+  }();
+  return shortest;
+}
+
+/// Times `run`, which takes all samples of the signal, and says what one sample costs and how many double
+/// steps that is.
+template <typename Run>
+void measure(benchmark::State& state, const Run& run) {
+  const double seconds = processor_time([&] {
+    for (auto _ : state) {
+      run();
+    }
+  });
+  const double step =
+      seconds / (static_cast<double>(state.iterations()) * static_cast<double>(signal().size()));
+  state.counters["ns_per_step"] = step * 1e9;
+  state.counters["double_steps"] = step / double_step();
+}
+
+void step_double(benchmark::State& state) {
+  QuadratureEkf<double> tracker(design<double>(), start<double>());
+  measure(state, [&] { run_double(tracker); });
+}
+BENCHMARK(step_double);
+
+void step_textbook(benchmark::State& state) {
+  const auto d = design<double>();
+  const auto s = start<double>();
+  veritrack::test::TextbookEkf<double> tracker{d.q1, d.q2, d.r, d.epsilon, s.state(), s.covariance.matrix()};
+  measure(state, [&] {
+    for (const Sample& sample : signal()) {
+      tracker.step({sample.in_phase, sample.quadrature});
+    }
+    benchmark::DoNotOptimize(tracker.x(2));
+  });
+}
+BENCHMARK(step_textbook);
+
+// Over intervals a run would widen for want of contraction in boxes; what is timed is the step from a box of
+// usual width.
+void step_interval(benchmark::State& state) {
+  const veritrack::rigor::UpwardRounding upward;
+  const auto d = design<Interval>();
+  QuadratureEstimate<Interval> from = start<Interval>();
+  from.frequency = from.frequency + veritrack::rigor::symmetric(1e-6);
+  measure(state, [&] {
+    for (const Sample& sample : signal()) {
+      benchmark::DoNotOptimize(from);
+      benchmark::DoNotOptimize(
+          step(from, Interval(sample.in_phase), Interval(sample.quadrature), d).filtered);
+    }
+  });
+}
+BENCHMARK(step_interval);
+
+template <typename Scalar>
+void rotating_frame(benchmark::State& state, const RotatingFrameState<Scalar>& from) {
+  const RotatingFrameInput<Scalar> input{Scalar(0.01), Scalar(-0.02), Scalar(0.0), Scalar(kFrequency)};
+  const auto d = design<Scalar>();
+  RotatingFrameState<Scalar> x = from;
+  measure(state, [&] {
+    for (std::size_t k = 0; k < signal().size(); ++k) {
+      benchmark::DoNotOptimize(x);
+      benchmark::DoNotOptimize(rotating_frame_map(x, input, d));
+    }
+  });
+}
+
+RotatingFrameState<double> locked() {
+  RotatingFrameState<double> x;
+  x << 0.01, -0.02, 0.03, 0.01, 0.001, 0.001, 0.02, 0.01, 0.01;
+  return x;
+}
+
+template <typename Scalar>
+RotatingFrameState<veritrack::rigor::Dual<Scalar, 9>> differentiated() {
+  RotatingFrameState<veritrack::rigor::Dual<Scalar, 9>> x;
+  for (int i = 0; i < 9; ++i) {
+    std::array<Scalar, 9> unit;
+    unit.fill(Scalar(0.0));
+    unit[static_cast<std::size_t>(i)] = Scalar(1.0);
+    x(i) = veritrack::rigor::Dual<Scalar, 9>(Scalar(locked()(i)), unit);
+  }
+  return x;
+}
+
+void map_double(benchmark::State& state) {
+  rotating_frame<double>(state, locked());
+}
+BENCHMARK(map_double);
+
+void map_dual_of_double(benchmark::State& state) {
+  rotating_frame<veritrack::rigor::Dual<double, 9>>(state, differentiated<double>());
+}
+BENCHMARK(map_dual_of_double);
+
+void map_interval(benchmark::State& state) {
+  const veritrack::rigor::UpwardRounding upward;
+  rotating_frame<Interval>(state, veritrack::rigor::to_interval(locked()));
+}
+BENCHMARK(map_interval);
+
+void map_dual_of_interval(benchmark::State& state) {
+  const veritrack::rigor::UpwardRounding upward;
+  rotating_frame<veritrack::rigor::Dual<Interval, 9>>(state, differentiated<Interval>());
+}
+BENCHMARK(map_dual_of_interval);
+
+void normal_deviate(benchmark::State& state) {
+  RandomStream random(1);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(random.normal());
+  }
+}
+BENCHMARK(normal_deviate);
+
+}  // namespace
+
+BENCHMARK_MAIN();

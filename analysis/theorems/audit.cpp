@@ -49,7 +49,8 @@ constexpr auto kRows = std::to_array<Row>({
     {"rho_3", R"(\lVert \partial^3 f / \partial x^3 (\hat{x}(k \mid k)) \rVert \le \rho_3)", "thesis, (2.32)",
      kClaim, 0, "rho_3"},
     {"rho_4",
-     R"(\lVert \partial f / \partial x (x(k)) - \partial f / \partial x (\hat{x}(k \mid k)) \rVert \le \rho_4 \lvert e(k \mid k) \rvert)",
+     R"(\lVert \partial f / \partial x (x(k)) - )"
+     R"(\partial f / \partial x (\hat{x}(k \mid k)) \rVert \le \rho_4 \lvert e(k \mid k) \rvert)",
      "thesis, section 2.4.3, above (2.33)", kClaim, 0, "rho_4"},
     {"a_1", R"(\mathcal{C}(k, 1) \le a_1 I)", "thesis, (2.24)", kClaim, 1, "a_1"},
     {"a_2", R"(\mathcal{C}(k, 1) \ge a_2 I)", "thesis, (2.24)", kClaim, 1, "a_2"},

@@ -48,19 +48,24 @@ constexpr auto kRows = std::to_array<Row>({
     {"one_minus_alpha", R"(1 - \alpha)", R"(1 - \left(1 - \frac{\gamma}{q}\right)^{1/2})", "thesis, (2.36)",
      &Constants::one_minus_alpha, "q"},
     {"epsilon_z", R"(\epsilon_z)",
-     R"(\min\left(\epsilon_r, \frac{\sqrt{2}}{\sqrt{\rho_4}} \left(-\rho_1 + \sqrt{\rho_1^2 + \frac{1}{q}\left(\frac{1}{s p^2} - \gamma\right)}\right)^{1/2}\right))",
+     R"(\min\left(\epsilon_r, \frac{\sqrt{2}}{\sqrt{\rho_4}} )"
+     R"(\left(-\rho_1 + \sqrt{\rho_1^2 + \frac{1}{q}\left(\frac{1}{s p^2} - \gamma\right)}\right)^{1/2}\right))",
      "thesis, (2.35)", &Constants::epsilon_z, "q"},
     {"delta_p", R"(\delta_p)", R"(2 \rho_1 \rho_2 p)", "thesis, proof of Lemma 2.3", &Constants::delta_p,
      kNever},
     {"delta_k", R"(\delta_k)", R"(\delta_p \rho_5 \delta_2^{-1} (1 + s \rho_5^2 \delta_2^{-1}))",
      "thesis, proof of Lemma 2.3", &Constants::delta_k, "s"},
     {"delta_k2", R"(\delta_{k2})",
-     R"(\frac{2p(\rho_3\rho_1 + \rho_2^2)\rho_5}{\delta_2} + \frac{2\delta_p^2\rho_5^3}{\delta_2^2} + s\rho_5\left(\frac{2\rho_5^4\delta_p^2}{\delta_2^3} + \frac{2p(\rho_3\rho_1 + \rho_2^2)\rho_5^2}{\delta_2^2}\right))",
+     R"(\frac{2p(\rho_3\rho_1 + \rho_2^2)\rho_5}{\delta_2} + )"
+     R"(\frac{2\delta_p^2\rho_5^3}{\delta_2^2} + )"
+     R"(s\rho_5\left(\frac{2\rho_5^4\delta_p^2}{\delta_2^3} + \frac{2p(\rho_3\rho_1 + \rho_2^2)\rho_5^2}{\delta_2^2}\right))",
      "thesis, proof of Lemma 2.5 (named there, written out here)", &Constants::delta_k2, "s"},
     {"zeta_z", R"(\zeta_z)", R"(\delta_k \rho_5 \rho_1 \epsilon_z)", "thesis, (2.39)", &Constants::zeta_z,
      "delta_k"},
     {"eta", R"(\eta)",
-     R"(\max\left(pq\left(\lVert w \rVert + \frac{1}{2}\rho_4\epsilon_r^2\right) + p\rho_5\delta_2^{-1}\lVert v \rVert, \delta_k\left(\rho_5\lVert w \rVert + \lVert v \rVert + \frac{1}{2}\rho_4\rho_5\epsilon_r^2\right) + 2pq\rho_1\right))",
+     R"(\max\left(pq\left(\lVert w \rVert + \frac{1}{2}\rho_4\epsilon_r^2\right) + )"
+     R"(p\rho_5\delta_2^{-1}\lVert v \rVert, )"
+     R"(\delta_k\left(\rho_5\lVert w \rVert + \lVert v \rVert + \frac{1}{2}\rho_4\rho_5\epsilon_r^2\right) + 2pq\rho_1\right))",
      R"(thesis, (2.40), with the noise bounds c_1 sqrt(q_2) and c_2 sqrt(r) of section 3.5)", &Constants::eta,
      "q"},
     {"zeta", R"(\zeta)", R"(2\rho_1\rho_5\delta_k + \rho_1\rho_5\delta_{k2}\epsilon_r)",
@@ -100,13 +105,16 @@ std::optional<std::string> why_not_applicable(const std::string& name, const The
     if (row.name != name || row.divides_by_q1_through == kNever) {
       continue;
     }
-    const std::string zero =
-        input.q1.upper() > 0.0 ? "which may be 0 in this design" : "which is 0 in this design";
+    std::string sentence = name;
     if (row.divides_by_q1_through == kDirectly) {
-      return name + " divides by a_2 = q_1, " + zero + ".";
+      sentence += " divides by a_2 = q_1, which ";
+    } else {
+      sentence += " is made of ";
+      sentence += row.divides_by_q1_through;
+      sentence += ", and so divides by a_2 = q_1, which ";
     }
-    return name + " is made of " + std::string(row.divides_by_q1_through) +
-           ", and so divides by a_2 = q_1, " + zero + ".";
+    sentence += input.q1.upper() > 0.0 ? "may be 0 in this design." : "is 0 in this design.";
+    return sentence;
   }
   return std::nullopt;
 }

@@ -11,7 +11,7 @@ DIGITS = "1" * 400
 
 # what is wrong -> (the design file, the line it must be reported at or None, what the message must say)
 REJECTED = {
-    "unknown key": (DESIGN.replace("q1 =", "q3 ="), 5, r"q3.*did you mean.*q[12]"),
+    "unknown key": (DESIGN.replace("q1 =", "q3 ="), 5, r"q3.*nearest known key: .*q[12]"),
     "unknown table": (DESIGN + "[requires]\n", 21, r"require"),
     "wrong type": (DESIGN.replace("r = 0.05", 'r = "0.05"'), 7, r"string"),
     "missing key": (DESIGN.replace("r = 0.05\n", ""), None, r"\br\b"),

@@ -1,0 +1,81 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tests/certificates/test_design.hpp"
+
+namespace {
+
+using namespace veritrack;
+using rigor::Verdict;
+
+const certificates::Claim& find_claim(const certificates::Certificate& certificate, const std::string& id) {
+  const auto found = std::find_if(certificate.claims.begin(), certificate.claims.end(),
+                                  [&](const certificates::Claim& claim) { return claim.id == id; });
+  REQUIRE(found != certificate.claims.end());
+  return *found;
+}
+
+TEST_CASE("nothing required is no verdict") {
+  const certificates::Certificate certificate = test::certificate();
+  CHECK_FALSE(certificate.verdict.has_value());
+  CHECK(certificates::verdict_text(certificate) == "nothing-required");
+  CHECK(certificate.derivations.size() == 2);
+  CHECK(certificate.audits.size() == 2);
+}
+
+TEST_CASE("a requirement that nothing establishes is undecided, with the reason") {
+  const auto certificate =
+      test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05\nsettles_within = 9"}});
+  CHECK(certificate.verdict == Verdict::undecided);
+  for (const char* id : {"ekf/frequency-error-bound", "ekf/settling-time"}) {
+    const certificates::Claim& claim = find_claim(certificate, id);
+    CHECK(claim.required);
+    CHECK(claim.verdict == Verdict::undecided);
+    CHECK_FALSE(claim.reason.empty());
+    CHECK(claim.position.line > 0);
+  }
+}
+
+TEST_CASE("a bound that the assumed start does not keep is refuted") {
+  for (const char* bound : {"0.004", "0.005", "0.0050", "5e-3", "1e-300"}) {
+    const auto certificate =
+        test::certificate({{"[require]", std::string("[require]\nfrequency_error_below = ") + bound}});
+    CHECK_MESSAGE(
+        certificate.verdict == (std::string(bound) == "0.0050" || std::string(bound) == "5e-3"
+                                    ? Verdict::undecided  // the same number, which texts do not show
+                                    : Verdict::refuted),
+        bound);
+  }
+  const auto above = test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.0051"}});
+  CHECK(above.verdict == Verdict::undecided);
+}
+
+TEST_CASE("the theorem is evaluated at amplitude 1") {
+  // q1, r, noise and start error at amplitude 2 that are those of the unit design: powers of 2 scale exactly.
+  const auto unit = test::certificate({{"0.0023\nq2", "0.25\nq2"}, {"r = 0.05", "r = 0.5"}});
+  const auto scaled =
+      test::certificate({{"0.0023\nq2", "1.0\nq2"},
+                         {"r = 0.05", "r = 2.0"},
+                         {"amplitude = 1.0", "amplitude = 2.0"},
+                         {"noise = 0.001", "noise = 0.002"},
+                         {"initial_amplitude_error = 0.005", "initial_amplitude_error = 0.010"}});
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& expected = unit.derivations[i].quantities;
+    const auto& found = scaled.derivations[i].quantities;
+    REQUIRE(expected.size() == found.size());
+    for (std::size_t j = 0; j < expected.size(); ++j) {
+      CHECK_MESSAGE(rigor::identical(expected[j].value, found[j].value), expected[j].name);
+    }
+    CHECK(scaled.derivations[i].notes.size() == unit.derivations[i].notes.size() + 1);
+  }
+}
+
+TEST_CASE("an unknown tracker is refused") {
+  certificates::Design design = test::design();
+  design.tracker = "something else";
+  CHECK_THROWS_AS(static_cast<void>(certificates::certify(design, "design.toml", "")), std::invalid_argument);
+}
+
+}  // namespace

@@ -72,20 +72,6 @@ DynamicMatrix propose_singular_vectors(const DynamicIntervalMatrix& a) {
   return Eigen::SelfAdjointEigenSolver<DynamicMatrix>(middle.transpose() * middle).eigenvectors();
 }
 
-/// Item (1) of spectral_norm.
-std::optional<double> norm_through_vectors(const DynamicIntervalMatrix& a, const DynamicIntervalMatrix& v) {
-  const DynamicIntervalMatrix identity = DynamicIntervalMatrix::Identity(a.cols(), a.cols());
-  const DynamicIntervalMatrix w = a * v;
-  const DynamicIntervalMatrix deviation = v.transpose() * v - identity;
-  const DynamicIntervalMatrix gram = w.transpose() * w;
-  const std::optional<double> distance = norm_of_bounded_symmetric(magnitude(deviation));
-  const std::optional<double> square = norm_of_bounded_symmetric(magnitude(gram));
-  if (!distance || !square || !(*distance < 1.0)) {
-    return std::nullopt;
-  }
-  return finite(sqrt_up(div_up(*square, sub_down(1.0, *distance))));
-}
-
 /// |A v| / |v| for a non-zero point vector v.
 Interval stretch(const DynamicIntervalMatrix& a, const DynamicIntervalMatrix& v) {
   const DynamicIntervalMatrix image = a * v;
@@ -131,6 +117,19 @@ Interval norm_of_scaled(const DynamicIntervalMatrix& a) {
 }
 
 }  // namespace
+
+std::optional<double> norm_through_vectors(const DynamicIntervalMatrix& a, const DynamicIntervalMatrix& v) {
+  const DynamicIntervalMatrix identity = DynamicIntervalMatrix::Identity(a.cols(), a.cols());
+  const DynamicIntervalMatrix w = a * v;
+  const DynamicIntervalMatrix deviation = v.transpose() * v - identity;
+  const DynamicIntervalMatrix gram = w.transpose() * w;
+  const std::optional<double> distance = norm_of_bounded_symmetric(magnitude(deviation));
+  const std::optional<double> square = norm_of_bounded_symmetric(magnitude(gram));
+  if (!distance || !square || !(*distance < 1.0)) {
+    return std::nullopt;
+  }
+  return finite(sqrt_up(div_up(*square, sub_down(1.0, *distance))));
+}
 
 std::optional<double> norm_of_bounded(const DynamicMatrix& bounds) {
   if (!all_finite_and_non_negative(bounds)) {

@@ -25,6 +25,11 @@ namespace detail {
 /// entries.
 [[nodiscard]] std::optional<double> norm_of_bounded_symmetric(const DynamicMatrix& bounds);
 
+/// Item (1) of spectral_norm below: an upper bound on |A| for every A in `a`, by the columns of `v`, any
+/// matrix near an orthogonal one. Nothing when that could not be verified. Needs the upward mode.
+[[nodiscard]] std::optional<double> norm_through_vectors(const DynamicIntervalMatrix& a,
+                                                         const DynamicIntervalMatrix& v);
+
 }  // namespace detail
 
 /// An interval that holds the spectral norm (largest singular value) of every real matrix in `a`, of any

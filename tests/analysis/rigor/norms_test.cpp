@@ -155,3 +155,25 @@ TEST_CASE("bounds on matrices of bounded entries") {
     CHECK_FALSE(detail::norm_of_bounded(bounds));
   }
 }
+
+TEST_CASE("the bound through vectors holds for any vectors, not only for orthonormal ones") {
+  Random random(404);
+  const UpwardRounding upward;
+  std::int64_t bounded = 0;
+  for (std::int64_t round = 0; round < effort(200); ++round) {
+    const Eigen::MatrixXd a = hadamard(4) * random_integers(random, 4, 1, 50).asDiagonal() * hadamard(4);
+    const double truth = *norm_upper_bound(to_interval(a)) * (1.0 - 1e-12);
+    Eigen::MatrixXd v = hadamard(4) / 2.0;
+    v += random_integers(random, 4, 4, 10) * (random.uniform() / 80.0);
+    v *= random.uniform(0.5, 1.1);
+    if (const std::optional<double> bound = detail::norm_through_vectors(to_interval(a), to_interval(v))) {
+      ++bounded;
+      CHECK(*bound >= truth);
+    }
+  }
+  CHECK(bounded > effort(40));
+  // A projection is blind to what it cuts off, and proves nothing.
+  Eigen::MatrixXd blind = Eigen::MatrixXd::Identity(4, 4);
+  blind(3, 3) = 0.0;
+  CHECK_FALSE(detail::norm_through_vectors(to_interval(hadamard(4)), to_interval(blind)));
+}

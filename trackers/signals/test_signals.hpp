@@ -112,12 +112,9 @@ inline constexpr double kWithinBounds = 1.0 - 0x1p-20;
   return u > 0.0 && u < 1.0 ? 0.5 * (1.0 + unit_phasor((2.0 * u - 1.0) * (2.0 * kHalfPi)).first) : 0.0;
 }
 
-/// `target`, or where one gets towards it from `current` without leaving the band or exceeding the slew
-/// bound.
+/// `target`, kept in the band; `current` where rounding would carry the step beyond the slew bound.
 [[nodiscard]] inline double approach(double current, double target, const SignalOptions& options) {
-  const double slew = options.slew_bound * kWithinBounds;
-  double next = std::clamp(target, current - slew, current + slew);
-  next = std::clamp(next, options.frequency_low, options.frequency_high);
+  const double next = std::clamp(target, options.frequency_low, options.frequency_high);
   return std::fabs(next - current) <= options.slew_bound ? next : current;
 }
 
@@ -148,12 +145,13 @@ inline constexpr double kWithinBounds = 1.0 - 0x1p-20;
 /// Steps uniform within the slew bound, reflected at the ends of the band.
 [[nodiscard]] inline std::vector<double> random_walk_frequencies(const SignalOptions& options,
                                                                  RandomStream& random) {
+  const double slew = options.slew_bound * kWithinBounds;
   std::vector<double> frequencies;
   frequencies.reserve(static_cast<std::size_t>(options.samples));
   double current = middle_of_band(options);
   for (std::int64_t k = 0; k < options.samples; ++k) {
     frequencies.push_back(current);
-    double target = current + options.slew_bound * (2.0 * random.uniform() - 1.0);
+    double target = current + slew * (2.0 * random.uniform() - 1.0);
     if (target > options.frequency_high) {
       target = 2.0 * options.frequency_high - target;
     } else if (target < options.frequency_low) {

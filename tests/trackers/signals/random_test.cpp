@@ -57,6 +57,24 @@ TEST_CASE("normal deviates have the normal distribution") {
   const double tail = std::erfc(3.0 / std::sqrt(2.0));
   CHECK(std::fabs(beyond_three / n - tail) <= five_sigma * std::sqrt(tail));
   CHECK(kolmogorov_smirnov(values, normal_distribution) <= 2.5);
+
+  // Chi squared over bins of |x|, which sees ripples that the cumulative distribution smooths away. With 40
+  // bins its mean is 40 and its standard deviation 9.
+  constexpr std::size_t kBins = 40;
+  constexpr double kWidth = 0.1;
+  std::array<double, kBins> observed{};
+  for (const double value : values) {
+    const std::size_t bin = static_cast<std::size_t>(std::fabs(value) / kWidth);
+    observed[std::min(bin, kBins - 1)] += 1.0;
+  }
+  double chi_squared = 0.0;
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    const double low = kWidth * static_cast<double>(bin);
+    const double above = bin + 1 < kBins ? std::erfc((low + kWidth) / std::sqrt(2.0)) : 0.0;
+    const double expected = n * (std::erfc(low / std::sqrt(2.0)) - above);
+    chi_squared += (observed[bin] - expected) * (observed[bin] - expected) / expected;
+  }
+  CHECK(chi_squared <= 85.0);
 }
 
 TEST_CASE("successive normal deviates are uncorrelated, in size and in sign") {

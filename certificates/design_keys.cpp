@@ -13,6 +13,7 @@
 
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/matrix.hpp"
+#include "certificates/input_error.hpp"
 #include "trackers/signals/test_signals.hpp"
 
 namespace veritrack::certificates {

@@ -1,55 +1,18 @@
 // One value of a TOML file: read with its position, and refused with a message that says what is allowed.
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "analysis/rigor/interval.hpp"
 #include "certificates/design.hpp"
-#include "certificates/input_error.hpp"
+#include "certificates/toml_source.hpp"
 
 namespace veritrack::certificates {
-
-/// A parsed file beside the text that it came from: numbers are taken from the text, not from the parser.
-class TomlSource {
- public:
-  /// Whose words these are: the user's, or our own default values, which have no position to report.
-  enum class Origin { file, built_in };
-
-  /// Parses `text` (copied). `file_name` is for messages. Throws InputError for whatever is not TOML 1.0, for
-  /// invalid UTF-8, and for text that is empty, larger than kSizeLimit, or nested beyond all use.
-  TomlSource(std::string_view text, std::string_view file_name, Origin origin = Origin::file);
-  TomlSource(const TomlSource&) = delete;
-  TomlSource& operator=(const TomlSource&) = delete;
-  TomlSource(TomlSource&&) = delete;
-  TomlSource& operator=(TomlSource&&) = delete;
-  ~TomlSource() = default;
-
-  [[nodiscard]] const toml::table& root() const noexcept { return root_; }
-  [[nodiscard]] Origin origin() const noexcept { return origin_; }
-  /// Line `number`, from 1, without its line feed. Throws std::out_of_range when there is none.
-  [[nodiscard]] std::string_view line(int number) const;
-  /// Just behind the last character.
-  [[nodiscard]] Position end() const;
-  /// Throws InputError with the file's name.
-  [[noreturn]] void fail(Position position, std::string_view message) const;
-
-  static constexpr std::size_t kSizeLimit = std::size_t{1} << 20;  // bytes
-
- private:
-  void require_utf8() const;
-
-  std::string text_;
-  std::string file_name_;
-  Origin origin_;
-  std::vector<std::string_view> lines_;  // of text_, without the line feeds
-  toml::table root_;
-};
 
 /// A predicate on the number that an interval holds: true only when certain. Called with the rounding mode
 /// held.
@@ -90,7 +53,5 @@ class TomlValue {
   std::string path_;
   std::string_view allowed_;
 };
-
-[[nodiscard]] Position to_position(const toml::source_position& position) noexcept;
 
 }  // namespace veritrack::certificates

@@ -13,11 +13,12 @@ namespace veritrack::theorems {
 /// What Theorem 2.9 says of a design.
 struct Theorem29 {
   /// id "theorem-2.9/printed" or "theorem-2.9/errata"; its quantities are named as in certificate.json, its
-  /// conditions by the thesis's equation numbers ("2.24", "2.25", "2.28", "2.29", "2.43", "2.44", "2.45") or
-  /// by the parameter whose range they state ("sigma", "gamma", "epsilon_r", "epsilon").
+  /// conditions by the thesis's equation numbers ("2.24", "2.25", "2.26", "2.28", "2.29", "2.43", "2.44",
+  /// "2.45") or by the parameter whose range they state ("sigma", "gamma", "epsilon_r", "epsilon").
   Derivation derivation;
   Theorem29Constants constants;
-  /// The theorem's bound on |e(k|k)|: only when every condition is PROVED.
+  /// The theorem's bound on |e(k|k)|: only when every condition is PROVED and its last term is not negative
+  /// (R_x >= beta epsilon_z, which Theorem 2.7 needs and Theorem 2.9 does not mention).
   std::optional<ErrorBound> error_bound;
 };
 

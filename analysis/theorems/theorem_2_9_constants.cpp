@@ -117,8 +117,11 @@ Theorem29Input with_finite_members(const Theorem29Input& input) {
       *member = Interval::empty();
     }
   }
-  if (result.initial_error && !is_finite(*result.initial_error)) {
-    *result.initial_error = Interval::empty();
+  for (std::optional<Interval>* member :
+       {&result.largest_state, &result.process_noise, &result.measurement_noise, &result.initial_error}) {
+    if (*member && !is_finite(**member)) {
+      **member = Interval::empty();
+    }
   }
   return result;
 }

@@ -12,6 +12,8 @@ namespace veritrack::theorems {
 enum class Theorem29Variant { printed, errata };
 
 /// A design of the quadrature tracker, what is assumed of the signal, and the theorem's free parameters.
+/// Section 3.5 takes the signal to be on the unit circle: for a signal of amplitude A give q1/A^2, r/A^2, and
+/// states, errors and measurement noise over A.
 struct Theorem29Input {
   rigor::Interval q1;       ///< process noise variance of the two signal states, signal units squared
   rigor::Interval q2;       ///< process noise variance of the frequency state, (rad/sample)^2
@@ -27,9 +29,14 @@ struct Theorem29Input {
   /// Set when q1 and q2 are known to be the same real number (the same decimal in a design file, say). Two
   /// enclosures, even with the same endpoints, cannot show it, and (2.24) then stays undecided.
   bool q1_equals_q2 = false;
-  /// The largest |e_0| that the assumptions allow (see `largest_initial_error`). Without it (2.45) is
-  /// undecided.
-  std::optional<rigor::Interval> initial_error;
+  /// Enclosures of the largest values that the assumptions on signal and start allow. Without one of them the
+  /// condition that compares it with what the theorem assumes is undecided. Where only an upper bound is
+  /// known, give the interval from a value that occurs up to the bound: a condition is refuted by the lower
+  /// end.
+  std::optional<rigor::Interval> largest_state;      ///< of |x(k)|, for (2.26)
+  std::optional<rigor::Interval> process_noise;      ///< of |w(k)|, w(k) = x(k+1) - f(x(k)), for (2.28)
+  std::optional<rigor::Interval> measurement_noise;  ///< of |v(k)|, for (2.29)
+  std::optional<rigor::Interval> initial_error;      ///< of |e_0|, for (2.45); see `largest_initial_error`
 };
 
 /// The input with every member that is not finite made empty: an unbounded input has to decide nothing, and

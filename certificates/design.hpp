@@ -80,7 +80,8 @@ struct Design {
   Requirements require;
   SimulationSettings simulate;
   Theorem29Parameters theorem_2_9;
-  /// Where the value of each key that the file gives stands, by its path, e.g. "design.q1"; defaults are not in it.
+  /// Where the value of each key that the file gives stands, by its path, e.g. "design.q1"; defaults are not
+  /// in it.
   std::map<std::string, Position> positions;
 };
 

@@ -12,7 +12,6 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -300,8 +299,11 @@ TEST_CASE("whatever the bytes, there is a design or an InputError of one printab
         case 1:
           text.erase(place, 1 + random.below(20));
           break;
-        default:
-          text.insert(place, text.substr(random.below(text.size()), 1 + random.below(20)));
+        default: {
+          const std::size_t source = random.below(text.size());
+          const std::size_t length = 1 + random.below(20);
+          text.insert(place, text.substr(source, length));
+        }
       }
     }
     try {

@@ -132,7 +132,7 @@ Interval enclose(const Reader& reader, const Magnitude& magnitude, int base, cha
   const std::string exponent = letter + std::to_string(written_exponent);
   const double lower = round(magnitude, base, exponent, MPFR_RNDD);
   const double upper = round(magnitude, base, exponent, MPFR_RNDU);
-  const Interval result = Interval::from_bounds(lower, upper);
+  Interval result = Interval::from_bounds(lower, upper);
   reader.require(is_finite(result), "larger than the largest double");
   return result;
 }

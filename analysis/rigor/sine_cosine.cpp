@@ -128,6 +128,7 @@ SineCosine sin_cos_of_point(double x) {
   if (angle > kLargestArgument) {
     return reference_sin_cos(x);
   }
+  // Any integer near will do. NOLINTNEXTLINE(bugprone-incorrect-roundings)
   const auto quarters = static_cast<std::int64_t>(angle * kTwoOverPi + 0.5);
   const Bounds r = reduce(angle, static_cast<double>(quarters));
   const double largest = std::max(-r.low, r.high);

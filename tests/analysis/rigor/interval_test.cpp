@@ -139,7 +139,8 @@ TEST_CASE("powers of points are tight, signs included") {
   CHECK(identical(pow(bounds(-4.0, -2.0), -1), bounds(-0.5, -0.25)));
   CHECK(identical(pow(bounds(-4.0, 2.0), 0), Interval(1.0)));
   CHECK(rigor::is_empty(pow(bounds(0.0, 2.0), -2)));
-  CHECK(identical(pow(Interval(2.0), std::numeric_limits<int>::min()), Interval(1.0) / bounds(kLargest, kInfinity)));
+  CHECK(identical(pow(Interval(2.0), std::numeric_limits<int>::min()),
+                  Interval(1.0) / bounds(kLargest, kInfinity)));
   CHECK(identical(pow(Interval(1.0), std::numeric_limits<int>::min()), Interval(1.0)));
   CHECK(identical(square(bounds(-2.0, 3.0)), bounds(0.0, 9.0)));
 }

@@ -67,7 +67,7 @@ void find_unknown_keys(const toml::table& table, const std::string& table_name,
     }
     const Position position = to_position(key.source().begin);
     if (!first || stands_before(position, first->position)) {
-      first = {table_name.empty() ? name : table_name + "." + name, table_name, position};
+      first = {table_name.empty() ? name : fmt::format("{}.{}", table_name, name), table_name, position};
     }
   }
 }

@@ -37,6 +37,14 @@ theorems::Theorem29Input theorem_input(const Design& design) {
   input.c2 = design.theorem_2_9.c2.value;
   input.q1_equals_q2 =
       assume.amplitude.value == Interval(1.0) && same_number(design.design.q1, design.design.q2);
+  // |w(k)| = |omega(k+1) - (1 - epsilon) omega(k)|: at most the slew plus epsilon |omega|, and at constant
+  // frequency the latter.
+  const Interval largest_frequency =
+      rigor::max(rigor::abs(assume.frequency[0].value), rigor::abs(assume.frequency[1].value));
+  const Interval leaked = design.design.epsilon.value * largest_frequency;
+  input.process_noise = rigor::hull(leaked, leaked + assume.slew.value);
+  input.measurement_noise = assume.noise.value / assume.amplitude.value;
+  input.largest_state = rigor::sqrt(Interval(1.0) + rigor::square(largest_frequency));
   input.initial_error = theorems::largest_initial_error(
       Interval(1.0), assume.initial_amplitude_error.value / assume.amplitude.value,
       assume.initial_phase_error.value, assume.initial_frequency_error.value);

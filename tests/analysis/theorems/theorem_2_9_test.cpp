@@ -6,7 +6,6 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
-#include <tuple>
 
 #include "analysis/rigor/decimal.hpp"
 #include "tests/analysis/theorems/theorem_2_9_designs.hpp"
@@ -119,20 +118,23 @@ TEST_CASE(
 }
 
 TEST_CASE("what is assumed of the signal is compared with what the theorem assumes") {
-  test::TestDesign design = test::table_design(test::kTable32[3]);
-  using Member = std::optional<Interval> theorems::Theorem29Input::*;
-  const double w = 3.0 * std::sqrt(design.q2);
-  const double v = 3.0 * std::sqrt(design.r);
-  const std::array<std::tuple<std::string, Member, double>, 3> comparisons = {
+  const test::TestDesign design = test::table_design(test::kTable32[3]);
+  struct Comparison {
+    std::string id;
+    std::optional<Interval> theorems::Theorem29Input::*member;
+    double bound;
+  };
+  const std::array<Comparison, 3> comparisons = {
       {{"2.26", &theorems::Theorem29Input::largest_state, 7.0},
-       {"2.28", &theorems::Theorem29Input::process_noise, w},
-       {"2.29", &theorems::Theorem29Input::measurement_noise, v}}};
-  for (const auto& [id, member, bound] : comparisons) {
-    CAPTURE(id);
-    const auto verdict = [&, id = id, member = member](const std::optional<Interval>& largest) {
+       {"2.28", &theorems::Theorem29Input::process_noise, 3.0 * std::sqrt(design.q2)},
+       {"2.29", &theorems::Theorem29Input::measurement_noise, 3.0 * std::sqrt(design.r)}}};
+  for (const Comparison& comparison : comparisons) {
+    CAPTURE(comparison.id);
+    const double bound = comparison.bound;
+    const auto verdict = [&](const std::optional<Interval>& largest) {
       auto input = design.input();
-      input.*member = largest;
-      return verdict_of(theorems::evaluate_theorem_2_9(Theorem29Variant::printed, input), id);
+      input.*comparison.member = largest;
+      return verdict_of(theorems::evaluate_theorem_2_9(Theorem29Variant::printed, input), comparison.id);
     };
     CHECK(verdict(std::nullopt) == Verdict::undecided);
     CHECK(verdict(Interval()) == Verdict::undecided);

@@ -31,8 +31,8 @@ test:
 
 lint:
 	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) $(LINT_PACKAGES)
-	cmake --preset release -DVERITRACK_BUILD_TESTS=ON
-	scripts/lint build/release
+	cmake --preset sanitizers
+	scripts/lint build/sanitizers
 
 format:
 	git ls-files -- '*.hpp' '*.cpp' | xargs clang-format -i

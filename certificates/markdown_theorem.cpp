@@ -168,7 +168,11 @@ std::string conditions_section(const Certificate& certificate) {
   for (const auto& derivation : certificate.derivations) {
     text += fmt::format("### {}: {}\n\n", derivation.title, markdown::verdict(derivation.verdict));
     std::vector<std::vector<std::string>> rows;
-    for (const auto& condition : derivation.conditions) {
+    std::vector<theorems::Condition> conditions = derivation.conditions;
+    std::stable_partition(conditions.begin(), conditions.end(), [](const theorems::Condition& condition) {
+      return condition.verdict != rigor::Verdict::proved;  // what fails is what the reader looks for
+    });
+    for (const auto& condition : conditions) {
       const bool evaluated = !rigor::is_empty(condition.lhs);
       rows.push_back({condition_name(condition.id), math(condition.statement),
                       evaluated ? markdown::enclosure(condition.lhs) : "—",

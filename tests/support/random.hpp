@@ -1,4 +1,5 @@
-// Random test inputs: a fixed seed, printed with every failure, and an effort multiplier from the environment.
+// Random test inputs: a fixed seed, printed with every failure, and an effort multiplier from the
+// environment.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,8 @@ namespace veritrack::test {
 /// The seed of all property tests. Change it in the source, not from outside: a failure must be repeatable.
 inline constexpr std::uint64_t kSeed = 20261121;
 
-/// `count` times the environment variable VERITRACK_TEST_EFFORT (a positive real; 1 when unset or unreadable).
+/// `count` times the environment variable VERITRACK_TEST_EFFORT (a positive real; 1 when unset or
+/// unreadable).
 inline std::int64_t effort(std::int64_t count) {
   const char* text = std::getenv("VERITRACK_TEST_EFFORT");
   const double factor = text != nullptr ? std::strtod(text, nullptr) : 1.0;

@@ -2,13 +2,15 @@
 
 #include <cstdint>
 
+#include "analysis/rigor/sine_cosine_constants.hpp"
+
 namespace veritrack::rigor::detail {
 
 // The integers below are converted by truncation, which no rounding mode changes.
 
 bool may_contain_quarter_turn(const Interval& x, int residue, int modulus) {
   constexpr double kExactlyConvertible = 0x1p+51;
-  const Interval two_over_pi = Interval::from_bounds(0x1.45f306dc9c882p-1, 0x1.45f306dc9c883p-1);
+  const Interval two_over_pi = Interval::from_bounds(kTwoOverPi.low, kTwoOverPi.high);
   const Interval turns = x * two_over_pi;  // holds n whenever x holds n pi/2
   const bool small = magnitude(turns) < kExactlyConvertible;
   if (!small) {

@@ -20,57 +20,28 @@
 // Wide intervals: between two multiples of pi/2 both functions are monotone, so that their range is the hull
 // of the values at the endpoints and of each extremum +-1 that the interval holds. One that it only may hold
 // is counted in.
-#include <array>
 #include <cstdint>
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/mpfr_reference.hpp"
 #include "analysis/rigor/quarter_turns.hpp"
+#include "analysis/rigor/sine_cosine_constants.hpp"
 
 namespace veritrack::rigor {
 
 namespace {
 
 using SineCosine = std::pair<Interval, Interval>;
-
-/// Bounds on one real number.
-struct Bounds {
-  double low;
-  double high;
-};
+using detail::Bounds;
+using detail::Coefficients;
+using detail::kHalfPi1;
+using detail::kHalfPi2;
+using detail::kHalfPi3;
+using detail::kTerms;
 
 constexpr double kLargestArgument = 0x1p+20;
 constexpr double kLargestReduced = 0.8125;  // pi/4 and some slack; its square is below 1
 constexpr double kNarrowRadius = 0x1p-10;
-
-constexpr double kHalfPi1 = 0x1.921fb544p+0;
-constexpr double kHalfPi2 = 0x1.0b4611a6p-34;
-constexpr Bounds kHalfPi3{0x1.3198a2e037073p-69, 0x1.3198a2e037074p-69};
-
-constexpr int kTerms = 9;
-using Coefficients = std::array<Bounds, kTerms>;
-
-/// 1/3!, 1/5!, ..., 1/19!
-constexpr Coefficients kSineCoefficients{{{0x1.5555555555555p-3, 0x1.5555555555556p-3},
-                                          {0x1.1111111111111p-7, 0x1.1111111111112p-7},
-                                          {0x1.a01a01a01a01ap-13, 0x1.a01a01a01a01bp-13},
-                                          {0x1.71de3a556c733p-19, 0x1.71de3a556c734p-19},
-                                          {0x1.ae64567f544e3p-26, 0x1.ae64567f544e4p-26},
-                                          {0x1.6124613a86d09p-33, 0x1.6124613a86d0ap-33},
-                                          {0x1.ae7f3e733b81fp-41, 0x1.ae7f3e733b820p-41},
-                                          {0x1.952c77030ad4ap-49, 0x1.952c77030ad4bp-49},
-                                          {0x1.2f49b46814157p-57, 0x1.2f49b46814158p-57}}};
-
-/// 1/2!, 1/4!, ..., 1/18!
-constexpr Coefficients kCosineCoefficients{{{0x1p-1, 0x1p-1},
-                                            {0x1.5555555555555p-5, 0x1.5555555555556p-5},
-                                            {0x1.6c16c16c16c16p-10, 0x1.6c16c16c16c17p-10},
-                                            {0x1.a01a01a01a01ap-16, 0x1.a01a01a01a01bp-16},
-                                            {0x1.27e4fb7789f5cp-22, 0x1.27e4fb7789f5dp-22},
-                                            {0x1.1eed8eff8d897p-29, 0x1.1eed8eff8d898p-29},
-                                            {0x1.93974a8c07c9dp-37, 0x1.93974a8c07c9ep-37},
-                                            {0x1.ae7f3e733b81fp-45, 0x1.ae7f3e733b820p-45},
-                                            {0x1.6827863b97d97p-53, 0x1.6827863b97d98p-53}}};
 
 /// u (c1 - u (c2 - ... - u (c8 - u t))) for 0 <= u < 1 and t in [0, c9].
 Bounds alternating_series(const Bounds& u, const Coefficients& coefficients) {
@@ -123,13 +94,12 @@ SineCosine turned(const SineCosine& reduced, std::int64_t quarters) {
 
 /// (sin x, cos x) of a finite point.
 SineCosine sin_cos_of_point(double x) {
-  constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
   const double angle = std::fabs(x);
   if (angle > kLargestArgument) {
     return reference_sin_cos(x);
   }
   // Any integer near will do. NOLINTNEXTLINE(bugprone-incorrect-roundings)
-  const auto quarters = static_cast<std::int64_t>(angle * kTwoOverPi + 0.5);
+  const auto quarters = static_cast<std::int64_t>(angle * detail::kTwoOverPi.high + 0.5);
   const Bounds r = reduce(angle, static_cast<double>(quarters));
   const double largest = std::max(-r.low, r.high);
   const bool is_reduced = r.low <= r.high && largest <= kLargestReduced;
@@ -138,8 +108,8 @@ SineCosine sin_cos_of_point(double x) {
   }
   const double smallest = std::max(0.0, std::max(r.low, -r.high));
   const Bounds u{mul_down(smallest, smallest), mul_up(largest, largest)};
-  const Interval sine = diminished(r, alternating_series(u, kSineCoefficients));
-  const Interval cosine = diminished({1.0, 1.0}, alternating_series(u, kCosineCoefficients));
+  const Interval sine = diminished(r, alternating_series(u, detail::kSineCoefficients));
+  const Interval cosine = diminished({1.0, 1.0}, alternating_series(u, detail::kCosineCoefficients));
   SineCosine result = turned({sine, cosine}, quarters);
   if (x < 0.0) {
     result.first = -result.first;

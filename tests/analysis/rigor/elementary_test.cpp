@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include "analysis/rigor/sine_cosine_constants.hpp"
 #include "tests/analysis/rigor/mpfr_oracle.hpp"
 #include "tests/analysis/rigor/operands.hpp"
 
@@ -69,6 +70,42 @@ TEST_CASE("pi is the tightest interval around the circle constant") {
   CHECK(rigor::pi().lower() == circle_constant.rounded_down());
   CHECK(rigor::pi().upper() == circle_constant.rounded_up());
   CHECK(identical(rigor::pi(), upward([] { return rigor::pi(); })));
+}
+
+TEST_CASE("the constants behind sin and cos are the tightest bounds on what they stand for") {
+  const auto is_tightest = [](const rigor::detail::Bounds& bounds_of_constant, const Oracle& constant) {
+    return bounds_of_constant.low == constant.rounded_down() &&
+           bounds_of_constant.high == constant.rounded_up();
+  };
+  Oracle circle_constant(400);
+  Oracle factor(400);
+  Oracle constant(400);
+  circle_constant.evaluate(mpfr_const_pi);
+  factor = 2.0;
+  constant.evaluate(mpfr_div, factor.value(), circle_constant.value());
+  CHECK(is_tightest(rigor::detail::kTwoOverPi, constant));
+
+  constant.evaluate(mpfr_div, circle_constant.value(), factor.value());
+  for (const double part : {rigor::detail::kHalfPi1, rigor::detail::kHalfPi2}) {
+    CHECK(std::ldexp(part, 32 - std::ilogb(part)) ==
+          std::floor(std::ldexp(part, 32 - std::ilogb(part))));  // 33 bits
+    factor = part;
+    constant.evaluate(mpfr_sub, constant.value(), factor.value());  // exact to far beyond double
+  }
+  CHECK(is_tightest(rigor::detail::kHalfPi3, constant));
+
+  for (unsigned int term = 0; term < rigor::detail::kTerms; ++term) {
+    CAPTURE(term);
+    factor = 1.0;
+    constant.evaluate(
+        [&](mpfr_ptr result, mpfr_rnd_t mode) { return mpfr_fac_ui(result, 2 * term + 3, mode); });
+    constant.evaluate(mpfr_div, factor.value(), constant.value());
+    CHECK(is_tightest(rigor::detail::kSineCoefficients[term], constant));
+    constant.evaluate(
+        [&](mpfr_ptr result, mpfr_rnd_t mode) { return mpfr_fac_ui(result, 2 * term + 2, mode); });
+    constant.evaluate(mpfr_div, factor.value(), constant.value());
+    CHECK(is_tightest(rigor::detail::kCosineCoefficients[term], constant));
+  }
 }
 
 TEST_CASE("sin, cos and sin_cos hold every value") {

@@ -46,9 +46,9 @@ struct Certificate {
 /// "proved", "refuted", "undecided", or "nothing-required".
 [[nodiscard]] std::string verdict_text(const Certificate& certificate);
 
-/// Evaluates everything that can be said of the design. `design_text` is the file's text and `design_file` its
-/// name without folders, for the documents. Opens its own rounding scope. Throws std::invalid_argument for a
-/// tracker that is not known.
+/// Evaluates everything that can be said of the design. `design_text` is the file's text and `design_file`
+/// its name without folders, for the documents. Opens its own rounding scope. Throws std::invalid_argument
+/// for a tracker that is not known.
 [[nodiscard]] Certificate certify(const Design& design, const std::string& design_file,
                                   const std::string& design_text);
 

@@ -20,7 +20,7 @@ std::filesystem::path write_certificate_files(const certificates::Certificate& c
   if (!options.figures.empty()) {
     options.drawn_with = gnuplot_version();
   }
-  const std::filesystem::path document = directory / "certificate.md";
+  std::filesystem::path document = directory / "certificate.md";
   files.stage(document, certificates::to_markdown(certificate, options));
   files.stage(directory / "certificate.json", certificates::to_json(certificate));
   files.commit();

@@ -85,6 +85,7 @@ inline constexpr std::array<SignalDescription, 4> kSignals{{
 /// The names of all signals, in the order of kSignals.
 [[nodiscard]] inline std::vector<std::string> signal_names() {
   std::vector<std::string> names;
+  names.reserve(kSignals.size());
   for (const SignalDescription& signal : kSignals) {
     names.emplace_back(signal.name);
   }

@@ -69,7 +69,7 @@ TEST_CASE("a given covariance is taken in the frame of the estimated phase") {
   const auto design = test::design(
       {{"initial_phase_error = 0.005",
         "initial_phase_error = 0.25\ninitial_covariance = [[2, 0, 0], [0, 1, 0.5], [0, 0.5, 1]]"}});
-  const auto& start = certificates::simulate(design).trajectory.front();
+  const theorems::TrajectoryRecord start = certificates::simulate(design).trajectory.front();
   // Along the estimate itself the variance is the 2 of the radial direction.
   const Eigen::Vector2d radial = start.filtered_state.head<2>().normalized();
   CHECK(radial.dot(start.filtered_covariance.topLeftCorner<2, 2>() * radial) == doctest::Approx(2.0));

@@ -1,0 +1,40 @@
+// What a set of starts must reach to count as captured.
+#pragma once
+
+#include <optional>
+
+#include "analysis/contraction/capture_enclosure.hpp"
+#include "analysis/contraction/certified_set.hpp"
+
+namespace veritrack::contraction {
+
+/// A set of states, of amplitude 1 in the frame of the true phase (trackers/quadrature_rotating_frame.hpp),
+/// that the tracker is known never to leave.
+class CaptureTarget {
+ public:
+  CaptureTarget() = default;
+  virtual ~CaptureTarget() = default;
+  CaptureTarget(const CaptureTarget&) = delete;
+  CaptureTarget& operator=(const CaptureTarget&) = delete;
+  CaptureTarget(CaptureTarget&&) = delete;
+  CaptureTarget& operator=(CaptureTarget&&) = delete;
+
+  /// The integer k when it is certain that every state of the enclosure, with 2 pi k subtracted from its
+  /// frequency error, lies in the set: k = 0 is capture, another k is a lock at a wrong frequency. Nothing
+  /// otherwise. Needs the upward mode. Called from several threads at once.
+  [[nodiscard]] virtual std::optional<int> settled(const StateEnclosure& states) const = 0;
+};
+
+/// The certified set of the polar frame. The shift by 2 pi k is looked for only when `periodic`, which holds
+/// for epsilon = 0: the frequency error then acts through its sine and cosine alone.
+class CertifiedSetTarget final : public CaptureTarget {
+ public:
+  CertifiedSetTarget(const CertifiedSet& set, bool periodic) : set_(set), periodic_(periodic) {}
+  [[nodiscard]] std::optional<int> settled(const StateEnclosure& states) const override;
+
+ private:
+  CertifiedSet set_;
+  bool periodic_;
+};
+
+}  // namespace veritrack::contraction

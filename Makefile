@@ -45,9 +45,9 @@ sanitize:
 
 fuzz:
 	@scripts/install-packages $(BUILD_PACKAGES) $(FUZZ_PACKAGES)
-	cmake --preset fuzz
-	cmake --build --preset fuzz --parallel $(JOBS)
-	scripts/fuzz build/fuzz $(FUZZ_SECONDS)
+	cmake --preset sanitizers -DVERITRACK_BUILD_FUZZERS=ON
+	cmake --build --preset sanitizers --parallel $(JOBS) --target fuzzers
+	scripts/fuzz build/sanitizers $(FUZZ_SECONDS)
 
 bench:
 	@scripts/install-packages $(BUILD_PACKAGES) $(BENCH_PACKAGES)

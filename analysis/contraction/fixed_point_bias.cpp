@@ -12,11 +12,11 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using Tube = FixedPointTube<QuadratureLoop::kStates>;
-using State = rigor::IntervalVector<QuadratureLoop::kStates>;
+using Tube = FixedPointTube<QuadraturePolarLoop::kStates>;
+using State = rigor::IntervalVector<QuadraturePolarLoop::kStates>;
 
 /// An approximate solution of the filter's Riccati equation at frequency error 0, by iteration from r I.
-rigor::Vector<6> propose_covariance(const LockedCovarianceLoop& loop) {
+rigor::Vector<6> propose_covariance(const LockedCovarianceLoop<QuadraturePolarLoop>& loop) {
   constexpr int kIterations = 20000;
   const rigor::NearestRounding nearest;
   const double r = midpoint(loop.loop.design.r);
@@ -36,24 +36,22 @@ rigor::Vector<6> propose_covariance(const LockedCovarianceLoop& loop) {
 }
 
 bool covariance_is_positive_definite(const State& state) {
-  using trackers::kP11, trackers::kP12, trackers::kP13, trackers::kP22, trackers::kP23, trackers::kP33;
   rigor::IntervalMatrix<3> p;
-  p << state[kP11], state[kP12], state[kP13], state[kP12], state[kP22], state[kP23], state[kP13], state[kP23],
-      state[kP33];
+  p << state[3], state[4], state[5], state[4], state[6], state[7], state[5], state[7], state[8];
   return rigor::is_positive_definite(p) == Verdict::proved;
 }
 
 /// An enclosure of the fixed point without error at omega = 0. That the error is zero there is part of what
 /// is verified: G takes the box (0, P) to a state whose first three entries are exactly zero. And it is the
 /// filter's: P is positive definite, of which the Riccati equation has only one.
-std::optional<State> verify_origin(const QuadratureLoop& loop) {
-  const LockedCovarianceLoop covariance_loop{loop};
+std::optional<State> verify_origin(const QuadraturePolarLoop& loop) {
+  const LockedCovarianceLoop<QuadraturePolarLoop> covariance_loop{loop};
   const auto covariance =
       verify_fixed_point(covariance_loop, propose_covariance(covariance_loop), Interval(0.0));
   if (!covariance) {
     return std::nullopt;
   }
-  const State origin = LockedCovarianceLoop::without_error<Interval>(covariance->box());
+  const State origin = LockedCovarianceLoop<QuadraturePolarLoop>::without_error<Interval>(covariance->box());
   const Column<Interval, 3> quiet = Column<Interval, 3>::Constant(Interval(0.0));
   const State image = loop(origin, Interval(0.0), quiet);
   for (int i = 0; i < 3; ++i) {
@@ -70,7 +68,7 @@ std::optional<State> verify_origin(const QuadratureLoop& loop) {
 
 /// Follows the branch from 0 through `first` to `last` (both on the same side of 0, `last` the farther one)
 /// and keeps the cells beyond `first`. The frequency reached.
-double follow_side(const QuadratureLoop& loop, const State& origin, double first, double last,
+double follow_side(const QuadraturePolarLoop& loop, const State& origin, double first, double last,
                    const BranchSteps& steps, std::vector<Tube>& kept) {
   State start = origin;
   if (first != 0.0) {
@@ -113,7 +111,7 @@ LockBranch verify_lock_branch(const trackers::QuadratureEkfDesign<Interval>& des
     branch.reason = "a design value or the frequency band is not finite";
     return branch;
   }
-  const QuadratureLoop loop{design};
+  const QuadraturePolarLoop loop{design};
   const std::optional<State> origin = verify_origin(loop);
   if (!origin) {
     branch.reason = "no isolated positive definite steady-state covariance could be verified at frequency 0";
@@ -159,10 +157,7 @@ LockBranch verify_lock_branch(const trackers::QuadratureEkfDesign<Interval>& des
 
 SteadyStateError steady_state_error(const Tube& cell) {
   const State state = cell.box();
-  const Interval in_phase = Interval(1.0) + state[trackers::kDeltaInPhase];
-  const Interval quadrature = state[trackers::kDeltaQuadrature];
-  return {cell.parameter, state[trackers::kFrequencyError], atan2(quadrature, in_phase),
-          sqrt(square(in_phase) + square(quadrature)) - Interval(1.0)};
+  return {cell.parameter, state[2], state[1], state[0]};
 }
 
 theorems::Quantity frequency_bias(const LockBranch& branch) {

@@ -2,7 +2,7 @@
 // and so its bias.
 //
 // Without a leak (epsilon = 0) it settles on the truth at every frequency. With a leak the prediction pulls
-// the frequency towards zero, and the steady state is a fixed point X*(omega) of the rotating-frame map away
+// the frequency towards zero, and the steady state is a fixed point X*(omega) of the polar-frame map away
 // from the truth. That map has several fixed points; the one meant is on the lock branch, which starts at
 // omega = 0 from the exact estimate.
 #pragma once
@@ -22,8 +22,8 @@ namespace veritrack::contraction {
 struct SteadyStateError {
   rigor::Interval frequency;        ///< the true frequencies covered, rad/sample
   rigor::Interval frequency_error;  ///< nu*, rad/sample
-  rigor::Interval phase_error;      ///< arg(1 + delta*), rad
-  rigor::Interval amplitude_error;  ///< |1 + delta*| - 1, relative to the amplitude
+  rigor::Interval phase_error;      ///< psi*, rad
+  rigor::Interval amplitude_error;  ///< a*, relative to the amplitude
 };
 
 /// The lock branch over a band of frequencies.
@@ -36,7 +36,7 @@ struct LockBranch {
   /// Frequencies over which the branch is verified, within [0, band] or [band, 0] or both; empty when there
   /// is none.
   rigor::Interval verified;
-  std::vector<FixedPointTube<QuadratureLoop::kStates>> cells;  ///< the part of it that covers the band
+  std::vector<FixedPointTube<QuadraturePolarLoop::kStates>> cells;  ///< the part of it that covers the band
 };
 
 /// Verifies the lock branch over `band` (rad/sample), for every design in `design` and amplitude 1. Holds its
@@ -45,7 +45,7 @@ struct LockBranch {
                                             const rigor::Interval& band, const BranchSteps& steps = {});
 
 /// The steady state of one cell. Needs the upward mode.
-[[nodiscard]] SteadyStateError steady_state_error(const FixedPointTube<QuadratureLoop::kStates>& cell);
+[[nodiscard]] SteadyStateError steady_state_error(const FixedPointTube<QuadraturePolarLoop::kStates>& cell);
 
 /// The quantity "bias_frequency": an enclosure of nu*(omega) for all omega of the band; not applicable, with
 /// the branch's reason, unless the branch is PROVED. Holds its own rounding mode.

@@ -1,9 +1,10 @@
-// The quadrature tracker in the rotating frame as a closed loop of fixed_point.hpp; the parameter is the
-// signal's frequency omega, rad/sample.
+// The quadrature tracker as a closed loop of fixed_point.hpp, in the rotating frame and in the polar frame;
+// the parameter is the signal's frequency omega, rad/sample.
 #pragma once
 
 #include "analysis/contraction/fixed_point.hpp"
 #include "analysis/rigor/dual.hpp"
+#include "trackers/quadrature_polar_frame.hpp"
 #include "trackers/quadrature_rotating_frame.hpp"
 
 namespace veritrack::contraction {
@@ -39,7 +40,7 @@ template <typename Scalar>
 
 /// X+ = G(X; v', w, omega) of trackers/quadrature_rotating_frame.hpp for a signal of amplitude 1: nine
 /// states, the noise v' in the plane, and the slew w of the frequency.
-struct QuadratureLoop {
+struct QuadratureRotatingLoop {
   static constexpr int kStates = 9;
   static constexpr int kNoises = 2;
 
@@ -54,19 +55,49 @@ struct QuadratureLoop {
   }
 };
 
-/// The covariance of QuadratureLoop while the estimate is exact: the six entries of P, with delta = nu = 0 at
-/// the frequency 0, where exactness lasts (the innovation is zero).
+/// The same closed loop in the polar frame of trackers/quadrature_polar_frame.hpp: the state is (a, psi, nu,
+/// P11, P12, P13, P22, P23, P33), and the noise is turned into the frame of the predicted phase.
+struct QuadraturePolarLoop {
+  static constexpr int kStates = 9;
+  static constexpr int kNoises = 2;
+
+  trackers::QuadratureEkfDesign<rigor::Interval> design;
+
+  template <typename Scalar>
+  [[nodiscard]] Column<Scalar, kStates> operator()(const Column<Scalar, kStates>& state,
+                                                   const Scalar& frequency,
+                                                   const Column<Scalar, kNoises + 1>& disturbance) const {
+    const trackers::PolarFrameState<Scalar> next = trackers::polar_frame_map<Scalar>(
+        {{state[0], state[1], state[2]}, {state[3], state[4], state[5], state[6], state[7], state[8]}},
+        {disturbance[0], disturbance[1], disturbance[2], frequency}, detail::embed<Scalar>(design));
+    Column<Scalar, kStates> result;
+    result[0] = next.error.amplitude;
+    result[1] = next.error.phase;
+    result[2] = next.error.frequency;
+    result[3] = next.covariance.p11;
+    result[4] = next.covariance.p12;
+    result[5] = next.covariance.p13;
+    result[6] = next.covariance.p22;
+    result[7] = next.covariance.p23;
+    result[8] = next.covariance.p33;
+    return result;
+  }
+};
+
+/// The covariance while the estimate is exact: the six entries of P, with no error at the frequency 0, where
+/// exactness lasts (the innovation is zero). `Loop` is one of the two above.
+template <typename Loop>
 struct LockedCovarianceLoop {
   static constexpr int kStates = 6;
   static constexpr int kNoises = 0;
 
-  QuadratureLoop loop;
+  Loop loop;
 
   /// X with no error and this covariance.
   template <typename Scalar>
-  [[nodiscard]] static Column<Scalar, QuadratureLoop::kStates> without_error(
+  [[nodiscard]] static Column<Scalar, Loop::kStates> without_error(
       const Column<Scalar, kStates>& covariance) {
-    Column<Scalar, QuadratureLoop::kStates> state;
+    Column<Scalar, Loop::kStates> state;
     for (int i = 0; i < 3; ++i) {
       state[i] = Scalar(0.0);
     }
@@ -81,7 +112,7 @@ struct LockedCovarianceLoop {
                                                    const Scalar& /*parameter*/,
                                                    const Column<Scalar, 1>& /*disturbance*/) const {
     const Column<Scalar, 3> quiet = Column<Scalar, 3>::Constant(Scalar(0.0));
-    const Column<Scalar, QuadratureLoop::kStates> image = loop(without_error(covariance), Scalar(0.0), quiet);
+    const Column<Scalar, Loop::kStates> image = loop(without_error(covariance), Scalar(0.0), quiet);
     Column<Scalar, kStates> next;
     for (int i = 0; i < kStates; ++i) {
       next[i] = image[3 + i];

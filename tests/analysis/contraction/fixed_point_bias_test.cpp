@@ -104,7 +104,7 @@ TEST_CASE("the bias encloses where the textbook filter settles in simulation") {
       const Settled settled = settle(q, q, std::stod(row.r), std::stod(row.epsilon), frequency);
       largest = std::max(largest, std::fabs(settled.frequency_error));
       const auto& cell = cell_at(branch, frequency);
-      const Interval nu = cell.at(Interval(frequency))[trackers::kFrequencyError];
+      const Interval nu = cell.at(Interval(frequency))[2];
       CHECK(nu.lower() <= settled.frequency_error + 1e-8);
       CHECK(nu.upper() >= settled.frequency_error - 1e-8);
       CHECK(width(nu) <= 2e-3);
@@ -142,6 +142,31 @@ TEST_CASE("near frequency 0 the bias is the linear estimate, and without a leak 
                                                  Interval::from_bounds(-3.0, 3.0));
     REQUIRE(without_leak.verdict == Verdict::proved);
     CHECK(magnitude(frequency_bias(without_leak).value) <= 1e-12);
+  }
+}
+
+TEST_CASE("the rotating frame has the same steady state") {
+  const UpwardRounding upward;
+  const auto design = design_of("0.0013", "0.0013", "0.01", "0.05");
+  const auto branch = verify_lock_branch(design, Interval::from_bounds(0.5, 2.5));
+  REQUIRE(branch.verdict == Verdict::proved);
+  for (const auto& cell : branch.cells) {
+    const rigor::Vector<9> polar = cell.center;
+    const double frequency = cell.parameter_center;
+    // delta = (1 + a) e^{i psi} - 1 and P turned by psi.
+    Eigen::Matrix3d p;
+    p << polar[3], polar[4], polar[5], polar[4], polar[6], polar[7], polar[5], polar[7], polar[8];
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    turn.topLeftCorner<2, 2>() << std::cos(polar[1]), -std::sin(polar[1]), std::sin(polar[1]),
+        std::cos(polar[1]);
+    p = (turn * p * turn.transpose()).eval();
+    rigor::Vector<9> start;
+    start << (1 + polar[0]) * std::cos(polar[1]) - 1, (1 + polar[0]) * std::sin(polar[1]), polar[2], p(0, 0),
+        p(0, 1), p(0, 2), p(1, 1), p(1, 2), p(2, 2);
+    const auto rotating = verify_fixed_point(QuadratureRotatingLoop{design}, start, Interval(frequency));
+    REQUIRE(rotating.has_value());
+    CHECK((midpoint(rotating->box()) - start).norm() <= 1e-9);
+    CHECK(contains(cell.at(Interval(frequency))[2], midpoint(rotating->box()[2])));
   }
 }
 

@@ -17,37 +17,42 @@ using rigor::Interval;
 using rigor::TaylorModel;
 
 constexpr int kDegree = 5;
+constexpr int kSlopeDegree = 2;
 constexpr int kInputs = 3;  // noise in phase, noise in quadrature, slew
 /// Deviations this large (relative amplitude, rad/sample) are beyond all hope.
 constexpr double kLargestDeviation = 0.5;
 
-template <typename Scalar>
+template <typename Scalar, typename Constant = Scalar>
 trackers::QuadratureEkfDesign<Scalar> embedded(const trackers::QuadratureEkfDesign<Interval>& design) {
-  return {Scalar(design.q1), Scalar(design.q2), Scalar(design.r), Scalar(design.epsilon)};
+  return {Scalar(Constant(design.q1)), Scalar(Constant(design.q2)), Scalar(Constant(design.r)),
+          Scalar(Constant(design.epsilon))};
 }
 
-/// The derivatives of G for all states in the box and all inputs that are allowed: first the nine of the
-/// state, and after them those of the inputs, when there are any.
-template <int Columns>
-rigor::IntervalMatrix<kStateSize, Columns> derivatives(const CaptureProblem& problem, const StateBox& box) {
-  using Scalar = Dual<Interval, Columns>;
+/// The derivatives of G for all states described and all inputs that are allowed: first the nine of the
+/// state, and after them those of the inputs, when there are any. Taylor models of low degree, as dependences
+/// between the states that intervals forget decide how wide this is.
+template <int Columns, typename Model>
+rigor::IntervalMatrix<kStateSize, Columns> derivatives(const CaptureProblem& problem,
+                                                       const trackers::RotatingFrameState<Model>& states) {
+  using Scalar = Dual<Model, Columns>;
   trackers::RotatingFrameState<Scalar> state;
   for (int i = 0; i < kStateSize; ++i) {
-    state[i] = rigor::variable<Columns>(box[i], i);
+    state[i] = rigor::variable<Columns>(states[i], i);
   }
   trackers::RotatingFrameInput<Scalar> input{Scalar(0.0), Scalar(0.0), Scalar(0.0),
-                                             Scalar(problem.frequency)};
+                                             Scalar(Model(problem.frequency))};
   if constexpr (Columns == kStateSize + kInputs) {
-    input.noise_in_phase = rigor::variable<Columns>(rigor::symmetric(problem.noise), kStateSize);
-    input.noise_quadrature = rigor::variable<Columns>(rigor::symmetric(problem.noise), kStateSize + 1);
-    input.slew = rigor::variable<Columns>(rigor::symmetric(problem.slew), kStateSize + 2);
+    const Model noise(rigor::symmetric(problem.noise));
+    input.noise_in_phase = rigor::variable<Columns>(noise, kStateSize);
+    input.noise_quadrature = rigor::variable<Columns>(noise, kStateSize + 1);
+    input.slew = rigor::variable<Columns>(Model(rigor::symmetric(problem.slew)), kStateSize + 2);
   }
   const trackers::RotatingFrameState<Scalar> next =
-      trackers::rotating_frame_map<Scalar>(state, input, embedded<Scalar>(problem.design));
+      trackers::rotating_frame_map<Scalar>(state, input, embedded<Scalar, Model>(problem.design));
   rigor::IntervalMatrix<kStateSize, Columns> slopes;
   for (int i = 0; i < kStateSize; ++i) {
     for (int j = 0; j < Columns; ++j) {
-      slopes(i, j) = next[i].derivative(j);
+      slopes(i, j) = next[i].derivative(j).range();
     }
   }
   return slopes;
@@ -115,11 +120,15 @@ class FollowedStarts {
 
   /// One sample on.
   void step(const CaptureProblem& problem, const trackers::QuadratureEkfDesign<Model>& design) {
-    const StateBox box = hull();
+    const StateVector deviation = rest_.radii();
+    trackers::RotatingFrameState<TaylorModel<kVariables, kSlopeDegree>> states;
+    for (int i = 0; i < kStateSize; ++i) {
+      states[i] = state_[i].template lowered<kSlopeDegree>().widened(deviation[i]);
+    }
     if (problem.noise == 0.0 && problem.slew == 0.0) {
-      rest_.transform(derivatives<kStateSize>(problem, box));
+      rest_.transform(derivatives<kStateSize>(problem, states));
     } else {
-      const auto slopes = derivatives<kStateSize + kInputs>(problem, box);
+      const auto slopes = derivatives<kStateSize + kInputs>(problem, states);
       rest_.transform(slopes.template leftCols<kStateSize>());
       const rigor::IntervalVector<kInputs> inputs(
           rigor::symmetric(problem.noise), rigor::symmetric(problem.noise), rigor::symmetric(problem.slew));

@@ -77,6 +77,30 @@ class TaylorModel {
     return result;
   }
 
+  /// The same functions in terms of fewer monomials: those of higher degree go into the remainder.
+  template <int LowerDegree>
+  [[nodiscard]] TaylorModel<Variables, LowerDegree> lowered() const {
+    static_assert(LowerDegree <= Degree);
+    using Lower = TaylorModel<Variables, LowerDegree>;
+    Lower result(0.0);
+    double cut_off = remainder_;
+    for (std::size_t i = 0; i < kTerms; ++i) {
+      if (i < Lower::kTerms) {
+        result.coefficients_[i] = coefficients_[i];
+      } else {
+        cut_off += std::fabs(coefficients_[i]);
+      }
+    }
+    result.remainder_ = enlarged(cut_off);
+    return result;
+  }
+  /// The same functions, and all others within `distance` (>= 0) of one of them.
+  [[nodiscard]] TaylorModel widened(double distance) const {
+    TaylorModel result = *this;
+    result.remainder_ = enlarged(remainder_ + distance);
+    return result;
+  }
+
   /// Encloses all values on [-1, 1]^Variables. Not finite when nothing is known.
   [[nodiscard]] Interval range() const { return range_from(1) + Interval(coefficients_[0]); }
   /// Encloses the values of everything beyond the linear terms, the remainder included.
@@ -154,6 +178,10 @@ class TaylorModel {
     return x.composed(slopes, rest.upper());
   }
 
+  // What Dual asks of its scalar.
+  [[nodiscard]] friend bool is_known(const TaylorModel& x) noexcept { return !std::isnan(x.remainder_); }
+  friend void make_unknown(TaylorModel& x) noexcept { x = TaylorModel(); }
+
   friend TaylorModel square(const TaylorModel& x) { return x * x; }
 
   /// (sin x, cos x), x in rad.
@@ -174,6 +202,8 @@ class TaylorModel {
   }
 
  private:
+  template <int, int>
+  friend class TaylorModel;
   static constexpr std::size_t kSlopes = static_cast<std::size_t>(Degree) + 1;
   static constexpr double kRoundingOfSum = 0x1p-51;      // one rounding, in terms of the rounded result
   static constexpr double kRoundingOfProduct = 0x1p-43;  // up to kTerms roundings, in terms of the operands

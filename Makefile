@@ -3,10 +3,12 @@
 #   make test          the same for the tests
 # and the ones that continuous integration adds: make lint, make sanitize, make fuzz; and make bench.
 
+MAKEFLAGS += --no-print-directory
+
 BUILD_PACKAGES := g++ cmake make pkg-config libeigen3-dev libboost-dev coinor-libipopt-dev libnlopt-cxx-dev \
   libmpfr-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
-TEST_PACKAGES  := doctest-dev python3-jsonschema clang
+TEST_PACKAGES  := doctest-dev python3-jsonschema clang git
 LINT_PACKAGES  := clang-format clang-tidy git
 FUZZ_PACKAGES  := clang libclang-rt-14-dev doctest-dev
 BENCH_PACKAGES := libbenchmark-dev libmpfi-dev

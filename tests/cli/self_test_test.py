@@ -1,0 +1,47 @@
+"""A machine whose arithmetic cannot be trusted gets no certificate: exit status 3."""
+
+import os
+import subprocess
+import unittest
+
+from support import DESIGN, CliTestCase
+
+# What -ffast-math on a link line does to a process: denormal numbers are flushed from the start.
+SABOTAGE = """
+#include <immintrin.h>
+__attribute__((constructor)) static void sabotage(void) { _mm_setcsr(_mm_getcsr() | CONTROL); }
+"""
+
+CONTROLS = {"flush-to-zero": "0x8000", "denormals-are-zero": "0x0040", "rounding towards zero": "0x6000"}
+
+
+class SelfTest(CliTestCase):
+    def setUp(self):
+        super().setUp()
+        self.write(DESIGN)
+        self.write(SABOTAGE, "sabotage.c")
+
+    def run_sabotaged(self, control, *arguments):
+        library = self.folder / "sabotage.so"
+        subprocess.run(["gcc", "-shared", "-fPIC", f"-DCONTROL={control}", "-o", library, self.folder / "sabotage.c"],
+                       check=True)
+        # The address sanitizer, where it is on, wants to be first in line.
+        environment = {**os.environ, "LD_PRELOAD": str(library), "ASAN_OPTIONS": "verify_asan_link_order=0"}
+        return self.run_here(*arguments, env=environment)
+
+    def test_a_broken_machine_is_refused(self):
+        for what, control in CONTROLS.items():
+            for command in ("certify", "check"):
+                with self.subTest(what=what, command=command):
+                    result = self.run_sabotaged(control, command, "design.toml")
+                    self.assertEqual(result.returncode, 3, result.stderr)
+                    self.assertEqual(result.stdout, "")
+                    self.assertIn("self-test", result.stderr)
+                    self.assertFalse((self.folder / "certificates-out").exists())
+
+    def test_a_harmless_library_changes_nothing(self):
+        self.assertEqual(self.run_sabotaged("0", "check", "design.toml").returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -16,8 +16,10 @@ using rigor::Dual;
 using rigor::Interval;
 using rigor::TaylorModel;
 
-constexpr int kDegree = 5;
-constexpr int kSlopeDegree = 2;
+/// Degrees of the Taylor models of the states and of the derivatives, by the number of variables: chosen by
+/// measurement, for the time per proved area.
+constexpr int kDegrees[] = {0, 7, 7, 5};
+constexpr int kSlopeDegrees[] = {0, 3, 3, 2};
 constexpr int kInputs = 3;  // noise in phase, noise in quadrature, slew
 /// Deviations this large (relative amplitude, rad/sample) are beyond all hope.
 constexpr double kLargestDeviation = 0.5;
@@ -63,7 +65,8 @@ template <std::size_t Variables>
 class FollowedStarts {
  public:
   static constexpr int kVariables = static_cast<int>(Variables);
-  using Model = TaylorModel<kVariables, kDegree>;
+  static constexpr int kSlopeDegree = kSlopeDegrees[Variables];
+  using Model = TaylorModel<kVariables, kDegrees[Variables]>;
 
   /// The states of the rotating frame at the starts: delta = (1 + a) e^{i psi} - 1, P(0) turned by psi.
   FollowedStarts(const CaptureProblem& problem, const std::array<Model, 3>& start) {

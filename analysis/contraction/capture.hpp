@@ -2,7 +2,7 @@
 //
 // Beyond the certified set nothing is contracting in general, but a computer can follow starts. A box of
 // starts is described by polynomials (Taylor models) in the start errors, so that the exact dependence of the
-// state on the start is followed to fifth order, and by a zonotope that holds everything else: rounding, the
+// state on the start is followed to high order, and by a zonotope that holds everything else: rounding, the
 // terms beyond, intervals of the design, noise. One step of the closed loop X+ = G(X, d) takes the set
 // {p(s) + e} into
 //     {G(p(s), 0) + G_X e + G_d d},

@@ -228,10 +228,14 @@ std::string_view to_string(CaptureOutcome outcome) noexcept {
 CaptureResult follow_starts(const CaptureProblem& problem, const CaptureTarget& target,
                             const StartBox& starts) {
   const rigor::UpwardRounding upward;
-  const bool sensible = is_finite(starts.amplitude_error) && is_finite(starts.phase_error) &&
-                        is_finite(starts.frequency_error) && starts.amplitude_error.lower() > -1.0 &&
-                        is_finite(problem.frequency) && problem.noise >= 0.0 && problem.slew >= 0.0 &&
-                        std::isfinite(problem.noise) && std::isfinite(problem.slew);
+  const auto& design = problem.design;
+  const bool finite = is_finite(starts.amplitude_error) && is_finite(starts.phase_error) &&
+                      is_finite(starts.frequency_error) && is_finite(problem.frequency) &&
+                      is_finite(design.q1) && is_finite(design.q2) && is_finite(design.r) &&
+                      is_finite(design.epsilon) && std::isfinite(problem.noise) &&
+                      std::isfinite(problem.slew);
+  const bool sensible =
+      finite && starts.amplitude_error.lower() > -1.0 && problem.noise >= 0.0 && problem.slew >= 0.0;
   if (!sensible) {
     return {};
   }

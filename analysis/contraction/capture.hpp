@@ -57,7 +57,7 @@ struct CaptureResult {
 };
 
 /// Follows all starts of the box at once. The target must be invariant for the problem's noise and slew: this
-/// is not checked here. Intervals that are not finite, and amplitudes that reach zero, are enclosure_lost.
+/// is not checked here. Anything that is not finite, and amplitudes that reach zero, are enclosure_lost.
 /// Holds its own rounding mode; deterministic.
 [[nodiscard]] CaptureResult follow_starts(const CaptureProblem& problem, const CaptureTarget& target,
                                           const StartBox& starts);

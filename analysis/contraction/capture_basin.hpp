@@ -30,9 +30,8 @@ struct SimulatedBasin {
 [[nodiscard]] SimulatedBasin simulate_basin(const CaptureProblem& problem, const StartBox& starts, int phases,
                                             int frequencies, int samples);
 
-/// Shares of the simulated basin, by counting grid points: those that lie in no cell that is not PROVED, and
-/// so on. `covered` counts the grid points that lock. A point on the boundary of cells takes the weakest
-/// verdict; cells of all amplitude errors count.
+/// What is proved of the simulated basin, by counting the grid points that lock: those in PROVED cells only,
+/// those that touch a REFUTED cell and no undecided one, and the rest. Cells of all amplitude errors count.
 struct BasinShares {
   double proved = 0.0;
   double refuted = 0.0;

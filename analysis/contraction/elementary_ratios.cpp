@@ -1,0 +1,56 @@
+#include "analysis/contraction/elementary_ratios.hpp"
+
+#include <array>
+
+#include "analysis/rigor/elementary.hpp"
+
+namespace veritrack::contraction {
+
+using rigor::Interval;
+
+namespace {
+
+/// sum_{i < terms} (-1)^i x^{2i} / c_i, by Horner's rule in x^2.
+template <std::size_t Size>
+Interval alternating_sum(double x, const std::array<double, Size>& divisors, std::size_t terms) {
+  const Interval squared = rigor::square(Interval(x));
+  Interval sum(0.0);
+  for (std::size_t i = terms; i-- > 0;) {
+    sum = Interval(i % 2 == 0 ? 1.0 : -1.0) / Interval(divisors[i]) + squared * sum;
+  }
+  return sum;
+}
+
+// (2i + 1)!, which doubles hold exactly this far, and 2i + 1.
+constexpr std::array<double, 7> kFactorials = {1.0, 6.0, 120.0, 5040.0, 362880.0, 39916800.0, 6227020800.0};
+constexpr std::array<double, 7> kOddNumbers = {1.0, 3.0, 5.0, 7.0, 9.0, 11.0, 13.0};
+
+}  // namespace
+
+// sin(x)/x falls on [0, pi], and the partial sums of its series, whatever x >= 0, lie above and below it in
+// turn.
+Interval sine_ratio(const Interval& x) {
+  const Interval size = rigor::abs(x);
+  if (!certainly_less_equal(size, Interval(3.0))) {
+    return Interval::empty();
+  }
+  return Interval::from_bounds(alternating_sum(size.upper(), kFactorials, 6).lower(),
+                               alternating_sum(size.lower(), kFactorials, 7).upper());
+}
+
+// atan(t)/t falls for t >= 0. For t <= 1 the partial sums of its series lie above and below it in turn; the
+// function itself takes over where they part.
+Interval arctangent_ratio(const Interval& t) {
+  constexpr double kSeriesEnd = 0.5;
+  const Interval size = rigor::abs(t);
+  if (!is_finite(size)) {
+    return Interval::empty();
+  }
+  const auto at = [](double point, std::size_t terms) {
+    const Interval value(point);
+    return point <= kSeriesEnd ? alternating_sum(point, kOddNumbers, terms) : rigor::atan(value) / value;
+  };
+  return Interval::from_bounds(at(size.upper(), 6).lower(), at(size.lower(), 7).upper());
+}
+
+}  // namespace veritrack::contraction

@@ -1,6 +1,7 @@
 #include "analysis/contraction/fixed_point_bias.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "analysis/rigor/decimal.hpp"
@@ -119,14 +120,19 @@ LockBranch verify_lock_branch(const trackers::QuadratureEkfDesign<Interval>& des
   }
   const double low = band.lower();
   const double high = band.upper();
+  // Without a leak omega has no effect, and one cell covers every frequency.
+  BranchSteps taken = steps;
+  if (design.epsilon == Interval(0.0)) {
+    taken.largest = std::max(std::fabs(low), std::fabs(high)) + 1.0;
+  }
   double reached_low = 0.0;
   double reached_high = 0.0;
   if (low < 0.0) {
-    reached_low = follow_side(loop, *origin, std::min(high, 0.0), low, steps, branch.cells);
+    reached_low = follow_side(loop, *origin, std::min(high, 0.0), low, taken, branch.cells);
     std::reverse(branch.cells.begin(), branch.cells.end());
   }
   if (high > 0.0 || (low == 0.0 && high == 0.0)) {
-    reached_high = follow_side(loop, *origin, std::max(low, 0.0), high, steps, branch.cells);
+    reached_high = follow_side(loop, *origin, std::max(low, 0.0), high, taken, branch.cells);
   }
   branch.verified = Interval::from_bounds(reached_low, reached_high);
   if (reached_low > low) {

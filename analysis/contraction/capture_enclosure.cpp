@@ -9,7 +9,7 @@ namespace veritrack::contraction {
 
 namespace {
 
-// The bounds below are sums of at most 100 non-negative terms, each with a relative error of at most a few
+// The bounds below are sums of at most 200 non-negative terms, each with a relative error of at most a few
 // times 2^-52 in any rounding mode (Eigen chooses the order): enlarging them by 2^-40 makes upper bounds of
 // them, the smallest number takes care of underflow.
 constexpr double kEnlargement = 1.0 + 0x1p-40;

@@ -141,8 +141,9 @@ enum Side : std::size_t { kScale = 0, kBeta = 1, kAlong = 2, kAcross = 3 };
 /// Walks the cells depth first.
 class Cover {
  public:
-  Cover(const StepSetting<Interval>& setting, double rate)
+  Cover(const StepSetting<Interval>& setting, double rate, double gain_limit)
       : setting_(setting),
+        gain_limit_(gain_limit),
         middle_(middle_of(setting)),
         rate_squared_(rigor::square(Interval(rate))),
         least_rho_((Interval(1.0) - setting.largest_amplitude).lower()),
@@ -169,6 +170,7 @@ class Cover {
                      middle_.metric);
     if (certainly_positive(form.least_along) && certainly_positive(form.mean_real) &&
         is_finite(form.turn_tangent) && is_finite(form.noise_gain) &&
+        form.noise_gain.upper() <= gain_limit_ &&
         certainly_contracts(form, setting_.metric, rate_squared_, proposal.multiplier) && record(form)) {
       return true;
     }
@@ -179,7 +181,7 @@ class Cover {
       const double chi = middle_.largest_chi * cell.middle(kScale) * std::sin(beta);
       reason_ = "near amplitude error " + rigor::to_decimal(a, 3, rigor::Direction::up) +
                 " and predicted phase error " + rigor::to_decimal(chi, 3, rigor::Direction::up) +
-                " rad a step could not be shown to contract.";
+                " rad a step could not be shown to contract, or to bear the noise.";
       return false;
     }
     // Bisect the side that matters most; the weights are a matter of speed only.
@@ -208,7 +210,7 @@ class Cover {
 
  private:
   static constexpr std::size_t kBins = 64;
-  static constexpr std::int64_t kMostCells = 100000;
+  static constexpr std::int64_t kMostCells = 200000;
   static constexpr double kFractionWeight = 0.15;
 
   /// The bins overlap a little and cover [1 - A, 1 + A].
@@ -232,6 +234,7 @@ class Cover {
   }
 
   StepSetting<Interval> setting_;
+  double gain_limit_;
   StepSetting<double> middle_;
   Interval rate_squared_;
   double least_rho_;
@@ -244,12 +247,12 @@ class Cover {
 
 }  // namespace
 
-ContractionOverSet prove_contraction(const StepSetting<Interval>& setting, double rate) {
+ContractionOverSet prove_contraction(const StepSetting<Interval>& setting, double rate, double gain_limit) {
   constexpr int kScales = 8;
   constexpr int kAngles = 16;
   constexpr int kDepth = 18;
   rigor::require_upward_rounding();
-  Cover cover(setting, rate);
+  Cover cover(setting, rate, gain_limit);
   const double end = rigor::pi().upper();
   for (int i = 0; i < kScales; ++i) {
     for (int j = 0; j < kAngles; ++j) {

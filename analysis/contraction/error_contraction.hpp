@@ -42,6 +42,9 @@ struct ContractionOverSet {
 /// Covers the projection {(a/A)^2 + (chi/C)^2 <= 1, chi >= 0} of the ellipsoid by cells in (s, beta),
 /// bisected until each contracts by `rate`. Half of the ellipse is enough: the step commutes with the mirror
 /// image (psi, nu, P12, P13) -> -(psi, nu, P12, P13), which maps the set to itself. Needs the upward mode.
-[[nodiscard]] ContractionOverSet prove_contraction(const StepSetting<rigor::Interval>& setting, double rate);
+///
+/// Cells are also bisected until their noise gain is at most `gain_limit`, which may be infinite.
+[[nodiscard]] ContractionOverSet prove_contraction(const StepSetting<rigor::Interval>& setting, double rate,
+                                                   double gain_limit);
 
 }  // namespace veritrack::contraction

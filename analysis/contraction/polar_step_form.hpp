@@ -280,8 +280,10 @@ template <typename Scalar>
   form.gram = gram(t, b11, b12, b21, b22, delta, r);
   form.reach_along = reach1;
   form.reach_across = reach2;
-  const Scalar noisy1 = z1 + detail::offset(detail::anywhere(ray.along), Scalar(reach1 + noise_reach));
-  const Scalar noisy2 = z2 + detail::offset(detail::anywhere(ray.across), Scalar(reach2 + noise_reach));
+  const Scalar noisy1 =
+      z1 + detail::offset(ray.along, reach1) + detail::offset(detail::anywhere(ray.along), noise_reach);
+  const Scalar noisy2 =
+      z2 + detail::offset(ray.across, reach2) + detail::offset(detail::anywhere(ray.across), noise_reach);
   form.noise_gain = noise_gain(setting, low, high, polar_jacobian(noisy1, noisy2));
   return form;
 }

@@ -31,7 +31,10 @@ class Proposer {
   }
 
   [[nodiscard]] SampledSet sample(const BlockMetric<double>& t, double radius) const {
-    return sample_set(request_.design, steady_, t, radius, request_.noise);
+    return sample(t, radius, request_.noise);
+  }
+  [[nodiscard]] SampledSet sample(const BlockMetric<double>& t, double radius, double noise) const {
+    return sample_set(request_.design, steady_, t, radius, noise);
   }
 
   /// What one step leaves for noise and slew beyond those that are given, in the metric; -1 when nothing.
@@ -67,14 +70,22 @@ class Proposer {
     return good;
   }
 
-  /// The noise or slew that the set bears.
+  /// The noise or slew that the set bears. Noise turns the estimate and so widens the covariance bounds and
+  /// its own gain: the first value is tried, in part, before the second is believed.
   [[nodiscard]] double largest_disturbance(const BlockMetric<double>& t, double radius) const {
-    const SampledSet s = sample(t, radius);
-    const double left = slack(s, radius);
+    constexpr double kPart = 0.7;
+    const SampledSet quiet = sample(t, radius);
+    const double left = slack(quiet, radius);
     if (!(left > 0.0)) {
       return left;
     }
-    return left / (request_.objective == Objective::noise ? s.noise_gain : s.slew_gain);
+    if (request_.objective == Objective::slew) {
+      return left / quiet.slew_gain;
+    }
+    const double first = left / quiet.noise_gain;
+    const SampledSet noisy = sample(t, radius, kPart * first);
+    const double left_then = slack(noisy, radius);
+    return left_then > 0.0 ? std::min(first, left_then / noisy.noise_gain) : 0.5 * left_then;
   }
 
  private:
@@ -155,13 +166,16 @@ std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Sh
   const SampledSet s =
       sample_set(request.design, *steady, {shape.amplitude, shape.phase, shape.coupling, shape.frequency},
                  set.radius, set.noise);
-  // What noise and slew need of the contraction, with room for the gain to grow in the verification.
-  constexpr double kRoom = 1.1;
-  const double allowed = 1.0 - kRoom * (s.noise_gain * set.noise + s.slew_gain * set.slew) / set.radius;
+  // What noise and slew need of the contraction, with room for the noise gain to grow in the verification.
+  constexpr double kNoiseRoom = 1.25;
+  constexpr double kSlewRoom = 1.001;
+  const double needed = kNoiseRoom * s.noise_gain * set.noise + kSlewRoom * s.slew_gain * set.slew;
+  const double allowed = 1.0 - needed / set.radius;
   if (!(s.rate < allowed)) {
     return std::nullopt;
   }
   set.rate = std::min(allowed, 0.5 * (1.0 + s.rate));
+  set.noise_gain = 2.0 * s.noise_gain;
   set.covariance_lower = matrix(s.setting.covariance_lower);
   set.covariance_upper = matrix(s.setting.covariance_upper);
   return set;

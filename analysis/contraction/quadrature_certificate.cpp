@@ -46,7 +46,7 @@ std::optional<Verification> largest_set(const ContractionQuestion& question, Obj
   if (!shape) {
     return std::nullopt;
   }
-  for (const double fraction : {0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1}) {
+  for (const double fraction : {0.8, 0.7, 0.6, 0.45, 0.3, 0.15, 0.05}) {
     const auto proposal = propose_set(request, *shape, fraction);
     if (!proposal) {
       continue;

@@ -1,5 +1,7 @@
 #include "analysis/contraction/verification.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "analysis/contraction/error_contraction.hpp"
@@ -52,6 +54,9 @@ std::string objection(const Design& design, const CertifiedSet& set) {
       !certainly_positive(Interval(t(2, 2)))) {
     return "the metric is not certainly invertible.";
   }
+  if (!certainly_not_negative(Interval(set.noise_gain))) {
+    return "the proposed noise gain is not a number that a gain can be.";
+  }
   if (!certainly_positive(Interval(set.radius)) || !certainly_not_negative(Interval(set.noise)) ||
       !certainly_not_negative(Interval(set.slew)) || !certainly_not_negative(Interval(set.rate)) ||
       !certainly_less(Interval(set.rate), Interval(1.0))) {
@@ -89,6 +94,18 @@ StepSetting<Interval> setting_of(const Design& design, const CertifiedSet& set) 
           Interval(set.noise)};
 }
 
+/// The noise gain that is worth proving: the proposed one if there is one, and what the noise leaves room
+/// for. A matter of when to stop refining, not of proof.
+double gain_limit(const CertifiedSet& set, const Interval& slew_gain) {
+  double limit = set.noise_gain > 0.0 ? set.noise_gain : std::numeric_limits<double>::infinity();
+  if (set.noise > 0.0) {
+    const Interval room =
+        (Interval(1.0) - Interval(set.rate)) * Interval(set.radius) - slew_gain * Interval(set.slew);
+    limit = std::min(limit, (room / Interval(set.noise)).lower());
+  }
+  return limit;
+}
+
 }  // namespace
 
 Verification verify_certified_set(const Design& design, const CertifiedSet& proposal) {
@@ -106,7 +123,12 @@ Verification verify_certified_set(const Design& design, const CertifiedSet& prop
     result.reason = "the set reaches amplitudes near zero, where there is no phase.";
     return result;
   }
-  const ContractionOverSet contraction = prove_contraction(setting, proposal.rate);
+  // |T (0, 0, -w)| = |w| |(t23, t33)|.
+  const Interval slew_gain =
+      rigor::sqrt(rigor::square(setting.metric.coupling) + rigor::square(setting.metric.frequency));
+  const Interval radius(proposal.radius);
+  const ContractionOverSet contraction =
+      prove_contraction(setting, proposal.rate, gain_limit(proposal, slew_gain));
   result.cells = contraction.cells;
   if (!contraction.proved) {
     result.reason = contraction.reason;
@@ -117,10 +139,6 @@ Verification verify_certified_set(const Design& design, const CertifiedSet& prop
     result.reason = "the covariance could not be shown to stay between its bounds.";
     return result;
   }
-  // |T (0, 0, -w)| = |w| |(t23, t33)|.
-  const Interval slew_gain =
-      rigor::sqrt(rigor::square(setting.metric.coupling) + rigor::square(setting.metric.frequency));
-  const Interval radius(proposal.radius);
   const Interval noise_gain(contraction.noise_gain);
   const Interval reach =
       Interval(proposal.rate) * radius + noise_gain * setting.noise + slew_gain * Interval(proposal.slew);

@@ -20,7 +20,8 @@ struct Verification {
 };
 
 /// Is the promise of CertifiedSet true for this proposal? Uses metric, radius, covariance bounds, noise, slew
-/// and rate of the proposal, for every design in the intervals; the gains are computed. Proved are
+/// and rate of the proposal, for every design in the intervals. The gains are computed; a positive noise_gain
+/// in the proposal asks for one that is at most that. Proved are
 ///   1. P_lo > 0, P_hi - P_lo > 0, T invertible, 0 <= rate < 1, and the ranges of all inputs;
 ///   2. contraction, |T e+| <= rate |T e| + L_v |v| + L_w |w| over the set (error_contraction.hpp);
 ///   3. invariance of the covariance bounds under every |z| and turn that occur in the set with noise up to V

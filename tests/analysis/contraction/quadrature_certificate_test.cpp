@@ -100,10 +100,10 @@ TEST_CASE("starts beyond the set and noise beyond the limit are undecided, with 
 }
 
 TEST_CASE("what is not finite proves nothing and crashes nothing") {
-  for (const Interval& bad : {Interval::empty(), Interval::entire(), Interval(-1.0), Interval(1e300)}) {
+  for (const Interval& bad : {Interval::empty(), Interval::entire(), Interval(-1.0)}) {
     for (int i = 0; i < 9; ++i) {
       ContractionQuestion asked = question(0.0013, 0.01);
-      asked.search_evaluations = 3;
+      asked.search_evaluations = 1;
       std::array<Interval*, 9> numbers{&asked.design.q1,
                                        &asked.design.q2,
                                        &asked.design.r,

@@ -238,7 +238,7 @@ template <typename Loop>
                               const rigor::Interval& part, int depth,
                               BallCertificate<Loop::kStates>& certificate) {
   using rigor::Interval;
-  constexpr int kDeepest = 3;
+  constexpr int kDeepest = 2;
   const BallProposal<Loop::kStates>& proposal = certificate.proposal;
   const auto cell = bound_cell(loop, tube, part, proposal, certificate.inverse);
   bool contracts = false;

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "analysis/contraction/certified_set.hpp"
 #include "analysis/rigor/verdict.hpp"
 #include "analysis/theorems/audit.hpp"
 #include "analysis/theorems/derivation.hpp"
@@ -31,17 +33,31 @@ struct AuditedDerivation {
   theorems::Audit audit;
 };
 
+/// A set that the tracker never leaves, with what it was made for: evidence that can be checked again without
+/// the search that found it.
+struct NamedSet {
+  std::string purpose;  ///< "start-error", "largest-noise" or "largest-slew"
+  contraction::CertifiedSet set;
+};
+
 struct Certificate {
   Design design;
   std::string design_file;  ///< its name, without folders
   std::string design_text;  ///< as read
+  /// The published theorem in its readings ("theorem-2.9/..."), then what this program proves
+  /// ("contraction").
   std::vector<theorems::Derivation> derivations;
+  std::vector<NamedSet> certified_sets;
   std::vector<AuditedDerivation> audits;
   std::vector<Claim> claims;
   /// Of all required claims together; none when nothing is required, which is no verdict at all.
   std::optional<rigor::Verdict> verdict;
   Simulation simulation;  ///< the double-precision run behind the audits and the figures
 };
+
+/// The derivations whose id begins with that prefix.
+[[nodiscard]] std::vector<theorems::Derivation> derivations_of(const Certificate& certificate,
+                                                               std::string_view prefix);
 
 /// "proved", "refuted", "undecided", or "nothing-required".
 [[nodiscard]] std::string verdict_text(const Certificate& certificate);

@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
-#include "analysis/rigor/decimal.hpp"
 #include "analysis/theorems/theorem_2_9.hpp"
 #include "certificates/certificate.hpp"
 #include "certificates/design_reader.hpp"
+#include "certificates/guarantee.hpp"
 #include "certificates/simulation.hpp"
 
 namespace veritrack::certificates {
@@ -14,11 +14,6 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-
-/// The same decimal, and so the same real number.
-bool same_number(const Number& a, const Number& b) {
-  return a.text == b.text || a.value == b.value;
-}
 
 /// The theorem is stated for unit amplitude. The filter (q1, r, noise v) at amplitude A is the filter
 /// (q1/A^2, r/A^2, v/A) at amplitude 1.
@@ -68,72 +63,17 @@ Claim applicability_claim(const theorems::Derivation& derivation) {
   return claim;
 }
 
-/// Why nothing that this program knows establishes a requirement.
-std::string no_method_reason(const Certificate& certificate) {
-  std::string readings;
+}  // namespace
+
+std::vector<theorems::Derivation> derivations_of(const Certificate& certificate, std::string_view prefix) {
+  std::vector<theorems::Derivation> found;
   for (const theorems::Derivation& derivation : certificate.derivations) {
-    readings += readings.empty() ? "" : ", ";
-    readings += fmt::format("{}: {}", derivation.id, rigor::to_string(derivation.verdict));
-  }
-  return fmt::format(
-      "No method of this version establishes it. Theorem 2.9 could, if its conditions held and its proof "
-      "were sound; the "
-      "verdicts on its conditions are: {}.",
-      readings);
-}
-
-Claim frequency_error_claim(const Certificate& certificate, const Number& required) {
-  const Assumptions& assume = certificate.design.assume;
-  Claim claim;
-  claim.id = "ekf/frequency-error-bound";
-  claim.statement = fmt::format("the frequency error stays below {} rad/sample for ever", required.text);
-  claim.required = true;
-  claim.position = required.position;
-  if (same_number(required, assume.initial_frequency_error) ||
-      rigor::certainly_less_equal(required.value, assume.initial_frequency_error.value)) {
-    claim.verdict = Verdict::refuted;
-    claim.reason = fmt::format(
-        "Witness: a start that is wrong by {} rad/sample is allowed by [assume] (initial_frequency_error) "
-        "and is not "
-        "below the bound at the first sample.",
-        assume.initial_frequency_error.text);
-  } else {
-    claim.reason = no_method_reason(certificate);
-  }
-  return claim;
-}
-
-Claim settling_claim(const Certificate& certificate, const Number& required) {
-  Claim claim;
-  claim.id = "ekf/settling-time";
-  claim.statement = fmt::format("within {} samples the frequency error comes within twice its ultimate bound",
-                                required.text);
-  claim.required = true;
-  claim.position = required.position;
-  claim.reason = no_method_reason(certificate);
-  return claim;
-}
-
-void add_required_claims(Certificate& certificate) {
-  const Requirements& require = certificate.design.require;
-  if (require.frequency_error_below) {
-    certificate.claims.push_back(frequency_error_claim(certificate, *require.frequency_error_below));
-  }
-  if (require.settles_within) {
-    certificate.claims.push_back(settling_claim(certificate, *require.settles_within));
-  }
-  std::vector<Verdict> verdicts;
-  for (const Claim& claim : certificate.claims) {
-    if (claim.required) {
-      verdicts.push_back(claim.verdict);
+    if (derivation.id.starts_with(prefix)) {
+      found.push_back(derivation);
     }
   }
-  if (!verdicts.empty()) {
-    certificate.verdict = rigor::conjunction(verdicts);
-  }
+  return found;
 }
-
-}  // namespace
 
 std::string verdict_text(const Certificate& certificate) {
   return certificate.verdict ? std::string(rigor::to_string(*certificate.verdict)) : "nothing-required";
@@ -169,6 +109,7 @@ Certificate certify(const Design& design, const std::string& design_file, const 
                       design.assume.amplitude.text));
     }
   }
+  add_contraction(certificate);
   add_required_claims(certificate);
   return certificate;
 }

@@ -26,6 +26,11 @@ struct Number {
   Position position;
 };
 
+/// True only when both are certainly the same real number: the same decimal, or the same double exactly.
+[[nodiscard]] inline bool same_number(const Number& a, const Number& b) {
+  return a.text == b.text || a.value == b.value;
+}
+
 /// [design] of the quadrature tracker: Q = diag(q1, q1, q2), R = r I (signal units squared, q2 in
 /// (rad/sample)^2).
 struct QuadratureEkfDesign {

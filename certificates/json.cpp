@@ -183,6 +183,34 @@ Json audit_json(const AuditedDerivation& audited) {
   return json;
 }
 
+/// A matrix of exact doubles, row by row.
+template <typename Matrix>
+Json matrix_json(const Matrix& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+      row.push_back(rigor::to_hexadecimal(matrix(i, j)));
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json certified_set_json(const NamedSet& named) {
+  const contraction::CertifiedSet& set = named.set;
+  return {{"purpose", named.purpose},
+          {"metric", matrix_json(set.metric)},
+          {"radius", rigor::to_hexadecimal(set.radius)},
+          {"covariance_lower", matrix_json(set.covariance_lower)},
+          {"covariance_upper", matrix_json(set.covariance_upper)},
+          {"noise", rigor::to_hexadecimal(set.noise)},
+          {"slew", rigor::to_hexadecimal(set.slew)},
+          {"rate", rigor::to_hexadecimal(set.rate)},
+          {"noise_gain", rigor::to_hexadecimal(set.noise_gain)},
+          {"slew_gain", rigor::to_hexadecimal(set.slew_gain)}};
+}
+
 Json claim_json(const Claim& claim) {
   Json not_applicable = Json::object();
   return {{"id", claim.id},
@@ -200,6 +228,10 @@ std::string to_json(const Certificate& certificate) {
   json["derivations"] = Json::array();
   for (const theorems::Derivation& derivation : certificate.derivations) {
     json["derivations"].push_back(derivation_json(derivation));
+  }
+  json["certified_sets"] = Json::array();
+  for (const NamedSet& set : certificate.certified_sets) {
+    json["certified_sets"].push_back(certified_set_json(set));
   }
   json["audits"] = Json::array();
   for (const AuditedDerivation& audited : certificate.audits) {

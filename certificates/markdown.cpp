@@ -4,7 +4,10 @@
 
 #include <algorithm>
 
+#include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/versions.hpp"
+#include "certificates/guarantee.hpp"
+#include "certificates/markdown_contraction.hpp"
 #include "certificates/markdown_text.hpp"
 #include "certificates/markdown_theorem.hpp"
 
@@ -18,10 +21,10 @@ using rigor::Verdict;
 
 /// "Theorem 2.9 guarantees nothing for it", or what else its readings together say.
 std::string theorem_sentence(const Certificate& certificate) {
+  const std::vector<theorems::Derivation> readings = derivations_of(certificate, "theorem-2.9/");
   const auto all_are = [&](Verdict verdict) {
-    return std::all_of(
-        certificate.derivations.begin(), certificate.derivations.end(),
-        [verdict](const theorems::Derivation& derivation) { return derivation.verdict == verdict; });
+    return std::all_of(readings.begin(), readings.end(),
+                       [verdict](const theorems::Derivation& reading) { return reading.verdict == verdict; });
   };
   if (all_are(Verdict::refuted)) {
     return "Theorem 2.9 guarantees nothing for it: its conditions are REFUTED";
@@ -44,9 +47,9 @@ std::string requirement_section(const Certificate& certificate) {
   std::string text = "## What was required\n\n";
   if (!certificate.verdict) {
     return text +
-           "Nothing: the design file's `[require]` is empty, so there is nothing here that was PROVED or "
-           "REFUTED of the "
-           "design itself. What follows is what the published theorem says of it.\n\n";
+           "Nothing: the design file's `[require]` is empty. What follows is what is certified of the design "
+           "all "
+           "the same, and what the published theorem says of it.\n\n";
   }
   std::vector<std::vector<std::string>> rows;
   for (const Claim& claim : certificate.claims) {
@@ -135,21 +138,23 @@ std::string figures_section(const Certificate& certificate, const MarkdownOption
 
 std::string coverage_section() {
   return "## What this certificate covers, and what it does not\n\n"
-         "- Covered: every number under *Constants* and *Conditions* is an enclosure computed with "
-         "outward-rounded interval "
-         "arithmetic from the design values; the true value of the formula lies in it. A verdict PROVED or "
-         "REFUTED on a "
-         "condition follows from the enclosures; UNDECIDED means that neither could be shown.\n"
-         "- Covered is the formula in exact arithmetic, evaluated for this design. Not covered: rounding "
-         "errors of the "
-         "tracker when it runs in double precision.\n"
-         "- Not covered: whether the theorem's proof is sound. The readings *printed* and *errata* take the "
-         "thesis at its "
-         "word; conditions that hold in them are not, by themselves, a guarantee, and this program never "
-         "builds a PROVED "
-         "requirement on them.\n"
-         "- A REFUTED condition says that the theorem is silent about this design. It does not say that the "
-         "tracker fails.\n"
+         "- Covered: every enclosure here was computed with outward-rounded interval arithmetic from the "
+         "design "
+         "values; the true value lies in it. A verdict PROVED or REFUTED follows from the enclosures; "
+         "UNDECIDED "
+         "means that neither could be shown.\n"
+         "- The contraction certificate holds for every signal and every start that keep to the assumptions: "
+         "any "
+         "noise and any change of frequency within the bounds, whatever their statistics. It covers a signal "
+         "of "
+         "constant amplitude.\n"
+         "- Covered is the tracker in exact arithmetic. Not covered: its rounding errors in double "
+         "precision.\n"
+         "- Theorem 2.9 is evaluated, not endorsed: the readings *printed* and *errata* take the thesis at "
+         "its word. "
+         "Conditions that hold in them are no guarantee by themselves, and no PROVED requirement rests on "
+         "them. A "
+         "REFUTED condition says that the theorem is silent about this design, not that the tracker fails.\n"
          "- The audit and the figures are one simulated run in double precision; its numbers are marked ≈ "
          "and prove "
          "nothing. A bound that the run violates is no bound for that run.\n\n";
@@ -179,7 +184,15 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
 
 std::string headline(const Certificate& certificate) {
   if (!certificate.verdict) {
-    return "Nothing is required of this design, and " + theorem_sentence(certificate);
+    const std::optional<rigor::Interval> bound = proved_frequency_bound(certificate);
+    if (bound) {
+      return fmt::format(
+          "Nothing is required of this design; PROVED of it: the frequency error stays at or below {} "
+          "rad/sample for ever",
+          rigor::to_decimal(bound->upper(), 3, rigor::Direction::up));
+    }
+    return "Nothing is required of this design, nothing is certified for the assumed start, and " +
+           theorem_sentence(certificate);
   }
   std::string text;
   for (const Claim& claim : certificate.claims) {
@@ -192,9 +205,10 @@ std::string headline(const Certificate& certificate) {
 }
 
 std::string to_markdown(const Certificate& certificate, const MarkdownOptions& options) {
-  return "# " + headline(certificate) + "\n\n" + summary_section(certificate) +
-         requirement_section(certificate) + design_section(certificate) + assumptions_section(certificate) +
-         conditions_section(certificate) + figures_section(certificate, options) +
+  return "# " + headline(certificate) + "\n\n" + contraction_summary(certificate) +
+         summary_section(certificate) + requirement_section(certificate) + design_section(certificate) +
+         assumptions_section(certificate) + contraction_section(certificate) +
+         figures_section(certificate, options) + conditions_section(certificate) +
          constants_section(certificate) + audit_section(certificate) + coverage_section() +
          reproduction_section(certificate, options);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certificates/markdown_derivation.hpp"
 #include "certificates/markdown_text.hpp"
 
 namespace veritrack::certificates {
@@ -12,6 +13,8 @@ namespace veritrack::certificates {
 namespace {
 
 using markdown::math;
+
+constexpr const char* kTheorem = "theorem-2.9/";
 
 /// "printed" of "theorem-2.9/printed".
 std::string reading(const std::string& id) {
@@ -28,7 +31,7 @@ const theorems::Quantity* find(const theorems::Derivation& derivation, const std
 /// The names of all quantities, in the order in which the readings bring them up.
 std::vector<std::string> quantity_names(const Certificate& certificate) {
   std::vector<std::string> names;
-  for (const auto& derivation : certificate.derivations) {
+  for (const auto& derivation : derivations_of(certificate, kTheorem)) {
     for (const auto& quantity : derivation.quantities) {
       if (std::find(names.begin(), names.end(), quantity.name) == names.end()) {
         names.push_back(quantity.name);
@@ -45,12 +48,6 @@ void add_variant(std::string& cell, const std::string& text, const std::string& 
   } else if (cell.find(text) == std::string::npos) {
     cell += "<br>" + name + ": " + text;
   }
-}
-
-/// "(2.43)" for an equation of the thesis; the range of a parameter goes by the parameter's name.
-std::string condition_name(const std::string& id) {
-  const bool is_equation = id.find_first_not_of("0123456789.") == std::string::npos;
-  return is_equation ? "(" + id + ")" : "`" + id + "`";
 }
 
 /// About how much room there is: as a share of the bound, or in multiples of it where the value is far beyond
@@ -123,7 +120,7 @@ std::string audit_section(const Certificate& certificate) {
 
 std::string summary_section(const Certificate& certificate) {
   std::string text;
-  for (const auto& derivation : certificate.derivations) {
+  for (const auto& derivation : derivations_of(certificate, kTheorem)) {
     const auto condition = [&](const std::string& id) {
       return std::find_if(derivation.conditions.begin(), derivation.conditions.end(),
                           [&](const theorems::Condition& candidate) { return candidate.id == id; });
@@ -165,24 +162,10 @@ std::string conditions_section(const Certificate& certificate) {
       "conditions hold. "
       "Its text is read twice: *printed* is the body of the thesis, *errata* has the changes of its errata "
       "sheet.\n\n";
-  for (const auto& derivation : certificate.derivations) {
+  for (const auto& derivation : derivations_of(certificate, kTheorem)) {
     text += fmt::format("### {}: {}\n\n", derivation.title, markdown::verdict(derivation.verdict));
-    std::vector<std::vector<std::string>> rows;
-    std::vector<theorems::Condition> conditions = derivation.conditions;
-    std::stable_partition(conditions.begin(), conditions.end(), [](const theorems::Condition& condition) {
-      return condition.verdict != rigor::Verdict::proved;  // what fails is what the reader looks for
-    });
-    for (const auto& condition : conditions) {
-      const bool evaluated = !rigor::is_empty(condition.lhs);
-      rows.push_back({condition_name(condition.id), math(condition.statement),
-                      evaluated ? markdown::enclosure(condition.lhs) : "—",
-                      markdown::verdict(condition.verdict), condition.reason});
-    }
-    text += markdown::table({"Condition", "Statement", "Left side", "Verdict", "Ground"}, rows) + "\n";
-    for (const std::string& note : derivation.notes) {
-      text += "- " + note + "\n";
-    }
-    text += derivation.notes.empty() ? "" : "\n";
+    text += markdown::conditions_table(derivation) + "\n";
+    text += markdown::notes_list(derivation) + "\n";
   }
   return text;
 }
@@ -190,7 +173,7 @@ std::string conditions_section(const Certificate& certificate) {
 std::string constants_section(const Certificate& certificate) {
   std::string text = "## Constants of Theorem 2.9\n\n";
   std::vector<std::string> header{"Constant", "Formula"};
-  for (const auto& derivation : certificate.derivations) {
+  for (const auto& derivation : derivations_of(certificate, kTheorem)) {
     header.push_back(reading(derivation.id));
   }
   header.emplace_back("Source");
@@ -201,7 +184,7 @@ std::string constants_section(const Certificate& certificate) {
     std::string formula;
     std::string source;
     std::vector<std::string> values;
-    for (const auto& derivation : certificate.derivations) {
+    for (const auto& derivation : derivations_of(certificate, kTheorem)) {
       const theorems::Quantity* quantity = find(derivation, name);
       if (quantity == nullptr) {
         values.emplace_back("—");

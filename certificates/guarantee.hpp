@@ -1,0 +1,19 @@
+// What contraction proves for a design's assumed start, noise and slew, and the claims that rest on it.
+#pragma once
+
+#include "certificates/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// Adds the derivation "contraction" and its certified sets.
+void add_contraction(Certificate& certificate);
+
+/// Adds the claims that stand in [require], decided, and the certificate's verdict. Call after
+/// add_contraction.
+void add_required_claims(Certificate& certificate);
+
+/// The proved bound on |frequency error|, rad/sample, at every sample from the start on; none when the
+/// contraction certificate does not cover the assumed start, noise and slew.
+[[nodiscard]] std::optional<rigor::Interval> proved_frequency_bound(const Certificate& certificate);
+
+}  // namespace veritrack::certificates

@@ -20,7 +20,6 @@ using rigor::TaylorModel;
 /// measurement, for the time per proved area.
 constexpr int kDegrees[] = {0, 7, 7, 5};
 constexpr int kSlopeDegrees[] = {0, 3, 3, 2};
-constexpr int kInputs = 3;  // noise in phase, noise in quadrature, slew
 /// Deviations this large (relative amplitude, rad/sample) are beyond all hope.
 constexpr double kLargestDeviation = 0.5;
 
@@ -43,7 +42,7 @@ rigor::IntervalMatrix<kStateSize, Columns> derivatives(const CaptureProblem& pro
   }
   trackers::RotatingFrameInput<Scalar> input{Scalar(0.0), Scalar(0.0), Scalar(0.0),
                                              Scalar(Model(problem.frequency))};
-  if constexpr (Columns == kStateSize + kInputs) {
+  if constexpr (Columns == kStateSize + kInputSize) {
     const Model noise(rigor::symmetric(problem.noise));
     input.noise_in_phase = rigor::variable<Columns>(noise, kStateSize);
     input.noise_quadrature = rigor::variable<Columns>(noise, kStateSize + 1);
@@ -131,12 +130,10 @@ class FollowedStarts {
     if (problem.noise == 0.0 && problem.slew == 0.0) {
       rest_.transform(derivatives<kStateSize>(problem, states));
     } else {
-      const auto slopes = derivatives<kStateSize + kInputs>(problem, states);
+      const auto slopes = derivatives<kStateSize + kInputSize>(problem, states);
       rest_.transform(slopes.template leftCols<kStateSize>());
-      const rigor::IntervalVector<kInputs> inputs(
-          rigor::symmetric(problem.noise), rigor::symmetric(problem.noise), rigor::symmetric(problem.slew));
-      const StateBox effect = slopes.template rightCols<kInputs>() * inputs;
-      rest_.add_box(rigor::magnitude(effect));
+      rest_.add_image(slopes.template rightCols<kInputSize>(),
+                      rigor::Vector<kInputSize>(problem.noise, problem.noise, problem.slew));
     }
     const trackers::RotatingFrameInput<Model> quiet{Model(0.0), Model(0.0), Model(0.0),
                                                     Model(problem.frequency)};

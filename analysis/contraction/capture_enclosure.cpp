@@ -25,10 +25,23 @@ StateVector Zonotope::radii() const {
 }
 
 void Zonotope::add_box(const StateVector& radii) {
-  reduce();
+  reduce(kStateSize);
   const Eigen::Index old = generators_.cols();
   generators_.conservativeResize(Eigen::NoChange, old + kStateSize);
   generators_.rightCols<kStateSize>() = radii.asDiagonal();
+}
+
+void Zonotope::add_image(const rigor::IntervalMatrix<kStateSize, kInputSize>& matrix,
+                         const rigor::Vector<kInputSize>& radii) {
+  // A = M + E as below; the columns of M, stretched, are generators.
+  const rigor::Matrix<kStateSize, kInputSize> middle = rigor::midpoint(matrix);
+  const rigor::Matrix<kStateSize, kInputSize> deviation = rigor::radius_around(matrix, middle);
+  const StateVector rest = deviation * radii + kRoundingOfProduct * (middle.cwiseAbs() * radii);
+  reduce(kInputSize);
+  const Eigen::Index old = generators_.cols();
+  generators_.conservativeResize(Eigen::NoChange, old + kInputSize);
+  generators_.rightCols<kInputSize>() = middle * radii.asDiagonal();
+  add_box((rest * kEnlargement).array() + kSmallest);
 }
 
 void Zonotope::transform(const StateMatrix& matrix) {
@@ -42,15 +55,15 @@ void Zonotope::transform(const StateMatrix& matrix) {
   add_box((rest * kEnlargement).array() + kSmallest);
 }
 
-void Zonotope::reduce() {
+void Zonotope::reduce(Eigen::Index room) {
   const Eigen::Index count = generators_.cols();
-  if (count + kStateSize <= kMostGenerators) {
+  if (count + room <= kMostGenerators) {
     return;
   }
   // Sizes relative to the set's extent in each coordinate, so that units do not matter.
   const StateVector scale = radii().cwiseInverse();
-  std::array<double, kMostGenerators + kStateSize> size{};
-  std::array<Eigen::Index, kMostGenerators + kStateSize> order{};
+  std::array<double, kMostGenerators> size{};
+  std::array<Eigen::Index, kMostGenerators> order{};
   for (Eigen::Index j = 0; j < count; ++j) {
     const double sum = generators_.col(j).cwiseAbs().dot(scale);
     size[static_cast<std::size_t>(j)] = std::isfinite(sum) ? sum : 0.0;

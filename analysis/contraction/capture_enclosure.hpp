@@ -9,6 +9,7 @@
 namespace veritrack::contraction {
 
 inline constexpr int kStateSize = 9;
+inline constexpr int kInputSize = 3;  ///< noise in phase, noise in quadrature, slew
 using StateVector = rigor::Vector<kStateSize>;
 using StateBox = rigor::IntervalVector<kStateSize>;
 using StateMatrix = rigor::IntervalMatrix<kStateSize>;
@@ -20,8 +21,8 @@ class Zonotope {
   /// Many, because each reduction wraps a box around what it drops: with a third of this the wrapping alone
   /// grows the set tenfold in forty samples.
   static constexpr Eigen::Index kMostGenerators = 135;
-  using Generators = Eigen::Matrix<double, kStateSize, Eigen::Dynamic, Eigen::ColMajor, kStateSize,
-                                   kMostGenerators + kStateSize>;
+  using Generators =
+      Eigen::Matrix<double, kStateSize, Eigen::Dynamic, Eigen::ColMajor, kStateSize, kMostGenerators>;
 
   /// The point zero.
   Zonotope() : generators_(kStateSize, 0) {}
@@ -33,11 +34,16 @@ class Zonotope {
   /// Adds every vector whose entries are at most these, which are >= 0 or NaN: the smallest generators are
   /// first replaced by a box when there are too many.
   void add_box(const StateVector& radii);
+  /// Adds A d for every d with |d_i| <= radii_i and every A in `matrix`: what disturbances do, which push all
+  /// entries at once.
+  void add_image(const rigor::IntervalMatrix<kStateSize, kInputSize>& matrix,
+                 const rigor::Vector<kInputSize>& radii);
   /// Becomes a set that holds A x for every x in it and every A in `matrix`.
   void transform(const StateMatrix& matrix);
 
  private:
-  void reduce();
+  /// Makes room for so many more generators, at most nine, by a box around the smallest ones.
+  void reduce(Eigen::Index room);
   Generators generators_;
 };
 

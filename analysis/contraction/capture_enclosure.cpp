@@ -74,7 +74,7 @@ void Zonotope::reduce(Eigen::Index room) {
     const double size_b = size[static_cast<std::size_t>(b)];
     return size_a > size_b || (size_a == size_b && a < b);
   });
-  constexpr Eigen::Index kKept = kMostGenerators - 3 * kStateSize;
+  constexpr Eigen::Index kKept = kMostGenerators - Eigen::Index{3} * kStateSize;
   Generators kept(kStateSize, kKept + kStateSize);
   StateVector rest = StateVector::Zero();
   for (Eigen::Index j = 0; j < count; ++j) {

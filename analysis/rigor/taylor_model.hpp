@@ -54,7 +54,7 @@ class TaylorModel {
     TaylorModel result;
     if (is_finite(range)) {
       result.coefficients_[0] = midpoint(range);
-      result.coefficients_[static_cast<std::size_t>(1 + index)] =
+      result.coefficients_[1 + static_cast<std::size_t>(index)] =
           radius_around(range, result.coefficients_[0]);
       result.remainder_ = 0.0;
     }
@@ -65,7 +65,7 @@ class TaylorModel {
   [[nodiscard]] const Coefficients& coefficients() const noexcept { return coefficients_; }
   [[nodiscard]] double constant() const noexcept { return coefficients_[0]; }
   [[nodiscard]] double linear(int index) const noexcept {
-    return coefficients_[static_cast<std::size_t>(1 + index)];
+    return coefficients_[1 + static_cast<std::size_t>(index)];
   }
   /// At least 0; NaN when nothing is known.
   [[nodiscard]] double remainder() const noexcept { return remainder_; }

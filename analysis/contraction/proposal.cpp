@@ -53,12 +53,13 @@ class Proposer {
     const auto holds = [&](double radius) { return slack(sample(t, radius), radius) > 0.0; };
     double good = 0.0;
     double bad = kSmallest * t.frequency;
-    for (; bad < kLargest * t.frequency; bad *= kStep) {
-      if (holds(bad)) {
-        good = bad;
-      } else if (good > 0.0) {
+    while (bad < kLargest * t.frequency) {
+      const bool held = holds(bad);
+      if (!held && good > 0.0) {
         break;
       }
+      good = held ? bad : good;
+      bad *= kStep;
     }
     if (good == 0.0) {
       return 0.0;

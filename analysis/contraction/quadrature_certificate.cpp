@@ -70,7 +70,7 @@ Quantity missing(std::string name, std::string symbol, std::string formula, std:
 class SetReport {
  public:
   SetReport(const ContractionQuestion& question, const CertifiedSet& set)
-      : question_(question), set_(set), rate_(set.rate), radius_(set.radius) {
+      : set_(set), rate_(set.rate), radius_(set.radius) {
     ultimate_ = (Interval(set.noise_gain) * question.noise + Interval(set.slew_gain) * question.slew) /
                 (Interval(1.0) - rate_);
     IntervalVector<3> start;
@@ -153,7 +153,6 @@ class SetReport {
     quantities.push_back(quantity(name, symbol, formula, Interval(std::ceil(samples.upper()))));
   }
 
-  const ContractionQuestion& question_;
   CertifiedSet set_;
   Interval rate_;
   Interval radius_;
@@ -222,7 +221,10 @@ bool is_sensible(const ContractionQuestion& question) {
   const auto& d = question.design;
   return certainly_positive(d.r) && certainly_positive(d.q2) && certainly_positive(d.q1) &&
          d.epsilon == Interval(0.0) && certainly_less_equal(Interval(0.0), question.noise) &&
-         certainly_less_equal(Interval(0.0), question.slew);
+         certainly_less_equal(Interval(0.0), question.slew) &&
+         certainly_less_equal(Interval(0.0), question.initial_amplitude_error) &&
+         certainly_less_equal(Interval(0.0), question.initial_phase_error) &&
+         certainly_less_equal(Interval(0.0), question.initial_frequency_error);
 }
 
 }  // namespace

@@ -303,7 +303,7 @@ TEST_CASE("without process noise on the amplitude nothing is proposed") {
 
 TEST_CASE("random designs: what is proved is never broken by simulation") {
   test::Random random(53);
-  const std::int64_t designs = test::effort(30);
+  const std::int64_t designs = test::effort(15);
   int proved = 0;
   for (std::int64_t i = 0; i < designs; ++i) {
     const auto power = [&](double low, double high) { return std::pow(10.0, random.uniform(low, high)); };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analysis/contraction/falsifier_run.hpp"
+#include "analysis/rigor/rounding.hpp"
 #include "analysis/search/maximize.hpp"
 #include "trackers/signals/random.hpp"
 

@@ -7,8 +7,11 @@
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
-#include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::contraction {
 
@@ -112,7 +115,6 @@ RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolic
     const double allowed = set.rate * level_before + set.noise_gain * std::hypot(input[0], input[1]) +
                            set.slew_gain * std::abs(input[2]);
     outcome.largest_level = std::max(outcome.largest_level, level / set.radius);
-    outcome.largest_growth = std::max(outcome.largest_growth, (level - kAbsoluteRoom) / allowed);
     if (!(std::abs(error[2]) <= outcome.frequency_error)) {
       outcome.frequency_error = std::abs(error[2]);
       outcome.step = k + 1;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 
 #include "analysis/contraction/falsifier.hpp"
 #include "trackers/quadrature_polar_frame.hpp"
@@ -52,8 +51,7 @@ struct RunOutcome {
   Attack attack;  ///< with the inputs that were used
   double frequency_error = 0.0;
   int step = 0;
-  double largest_level = 0.0;                                        ///< |T e| / R, after the start
-  double largest_growth = -std::numeric_limits<double>::infinity();  ///< |T e+| / (what is certified of it)
+  double largest_level = 0.0;  ///< |T e| / R, after the start
   std::optional<Alarm> alarm;
   std::vector<PolarState> states;  ///< k = 0 to the end
 };

@@ -1,0 +1,253 @@
+#include "analysis/contraction/falsifier.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "analysis/contraction/proposal.hpp"
+#include "analysis/contraction/verification.hpp"
+#include "tests/support/random.hpp"
+
+namespace veritrack::contraction {
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+using trackers::QuadratureEkfDesign;
+
+QuadratureEkfDesign<Interval> exact(const QuadratureEkfDesign<double>& d) {
+  return {Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(d.epsilon)};
+}
+
+double log_uniform(test::Random& random, double lower, double upper) {
+  return std::exp(random.uniform(std::log(lower), std::log(upper)));
+}
+
+QuadratureEkfDesign<double> random_design(test::Random& random) {
+  const double q1 = log_uniform(random, 1e-4, 1e-1);
+  const double q2 = log_uniform(random, 1e-4, 1e-1);
+  return {q1, q2, log_uniform(random, 1e-3, 1.0), 0.0};
+}
+
+/// A PROVED set that bears noise and slew: a random share of the noise that sampling says could be borne, and
+/// a share of the slew that is left then. Quick rather than large.
+std::optional<CertifiedSet> proved_set(const QuadratureEkfDesign<double>& design, test::Random& random) {
+  ProposalRequest request;
+  request.design = design;
+  request.evaluations = 2;
+  request.objective = Objective::noise;
+  const auto quiet = propose_shape(request);
+  if (!quiet) {
+    return std::nullopt;
+  }
+  request.noise = random.uniform(0.0, 0.4) * quiet->objective;
+  request.objective = Objective::slew;
+  const auto shape = propose_shape(request);
+  if (!shape) {
+    return std::nullopt;
+  }
+  double fraction = random.uniform(0.15, 0.4);
+  for (int i = 0; i < 2; ++i, fraction *= 0.4) {
+    const auto proposal = propose_set(request, *shape, fraction);
+    if (!proposal) {
+      continue;
+    }
+    const Verification verification = verify_certified_set(exact(design), *proposal);
+    if (verification.verdict == Verdict::proved) {
+      return verification.set;
+    }
+  }
+  return std::nullopt;
+}
+
+FalsifierOptions quick() {
+  FalsifierOptions options;
+  options.search_evaluations = 8;
+  options.gradient_iterations = 1;
+  return options;
+}
+
+/// The largest frequency error of a run, simulated anew in the plane with the two halves of a step: the
+/// oracle for what is reported.
+double replayed(const QuadratureEkfDesign<double>& design, const Attack& attack) {
+  double phase = -1.1;
+  double frequency = 0.3;
+  const double estimated = phase + attack.start_error[1];
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(estimated).toRotationMatrix();
+  const Eigen::Matrix3d covariance = turn * attack.start_covariance * turn.transpose();
+  const double length = 1.0 + attack.start_error[0];
+  trackers::QuadratureEkf<double> tracker(
+      design, {length * std::cos(estimated), length * std::sin(estimated), frequency + attack.start_error[2],
+               trackers::FactoredCovariance<double>::from_matrix(covariance)});
+  double largest = 0.0;
+  for (const Eigen::Vector3d& input : attack.inputs) {
+    phase += frequency;
+    frequency += input[2];
+    tracker.time_update();
+    const std::complex<double> predicted(tracker.predicted().in_phase, tracker.predicted().quadrature);
+    const std::complex<double> noise =
+        std::complex<double>(input[0], input[1]) * predicted / std::abs(predicted);
+    const std::complex<double> measured = std::polar(1.0, phase) + noise;
+    tracker.measurement_update(measured.real(), measured.imag());
+    largest = std::max(largest, std::abs(tracker.filtered().frequency - frequency));
+  }
+  return largest;
+}
+
+/// Least, mean and largest.
+struct Spread {
+  double least = std::numeric_limits<double>::infinity(), sum = 0.0, largest = 0.0;
+  int count = 0;
+  void add(double x) {
+    least = std::min(least, x);
+    largest = std::max(largest, x);
+    sum += x;
+    ++count;
+  }
+  [[nodiscard]] std::string text() const {
+    return std::to_string(least) + " / " + std::to_string(sum / count) + " / " + std::to_string(largest);
+  }
+};
+
+TEST_CASE("nothing that is PROVED breaks, at random designs") {
+  test::Random random(41);
+  const auto designs = test::effort(330);
+  int proved = 0;
+  Spread rim, zero, level;
+  for (std::int64_t i = 0; i < designs; ++i) {
+    const QuadratureEkfDesign<double> design = random_design(random);
+    const auto set = proved_set(design, random);
+    if (!set) {
+      continue;
+    }
+    ++proved;
+    const Falsification found = try_to_break(*set, design, quick());
+    CAPTURE(test::kSeed);
+    CAPTURE(i);
+    CAPTURE(design.q1);
+    CAPTURE(design.q2);
+    CAPTURE(design.r);
+    CAPTURE((found.alarm ? found.alarm->attack.structure + ": " + found.alarm->statement : std::string()));
+    CHECK_FALSE(found.alarm.has_value());
+    CHECK(found.from_rim.tightness() <= 1.0);
+    CHECK(found.from_zero.tightness() <= 1.0);
+    // An attack that achieves nothing would prove nothing about the certificate.
+    CHECK(found.from_rim.tightness() > 0.02);
+    CHECK(found.from_rim.step >= 1);
+    rim.add(found.from_rim.tightness());
+    zero.add(found.from_zero.tightness());
+    level.add(found.largest_level);
+  }
+  CHECK(5 * proved >= 4 * designs);
+  MESSAGE(proved << " of " << designs << " designs PROVED; least / mean / largest tightness from the rim "
+                 << rim.text() << ", from zero " << zero.text() << ", |T e| / R " << level.text());
+}
+
+TEST_CASE("what is false breaks, for most designs") {
+  struct Falsehood {
+    const char* name;
+    void (*tell)(CertifiedSet&);
+    int broken;
+  };
+  std::array<Falsehood, 7> falsehoods{{
+      {"radius times 4", [](CertifiedSet& s) { s.radius *= 4.0; }, 0},
+      {"noise as large as the signal", [](CertifiedSet& s) { s.noise = 1.0; }, 0},
+      {"slew times 30", [](CertifiedSet& s) { s.slew *= 30.0; }, 0},
+      {"frequency bound divided by 3", [](CertifiedSet& s) { s.metric(2, 2) *= 3.0; }, 0},
+      {"gains divided by 3",
+       [](CertifiedSet& s) {
+         s.noise_gain /= 3.0;
+         s.slew_gain /= 3.0;
+       },
+       0},
+      {"rate halved", [](CertifiedSet& s) { s.rate *= 0.5; }, 0},
+      {"covariance bounds moved together",
+       [](CertifiedSet& s) {
+         const Eigen::Matrix3d third = (s.covariance_upper - s.covariance_lower) / 3.0;
+         s.covariance_lower += third;
+         s.covariance_upper -= third;
+       },
+       0},
+  }};
+  test::Random random(42);
+  const auto designs = test::effort(25);
+  int proved = 0;
+  for (std::int64_t i = 0; i < designs; ++i) {
+    const QuadratureEkfDesign<double> design = random_design(random);
+    const auto set = proved_set(design, random);
+    if (!set) {
+      continue;
+    }
+    ++proved;
+    for (Falsehood& falsehood : falsehoods) {
+      CertifiedSet claim = *set;
+      falsehood.tell(claim);
+      const Falsification found = try_to_break(claim, design, quick());
+      falsehood.broken += found.alarm.has_value() ? 1 : 0;
+      CHECK((!found.alarm || !found.alarm->attack.inputs.empty()));
+    }
+  }
+  REQUIRE(proved > 0);
+  for (const Falsehood& falsehood : falsehoods) {
+    MESSAGE(std::string(falsehood.name) << ": " << falsehood.broken << " of " << proved << " broken");
+    CHECK(5 * falsehood.broken >= 4 * proved);
+  }
+}
+
+TEST_CASE("the same question gets the same answer, and what is no set is refused") {
+  const QuadratureEkfDesign<double> design{0.0023, 0.0023, 0.05, 0.0};
+  test::Random random(43);
+  const auto set = proved_set(design, random);
+  REQUIRE(set.has_value());
+  const Falsification one = try_to_break(*set, design, quick());
+  const Falsification two = try_to_break(*set, design, quick());
+  CHECK(one.from_rim.frequency_error == two.from_rim.frequency_error);
+  CHECK(one.from_zero.frequency_error == two.from_zero.frequency_error);
+  CHECK(one.runs == two.runs);
+
+  FalsifierOptions none = quick();
+  none.steps = 0;
+  CHECK_THROWS_AS(static_cast<void>(try_to_break(*set, design, none)), std::invalid_argument);
+  CertifiedSet swapped = *set;
+  std::swap(swapped.covariance_lower, swapped.covariance_upper);
+  CHECK_THROWS_AS(static_cast<void>(try_to_break(swapped, design)), std::invalid_argument);
+  CertifiedSet flat = *set;
+  flat.metric(2, 2) = 0.0;
+  CHECK_THROWS_AS(static_cast<void>(try_to_break(flat, design)), std::invalid_argument);
+  CertifiedSet odd = *set;
+  odd.radius = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(static_cast<void>(try_to_break(odd, design)), std::invalid_argument);
+}
+
+TEST_CASE("attacks stay within the limits they are given and can be repeated") {
+  const QuadratureEkfDesign<double> design{0.0013, 0.0013, 0.01, 0.0};
+  test::Random random(44);
+  const auto set = proved_set(design, random);
+  REQUIRE(set.has_value());
+  const Falsification found = try_to_break(*set, design);
+  for (const WorstCase* worst : {&found.from_rim, &found.from_zero}) {
+    const Attack& attack = worst->attack;
+    CHECK((set->metric * attack.start_error).norm() <= set->radius * (1.0 + 1e-12));
+    REQUIRE(!attack.inputs.empty());
+    CHECK(replayed(design, attack) == doctest::Approx(worst->frequency_error).epsilon(1e-9));
+    for (const Eigen::Vector3d& input : attack.inputs) {
+      CHECK(std::hypot(input[0], input[1]) <= set->noise * (1.0 + 1e-12));
+      CHECK(std::abs(input[2]) <= set->slew);
+    }
+  }
+  CHECK(found.from_zero.attack.start_error.norm() == 0.0);
+  CHECK(found.from_zero.tightness() > 0.05);
+}
+
+}  // namespace
+}  // namespace veritrack::contraction

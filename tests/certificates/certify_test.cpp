@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "certificates/guarantee.hpp"
 #include "tests/certificates/test_design.hpp"
 
 namespace {
@@ -21,20 +23,50 @@ TEST_CASE("nothing required is no verdict") {
   const certificates::Certificate certificate = test::certificate();
   CHECK_FALSE(certificate.verdict.has_value());
   CHECK(certificates::verdict_text(certificate) == "nothing-required");
-  CHECK(certificate.derivations.size() == 2);
+  CHECK(certificate.derivations.size() == 3);
   CHECK(certificate.audits.size() == 2);
 }
 
-TEST_CASE("a requirement that nothing establishes is undecided, with the reason") {
+TEST_CASE("contraction proves what is required where it can") {
   const auto certificate =
       test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05\nsettles_within = 9"}});
-  CHECK(certificate.verdict == Verdict::undecided);
+  CHECK(certificate.verdict == Verdict::proved);
+  CHECK(certificates::proved_frequency_bound(certificate)->upper() < 0.05);
   for (const char* id : {"ekf/frequency-error-bound", "ekf/settling-time"}) {
     const certificates::Claim& claim = find_claim(certificate, id);
-    CHECK(claim.required);
-    CHECK(claim.verdict == Verdict::undecided);
-    CHECK_FALSE(claim.reason.empty());
-    CHECK(claim.position.line > 0);
+    CHECK(claim.verdict == Verdict::proved);
+    CHECK(claim.evidence.size() == 1);
+  }
+}
+
+TEST_CASE("a proved bound is not broken by the simulated run") {
+  const auto certificate = test::certificate({{"samples = 60", "samples = 3000"}});
+  const auto bound = certificates::proved_frequency_bound(certificate);
+  REQUIRE(bound.has_value());
+  for (const auto& record : certificate.simulation.trajectory) {
+    CHECK(std::fabs(record.filtered_state[2] - record.true_state[2]) <= bound->upper());
+  }
+}
+
+TEST_CASE("what contraction does not cover is undecided, with the reason") {
+  const std::pair<std::string, std::string> require{
+      "[require]", "[require]\nfrequency_error_below = 0.05\nsettles_within = 9"};
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"noise = 0.001", "noise = 0.5"},
+           {"slew = 0.0", "slew = 0.5"},
+           {"initial_frequency_error = 0.005", "initial_frequency_error = 0.04999"},
+           {"initial_phase_error = 0.005", "initial_phase_error = 3.0"},
+           {"epsilon = 0.0", "epsilon = 0.01"},
+           {"q1 = 0.0023", "q1 = 0"}}) {
+    const auto certificate = test::certificate({require, {from, to}});
+    CHECK_MESSAGE(certificate.verdict == Verdict::undecided, to);
+    for (const char* id : {"ekf/frequency-error-bound"}) {
+      const certificates::Claim& claim = find_claim(certificate, id);
+      CHECK(claim.required);
+      CHECK(claim.verdict == Verdict::undecided);
+      CHECK_FALSE(claim.reason.empty());
+      CHECK(claim.position.line > 0);
+    }
   }
 }
 

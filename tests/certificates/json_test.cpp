@@ -29,7 +29,8 @@ TEST_CASE("hexadecimal endpoints give back the enclosure bit by bit") {
 TEST_CASE("what does not exist is listed apart, with its reason") {
   const auto json =
       nlohmann::json::parse(certificates::to_json(test::certificate({{"q1 = 0.0023", "q1 = 0"}})));
-  for (const auto& derivation : json["derivations"]) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& derivation = json["derivations"][i];
     CHECK_FALSE(derivation["quantities"].contains("q"));
     CHECK_FALSE(derivation["not_applicable"]["q"]["reason"].get<std::string>().empty());
   }

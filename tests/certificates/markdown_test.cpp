@@ -32,16 +32,14 @@ TEST_CASE("the first line is the answer") {
     const std::string document = certificates::to_markdown(certificate, kOptions);
     return document.substr(0, document.find('\n'));
   };
-  CHECK(first_line(test::certificate()) ==
-        "# Nothing is required of this design, and Theorem 2.9 guarantees nothing for it: its conditions are "
-        "REFUTED");
-  auto certificate = test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05"}});
-  CHECK(first_line(certificate) ==
-        "# NOT PROVED. UNDECIDED: the frequency error stays below 0.05 rad/sample for ever");
-  // Nothing in this program proves it, so pretend.
-  certificate.verdict = rigor::Verdict::proved;
-  certificate.claims.back().verdict = rigor::Verdict::proved;
-  CHECK(first_line(certificate) == "# PROVED: the frequency error stays below 0.05 rad/sample for ever");
+  CHECK(first_line(test::certificate({{"epsilon = 0.0", "epsilon = 0.01"}})) ==
+        "# Nothing is required of this design, nothing is certified for the assumed start, and Theorem 2.9 "
+        "guarantees nothing for it: its conditions are REFUTED");
+  CHECK(first_line(test::certificate()).starts_with("# Nothing is required of this design; PROVED of it: "));
+  CHECK(first_line(test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.0051"}})) ==
+        "# NOT PROVED. UNDECIDED: the frequency error stays below 0.0051 rad/sample for ever");
+  CHECK(first_line(test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05"}})) ==
+        "# PROVED: the frequency error stays below 0.05 rad/sample for ever");
 }
 
 TEST_CASE("the name of a design cannot forge a verdict") {

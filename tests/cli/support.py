@@ -17,7 +17,7 @@ tracker = "quadrature-ekf"
 q1 = 0.0023
 q2 = 0.0023
 r = 0.05
-epsilon = 0.01
+epsilon = 0.0
 
 [assume]
 amplitude = 1.0

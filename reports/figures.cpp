@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "certificates/guarantee.hpp"
 #include "reports/gnuplot.hpp"
 
 namespace veritrack::reports {
@@ -83,6 +84,9 @@ std::vector<Level> error_levels(const Certificate& certificate) {
   if (certificate.design.require.frequency_error_below) {
     levels.push_back(
         {"required of the frequency error", certificate.design.require.frequency_error_below->nearest});
+  }
+  if (const auto bound = certificates::proved_frequency_bound(certificate)) {
+    levels.push_back({"certified bound of the frequency error", bound->upper()});
   }
   for (const theorems::Derivation& derivation : certificate.derivations) {
     for (const theorems::Quantity& quantity : derivation.quantities) {

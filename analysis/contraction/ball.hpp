@@ -172,6 +172,55 @@ template <typename Loop>
          square(r) * Interval(cubic) / Interval(6.0);
 }
 
+/// Upper bounds on |DG(X*(p))| and |D2G(X*(p))| in the metric, for all p of a part of a tube: at its middle,
+/// plus half its width times the norm of the derivative along the branch. (Over the box of all X*(p) at once
+/// the widths of the entries would add up.)
+struct CenterBounds {
+  double linear = 0.0;
+  double quadratic = 0.0;
+};
+
+/// `slope` encloses dX*/dp over the part. Nothing when something is not finite.
+template <typename Loop>
+[[nodiscard]] std::optional<CenterBounds> bound_center(const Loop& loop,
+                                                       const FixedPointTube<Loop::kStates>& tube,
+                                                       const rigor::Interval& part,
+                                                       const rigor::IntervalMatrix<Loop::kStates>& metric,
+                                                       const rigor::IntervalMatrix<Loop::kStates>& inverse,
+                                                       const rigor::IntervalVector<Loop::kStates>& slope) {
+  constexpr int kSize = Loop::kStates;
+  using rigor::Interval;
+  const Interval middle(midpoint(part));
+  const rigor::IntervalVector<kSize> center = tube.at(middle);
+  const auto first_norm = [&](const rigor::IntervalMatrix<kSize>& first) {
+    return rigor::norm_upper_bound(rigor::IntervalMatrix<kSize>((metric * first).eval() * inverse));
+  };
+  const auto second_norm = [&](const SecondDerivatives<kSize>& second) {
+    return rigor::norm_upper_bound(unfolded<kSize>(second, metric, inverse));
+  };
+  const auto linear = first_norm(linearize_loop<Loop, Interval>(loop, center, middle).jacobian);
+  const auto quadratic = second_norm(second_derivatives(loop, center, middle));
+  if (!linear || !quadratic) {
+    return std::nullopt;
+  }
+  if (part == middle) {
+    return CenterBounds{*linear, *quadratic};
+  }
+  const DerivativeDrift<kSize> drift = derivative_drift(loop, tube.at(part), part, slope);
+  const auto linear_drift = first_norm(drift.first);
+  const auto quadratic_drift = second_norm(drift.second);
+  if (!linear_drift || !quadratic_drift) {
+    return std::nullopt;
+  }
+  const Interval reach(radius(part));
+  const Interval linear_bound = Interval(*linear) + reach * Interval(*linear_drift);
+  const Interval quadratic_bound = Interval(*quadratic) + reach * Interval(*quadratic_drift);
+  if (!is_finite(linear_bound) || !is_finite(quadratic_bound)) {
+    return std::nullopt;
+  }
+  return CenterBounds{linear_bound.upper(), quadratic_bound.upper()};
+}
+
 /// The bounds of one cell; nothing when one of them is not finite.
 template <typename Loop>
 [[nodiscard]] std::optional<BallCell> bound_cell(const Loop& loop, const FixedPointTube<Loop::kStates>& tube,
@@ -189,16 +238,19 @@ template <typename Loop>
     ball[i] += rigor::symmetric(reach[i].upper());
   }
   const auto local = linearize_loop<Loop, Interval>(loop, center, part);
-  const rigor::IntervalMatrix<kSize> first = (metric * local.jacobian).eval() * inverse;
-  const auto linear = rigor::norm_upper_bound(first);
-  const auto quadratic =
-      rigor::norm_upper_bound(unfolded<kSize>(second_derivatives(loop, center, part), metric, inverse));
-  const auto cubic =
-      rigor::norm_upper_bound(unfolded<kSize>(third_derivatives(loop, ball, part), metric, inverse));
-  if (!linear || !quadratic || !cubic) {
+  const auto slope =
+      rigor::solve(rigor::IntervalMatrix<kSize>(rigor::IntervalMatrix<kSize>::Identity() - local.jacobian),
+                   local.parameter_slope);
+  if (!slope) {
     return std::nullopt;
   }
-  const Interval rate = taylor_rate(*linear, *quadratic, *cubic, proposal.radius);
+  const auto at_center = bound_center(loop, tube, part, metric, inverse, *slope);
+  const auto cubic =
+      rigor::norm_upper_bound(unfolded<kSize>(third_derivatives(loop, ball, part), metric, inverse));
+  if (!at_center || !cubic) {
+    return std::nullopt;
+  }
+  const Interval rate = taylor_rate(at_center->linear, at_center->quadratic, *cubic, proposal.radius);
 
   rigor::IntervalVector<kInputs> disturbance;
   disturbance.fill(rigor::symmetric(proposal.noise));
@@ -212,12 +264,10 @@ template <typename Loop>
   if (!is_finite(rate) || !noise_gain || !slew_gain) {
     return std::nullopt;
   }
-  BallCell cell{part, *linear, *quadratic, *cubic, rate.upper(), *noise_gain, *slew_gain, 0.0};
+  BallCell cell{part,         at_center->linear, at_center->quadratic, *cubic,
+                rate.upper(), *noise_gain,       *slew_gain,           0.0};
   if (proposal.slew > 0.0) {
-    const auto slope =
-        rigor::solve(rigor::IntervalMatrix<kSize>(rigor::IntervalMatrix<kSize>::Identity() - local.jacobian),
-                     local.parameter_slope);
-    const auto branch_gain = slope ? rigor::norm_upper_bound((metric * *slope).eval()) : std::nullopt;
+    const auto branch_gain = rigor::norm_upper_bound((metric * *slope).eval());
     if (!branch_gain) {
       return std::nullopt;
     }
@@ -238,7 +288,7 @@ template <typename Loop>
                               const rigor::Interval& part, int depth,
                               BallCertificate<Loop::kStates>& certificate) {
   using rigor::Interval;
-  constexpr int kDeepest = 2;
+  constexpr int kDeepest = 3;
   const BallProposal<Loop::kStates>& proposal = certificate.proposal;
   const auto cell = bound_cell(loop, tube, part, proposal, certificate.inverse);
   bool contracts = false;

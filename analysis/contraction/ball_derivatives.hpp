@@ -11,8 +11,7 @@
 
 namespace veritrack::contraction {
 
-/// One column for each output, second derivative d2 G_output / dx_i dx_j in entry (i, j) listed column by
-/// column; rows = outputs after `unfolded`.
+/// d2 G_output / dx_i dx_j in [output](i, j).
 template <int N>
 using SecondDerivatives = std::array<rigor::IntervalMatrix<N>, static_cast<std::size_t>(N)>;
 
@@ -102,6 +101,43 @@ template <typename Loop>
     }
   }
   return result;
+}
+
+/// How DG and D2G change along a curve X(p): d/dp DG(X(p), p) and d/dp D2G(X(p), p).
+template <int N>
+struct DerivativeDrift {
+  rigor::IntervalMatrix<N> first;
+  SecondDerivatives<N> second;
+};
+
+/// Over a box of states, of parameters and of directions dX/dp. Upward mode held by the caller.
+template <typename Loop>
+[[nodiscard]] DerivativeDrift<Loop::kStates> derivative_drift(
+    const Loop& loop, const rigor::IntervalVector<Loop::kStates>& box, const rigor::Interval& parameter,
+    const rigor::IntervalVector<Loop::kStates>& direction) {
+  constexpr int kSize = Loop::kStates;
+  using Once = rigor::Dual<rigor::Interval, kSize>;
+  using Twice = rigor::Dual<Once, kSize>;
+  using Thrice = rigor::Dual<Twice, 1>;
+  const Column<Twice, kSize> x = rigor::variables(rigor::variables(box));
+  Column<Thrice, kSize> moving;
+  for (int i = 0; i < kSize; ++i) {
+    moving[i] = Thrice(x[i], {Twice(Once(direction[i]))});
+  }
+  const Thrice p(Twice(Once(parameter)), {Twice(1.0)});
+  const Column<Thrice, kSize> image = loop(moving, p, detail::quiet_disturbance<Thrice, Loop::kNoises + 1>());
+  DerivativeDrift<kSize> drift;
+  for (int output = 0; output < kSize; ++output) {
+    const Twice& slope = image[output].derivative(0);
+    rigor::IntervalMatrix<kSize>& slice = drift.second[static_cast<std::size_t>(output)];
+    for (int i = 0; i < kSize; ++i) {
+      drift.first(output, i) = slope.derivative(i).value();
+      for (int j = 0; j < kSize; ++j) {
+        slice(i, j) = intersection(slope.derivative(i).derivative(j), slope.derivative(j).derivative(i));
+      }
+    }
+  }
+  return drift;
 }
 
 /// The linear map u (x) w -> D(S u, S w), S = `inverse`, seen in the metric: the N x N^2 matrix T D (S (x)

@@ -48,7 +48,7 @@ Certificate without_metric() {
 /// Verifies ever smaller variants of a proposal on all cells; the last failure when none holds.
 Certificate verify_shrinking(const QuadraturePolarLoop& loop, const Cells& cells, Proposal proposal,
                              const std::function<void(Proposal&)>& shrink) {
-  constexpr int kTries = 5;
+  constexpr int kTries = 3;
   Certificate certificate;
   for (int i = 0; i < kTries; ++i) {
     certificate = verify_ball(loop, cells, proposal);

@@ -244,10 +244,16 @@ TEST_CASE("the derivation: named quantities, and honest failures") {
         BallQuestion{design_of("0.0065", "0.01", "0.01"), Interval::empty(), 0.0, 0.0},
         BallQuestion{design_of("0.0005", "0.01", "0.05"), Interval(2.6), 0.0, 0.0},
         BallQuestion{design_of("0", "0.01", "0"), small, 0.0, 0.0}}) {
-    const auto failed = derive_quadrature_ball(question);
+    const auto failed = certify_quadrature_ball(question, verify_lock_branch(question.design, question.band));
     CHECK(failed.verdict == Verdict::undecided);
-    const auto& radius = theorems::find_quantity(failed, "radius");
-    REQUIRE(radius.not_applicable.has_value());
-    CHECK_FALSE(radius.not_applicable->empty());
+    CHECK(failed.parts.empty());
+    CHECK_FALSE(failed.reason.empty());
+  }
+  const auto beyond = derive_quadrature_ball({design_of("0.0005", "0.01", "0.05"), Interval(2.6), 0.0, 0.0});
+  CHECK(beyond.verdict == Verdict::undecided);
+  for (const auto& quantity : beyond.quantities) {
+    CHECK(is_empty(quantity.value));
+    REQUIRE(quantity.not_applicable.has_value());
+    CHECK(quantity.not_applicable->find("2.38") != std::string::npos);
   }
 }

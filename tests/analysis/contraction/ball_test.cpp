@@ -237,6 +237,30 @@ TEST_CASE("second and third derivatives over a box hold those at its points, com
   }
 }
 
+TEST_CASE("how the derivatives drift along a branch: against the fold's, computed by hand") {
+  // DG = x and D2G = 1 everywhere: along a curve with dx/dp = s they change by s and 0.
+  const UpwardRounding upward;
+  const auto drift = derivative_drift(Fold{}, IntervalVector<1>(Interval::from_bounds(0.1, 0.4)),
+                                      Interval::from_bounds(0.0, 0.3), IntervalVector<1>(Interval(1.5)));
+  CHECK(identical(drift.first(0, 0), Interval(1.5)));
+  CHECK(identical(drift.second[0](0, 0), Interval(0.0)));
+  // D2G of the curved loop in direction (1, 0, 0) is its third derivative there.
+  const IntervalVector<3> at(Interval(0.25), Interval(0.5), Interval(0.0));
+  const auto third = third_derivatives(Curved{}, at, Interval(0.0));
+  const auto second = second_derivatives(Curved{}, at, Interval(0.0));
+  const auto curved = derivative_drift(Curved{}, at, Interval(0.0),
+                                       IntervalVector<3>(Interval(1.0), Interval(0.0), Interval(0.0)));
+  for (std::size_t output = 0; output < 3; ++output) {
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const auto row = static_cast<Eigen::Index>(output);
+      CHECK(std::fabs(midpoint(curved.first(row, i)) - midpoint(second[output](0, i))) <= 1e-14);
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        CHECK(std::fabs(midpoint(curved.second[output](i, j)) - midpoint(third[output][0](i, j))) <= 1e-14);
+      }
+    }
+  }
+}
+
 TEST_CASE("a curved loop: sampled steps never exceed what is proved") {
   const Curved loop;
   Random random(912);

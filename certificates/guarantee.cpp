@@ -23,31 +23,6 @@ trackers::QuadratureEkfDesign<Interval> design_at_unit_amplitude(const Design& d
       design.assume.amplitude.value);
 }
 
-contraction::ContractionQuestion question_of(const Design& design) {
-  const Assumptions& assume = design.assume;
-  const Interval& amplitude = assume.amplitude.value;
-  contraction::ContractionQuestion question;
-  question.design = design_at_unit_amplitude(design);
-  question.noise = assume.noise.value / amplitude;
-  question.slew = assume.slew.value;
-  question.initial_amplitude_error = assume.initial_amplitude_error.value / amplitude;
-  question.initial_phase_error = assume.initial_phase_error.value;
-  question.initial_frequency_error = assume.initial_frequency_error.value;
-  if (assume.initial_covariance) {
-    rigor::IntervalMatrix<3> covariance;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        const auto& entry =
-            (*assume.initial_covariance)[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].value;
-        const Interval scale = (i < 2 ? amplitude : Interval(1.0)) * (j < 2 ? amplitude : Interval(1.0));
-        covariance(i, j) = entry / scale;
-      }
-    }
-    question.initial_covariance = covariance;
-  }
-  return question;
-}
-
 contraction::BallQuestion ball_question_of(const Design& design) {
   const Assumptions& assume = design.assume;
   contraction::BallQuestion question;
@@ -140,6 +115,31 @@ Claim settling_claim(const Certificate& certificate, const Number& required) {
 
 }  // namespace
 
+contraction::ContractionQuestion contraction_question(const Design& design) {
+  const Assumptions& assume = design.assume;
+  const Interval& amplitude = assume.amplitude.value;
+  contraction::ContractionQuestion question;
+  question.design = design_at_unit_amplitude(design);
+  question.noise = assume.noise.value / amplitude;
+  question.slew = assume.slew.value;
+  question.initial_amplitude_error = assume.initial_amplitude_error.value / amplitude;
+  question.initial_phase_error = assume.initial_phase_error.value;
+  question.initial_frequency_error = assume.initial_frequency_error.value;
+  if (assume.initial_covariance) {
+    rigor::IntervalMatrix<3> covariance;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const auto& entry =
+            (*assume.initial_covariance)[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].value;
+        const Interval scale = (i < 2 ? amplitude : Interval(1.0)) * (j < 2 ? amplitude : Interval(1.0));
+        covariance(i, j) = entry / scale;
+      }
+    }
+    question.initial_covariance = covariance;
+  }
+  return question;
+}
+
 std::optional<Interval> proved_frequency_bound(const Certificate& certificate) {
   const theorems::Derivation& derivation = contraction_derivation(certificate);
   const theorems::Quantity* bound = find(derivation, "frequency_error_bound");
@@ -151,7 +151,7 @@ std::optional<Interval> proved_frequency_bound(const Certificate& certificate) {
 void add_contraction(Certificate& certificate) {
   if (certificate.design.design.epsilon.value == Interval(0.0)) {
     contraction::ContractionCertificate found =
-        contraction::certify_contraction(question_of(certificate.design));
+        contraction::certify_contraction(contraction_question(certificate.design));
     certificate.derivations.push_back(std::move(found.derivation));
     const auto keep = [&](const char* purpose, const std::optional<contraction::Verification>& verification) {
       if (verification && verification->verdict == Verdict::proved) {

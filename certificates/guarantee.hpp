@@ -1,9 +1,13 @@
 // What contraction proves for a design's assumed start, noise and slew, and the claims that rest on it.
 #pragma once
 
+#include "analysis/contraction/quadrature_certificate.hpp"
 #include "certificates/certificate.hpp"
 
 namespace veritrack::certificates {
+
+/// What is asked of contraction for a design, at amplitude 1. Needs the upward mode.
+[[nodiscard]] contraction::ContractionQuestion contraction_question(const Design& design);
 
 /// Adds the derivation "contraction" and its certified sets.
 void add_contraction(Certificate& certificate);

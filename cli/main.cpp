@@ -1,5 +1,6 @@
 // The command line: reads arguments, calls certificates/ and reports/, prints, and chooses the exit status.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -13,8 +14,10 @@
 #include "certificates/design_reader.hpp"
 #include "certificates/markdown.hpp"
 #include "certificates/output_files.hpp"
+#include "certificates/region.hpp"
 #include "reports/certificate_files.hpp"
 #include "reports/check_reports.hpp"
+#include "reports/region_files.hpp"
 
 namespace {
 
@@ -78,6 +81,42 @@ ExitStatus run_check(const CheckOptions& options) {
   return status;
 }
 
+struct MapOptions {
+  std::string design;
+  std::string directory;
+  certificates::RegionRequest request;
+};
+
+/// A line on standard error that follows long work, when a person is watching.
+bool show_progress(const veritrack::contraction::RegionProgress& progress) {
+  if (isatty(STDERR_FILENO) != 0) {
+    fmt::print(stderr, "\rproved {:5.1f} %, refuted {:5.1f} % ({} propagations)",
+               100.0 * progress.proved_share, 100.0 * progress.refuted_share, progress.propagations);
+  }
+  return true;
+}
+
+ExitStatus run_map(const MapOptions& options) {
+  const certificates::Design design = certificates::read_design_file(options.design);
+  const certificates::RegionResult result =
+      certificates::prove_region_of_attraction(design, options.request, show_progress);
+  if (isatty(STDERR_FILENO) != 0) {
+    fmt::print(stderr, "\r\033[K");
+  }
+  if (!result.found) {
+    fmt::print("{}: undecided: {}\n", options.design, result.reason);
+    return not_proved;
+  }
+  std::string directory = options.directory;
+  if (directory.empty()) {
+    directory = (std::filesystem::path("maps-out") / std::filesystem::path(options.design).stem()).string();
+  }
+  const std::filesystem::path picture = reports::write_region_files(*result.found, directory);
+  fmt::print("{}: {:.1f} % of the simulated basin is proved to be captured, {} cells\n", picture.string(),
+             100.0 * result.found->shares.proved, result.found->region.cells.size());
+  return all_proved;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Machine-checked certificates for frequency trackers.", "veritrack"};
   app.set_version_flag("--version", std::string("veritrack ") + VERITRACK_VERSION);
@@ -102,6 +141,22 @@ int run(int argc, char** argv) {
   check->add_option("--junit", check_options.junit, "also write the verdicts as JUnit XML");
   check->add_option("--sarif", check_options.sarif, "also write what is not PROVED as SARIF 2.1.0");
 
+  MapOptions map_options;
+  CLI::App* map =
+      app.add_subcommand("map", "draw the proved region of attraction over start frequency and phase error");
+  map->add_option("DESIGN", map_options.design, "design file (TOML), without leak")->required();
+  map->add_option("--out", map_options.directory,
+                  "folder for the map (default: maps-out/<name of the design file>)");
+  map->add_option("--frequency", map_options.request.frequency_error,
+                  "largest start frequency error, rad/sample")
+      ->check(CLI::Range(1e-6, 4.0))
+      ->capture_default_str();
+  map->add_option("--phase", map_options.request.phase_error, "largest start phase error, rad")
+      ->check(CLI::Range(1e-6, 3.1))
+      ->capture_default_str();
+  map->add_flag("--noise", map_options.request.with_noise,
+                "with the noise and slew of [assume]; otherwise without any");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -117,6 +172,9 @@ int run(int argc, char** argv) {
         stderr,
         "veritrack: this machine or this build cannot be trusted with a certificate; nothing was computed\n");
     return bad_arithmetic;
+  }
+  if (map->parsed()) {
+    return run_map(map_options);
   }
   return certify->parsed() ? run_certify(design, directory) : run_check(check_options);
 }

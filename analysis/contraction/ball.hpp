@@ -20,6 +20,8 @@
 //     kappa <= |A| + R/2 |B2| + R^2/6 |D3|, each the spectral norm of the N x N^k matrix.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +68,8 @@ struct BallCertificate {
   double noise_gain = 0.0;      ///< L_v, the largest of the cells
   double slew_gain = 0.0;       ///< L_w + L*, the largest of the cells
   double ultimate_level = 0.0;  ///< U, the largest of the cells
+  /// Which cell of the branch did not contract, when that is why it is UNDECIDED.
+  std::optional<std::size_t> failed_cell;
 };
 
 namespace detail {
@@ -353,8 +357,9 @@ template <typename Loop>
   }
   certificate.inverse = *inverse;
   double branch_gain = 0.0;
-  for (const auto& tube : branch) {
-    if (!detail::bound_tube(loop, tube, tube.parameter, 0, certificate)) {
+  for (std::size_t i = 0; i < branch.size(); ++i) {
+    if (!detail::bound_tube(loop, branch[i], branch[i].parameter, 0, certificate)) {
+      certificate.failed_cell = i;
       return certificate;
     }
   }

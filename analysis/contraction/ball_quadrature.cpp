@@ -45,17 +45,27 @@ Certificate without_metric() {
   return certificate;
 }
 
-/// Verifies ever smaller variants of a proposal on all cells; the last failure when none holds.
-Certificate verify_shrinking(const QuadraturePolarLoop& loop, const Cells& cells, Proposal proposal,
-                             const std::function<void(Proposal&)>& shrink) {
-  constexpr int kTries = 3;
+/// Looks for a proposal on a few cells, verifies it on all of them, and looks again with the cell that failed
+/// among the few. The last failure when none holds.
+Certificate verify_with_counterexamples(
+    const QuadraturePolarLoop& loop, const Cells& cells,
+    const std::function<std::optional<Proposal>(const Cells& samples)>& search_on,
+    const Proposal& otherwise) {
+  constexpr int kRounds = 6;
+  Cells samples = sample_cells(cells);
   Certificate certificate;
-  for (int i = 0; i < kTries; ++i) {
-    certificate = verify_ball(loop, cells, proposal);
-    if (certificate.verdict == Verdict::proved) {
-      break;
+  for (int i = 0; i < kRounds; ++i) {
+    const std::optional<Proposal> proposal = search_on(samples);
+    if (!proposal) {
+      certificate = verify_ball(loop, samples, otherwise);
+      certificate.verdict = Verdict::undecided;  // of the samples only
+      return certificate;
     }
-    shrink(proposal);
+    certificate = verify_ball(loop, cells, *proposal);
+    if (certificate.verdict == Verdict::proved || !certificate.failed_cell) {
+      return certificate;
+    }
+    samples.push_back(cells[*certificate.failed_cell]);
   }
   return certificate;
 }
@@ -66,31 +76,29 @@ Certificate attempt_radius(const QuadraturePolarLoop& loop, const Cells& cells, 
   if (!metric) {
     return without_metric();
   }
-  const Cells samples = sample_cells(cells);
-  Proposal proposal{rigor::Matrix<kStates>(metric->metric), metric->radius, noise, slew};
-  // Too small a ball for the noise fails like too large a one: look from above, and do not stop at the first.
-  constexpr double kStep = 0.8;
-  constexpr int kSteps = 20;
-  constexpr int kBisections = 3;
-  double low = 0.0;
-  double high = 1.5 * metric->radius;
-  for (int i = 0; i < kSteps && low == 0.0; ++i) {
-    proposal.radius = kStep * high;
-    (verify_ball(loop, samples, proposal).verdict == Verdict::proved ? low : high) = proposal.radius;
-  }
-  if (low == 0.0) {
-    // Half of what the metric promised tells best how far it is off.
-    proposal.radius = 0.5 * metric->radius;
-    Certificate certificate = verify_ball(loop, samples, proposal);
-    certificate.verdict = Verdict::undecided;  // of the samples only
-    return certificate;
-  }
-  for (int i = 0; i < kBisections; ++i) {
-    proposal.radius = 0.5 * (low + high);
-    (verify_ball(loop, samples, proposal).verdict == Verdict::proved ? low : high) = proposal.radius;
-  }
-  proposal.radius = 0.98 * low;
-  return verify_shrinking(loop, cells, proposal, [](Proposal& smaller) { smaller.radius *= 0.93; });
+  const Proposal start{rigor::Matrix<kStates>(metric->metric), 0.5 * metric->radius, noise, slew};
+  const auto search_on = [&](const Cells& samples) -> std::optional<Proposal> {
+    // Too small a ball for the noise fails like too large a one: look from above, and do not stop at the
+    // first.
+    constexpr double kStep = 0.8;
+    constexpr int kSteps = 20;
+    constexpr int kBisections = 3;
+    Proposal proposal = start;
+    const auto holds = [&] { return verify_ball(loop, samples, proposal).verdict == Verdict::proved; };
+    double low = 0.0;
+    double high = 1.5 * metric->radius;
+    for (int i = 0; i < kSteps && low == 0.0; ++i) {
+      proposal.radius = kStep * high;
+      (holds() ? low : high) = proposal.radius;
+    }
+    for (int i = 0; i < kBisections && low > 0.0; ++i) {
+      proposal.radius = 0.5 * (low + high);
+      (holds() ? low : high) = proposal.radius;
+    }
+    proposal.radius = 0.98 * low;
+    return low > 0.0 ? std::optional(proposal) : std::nullopt;
+  };
+  return verify_with_counterexamples(loop, cells, search_on, start);
 }
 
 /// The most of one disturbance, over a few radii and by bisection on the sample cells; then all cells.
@@ -100,36 +108,33 @@ Certificate attempt_disturbance(const QuadraturePolarLoop& loop, const Cells& ce
   if (!metric) {
     return without_metric();
   }
-  const Cells samples = sample_cells(cells);
-  Proposal best{rigor::Matrix<kStates>(metric->metric), metric->radius, 0.0, 0.0};
-  double most = 0.0;
-  for (const double fraction : {0.3, 0.45, 0.6, 0.75, 0.9, 1.1, 1.35}) {
-    Proposal trial{best.metric, metric->radius * fraction, 0.0, 0.0};
-    trial.*size = 1e-12;  // not zero: the fixed point's own motion counts
-    const Certificate certificate = verify_ball(loop, samples, trial);
-    const double found = certificate.verdict == Verdict::proved ? room(certificate, 0.0) : 0.0;
-    if (found > most) {
-      most = found;
-      best = trial;
+  Proposal start{rigor::Matrix<kStates>(metric->metric), 0.5 * metric->radius, 0.0, 0.0};
+  start.*size = 1e-12;  // not zero: the fixed point's own motion counts
+  const auto search_on = [&](const Cells& samples) -> std::optional<Proposal> {
+    Proposal best = start;
+    double most = 0.0;
+    for (const double fraction : {0.3, 0.45, 0.6, 0.75, 0.9, 1.1, 1.35}) {
+      Proposal trial = start;
+      trial.radius = metric->radius * fraction;
+      const Certificate certificate = verify_ball(loop, samples, trial);
+      const double found = certificate.verdict == Verdict::proved ? room(certificate, 0.0) : 0.0;
+      if (found > most) {
+        most = found;
+        best = trial;
+      }
     }
-  }
-  if (!(most > 0.0)) {
-    best.radius = 0.5 * metric->radius;
-    best.*size = 1e-12;
-    Certificate certificate = verify_ball(loop, samples, best);
-    certificate.verdict = Verdict::undecided;  // of the samples only
-    return certificate;
-  }
-  // The gains grow with the disturbance.
-  double low = 0.0;
-  double high = most;
-  constexpr int kBisections = 5;
-  for (int i = 0; i < kBisections; ++i) {
-    best.*size = 0.5 * (low + high);
-    (verify_ball(loop, samples, best).verdict == Verdict::proved ? low : high) = best.*size;
-  }
-  best.*size = 0.999 * low;
-  return verify_shrinking(loop, cells, best, [size](Proposal& smaller) { smaller.*size *= 0.8; });
+    // The gains grow with the disturbance.
+    double low = 0.0;
+    double high = most;
+    constexpr int kBisections = 5;
+    for (int i = 0; i < kBisections && most > 0.0; ++i) {
+      best.*size = 0.5 * (low + high);
+      (verify_ball(loop, samples, best).verdict == Verdict::proved ? low : high) = best.*size;
+    }
+    best.*size = 0.98 * low;
+    return low > 0.0 ? std::optional(best) : std::nullopt;
+  };
+  return verify_with_counterexamples(loop, cells, search_on, start);
 }
 
 /// One part for all cells if possible; halves, where that is allowed, if not. False when some part failed,

@@ -81,7 +81,8 @@ SimulatedBasin simulate_basin(const CaptureProblem& problem, const StartBox& sta
   tbb::parallel_for(0, phases, [&](int i) {
     for (int j = 0; j < frequencies; ++j) {
       const double end = run.final_frequency_error(amplitude_error, basin.phase(i), basin.frequency(j));
-      basin.locks[static_cast<std::size_t>(i * frequencies + j)] = std::fabs(end - lock) < kLockedWithin;
+      basin.locks[static_cast<std::size_t>(i * frequencies + j)] =
+          std::fabs(end - lock) < kLockedWithin ? 1 : 0;
     }
   });
   return basin;

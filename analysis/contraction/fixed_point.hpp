@@ -165,7 +165,7 @@ class KrawczykOperator {
     const Interval middle(midpoint(parameter_));
     const Column<Interval, Loop::kNoises + 1> quiet =
         Column<Interval, Loop::kNoises + 1>::Constant(Interval(0.0));
-    const Box at_middle = loop_(Box(center_), middle, quiet) - center_;
+    Box at_middle = loop_(Box(center_), middle, quiet) - center_;
     if (parameter_ == middle) {
       return at_middle;
     }

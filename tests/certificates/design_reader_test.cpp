@@ -174,7 +174,6 @@ TEST_CASE("the example designs are designs, and honour their own assumptions") {
     CAPTURE(path.filename().string());
     Design design;
     REQUIRE_NOTHROW(design = read_design_file(path));
-    CHECK(design.require.empty());
     CHECK_FALSE(design.source.empty());
   }
 }
@@ -243,7 +242,6 @@ TEST_CASE("what is left out has its default, and no position") {
     check_number(number);
   }
   CHECK_FALSE(design.assume.initial_covariance);
-  CHECK(design.require.empty());
   CHECK(design.simulate.samples == 1000);
   CHECK(design.simulate.seed == 1);
   CHECK(design.simulate.signal == "constant");

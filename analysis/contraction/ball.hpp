@@ -141,7 +141,7 @@ template <typename Loop>
 [[nodiscard]] std::optional<double> disturbance_gain(const DisturbanceDerivatives<Loop>& derivatives,
                                                      const rigor::IntervalMatrix<Loop::kStates>& metric,
                                                      const rigor::IntervalMatrix<Loop::kStates>& inverse,
-                                                     int begin, int count, double radius,
+                                                     Eigen::Index begin, Eigen::Index count, double radius,
                                                      const rigor::Interval& disturbance_size) {
   constexpr int kSize = Loop::kStates;
   constexpr int kInputs = Loop::kNoises + 1;
@@ -150,7 +150,7 @@ template <typename Loop>
   }
   rigor::DynamicIntervalMatrix by_state(kSize, kSize * count);
   rigor::DynamicIntervalMatrix by_disturbance(kSize, kInputs * count);
-  for (int k = 0; k < count; ++k) {
+  for (Eigen::Index k = 0; k < count; ++k) {
     const auto& slope = derivatives.second[static_cast<std::size_t>(begin + k)];
     by_state.middleCols(kSize * k, kSize) = (metric * slope.template leftCols<kSize>()).eval() * inverse;
     by_disturbance.middleCols(kInputs * k, kInputs) = metric * slope.template rightCols<kInputs>();

@@ -174,12 +174,13 @@ template <int N>
     }
     slices[k] = unfolded<N>(slice, metric, inverse);
   }
-  for (int k = 0; k < N; ++k) {
+  constexpr Eigen::Index kPairs = Eigen::Index{N} * N;
+  for (Eigen::Index k = 0; k < N; ++k) {
     rigor::IntervalMatrix<N, N* N> sum = slices[0] * inverse(0, k);
     for (int l = 1; l < N; ++l) {
       sum += slices[static_cast<std::size_t>(l)] * inverse(l, k);
     }
-    result.middleCols(k * N * N, N * N) = sum;
+    result.middleCols(k * kPairs, kPairs) = sum;
   }
   return result;
 }

@@ -284,8 +284,16 @@ QuadratureBall certify_largest_slew(const BallQuestion& question, const LockBran
 
 theorems::Derivation derive_quadrature_ball(const BallQuestion& question) {
   const rigor::UpwardRounding upward;
-  const LockBranch branch = verify_lock_branch(question.design, question.band);
-  const QuadratureBall ball = certify_quadrature_ball(question, branch);
+  // Near the end of the branch X* moves fast, and only narrow cells are enclosed well enough.
+  LockBranch branch;
+  QuadratureBall ball;
+  for (const double cell_width : {0.05, 0.01}) {
+    branch = verify_lock_branch(question.design, question.band, {.largest = cell_width});
+    ball = certify_quadrature_ball(question, branch);
+    if (ball.verdict == Verdict::proved || branch.verdict != Verdict::proved) {
+      break;
+    }
+  }
   const QuadratureBall noisy = certify_largest_noise(question, branch);
   const QuadratureBall slewing = certify_largest_slew(question, branch);
 
@@ -312,10 +320,15 @@ theorems::Derivation derive_quadrature_ball(const BallQuestion& question) {
     const auto steps = settling_samples(part);
     return steps ? Interval(*steps) : Interval::empty();
   });
-  const auto noise = over_parts(
-      noisy, true, [](const BallChain& part) { return Interval(part.balls.front().proposal.noise); });
-  const auto slew = over_parts(
-      slewing, true, [](const BallChain& part) { return Interval(part.balls.front().proposal.slew); });
+  auto noise = over_parts(noisy, true,
+                          [](const BallChain& part) { return Interval(part.balls.front().proposal.noise); });
+  auto slew = over_parts(slewing, true,
+                         [](const BallChain& part) { return Interval(part.balls.front().proposal.slew); });
+  if (ball.verdict == Verdict::proved) {
+    // What holds with both holds with one of them.
+    noise = max(noise.value_or(Interval(0.0)), Interval(question.noise));
+    slew = max(slew.value_or(Interval(0.0)), Interval(question.slew));
+  }
   const auto level = over_parts(
       ball, false, [](const BallChain& part) { return Interval(part.balls.front().ultimate_level); });
 

@@ -233,6 +233,8 @@ TEST_CASE("the derivation: named quantities, and honest failures") {
   CHECK(theorems::find_quantity(proved, "ultimate_frequency_error").value.upper() >=
         magnitude(theorems::find_quantity(proved, "bias_frequency").value));
   CHECK(theorems::find_quantity(proved, "settling_samples").value.upper() > 0.0);
+  CHECK(theorems::find_quantity(proved, "largest_noise").value.lower() >= 0.001);
+  CHECK(theorems::find_quantity(proved, "largest_slew").value.lower() >= 0.0001);
 
   // Too much noise; a band beyond the end of the branch; no exponentially stable steady state; no numbers.
   const double nan = std::numeric_limits<double>::quiet_NaN();

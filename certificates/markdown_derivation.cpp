@@ -23,6 +23,7 @@ std::string conditions_table(const theorems::Derivation& derivation) {
     return condition.verdict != rigor::Verdict::proved;  // what fails is what the reader looks for
   });
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(conditions.size());
   for (const theorems::Condition& condition : conditions) {
     rows.push_back({condition_name(condition.id), math(condition.statement),
                     rigor::is_empty(condition.lhs) ? "—" : enclosure(condition.lhs),
@@ -34,6 +35,7 @@ std::string conditions_table(const theorems::Derivation& derivation) {
 std::string quantities_table(const theorems::Derivation& derivation,
                              std::string (*describe)(const std::string& name)) {
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(derivation.quantities.size());
   for (const theorems::Quantity& quantity : derivation.quantities) {
     rows.push_back({describe(quantity.name), quantity.symbol.empty() ? "—" : math(quantity.symbol),
                     quantity.formula.empty() ? "—" : math(quantity.formula),

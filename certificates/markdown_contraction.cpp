@@ -89,7 +89,9 @@ std::string contraction_section(const Certificate& certificate) {
   for (const theorems::Derivation& derivation : derivations_of(certificate, "contraction")) {
     text +=
         fmt::format("## What is certified of it: contraction, {}\n\n", markdown::verdict(derivation.verdict));
-    text += derivation.title + ". The proof is in `docs/contraction.md` of the program's sources.\n\n";
+    const bool leaks = certificate.design.design.epsilon.nearest > 0.0;
+    text += fmt::format("{}. The proof is in `{}` of the program's sources.\n\n", derivation.title,
+                        leaks ? "analysis/contraction/ball.hpp" : "docs/contraction.md");
     text += markdown::conditions_table(derivation) + "\n";
     text += markdown::quantities_table(derivation, description) + "\n";
     text += markdown::notes_list(derivation) + "\n";

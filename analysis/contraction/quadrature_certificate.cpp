@@ -52,7 +52,13 @@ std::optional<Verification> largest_set(const ContractionQuestion& question, Obj
       continue;
     }
     Verification verification = verify_certified_set(design, *proposal);
-    if (verification.verdict == Verdict::proved) {
+    // A proposal is not to be believed, not even in the noise and slew that it was asked to bear.
+    const rigor::UpwardRounding upward;
+    const bool bears_what_is_assumed =
+        objective != Objective::start_error ||
+        (certainly_less_equal(question.noise, Interval(verification.set.noise)) &&
+         certainly_less_equal(question.slew, Interval(verification.set.slew)));
+    if (verification.verdict == Verdict::proved && bears_what_is_assumed) {
       return verification;
     }
   }

@@ -63,8 +63,7 @@ struct Certificate {
 [[nodiscard]] std::string verdict_text(const Certificate& certificate);
 
 /// Evaluates everything that can be said of the design. `design_text` is the file's text and `design_file`
-/// its name without folders, for the documents. Opens its own rounding scope. Throws std::invalid_argument
-/// for a tracker that is not known.
+/// its name without folders, for the documents. Opens its own rounding scope.
 [[nodiscard]] Certificate certify(const Design& design, const std::string& design_file,
                                   const std::string& design_text);
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include <variant>
 
 #include "analysis/theorems/theorem_2_9.hpp"
 #include "certificates/certificate.hpp"
@@ -17,26 +17,26 @@ using rigor::Verdict;
 
 /// The theorem is stated for unit amplitude. The filter (q1, r, noise v) at amplitude A is the filter
 /// (q1/A^2, r/A^2, v/A) at amplitude 1.
-theorems::Theorem29Input theorem_input(const Design& design) {
-  const Assumptions& assume = design.assume;
+theorems::Theorem29Input theorem_input(const QuadratureEkfTables& tables) {
+  const Assumptions& assume = tables.assume;
   const Interval amplitude_squared = rigor::square(assume.amplitude.value);
   theorems::Theorem29Input input;
-  input.q1 = design.design.q1.value / amplitude_squared;
-  input.q2 = design.design.q2.value;
-  input.r = design.design.r.value / amplitude_squared;
-  input.epsilon = design.design.epsilon.value;
-  input.state_bound = design.theorem_2_9.state_bound.value;
-  input.sigma = design.theorem_2_9.sigma.value;
-  input.gamma_fraction = design.theorem_2_9.gamma_fraction.value;
-  input.c1 = design.theorem_2_9.c1.value;
-  input.c2 = design.theorem_2_9.c2.value;
+  input.q1 = tables.design.q1.value / amplitude_squared;
+  input.q2 = tables.design.q2.value;
+  input.r = tables.design.r.value / amplitude_squared;
+  input.epsilon = tables.design.epsilon.value;
+  input.state_bound = tables.theorem_2_9.state_bound.value;
+  input.sigma = tables.theorem_2_9.sigma.value;
+  input.gamma_fraction = tables.theorem_2_9.gamma_fraction.value;
+  input.c1 = tables.theorem_2_9.c1.value;
+  input.c2 = tables.theorem_2_9.c2.value;
   input.q1_equals_q2 =
-      assume.amplitude.value == Interval(1.0) && same_number(design.design.q1, design.design.q2);
+      assume.amplitude.value == Interval(1.0) && same_number(tables.design.q1, tables.design.q2);
   // |w(k)| = |omega(k+1) - (1 - epsilon) omega(k)|: at most the slew plus epsilon |omega|, and at constant
   // frequency the latter.
   const Interval largest_frequency =
       rigor::max(rigor::abs(assume.frequency[0].value), rigor::abs(assume.frequency[1].value));
-  const Interval leaked = design.design.epsilon.value * largest_frequency;
+  const Interval leaked = tables.design.epsilon.value * largest_frequency;
   input.process_noise = rigor::hull(leaked, leaked + assume.slew.value);
   input.measurement_noise = assume.noise.value / assume.amplitude.value;
   input.largest_state = rigor::sqrt(Interval(1.0) + rigor::square(largest_frequency));
@@ -63,6 +63,33 @@ Claim applicability_claim(const theorems::Derivation& derivation) {
   return claim;
 }
 
+/// Everything that can be said of a design of the quadrature tracker.
+void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables) {
+  const theorems::Theorem29Input input = theorem_input(tables);
+  certificate.simulation = simulate(certificate.design);
+  const Number& amplitude = tables.assume.amplitude;
+  const theorems::Trajectory trajectory =
+      at_unit_amplitude(certificate.simulation.trajectory, amplitude.nearest);
+  for (const auto variant : {theorems::Theorem29Variant::printed, theorems::Theorem29Variant::errata}) {
+    const theorems::Theorem29 theorem = theorems::evaluate_theorem_2_9(variant, input);
+    certificate.derivations.push_back(theorem.derivation);
+    certificate.audits.push_back(
+        {theorem.derivation.id, theorems::audit_theorem_2_9(theorem, input, trajectory)});
+    certificate.claims.push_back(applicability_claim(theorem.derivation));
+  }
+  if (!(amplitude.value == Interval(1.0))) {
+    for (theorems::Derivation& derivation : certificate.derivations) {
+      derivation.notes.push_back(
+          fmt::format("The theorem is stated for a signal of amplitude 1. Its constants are those of the "
+                      "filter that does at amplitude 1 "
+                      "what this one does at amplitude {}: q1, r and the noise scaled by the amplitude.",
+                      amplitude.text));
+    }
+  }
+  add_contraction(certificate);
+  add_required_claims(certificate);
+}
+
 }  // namespace
 
 std::vector<theorems::Derivation> derivations_of(const Certificate& certificate, std::string_view prefix) {
@@ -80,37 +107,12 @@ std::string verdict_text(const Certificate& certificate) {
 }
 
 Certificate certify(const Design& design, const std::string& design_file, const std::string& design_text) {
-  if (design.tracker != "quadrature-ekf") {
-    throw std::invalid_argument("no certificates for tracker " + design.tracker);
-  }
   const rigor::UpwardRounding upward;
   Certificate certificate;
   certificate.design = design;
   certificate.design_file = design_file;
   certificate.design_text = design_text;
-
-  const theorems::Theorem29Input input = theorem_input(design);
-  certificate.simulation = simulate(design);
-  const theorems::Trajectory trajectory =
-      at_unit_amplitude(certificate.simulation.trajectory, design.assume.amplitude.nearest);
-  for (const auto variant : {theorems::Theorem29Variant::printed, theorems::Theorem29Variant::errata}) {
-    const theorems::Theorem29 theorem = theorems::evaluate_theorem_2_9(variant, input);
-    certificate.derivations.push_back(theorem.derivation);
-    certificate.audits.push_back(
-        {theorem.derivation.id, theorems::audit_theorem_2_9(theorem, input, trajectory)});
-    certificate.claims.push_back(applicability_claim(theorem.derivation));
-  }
-  if (!(design.assume.amplitude.value == Interval(1.0))) {
-    for (theorems::Derivation& derivation : certificate.derivations) {
-      derivation.notes.push_back(
-          fmt::format("The theorem is stated for a signal of amplitude 1. Its constants are those of the "
-                      "filter that does at amplitude 1 "
-                      "what this one does at amplitude {}: q1, r and the noise scaled by the amplitude.",
-                      design.assume.amplitude.text));
-    }
-  }
-  add_contraction(certificate);
-  add_required_claims(certificate);
+  std::visit([&](const auto& tables) { certify_tables(certificate, tables); }, design.tables);
   return certificate;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "analysis/rigor/interval.hpp"
 
@@ -76,18 +77,30 @@ struct Theorem29Parameters {
   Number c2;              ///< |v| <= c2 sqrt(r)
 };
 
-struct Design {
-  std::string name;
-  std::string tracker;
-  std::string source;
+/// The tables of a design file for the tracker "quadrature-ekf".
+struct QuadratureEkfTables {
   QuadratureEkfDesign design;
   Assumptions assume;
   Requirements require;
   SimulationSettings simulate;
   Theorem29Parameters theorem_2_9;
+};
+
+/// A design file: what every tracker's has, and the tables that go with the tracker. Another tracker brings
+/// a struct of its tables, an alternative of the variant, its keys (design_keys.hpp) and a certify function.
+struct Design {
+  std::string name;
+  std::string tracker;
+  std::string source;
+  std::variant<QuadratureEkfTables> tables;
   /// Where the value of each key that the file gives stands, by its path, e.g. "design.q1"; defaults are not
   /// in it.
   std::map<std::string, Position> positions;
+
+  /// The tables of that tracker. Throws std::bad_variant_access for a design of another tracker.
+  [[nodiscard]] const QuadratureEkfTables& quadrature_ekf() const {
+    return std::get<QuadratureEkfTables>(tables);
+  }
 };
 
 }  // namespace veritrack::certificates

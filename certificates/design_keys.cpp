@@ -107,8 +107,7 @@ void choose(const TomlValue& value, const Choices& choices, std::string& target)
 }
 
 void tracker(const TomlValue& value, Design& design) {
-  constexpr std::array<std::string_view, 1> kKnown{"quadrature-ekf"};
-  choose(value, kKnown, design.tracker);
+  choose(value, kTrackerNames, design.tracker);
 }
 
 void signal(const TomlValue& value, SimulationSettings& simulate) {
@@ -237,6 +236,13 @@ constexpr std::array kTheorem29Keys{
 };
 
 }  // namespace
+
+std::optional<decltype(Design::tables)> make_tables(std::string_view tracker) {
+  if (tracker == "quadrature-ekf") {
+    return QuadratureEkfTables{};
+  }
+  return std::nullopt;
+}
 
 std::span<const Key<Design>> top_keys() {
   return kTopKeys;

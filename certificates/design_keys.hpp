@@ -2,8 +2,12 @@
 // without it.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "certificates/design.hpp"
 #include "certificates/toml_value.hpp"
@@ -29,7 +33,7 @@ struct Key {
 
 /// The keys above the first table.
 [[nodiscard]] std::span<const Key<Design>> top_keys();
-/// [design], for the tracker "quadrature-ekf". A tracker with other design values will bring its own keys.
+/// [design], for the tracker "quadrature-ekf".
 [[nodiscard]] std::span<const Key<QuadratureEkfDesign>> quadrature_ekf_keys();
 /// [assume]
 [[nodiscard]] std::span<const Key<Assumptions>> assume_keys();
@@ -40,15 +44,23 @@ struct Key {
 /// [theorem_2_9]
 [[nodiscard]] std::span<const Key<Theorem29Parameters>> theorem_2_9_keys();
 
-/// Calls visit(name, keys, member) for each table, in the order of a design file; `member` is the part of a
-/// Design that the table fills.
-template <typename Visitor>
+/// Calls visit(name, keys, member) for each table of the tracker whose tables are `Tables`, in the order of a
+/// design file; `member` is the part of Tables that the table fills.
+template <typename Tables, typename Visitor>
 void for_each_table(Visitor visit) {
-  visit("design", quadrature_ekf_keys(), &Design::design);
-  visit("assume", assume_keys(), &Design::assume);
-  visit("require", require_keys(), &Design::require);
-  visit("simulate", simulate_keys(), &Design::simulate);
-  visit("theorem_2_9", theorem_2_9_keys(), &Design::theorem_2_9);
+  static_assert(std::is_same_v<Tables, QuadratureEkfTables>, "a tracker without keys");
+  visit("design", quadrature_ekf_keys(), &Tables::design);
+  visit("assume", assume_keys(), &Tables::assume);
+  visit("require", require_keys(), &Tables::require);
+  visit("simulate", simulate_keys(), &Tables::simulate);
+  visit("theorem_2_9", theorem_2_9_keys(), &Tables::theorem_2_9);
 }
+
+/// The trackers that a design file can name, in the order of the alternatives of Design::tables.
+inline constexpr std::array<std::string_view, std::variant_size_v<decltype(Design::tables)>> kTrackerNames{
+    "quadrature-ekf"};
+
+/// Empty tables for the tracker of that name; nothing when it is not known.
+[[nodiscard]] std::optional<decltype(Design::tables)> make_tables(std::string_view tracker);
 
 }  // namespace veritrack::certificates

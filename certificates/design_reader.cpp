@@ -10,6 +10,7 @@
 #include <optional>
 #include <system_error>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
@@ -35,9 +36,10 @@ std::vector<std::string> names_of(std::span<const Key<Target>> keys) {
 }
 
 /// Every path that means something: "name", "design", "design.q1", ...
+template <typename Tables>
 std::vector<std::string> known_paths() {
   std::vector<std::string> paths = names_of(top_keys());
-  for_each_table([&](const std::string& table, auto keys, auto) {
+  for_each_table<Tables>([&](const std::string& table, auto keys, auto) {
     paths.push_back(table);
     for (const auto& key : keys) {
       paths.push_back(fmt::format("{}.{}", table, key.name));
@@ -72,11 +74,12 @@ void find_unknown_keys(const toml::table& table, const std::string& table_name,
   }
 }
 
-/// Throws InputError at the first key of the file that means nothing.
+/// Throws InputError at the first key of the file that means nothing for the tracker with these tables.
+template <typename Tables>
 void reject_unknown_keys(const TomlSource& source) {
   std::optional<UnknownKey> unknown;
   std::vector<std::string> names_at_top = names_of(top_keys());
-  for_each_table([&](const std::string& table, auto keys, auto) {
+  for_each_table<Tables>([&](const std::string& table, auto keys, auto) {
     names_at_top.push_back(table);
     if (const toml::table* content = source.root().get_as<toml::table>(table)) {
       find_unknown_keys(*content, table, names_of(keys), unknown);
@@ -87,17 +90,18 @@ void reject_unknown_keys(const TomlSource& source) {
     return;
   }
   std::vector<std::string> allowed = names_at_top;
-  for_each_table([&](const std::string& table, auto keys, auto) {
+  for_each_table<Tables>([&](const std::string& table, auto keys, auto) {
     if (table == unknown->table) {
       allowed = names_of(keys);
     }
   });
   constexpr std::size_t kShownLimit = 80;
-  source.fail(unknown->position,
-              fmt::format("unknown key {}; nearest known key: {}; allowed {}: {}",
-                          printable(unknown->path, kShownLimit), nearest_key(unknown->path, known_paths()),
-                          unknown->table.empty() ? "at the top" : "in [" + unknown->table + "]",
-                          fmt::join(allowed, ", ")));
+  source.fail(
+      unknown->position,
+      fmt::format("unknown key {}; nearest known key: {}; allowed {}: {}",
+                  printable(unknown->path, kShownLimit), nearest_key(unknown->path, known_paths<Tables>()),
+                  unknown->table.empty() ? "at the top" : "in [" + unknown->table + "]",
+                  fmt::join(allowed, ", ")));
 }
 
 // ---- reading
@@ -148,17 +152,30 @@ const toml::table* find_table(const TomlSource& source, const std::string& name)
   return node->as_table();
 }
 
+/// The tables that the file should have: those of its tracker. A tracker that is missing or unknown is
+/// reported when the key is read; until then the file is taken for one of the first tracker.
+decltype(Design::tables) expected_tables(const TomlSource& source) {
+  const auto tracker = source.root()["tracker"].value<std::string_view>();
+  return make_tables(tracker.value_or("")).value_or(decltype(Design::tables){});
+}
+
+template <typename Tables>
+void read_tables(const TomlSource& source, Design& design, Tables& tables) {
+  reject_unknown_keys<Tables>(source);
+  read_table(source, &source.root(), "", top_keys(), design, design.positions);
+  for_each_table<Tables>([&](const std::string& name, auto keys, auto member) {
+    read_table(source, find_table(source, name), name, keys, tables.*member, design.positions);
+  });
+}
+
 }  // namespace
 
 Design read_design(std::string_view text, std::string_view file_name) {
   const TomlSource source(text, file_name);
   const rigor::UpwardRounding upward;
   Design design;
-  reject_unknown_keys(source);
-  read_table(source, &source.root(), "", top_keys(), design, design.positions);
-  for_each_table([&](const std::string& name, auto keys, auto member) {
-    read_table(source, find_table(source, name), name, keys, design.*member, design.positions);
-  });
+  design.tables = expected_tables(source);
+  std::visit([&](auto& tables) { read_tables(source, design, tables); }, design.tables);
   return design;
 }
 

@@ -17,14 +17,14 @@ using rigor::Verdict;
 constexpr const char* kContraction = "contraction";
 
 trackers::QuadratureEkfDesign<Interval> design_at_unit_amplitude(const Design& design) {
-  const QuadratureEkfDesign& chosen = design.design;
+  const QuadratureEkfDesign& chosen = design.quadrature_ekf().design;
   return trackers::at_unit_amplitude<Interval>(
       {chosen.q1.value, chosen.q2.value, chosen.r.value, chosen.epsilon.value},
-      design.assume.amplitude.value);
+      design.quadrature_ekf().assume.amplitude.value);
 }
 
 contraction::BallQuestion ball_question_of(const Design& design) {
-  const Assumptions& assume = design.assume;
+  const Assumptions& assume = design.quadrature_ekf().assume;
   contraction::BallQuestion question;
   question.design = design_at_unit_amplitude(design);
   question.band = rigor::hull(assume.frequency[0].value, assume.frequency[1].value);
@@ -62,7 +62,7 @@ const theorems::Derivation& contraction_derivation(const Certificate& certificat
 }
 
 Claim frequency_error_claim(const Certificate& certificate, const Number& required) {
-  const Assumptions& assume = certificate.design.assume;
+  const Assumptions& assume = certificate.design.quadrature_ekf().assume;
   const theorems::Derivation& derivation = contraction_derivation(certificate);
   const std::optional<Interval> bound = proved_frequency_bound(certificate);
   Claim claim;
@@ -116,7 +116,7 @@ Claim settling_claim(const Certificate& certificate, const Number& required) {
 }  // namespace
 
 contraction::ContractionQuestion contraction_question(const Design& design) {
-  const Assumptions& assume = design.assume;
+  const Assumptions& assume = design.quadrature_ekf().assume;
   const Interval& amplitude = assume.amplitude.value;
   contraction::ContractionQuestion question;
   question.design = design_at_unit_amplitude(design);
@@ -149,7 +149,7 @@ std::optional<Interval> proved_frequency_bound(const Certificate& certificate) {
 }
 
 void add_contraction(Certificate& certificate) {
-  if (certificate.design.design.epsilon.value == Interval(0.0)) {
+  if (certificate.design.quadrature_ekf().design.epsilon.value == Interval(0.0)) {
     contraction::ContractionCertificate found =
         contraction::certify_contraction(contraction_question(certificate.design));
     certificate.derivations.push_back(std::move(found.derivation));
@@ -168,7 +168,7 @@ void add_contraction(Certificate& certificate) {
 }
 
 void add_required_claims(Certificate& certificate) {
-  const Requirements& require = certificate.design.require;
+  const Requirements& require = certificate.design.quadrature_ekf().require;
   if (require.frequency_error_below) {
     certificate.claims.push_back(frequency_error_claim(certificate, *require.frequency_error_below));
   }

@@ -1,6 +1,7 @@
 #include "certificates/json.hpp"
 
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "analysis/rigor/decimal.hpp"
 
@@ -27,10 +28,6 @@ Json number(const Number& value) {
   return json;
 }
 
-Json optional_number(const std::optional<Number>& value) {
-  return value ? number(*value) : Json(nullptr);
-}
-
 Json initial_covariance(const std::optional<CovarianceArray>& covariance) {
   if (!covariance) {
     return "steady-state";
@@ -46,25 +43,24 @@ Json initial_covariance(const std::optional<CovarianceArray>& covariance) {
   return rows;
 }
 
-Json design_json(const Certificate& certificate) {
-  const Design& design = certificate.design;
-  const Assumptions& assume = design.assume;
-  Json require = Json::object();
-  if (design.require.frequency_error_below) {
-    require["frequency_error_below"] = optional_number(design.require.frequency_error_below);
+Json require_json(const Requirements& require) {
+  Json json = Json::object();
+  if (require.frequency_error_below) {
+    json["frequency_error_below"] = number(*require.frequency_error_below);
   }
-  if (design.require.settles_within) {
-    require["settles_within"] = optional_number(design.require.settles_within);
+  if (require.settles_within) {
+    json["settles_within"] = number(*require.settles_within);
   }
-  return {{"file", certificate.design_file},
-          {"name", design.name},
-          {"tracker", design.tracker},
-          {"source", design.source},
-          {"design",
-           {{"q1", number(design.design.q1)},
-            {"q2", number(design.design.q2)},
-            {"r", number(design.design.r)},
-            {"epsilon", number(design.design.epsilon)}}},
+  return json;
+}
+
+Json tables_json(const QuadratureEkfTables& tables) {
+  const auto& [design, assume, require, simulate, theorem] = tables;
+  return {{"design",
+           {{"q1", number(design.q1)},
+            {"q2", number(design.q2)},
+            {"r", number(design.r)},
+            {"epsilon", number(design.epsilon)}}},
           {"assume",
            {{"amplitude", number(assume.amplitude)},
             {"frequency", {number(assume.frequency[0]), number(assume.frequency[1])}},
@@ -74,17 +70,24 @@ Json design_json(const Certificate& certificate) {
             {"initial_phase_error", number(assume.initial_phase_error)},
             {"initial_amplitude_error", number(assume.initial_amplitude_error)},
             {"initial_covariance", initial_covariance(assume.initial_covariance)}}},
-          {"require", require},
-          {"simulate",
-           {{"samples", design.simulate.samples},
-            {"seed", design.simulate.seed},
-            {"signal", design.simulate.signal}}},
+          {"require", require_json(require)},
+          {"simulate", {{"samples", simulate.samples}, {"seed", simulate.seed}, {"signal", simulate.signal}}},
           {"theorem_2_9",
-           {{"R_x", number(design.theorem_2_9.state_bound)},
-            {"sigma", number(design.theorem_2_9.sigma)},
-            {"gamma_fraction", number(design.theorem_2_9.gamma_fraction)},
-            {"c1", number(design.theorem_2_9.c1)},
-            {"c2", number(design.theorem_2_9.c2)}}}};
+           {{"R_x", number(theorem.state_bound)},
+            {"sigma", number(theorem.sigma)},
+            {"gamma_fraction", number(theorem.gamma_fraction)},
+            {"c1", number(theorem.c1)},
+            {"c2", number(theorem.c2)}}}};
+}
+
+Json design_json(const Certificate& certificate) {
+  const Design& design = certificate.design;
+  Json json{{"file", certificate.design_file},
+            {"name", design.name},
+            {"tracker", design.tracker},
+            {"source", design.source}};
+  json.update(std::visit([](const auto& tables) { return tables_json(tables); }, design.tables));
+  return json;
 }
 
 Json quantities_json(const std::vector<theorems::Quantity>& quantities, Json& not_applicable) {
@@ -101,6 +104,9 @@ Json quantities_json(const std::vector<theorems::Quantity>& quantities, Json& no
     entry["symbol"] = quantity.symbol;
     entry["formula"] = quantity.formula;
     entry["source"] = quantity.source;
+    if (!quantity.proved) {
+      entry["proved"] = false;
+    }
     json[quantity.name] = entry;
   }
   return json;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <variant>
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/versions.hpp"
@@ -62,6 +63,7 @@ std::string requirement_section(const Certificate& certificate) {
 
 std::string design_section(const Certificate& certificate) {
   const Design& design = certificate.design;
+  const QuadratureEkfDesign& chosen = design.quadrature_ekf().design;
   std::string text = "## The design\n\n";
   text += fmt::format("{} — tracker `{}`", escaped(design.name), design.tracker);
   text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
@@ -71,10 +73,10 @@ std::string design_section(const Certificate& certificate) {
   };
   text += markdown::table(
       {"Design value", "Symbol", "Value", "Unit"},
-      {row("process noise variance, in-phase and quadrature", "q_1", design.design.q1, "signal units²"),
-       row("process noise variance, frequency", "q_2", design.design.q2, "(rad/sample)²"),
-       row("measurement noise variance, per channel", "r", design.design.r, "signal units²"),
-       row("leak of the frequency state", "\\epsilon", design.design.epsilon, "—")});
+      {row("process noise variance, in-phase and quadrature", "q_1", chosen.q1, "signal units²"),
+       row("process noise variance, frequency", "q_2", chosen.q2, "(rad/sample)²"),
+       row("measurement noise variance, per channel", "r", chosen.r, "signal units²"),
+       row("leak of the frequency state", "\\epsilon", chosen.epsilon, "—")});
   return text + "\n";
 }
 
@@ -90,7 +92,7 @@ std::string covariance_text(const std::optional<CovarianceArray>& covariance) {
 }
 
 std::string assumptions_section(const Certificate& certificate) {
-  const Assumptions& assume = certificate.design.assume;
+  const Assumptions& assume = certificate.design.quadrature_ekf().assume;
   const auto row = [](const std::string& what, const std::string& relation, const std::string& value,
                       const std::string& unit) {
     return std::vector<std::string>{what, relation.empty() ? value : math(relation) + " " + value, unit};
@@ -120,7 +122,7 @@ std::string figures_section(const Certificate& certificate, const MarkdownOption
   if (options.figures.empty()) {
     return "";
   }
-  const SimulationSettings& run = certificate.design.simulate;
+  const SimulationSettings& run = certificate.design.quadrature_ekf().simulate;
   std::string text = "## The simulated run\n\n";
   text += fmt::format(
       "The double-precision tracker on the signal `{}`, {} samples, seed {}, started at the edge of the "
@@ -180,6 +182,17 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
          markdown::fenced(certificate.design_text, "toml");
 }
 
+/// The document of a quadrature tracker.
+std::string document(const Certificate& certificate, const MarkdownOptions& options,
+                     const QuadratureEkfTables& /*tables*/) {
+  return "# " + headline(certificate) + "\n\n" + contraction_summary(certificate) +
+         summary_section(certificate) + requirement_section(certificate) + design_section(certificate) +
+         assumptions_section(certificate) + contraction_section(certificate) +
+         figures_section(certificate, options) + conditions_section(certificate) +
+         constants_section(certificate) + audit_section(certificate) + coverage_section() +
+         reproduction_section(certificate, options);
+}
+
 }  // namespace
 
 std::string headline(const Certificate& certificate) {
@@ -205,12 +218,8 @@ std::string headline(const Certificate& certificate) {
 }
 
 std::string to_markdown(const Certificate& certificate, const MarkdownOptions& options) {
-  return "# " + headline(certificate) + "\n\n" + contraction_summary(certificate) +
-         summary_section(certificate) + requirement_section(certificate) + design_section(certificate) +
-         assumptions_section(certificate) + contraction_section(certificate) +
-         figures_section(certificate, options) + conditions_section(certificate) +
-         constants_section(certificate) + audit_section(certificate) + coverage_section() +
-         reproduction_section(certificate, options);
+  return std::visit([&](const auto& tables) { return document(certificate, options, tables); },
+                    certificate.design.tables);
 }
 
 }  // namespace veritrack::certificates

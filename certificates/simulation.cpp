@@ -17,8 +17,8 @@ using trackers::RotatingFrameState;
 using TrackerDesign = trackers::QuadratureEkfDesign<double>;
 
 TrackerDesign tracker_design(const Design& design) {
-  return {design.design.q1.nearest, design.design.q2.nearest, design.design.r.nearest,
-          design.design.epsilon.nearest};
+  const QuadratureEkfDesign& chosen = design.quadrature_ekf().design;
+  return {chosen.q1.nearest, chosen.q2.nearest, chosen.r.nearest, chosen.epsilon.nearest};
 }
 
 /// diag(Rot(angle), 1) P diag(Rot(angle), 1)'.
@@ -81,7 +81,7 @@ Eigen::Matrix3d given_covariance(const CovarianceArray& array) {
 
 SteadyState find_steady_state(const Design& design, double frequency) {
   const rigor::NearestRounding nearest;
-  const double amplitude = design.assume.amplitude.nearest;
+  const double amplitude = design.quadrature_ekf().assume.amplitude.nearest;
   const TrackerDesign unit_design = trackers::at_unit_amplitude(tracker_design(design), amplitude);
   SteadyState state = settle(unit_design, frequency, false);
   if (!state.settled) {
@@ -95,15 +95,16 @@ SteadyState find_steady_state(const Design& design, double frequency) {
 
 Simulation simulate(const Design& design) {
   const rigor::NearestRounding nearest;
-  const Assumptions& assume = design.assume;
+  const Assumptions& assume = design.quadrature_ekf().assume;
+  const SimulationSettings& settings = design.quadrature_ekf().simulate;
   const std::vector<trackers::Sample> samples =
-      trackers::make_signal(design.simulate.signal, {.samples = design.simulate.samples,
-                                                     .seed = design.simulate.seed,
-                                                     .amplitude = assume.amplitude.nearest,
-                                                     .frequency_low = assume.frequency[0].nearest,
-                                                     .frequency_high = assume.frequency[1].nearest,
-                                                     .noise_bound = assume.noise.nearest,
-                                                     .slew_bound = assume.slew.nearest});
+      trackers::make_signal(settings.signal, {.samples = settings.samples,
+                                              .seed = settings.seed,
+                                              .amplitude = assume.amplitude.nearest,
+                                              .frequency_low = assume.frequency[0].nearest,
+                                              .frequency_high = assume.frequency[1].nearest,
+                                              .noise_bound = assume.noise.nearest,
+                                              .slew_bound = assume.slew.nearest});
   Simulation simulation;
   const trackers::Sample& first = samples.front();
   Eigen::Matrix3d start_covariance;
@@ -120,10 +121,10 @@ Simulation simulate(const Design& design) {
           first.frequency));
     }
   }
-  if (!trackers::find_signal(design.simulate.signal).honours_bounds) {
+  if (!trackers::find_signal(settings.signal).honours_bounds) {
     simulation.notes.push_back(fmt::format(
         "The signal `{}` does not keep to the bounds under *Assumed*: the audit says where it leaves them.",
-        design.simulate.signal));
+        settings.signal));
   }
 
   const double phase =

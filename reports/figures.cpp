@@ -81,9 +81,9 @@ struct Level {
 /// Everything that the error is to be compared with, as far as it is a positive number.
 std::vector<Level> error_levels(const Certificate& certificate) {
   std::vector<Level> levels;
-  if (certificate.design.require.frequency_error_below) {
-    levels.push_back(
-        {"required of the frequency error", certificate.design.require.frequency_error_below->nearest});
+  if (certificate.design.quadrature_ekf().require.frequency_error_below) {
+    levels.push_back({"required of the frequency error",
+                      certificate.design.quadrature_ekf().require.frequency_error_below->nearest});
   }
   if (const auto bound = certificates::proved_frequency_bound(certificate)) {
     levels.push_back({"certified bound of the frequency error", bound->upper()});
@@ -102,7 +102,7 @@ std::vector<Level> error_levels(const Certificate& certificate) {
 }
 
 Figure error_figure(const Certificate& certificate) {
-  const double amplitude = certificate.design.assume.amplitude.nearest;
+  const double amplitude = certificate.design.quadrature_ekf().assume.amplitude.nearest;
   std::string script = preamble(420);
   script += data_block(certificate, [amplitude](const TrajectoryRecord& record) {
     const auto positive = [](double value) { return value > 0.0 ? value : std::nan(""); };

@@ -20,6 +20,8 @@ struct Quantity {
   /// Set when the quantity does not exist for this design (a division by q1 = 0, say): the reason, as a
   /// sentence. The value is then empty.
   std::optional<std::string> not_applicable;
+  /// False for a number that a search or a simulation gave: no enclosure of anything.
+  bool proved = true;
 };
 
 /// One hypothesis of a theorem, lhs < rhs, decided for a design.

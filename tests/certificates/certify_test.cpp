@@ -104,10 +104,4 @@ TEST_CASE("the theorem is evaluated at amplitude 1") {
   }
 }
 
-TEST_CASE("an unknown tracker is refused") {
-  certificates::Design design = test::design();
-  design.tracker = "something else";
-  CHECK_THROWS_AS(static_cast<void>(certificates::certify(design, "design.toml", "")), std::invalid_argument);
-}
-
 }  // namespace

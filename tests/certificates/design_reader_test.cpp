@@ -78,11 +78,11 @@ std::string file_refusal(const fs::path& path) {
 }
 
 std::vector<Number> numbers_of(const Design& design) {
-  const Assumptions& assume = design.assume;
-  std::vector<Number> numbers{design.design.q1,
-                              design.design.q2,
-                              design.design.r,
-                              design.design.epsilon,
+  const Assumptions& assume = design.quadrature_ekf().assume;
+  std::vector<Number> numbers{design.quadrature_ekf().design.q1,
+                              design.quadrature_ekf().design.q2,
+                              design.quadrature_ekf().design.r,
+                              design.quadrature_ekf().design.epsilon,
                               assume.amplitude,
                               assume.frequency[0],
                               assume.frequency[1],
@@ -91,17 +91,18 @@ std::vector<Number> numbers_of(const Design& design) {
                               assume.initial_frequency_error,
                               assume.initial_phase_error,
                               assume.initial_amplitude_error,
-                              design.theorem_2_9.state_bound,
-                              design.theorem_2_9.sigma,
-                              design.theorem_2_9.gamma_fraction,
-                              design.theorem_2_9.c1,
-                              design.theorem_2_9.c2};
+                              design.quadrature_ekf().theorem_2_9.state_bound,
+                              design.quadrature_ekf().theorem_2_9.sigma,
+                              design.quadrature_ekf().theorem_2_9.gamma_fraction,
+                              design.quadrature_ekf().theorem_2_9.c1,
+                              design.quadrature_ekf().theorem_2_9.c2};
   if (assume.initial_covariance) {
     for (const auto& row : *assume.initial_covariance) {
       numbers.insert(numbers.end(), row.begin(), row.end());
     }
   }
-  for (const auto& number : {design.require.frequency_error_below, design.require.settles_within}) {
+  for (const auto& number : {design.quadrature_ekf().require.frequency_error_below,
+                             design.quadrature_ekf().require.settles_within}) {
     if (number) {
       numbers.push_back(*number);
     }
@@ -188,10 +189,10 @@ TEST_CASE("the designs of Table 3.2 hold the numbers of Table 3.2") {
     CAPTURE(row.figure);
     const Design design =
         read_design_file(kSource / "designs" / (std::string("la-scala-1994-figure-") + row.figure + ".toml"));
-    CHECK(design.design.q1.nearest == row.q);
-    CHECK(design.design.q2.nearest == row.q);
-    CHECK(design.design.r.nearest == row.r);
-    CHECK(design.design.epsilon.nearest == row.epsilon);
+    CHECK(design.quadrature_ekf().design.q1.nearest == row.q);
+    CHECK(design.quadrature_ekf().design.q2.nearest == row.q);
+    CHECK(design.quadrature_ekf().design.r.nearest == row.r);
+    CHECK(design.quadrature_ekf().design.epsilon.nearest == row.epsilon);
   }
 }
 
@@ -200,27 +201,27 @@ TEST_CASE("everything is read to its place") {
   CHECK(design.name == "a design");
   CHECK(design.tracker == "quadrature-ekf");
   CHECK(design.source.empty());
-  CHECK(design.design.epsilon.text == "0.0");
-  CHECK(design.assume.amplitude.nearest == 2.5);
-  CHECK(design.assume.frequency[0].nearest == 0.05);
-  CHECK(design.assume.frequency[1].nearest == 3.0);
-  CHECK(design.assume.noise.nearest == 0.001);
-  CHECK(design.assume.slew.nearest == 1e-6);
-  REQUIRE(design.assume.initial_covariance);
-  CHECK((*design.assume.initial_covariance)[2][2].nearest == 1.0);
-  CHECK((*design.assume.initial_covariance)[2][1].nearest == 0.0);
-  REQUIRE(design.require.frequency_error_below);
-  CHECK(design.require.frequency_error_below->nearest == 0.05);
-  REQUIRE(design.require.settles_within);
-  CHECK(design.require.settles_within->nearest == 200.0);
-  CHECK(design.simulate.samples == 10'000'000);
-  CHECK(design.simulate.seed == 9'223'372'036'854'775'807U);
-  CHECK(design.simulate.signal == "la-scala-1994");
-  CHECK(design.theorem_2_9.state_bound.nearest == 7.0);
-  CHECK(design.theorem_2_9.sigma.nearest == 1e-3);
-  CHECK(design.theorem_2_9.gamma_fraction.nearest == 0.5);
-  CHECK(design.theorem_2_9.c1.nearest == 0.0);
-  CHECK(design.theorem_2_9.c2.nearest == 3.5);
+  CHECK(design.quadrature_ekf().design.epsilon.text == "0.0");
+  CHECK(design.quadrature_ekf().assume.amplitude.nearest == 2.5);
+  CHECK(design.quadrature_ekf().assume.frequency[0].nearest == 0.05);
+  CHECK(design.quadrature_ekf().assume.frequency[1].nearest == 3.0);
+  CHECK(design.quadrature_ekf().assume.noise.nearest == 0.001);
+  CHECK(design.quadrature_ekf().assume.slew.nearest == 1e-6);
+  REQUIRE(design.quadrature_ekf().assume.initial_covariance);
+  CHECK((*design.quadrature_ekf().assume.initial_covariance)[2][2].nearest == 1.0);
+  CHECK((*design.quadrature_ekf().assume.initial_covariance)[2][1].nearest == 0.0);
+  REQUIRE(design.quadrature_ekf().require.frequency_error_below);
+  CHECK(design.quadrature_ekf().require.frequency_error_below->nearest == 0.05);
+  REQUIRE(design.quadrature_ekf().require.settles_within);
+  CHECK(design.quadrature_ekf().require.settles_within->nearest == 200.0);
+  CHECK(design.quadrature_ekf().simulate.samples == 10'000'000);
+  CHECK(design.quadrature_ekf().simulate.seed == 9'223'372'036'854'775'807U);
+  CHECK(design.quadrature_ekf().simulate.signal == "la-scala-1994");
+  CHECK(design.quadrature_ekf().theorem_2_9.state_bound.nearest == 7.0);
+  CHECK(design.quadrature_ekf().theorem_2_9.sigma.nearest == 1e-3);
+  CHECK(design.quadrature_ekf().theorem_2_9.gamma_fraction.nearest == 0.5);
+  CHECK(design.quadrature_ekf().theorem_2_9.c1.nearest == 0.0);
+  CHECK(design.quadrature_ekf().theorem_2_9.c2.nearest == 3.5);
   CHECK(design.positions.at("name").line == 1);
   CHECK(design.positions.at("design.q1").line == 5);
   CHECK(design.positions.at("design.q1").column == 6);
@@ -231,28 +232,30 @@ TEST_CASE("everything is read to its place") {
 
 TEST_CASE("what is left out has its default, and no position") {
   const Design design = read_design(minimal(), "x.toml");
-  for (const auto& [number, expected] :
-       {std::pair{design.assume.amplitude, 1.0}, std::pair{design.assume.slew, 0.0},
-        std::pair{design.theorem_2_9.state_bound, 7.0}, std::pair{design.theorem_2_9.sigma, 1e-3},
-        std::pair{design.theorem_2_9.gamma_fraction, 0.5}, std::pair{design.theorem_2_9.c1, 3.0},
-        std::pair{design.theorem_2_9.c2, 3.0}}) {
+  for (const auto& [number, expected] : {std::pair{design.quadrature_ekf().assume.amplitude, 1.0},
+                                         std::pair{design.quadrature_ekf().assume.slew, 0.0},
+                                         std::pair{design.quadrature_ekf().theorem_2_9.state_bound, 7.0},
+                                         std::pair{design.quadrature_ekf().theorem_2_9.sigma, 1e-3},
+                                         std::pair{design.quadrature_ekf().theorem_2_9.gamma_fraction, 0.5},
+                                         std::pair{design.quadrature_ekf().theorem_2_9.c1, 3.0},
+                                         std::pair{design.quadrature_ekf().theorem_2_9.c2, 3.0}}) {
     CHECK(number.nearest == expected);
     CHECK(number.position.line == 0);
     CHECK(number.position.column == 0);
     check_number(number);
   }
-  CHECK_FALSE(design.assume.initial_covariance);
-  CHECK(design.simulate.samples == 1000);
-  CHECK(design.simulate.seed == 1);
-  CHECK(design.simulate.signal == "constant");
+  CHECK_FALSE(design.quadrature_ekf().assume.initial_covariance);
+  CHECK(design.quadrature_ekf().simulate.samples == 1000);
+  CHECK(design.quadrature_ekf().simulate.seed == 1);
+  CHECK(design.quadrature_ekf().simulate.signal == "constant");
   CHECK(design.source.empty());
 }
 
 TEST_CASE("a decimal is the interval around it, not a double") {
   const Design design = read_design(minimal(), "x.toml");
-  CHECK(design.design.q1.value.lower() < design.design.q1.value.upper());
-  CHECK(design.design.epsilon.value.lower() == 0.0);
-  CHECK(design.design.epsilon.value.upper() == 0.0);
+  CHECK(design.quadrature_ekf().design.q1.value.lower() < design.quadrature_ekf().design.q1.value.upper());
+  CHECK(design.quadrature_ekf().design.epsilon.value.lower() == 0.0);
+  CHECK(design.quadrature_ekf().design.epsilon.value.upper() == 0.0);
 }
 
 TEST_CASE("random decimals arrive whole") {
@@ -274,8 +277,9 @@ TEST_CASE("random decimals arrive whole") {
       number +=
           (random.below(2) == 0 ? "e" : "E") + std::to_string(static_cast<int>(random.below(600)) - 300);
     }
-    const Number read =
-        read_design(replaced(text, "noise = 0.001", "noise = " + number), "x.toml").assume.noise;
+    const Number read = read_design(replaced(text, "noise = 0.001", "noise = " + number), "x.toml")
+                            .quadrature_ekf()
+                            .assume.noise;
     CHECK(read.text == number);
     check_number(read);
   }
@@ -327,8 +331,8 @@ TEST_CASE("the caller's rounding mode neither matters nor changes") {
   CHECK(rigor::rounding_is_upward());
   CHECK_THROWS_AS((void)read_design("", "x.toml"), InputError);
   CHECK(rigor::rounding_is_upward());
-  CHECK(inside.design.q1.nearest == outside.design.q1.nearest);
-  CHECK(rigor::identical(inside.design.q1.value, outside.design.q1.value));
+  CHECK(inside.quadrature_ekf().design.q1.nearest == outside.quadrature_ekf().design.q1.nearest);
+  CHECK(rigor::identical(inside.quadrature_ekf().design.q1.value, outside.quadrature_ekf().design.q1.value));
 }
 
 TEST_CASE("files that are no design files") {

@@ -34,21 +34,23 @@ void check(const Number& number) {
 }
 
 void check(const Design& design) {
-  const Assumptions& assume = design.assume;
-  const Theorem29Parameters& theorem = design.theorem_2_9;
+  const Assumptions& assume = design.quadrature_ekf().assume;
+  const Theorem29Parameters& theorem = design.quadrature_ekf().theorem_2_9;
   for (const Number& number :
-       {design.design.q1, design.design.q2, design.design.r, design.design.epsilon, assume.amplitude,
+       {design.quadrature_ekf().design.q1, design.quadrature_ekf().design.q2,
+        design.quadrature_ekf().design.r, design.quadrature_ekf().design.epsilon, assume.amplitude,
         assume.frequency[0], assume.frequency[1], assume.noise, assume.slew, assume.initial_frequency_error,
         assume.initial_phase_error, assume.initial_amplitude_error, theorem.state_bound, theorem.sigma,
         theorem.gamma_fraction, theorem.c1, theorem.c2}) {
     check(number);
     require(number.value.lower() >= 0.0, "a negative number");
   }
-  for (const Number& number : {design.design.q2, design.design.r, assume.amplitude, theorem.state_bound,
-                               theorem.sigma, theorem.gamma_fraction}) {
+  for (const Number& number :
+       {design.quadrature_ekf().design.q2, design.quadrature_ekf().design.r, assume.amplitude,
+        theorem.state_bound, theorem.sigma, theorem.gamma_fraction}) {
     require(number.value.lower() > 0.0, "a number that may be zero");
   }
-  require(design.design.epsilon.value.upper() < 1.0, "epsilon reaches 1");
+  require(design.quadrature_ekf().design.epsilon.value.upper() < 1.0, "epsilon reaches 1");
   require(theorem.gamma_fraction.value.upper() < 1.0, "gamma_fraction reaches 1");
   require(assume.frequency[0].value.lower() <= assume.frequency[1].value.upper(),
           "a reversed frequency band");
@@ -57,7 +59,9 @@ void check(const Design& design) {
       std::for_each(row.begin(), row.end(), [](const Number& number) { check(number); });
     }
   }
-  require(design.simulate.samples >= 1 && design.simulate.samples <= 10'000'000, "samples out of range");
+  require(
+      design.quadrature_ekf().simulate.samples >= 1 && design.quadrature_ekf().simulate.samples <= 10'000'000,
+      "samples out of range");
   require(!design.name.empty() && design.name.size() <= 200, "a name out of range");
   require(design.tracker == "quadrature-ekf", "an unknown tracker");
 }

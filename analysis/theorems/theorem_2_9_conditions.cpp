@@ -2,74 +2,15 @@
 
 #include <utility>
 
-#include "analysis/rigor/decimal.hpp"
+#include "analysis/theorems/comparison.hpp"
 #include "analysis/theorems/theorem_2_9_quantities.hpp"
 
 namespace veritrack::theorems {
 
 namespace {
 
-using rigor::Direction;
 using rigor::Interval;
 using rigor::Verdict;
-
-constexpr int kDigits = 6;
-
-std::string at_least(const Interval& x) {
-  return rigor::to_decimal(x.lower(), kDigits, Direction::down);
-}
-std::string at_most(const Interval& x) {
-  return rigor::to_decimal(x.upper(), kDigits, Direction::up);
-}
-
-/// One side of an inequality: how the reason calls it, and what it is. A literal (0 or 1) is its own value.
-struct Side {
-  std::string words;
-  Interval value;
-  bool is_literal = false;
-};
-
-std::string not_known(const std::string& words) {
-  return words + " is undefined, or overflows, for the values of this design.";
-}
-
-/// What decided left < right (or left <= right), in one sentence.
-std::string explain(const Side& left, const Side& right, Verdict verdict) {
-  if (verdict == Verdict::undecided) {
-    if (!is_finite(left.value) || !is_finite(right.value)) {
-      return not_known(is_finite(left.value) ? right.words : left.words);
-    }
-    const auto enclosed = [](const Side& side) {
-      return side.is_literal ? side.words : side.words + " in " + rigor::to_decimal(side.value, kDigits);
-    };
-    return enclosed(left) + " and " + enclosed(right) + " are not told apart.";
-  }
-  const bool holds = verdict == Verdict::proved;
-  const std::string left_end =
-      holds ? " at most " + at_most(left.value) : " at least " + at_least(left.value);
-  const std::string right_end =
-      holds ? " at least " + at_least(right.value) : " at most " + at_most(right.value);
-  if (left.is_literal) {
-    return right.words + " is" + right_end + ".";
-  }
-  if (right.is_literal) {
-    return left.words + " is" + left_end + ".";
-  }
-  return left.words + " is" + left_end + (holds ? " and " : " but ") + right.words + right_end + ".";
-}
-
-enum class Strictness { strict, weak };
-
-Verdict decide(const Interval& left, const Interval& right, Strictness strictness) {
-  return strictness == Strictness::strict ? decide_less(left, right) : decide_less_equal(left, right);
-}
-
-/// left < right, reported with the two sides that decided it.
-Condition compare(std::string id, std::string statement, const Side& left, const Side& right) {
-  const Verdict verdict = decide_less(left.value, right.value);
-  return {std::move(id), std::move(statement), verdict,
-          left.value,    right.value,          explain(left, right, verdict)};
-}
 
 /// low < middle < high, each strict or weak: reported as middle against high, explained by what failed first.
 Condition between(std::string id, std::string statement, const Side& low, Strictness low_strictness,
@@ -82,13 +23,6 @@ Condition between(std::string id, std::string statement, const Side& low, Strict
   return {std::move(id), std::move(statement),
           verdict,       middle.value,
           high.value,    lower_end_decided_it ? explain(low, middle, above) : explain(middle, high, below)};
-}
-
-Side zero() {
-  return {"0", Interval(0.0), true};
-}
-Side one() {
-  return {"1", Interval(1.0), true};
 }
 
 /// The ranges of the free parameters.

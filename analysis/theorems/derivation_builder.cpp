@@ -1,0 +1,31 @@
+#include "analysis/theorems/derivation_builder.hpp"
+
+#include <utility>
+
+namespace veritrack::theorems {
+
+using rigor::Interval;
+
+void add_quantity(Derivation& derivation, QuantityText text, const Interval& value, std::string why_not) {
+  Quantity quantity{
+      std::move(text.name), std::move(text.symbol), std::move(text.formula), std::move(text.source), value,
+      std::nullopt};
+  if (!is_finite(value)) {
+    quantity.value = Interval::empty();
+    quantity.not_applicable =
+        why_not.empty() ? quantity.name + " is undefined, or overflows, for the values of this design."
+                        : std::move(why_not);
+  }
+  derivation.quantities.push_back(std::move(quantity));
+}
+
+void conclude(Derivation& derivation) {
+  std::vector<rigor::Verdict> verdicts;
+  verdicts.reserve(derivation.conditions.size());
+  for (const Condition& condition : derivation.conditions) {
+    verdicts.push_back(condition.verdict);
+  }
+  derivation.verdict = rigor::conjunction(verdicts);
+}
+
+}  // namespace veritrack::theorems

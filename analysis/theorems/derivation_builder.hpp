@@ -1,0 +1,23 @@
+// Small steps that every derivation takes.
+#pragma once
+
+#include <string>
+
+#include "analysis/theorems/derivation.hpp"
+
+namespace veritrack::theorems {
+
+/// How a quantity is named, written and where its formula stands; see Quantity.
+struct QuantityText {
+  std::string name, symbol, formula, source;
+};
+
+/// Appends a quantity; where `value` is not finite it is not applicable, for `why_not` (a sentence) or, when
+/// that is empty, because it is undefined or overflows.
+void add_quantity(Derivation& derivation, QuantityText text, const rigor::Interval& value,
+                  std::string why_not = {});
+
+/// Sets the verdict: all conditions together.
+void conclude(Derivation& derivation);
+
+}  // namespace veritrack::theorems

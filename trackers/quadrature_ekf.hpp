@@ -38,6 +38,7 @@
 
 #include <Eigen/Core>
 
+#include "trackers/factored_covariance.hpp"
 #include "trackers/scalar_functions.hpp"
 
 namespace veritrack::trackers {
@@ -49,57 +50,6 @@ struct QuadratureEkfDesign {
   Scalar q2;       ///< process noise variance of the frequency, (rad/sample)^2; > 0
   Scalar r;        ///< measurement noise variance of each channel, signal units squared; > 0
   Scalar epsilon;  ///< leak of the frequency towards zero per sample; in [0, 1)
-};
-
-/// A symmetric positive semidefinite 3x3 matrix P = [[P_zz, P_z3], [P_z3', P_33]], kept as
-///     P_33 = d,   P_z3 = d u,   P_zz = M + d u u':
-/// the variance d of the frequency, the regression u of z on the frequency, and the covariance M of z given
-/// the frequency. P is positive definite exactly when M is and d > 0, so definiteness is not a matter of
-/// cancellation: a nearly singular P, such as the prediction from a huge P(0), keeps all digits of its small
-/// eigenvalues.
-template <typename Scalar>
-struct FactoredCovariance {
-  Scalar conditional_11, conditional_12, conditional_22;  ///< M, signal units squared
-  Scalar regression_1, regression_2;                      ///< u, signal units per (rad/sample)
-  Scalar frequency_variance;                              ///< d, (rad/sample)^2
-
-  /// The factors of a 3x3 matrix, of which only the upper triangle is read. A frequency variance of exactly
-  /// zero means that the frequency is known, and P_z3 is then taken to be zero too, as it must be in a
-  /// semidefinite matrix.
-  [[nodiscard]] static FactoredCovariance from_matrix(const Eigen::Matrix<Scalar, 3, 3>& matrix) {
-    using detail::square;
-    const Scalar p33 = matrix(2, 2);
-    if (p33 == Scalar(0.0)) {
-      return {matrix(0, 0), matrix(0, 1), matrix(1, 1), Scalar(0.0), Scalar(0.0), p33};
-    }
-    const Scalar p13 = matrix(0, 2);
-    const Scalar p23 = matrix(1, 2);
-    return {matrix(0, 0) - square(p13) / p33,
-            matrix(0, 1) - p13 * p23 / p33,
-            matrix(1, 1) - square(p23) / p33,
-            p13 / p33,
-            p23 / p33,
-            p33};
-  }
-
-  /// P itself, symmetric to the last bit.
-  [[nodiscard]] Eigen::Matrix<Scalar, 3, 3> matrix() const {
-    using detail::square;
-    const Scalar p13 = frequency_variance * regression_1;
-    const Scalar p23 = frequency_variance * regression_2;
-    const Scalar p12 = conditional_12 + p13 * regression_2;
-    Eigen::Matrix<Scalar, 3, 3> result;
-    result(0, 0) = conditional_11 + frequency_variance * square(regression_1);
-    result(0, 1) = p12;
-    result(0, 2) = p13;
-    result(1, 0) = p12;
-    result(1, 1) = conditional_22 + frequency_variance * square(regression_2);
-    result(1, 2) = p23;
-    result(2, 0) = p13;
-    result(2, 1) = p23;
-    result(2, 2) = frequency_variance;
-    return result;
-  }
 };
 
 /// A state estimate with its covariance: filtered, (k|k), or predicted, (k+1|k).
@@ -125,21 +75,9 @@ struct QuadratureEstimate {
 template <typename Scalar>
 [[nodiscard]] inline QuadratureEstimate<Scalar> turned(const QuadratureEstimate<Scalar>& estimate,
                                                        const Scalar& sine, const Scalar& cosine) {
-  using detail::square;
-  const FactoredCovariance<Scalar>& p = estimate.covariance;
-  // A symmetric 2x2 matrix is its mean times I, which stays, plus a part that turns twice as fast.
-  const Scalar sine_twice = (sine + sine) * cosine;
-  const Scalar sine_squared = square(sine);
-  const Scalar cosine_twice = Scalar(1.0) - (sine_squared + sine_squared);
-  const Scalar mean = Scalar(0.5) * (p.conditional_11 + p.conditional_22);
-  const Scalar half_difference = Scalar(0.5) * (p.conditional_11 - p.conditional_22);
-  const Scalar turned_difference = half_difference * cosine_twice - p.conditional_12 * sine_twice;
   return {estimate.in_phase * cosine - estimate.quadrature * sine,
-          estimate.in_phase * sine + estimate.quadrature * cosine,
-          estimate.frequency,
-          {mean + turned_difference, half_difference * sine_twice + p.conditional_12 * cosine_twice,
-           mean - turned_difference, p.regression_1 * cosine - p.regression_2 * sine,
-           p.regression_1 * sine + p.regression_2 * cosine, p.frequency_variance}};
+          estimate.in_phase * sine + estimate.quadrature * cosine, estimate.frequency,
+          turned(estimate.covariance, sine, cosine)};
 }
 
 namespace detail {

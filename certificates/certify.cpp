@@ -3,10 +3,12 @@
 #include <variant>
 
 #include "analysis/theorems/theorem_2_9.hpp"
+#include "analysis/theorems/theorem_2_9_gaps.hpp"
 #include "certificates/certificate.hpp"
 #include "certificates/design_reader.hpp"
 #include "certificates/guarantee.hpp"
 #include "certificates/simulation.hpp"
+#include "certificates/theorem_claims.hpp"
 
 namespace veritrack::certificates {
 
@@ -76,6 +78,9 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables)
     certificate.audits.push_back(
         {theorem.derivation.id, theorems::audit_theorem_2_9(theorem, input, trajectory)});
     certificate.claims.push_back(applicability_claim(theorem.derivation));
+  }
+  for (const theorems::Statement& statement : theorems::theorem_2_9_gaps(input)) {
+    certificate.claims.push_back(to_claim(statement));
   }
   if (!(amplitude.value == Interval(1.0))) {
     for (theorems::Derivation& derivation : certificate.derivations) {

@@ -11,6 +11,7 @@
 #include "certificates/markdown_contraction.hpp"
 #include "certificates/markdown_text.hpp"
 #include "certificates/markdown_theorem.hpp"
+#include "certificates/theorem_claims.hpp"
 
 namespace veritrack::certificates {
 
@@ -189,8 +190,8 @@ std::string document(const Certificate& certificate, const MarkdownOptions& opti
          summary_section(certificate) + requirement_section(certificate) + design_section(certificate) +
          assumptions_section(certificate) + contraction_section(certificate) +
          figures_section(certificate, options) + conditions_section(certificate) +
-         constants_section(certificate) + audit_section(certificate) + coverage_section() +
-         reproduction_section(certificate, options);
+         proof_section(certificate) + constants_section(certificate) + audit_section(certificate) +
+         coverage_section() + reproduction_section(certificate, options);
 }
 
 }  // namespace

@@ -33,6 +33,10 @@ std::string at_least(const Interval& x) {
 std::string at_most(const Interval& x) {
   return rigor::to_decimal(x.upper(), kDigits, Direction::up);
 }
+std::string enclosed(const Interval& x) {
+  const std::string lower = at_least(x);
+  return lower == at_most(x) ? lower : rigor::to_decimal(x, kDigits);
+}
 
 Verdict decide(const Interval& left, const Interval& right, Strictness strictness) {
   return strictness == Strictness::strict ? decide_less(left, right) : decide_less_equal(left, right);
@@ -43,10 +47,10 @@ std::string explain(const Side& left, const Side& right, Verdict verdict) {
     if (!is_finite(left.value) || !is_finite(right.value)) {
       return not_known(is_finite(left.value) ? right.words : left.words);
     }
-    const auto enclosed = [](const Side& side) {
-      return side.is_literal ? side.words : side.words + " in " + rigor::to_decimal(side.value, kDigits);
+    const auto shown = [](const Side& side) {
+      return side.is_literal ? side.words : side.words + " in " + enclosed(side.value);
     };
-    return enclosed(left) + " and " + enclosed(right) + " are not told apart.";
+    return shown(left) + " and " + shown(right) + " are not told apart.";
   }
   const bool holds = verdict == Verdict::proved;
   const std::string left_end =

@@ -20,6 +20,8 @@ struct Side {
 /// The lower end as a decimal, rounded down; the upper end, rounded up. Six digits.
 [[nodiscard]] std::string at_least(const rigor::Interval& x);
 [[nodiscard]] std::string at_most(const rigor::Interval& x);
+/// "[lower, upper]", outward-rounded to six digits, or one decimal where that is exact.
+[[nodiscard]] std::string enclosed(const rigor::Interval& x);
 
 enum class Strictness { strict, weak };
 

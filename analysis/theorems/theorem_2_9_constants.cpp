@@ -94,8 +94,9 @@ void set_perturbations(Theorem29Constants& c) {
   const Interval v = c.measurement_noise_bound;
   const Interval linearisation = c.rho_4 * square(c.epsilon_r) / two;
   const Interval pq = c.p * c.q;
-  c.eta = max(pq * (w + linearisation) + c.p * gain * v,
-              c.delta_k * (c.rho_5 * w + v + c.rho_5 * linearisation) + two * pq * c.rho_1);
+  c.eta_size = pq * (w + linearisation) + c.p * gain * v;
+  c.eta_slope = c.delta_k * (c.rho_5 * w + v + c.rho_5 * linearisation) + two * pq * c.rho_1;
+  c.eta = max(c.eta_size, c.eta_slope);
 }
 
 /// The left-hand sides of (2.43) and (2.44).

@@ -54,6 +54,7 @@ struct Theorem29Constants {
   rigor::Interval gamma, beta, one_minus_alpha, epsilon_z;
   rigor::Interval delta_p, delta_k, delta_k2;
   rigor::Interval zeta_z, eta, zeta;
+  rigor::Interval eta_size, eta_slope;  ///< the two entries of (2.40), of which eta is the larger
   rigor::Interval lhs_2_43, lhs_2_44, initial_error_bound;
   rigor::Interval process_noise_bound;      ///< ||w|| = c1 sqrt(q2), section 3.5
   rigor::Interval measurement_noise_bound;  ///< ||v|| = c2 sqrt(r), section 3.5

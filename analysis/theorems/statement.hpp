@@ -1,0 +1,25 @@
+// A statement about a published theorem or about a design, decided by interval arithmetic.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/theorems/derivation.hpp"
+
+namespace veritrack::theorems {
+
+/// One statement with its verdict. PROVED and REFUTED speak of the sentence as it stands.
+struct Statement {
+  std::string id;        ///< e.g. "theorem-2.9/b_1/errata"
+  std::string sentence;  ///< plain text, with units where there are any
+  rigor::Verdict verdict = rigor::Verdict::undecided;
+  std::string witness;  ///< one line that can be evaluated again: the point or set, and the two sides there
+  std::vector<Quantity> evidence;  ///< the enclosures that decided it
+};
+
+/// The statement, with evidence that is not finite marked as not applicable; the witness then says which
+/// quantity is undefined, and the verdict is UNDECIDED whatever was given.
+[[nodiscard]] Statement make_statement(std::string id, std::string sentence, rigor::Verdict verdict,
+                                       std::string witness, std::vector<Quantity> evidence);
+
+}  // namespace veritrack::theorems

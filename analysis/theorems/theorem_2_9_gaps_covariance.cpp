@@ -25,9 +25,9 @@ Statement predicted_in_general(const Readings& readings) {
       {evidence("smallest_predicted_variance", "q_1", "", variance), evidence("s", "s", "", bound)});
 }
 
-/// The largest eigenvalue of a bound on P(k|k), k >= 1, for any P(0|0), from the last two measurements alone
-/// (the linear unbiased estimator that ignores the prior): with mu = |z(k-1|k-1)|/(1 - epsilon), amplitude
-/// r/2 + q1/4, and r [[1, 1/mu], [1/mu, 2/mu^2]] + (0, 0; 0, q1/mu^2 + q2) for phase and frequency.
+/// The largest eigenvalue of a bound on P(k|k), k >= 2, for any P(0|0), from the last two measurements alone
+/// (covariance_bound of riccati_bounds.hpp for N = 1, written out): with mu = |z(k-1|k-1)|/(1 - epsilon),
+/// amplitude r/2 + q1/4, and r [[1, 1/mu], [1/mu, 2/mu^2]] + (0, 0; 0, q1/mu^2 + q2) for phase and frequency.
 Interval filtered_bound(const Readings& readings, const Interval& smallest_magnitude) {
   const Theorem29Input& input = readings.input;
   const Interval inverse = (Interval(1.0) - input.epsilon) / smallest_magnitude;
@@ -56,7 +56,7 @@ Statement predicted_for_design(const Reading& reading, const Readings& readings)
                                                      : Verdict::undecided;
   return make_statement(
       gap_id("s", reading.name),
-      "For this design P(k+1|k) <= s I for all k >= 1, whatever P(0|0), along estimates with |e| <= eps_r.",
+      "For this design P(k+1|k) <= s I for all k >= 2, whatever P(0|0), along estimates with |e| <= eps_r.",
       verdict,
       "Sound bounds: the largest eigenvalue of P(k+1|k) is at least " + at_least(largest_variance) +
           " and at most " + at_most(upper) + "; s is " + enclosed(c.s) + ".",

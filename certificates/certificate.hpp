@@ -2,11 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "analysis/contraction/capture_basin.hpp"
+#include "analysis/contraction/capture_region.hpp"
 #include "analysis/contraction/certified_set.hpp"
 #include "analysis/rigor/verdict.hpp"
 #include "analysis/theorems/audit.hpp"
@@ -40,14 +43,23 @@ struct NamedSet {
   contraction::CertifiedSet set;
 };
 
+/// The assumed starts, followed because they exceed the certified set.
+struct FollowedStarts {
+  contraction::Region region;          ///< with the assumed noise and slew
+  contraction::SimulatedBasin basin;   ///< without, by simulation: proves nothing
+  std::vector<double> frequency_tube;  ///< see contraction::StartCapture; empty unless PROVED
+};
+
 struct Certificate {
   Design design;
   std::string design_file;  ///< its name, without folders
   std::string design_text;  ///< as read
   /// The published theorem in its readings ("theorem-2.9/..."), then what this program proves
-  /// ("contraction").
+  /// ("contraction"; then, when the starts exceed the certified set, "capture" and perhaps
+  /// "capture/noise-free").
   std::vector<theorems::Derivation> derivations;
   std::vector<NamedSet> certified_sets;
+  std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
   std::vector<AuditedDerivation> audits;
   std::vector<Claim> claims;
   /// Of all required claims together; none when nothing is required, which is no verdict at all.
@@ -62,12 +74,16 @@ struct Certificate {
 /// "proved", "refuted", "undecided", or "nothing-required".
 [[nodiscard]] std::string verdict_text(const Certificate& certificate);
 
+/// Told how far the long part of the work has come, now and then.
+using CertifyProgress = std::function<void(const contraction::RegionProgress&)>;
+
 /// Evaluates everything that can be said of the design. `design_text` is the file's text and `design_file`
 /// its name without folders, for the documents. Opens its own rounding scope.
 [[nodiscard]] Certificate certify(const Design& design, const std::string& design_file,
-                                  const std::string& design_text);
+                                  const std::string& design_text, const CertifyProgress& progress = {});
 
 /// Reads the design file at `path` and certifies it. Throws InputError.
-[[nodiscard]] Certificate certify_file(const std::filesystem::path& path);
+[[nodiscard]] Certificate certify_file(const std::filesystem::path& path,
+                                       const CertifyProgress& progress = {});
 
 }  // namespace veritrack::certificates

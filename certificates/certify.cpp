@@ -4,6 +4,7 @@
 
 #include "analysis/theorems/theorem_2_9.hpp"
 #include "analysis/theorems/theorem_2_9_gaps.hpp"
+#include "certificates/capture.hpp"
 #include "certificates/certificate.hpp"
 #include "certificates/design_reader.hpp"
 #include "certificates/guarantee.hpp"
@@ -66,7 +67,8 @@ Claim applicability_claim(const theorems::Derivation& derivation) {
 }
 
 /// Everything that can be said of a design of the quadrature tracker.
-void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables) {
+void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
+                    const CertifyProgress& progress) {
   const theorems::Theorem29Input input = theorem_input(tables);
   certificate.simulation = simulate(certificate.design);
   const Number& amplitude = tables.assume.amplitude;
@@ -92,6 +94,7 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables)
     }
   }
   add_contraction(certificate);
+  add_capture(certificate, progress);
   add_required_claims(certificate);
 }
 
@@ -111,19 +114,20 @@ std::string verdict_text(const Certificate& certificate) {
   return certificate.verdict ? std::string(rigor::to_string(*certificate.verdict)) : "nothing-required";
 }
 
-Certificate certify(const Design& design, const std::string& design_file, const std::string& design_text) {
+Certificate certify(const Design& design, const std::string& design_file, const std::string& design_text,
+                    const CertifyProgress& progress) {
   const rigor::UpwardRounding upward;
   Certificate certificate;
   certificate.design = design;
   certificate.design_file = design_file;
   certificate.design_text = design_text;
-  std::visit([&](const auto& tables) { certify_tables(certificate, tables); }, design.tables);
+  std::visit([&](const auto& tables) { certify_tables(certificate, tables, progress); }, design.tables);
   return certificate;
 }
 
-Certificate certify_file(const std::filesystem::path& path) {
+Certificate certify_file(const std::filesystem::path& path, const CertifyProgress& progress) {
   const std::string text = read_design_text(path);
-  return certify(read_design(text, path.string()), path.filename().string(), text);
+  return certify(read_design(text, path.string()), path.filename().string(), text, progress);
 }
 
 }  // namespace veritrack::certificates

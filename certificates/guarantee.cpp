@@ -15,6 +15,7 @@ using rigor::Interval;
 using rigor::Verdict;
 
 constexpr const char* kContraction = "contraction";
+constexpr const char* kCapture = "capture";
 
 trackers::QuadratureEkfDesign<Interval> design_at_unit_amplitude(const Design& design) {
   const QuadratureEkfDesign& chosen = design.quadrature_ekf().design;
@@ -57,8 +58,15 @@ std::string outward(const Interval& value) {
   return rigor::to_decimal(value.upper(), 4, rigor::Direction::up);
 }
 
+/// What decides about the assumed starts: "capture" when they had to be followed, else "contraction".
 const theorems::Derivation& contraction_derivation(const Certificate& certificate) {
-  return certificate.derivations.back();
+  const theorems::Derivation* found = &certificate.derivations.back();
+  for (const char* id : {kContraction, kCapture}) {
+    for (const theorems::Derivation& derivation : certificate.derivations) {
+      found = derivation.id == id ? &derivation : found;
+    }
+  }
+  return *found;
 }
 
 Claim frequency_error_claim(const Certificate& certificate, const Number& required) {
@@ -81,6 +89,12 @@ Claim frequency_error_claim(const Certificate& certificate, const Number& requir
         "Witness: a start that is wrong by {} rad/sample is allowed by [assume] (initial_frequency_error) "
         "and is not below the bound at the first sample.",
         assume.initial_frequency_error.text);
+  } else if (find(derivation, "wrong_lock_frequency_error") != nullptr &&
+             rigor::certainly_less_equal(required.value,
+                                         find(derivation, "wrong_lock_frequency_error")->value)) {
+    claim.verdict = Verdict::refuted;
+    claim.reason = contraction_objection(derivation);
+    claim.evidence = {*find(derivation, "wrong_lock_frequency_error")};
   } else if (bound) {
     claim.reason = fmt::format("The certified bound is {} rad/sample, which is not below {}.",
                                outward(*bound), required.text);
@@ -143,8 +157,8 @@ contraction::ContractionQuestion contraction_question(const Design& design) {
 std::optional<Interval> proved_frequency_bound(const Certificate& certificate) {
   const theorems::Derivation& derivation = contraction_derivation(certificate);
   const theorems::Quantity* bound = find(derivation, "frequency_error_bound");
-  const bool covered =
-      derivation.id == kContraction && derivation.verdict == Verdict::proved && bound != nullptr;
+  const bool covered = (derivation.id == kContraction || derivation.id == kCapture) &&
+                       derivation.verdict == Verdict::proved && bound != nullptr;
   return covered && rigor::is_finite(bound->value) ? std::optional(bound->value) : std::nullopt;
 }
 

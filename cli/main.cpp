@@ -33,8 +33,30 @@ ExitStatus status_of(const certificates::Certificate& certificate) {
   return fine ? all_proved : not_proved;
 }
 
+/// A line on standard error that follows long work, when a person is watching.
+bool show_progress(const veritrack::contraction::RegionProgress& progress) {
+  if (isatty(STDERR_FILENO) != 0) {
+    fmt::print(stderr, "\rproved {:5.1f} %, refuted {:5.1f} % ({} propagations)",
+               100.0 * progress.proved_share, 100.0 * progress.refuted_share, progress.propagations);
+  }
+  return true;
+}
+
+/// Takes that line away.
+void end_progress() {
+  if (isatty(STDERR_FILENO) != 0) {
+    fmt::print(stderr, "\r\033[K");
+  }
+}
+
+certificates::Certificate certify_with_progress(const std::string& design_path) {
+  certificates::Certificate certificate = certificates::certify_file(design_path, show_progress);
+  end_progress();
+  return certificate;
+}
+
 ExitStatus run_certify(const std::string& design_path, std::string directory) {
-  const certificates::Certificate certificate = certificates::certify_file(design_path);
+  const certificates::Certificate certificate = certify_with_progress(design_path);
   if (directory.empty()) {
     directory =
         (std::filesystem::path("certificates-out") / std::filesystem::path(design_path).stem()).string();
@@ -54,7 +76,7 @@ ExitStatus run_check(const CheckOptions& options) {
   ExitStatus status = all_proved;
   std::vector<reports::CheckedDesign> checked;
   for (const std::string& path : options.designs) {
-    checked.push_back({path, certificates::certify_file(path)});
+    checked.push_back({path, certify_with_progress(path)});
   }
   certificates::OutputFiles files;
   if (!options.junit.empty()) {
@@ -87,22 +109,11 @@ struct MapOptions {
   certificates::RegionRequest request;
 };
 
-/// A line on standard error that follows long work, when a person is watching.
-bool show_progress(const veritrack::contraction::RegionProgress& progress) {
-  if (isatty(STDERR_FILENO) != 0) {
-    fmt::print(stderr, "\rproved {:5.1f} %, refuted {:5.1f} % ({} propagations)",
-               100.0 * progress.proved_share, 100.0 * progress.refuted_share, progress.propagations);
-  }
-  return true;
-}
-
 ExitStatus run_map(const MapOptions& options) {
   const certificates::Design design = certificates::read_design_file(options.design);
   const certificates::RegionResult result =
       certificates::prove_region_of_attraction(design, options.request, show_progress);
-  if (isatty(STDERR_FILENO) != 0) {
-    fmt::print(stderr, "\r\033[K");
-  }
+  end_progress();
   if (!result.found) {
     fmt::print("{}: undecided: {}\n", options.design, result.reason);
     return not_proved;

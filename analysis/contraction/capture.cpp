@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "analysis/rigor/derivatives.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -185,6 +186,9 @@ CaptureResult follow(const CaptureProblem& problem, const CaptureTarget& target,
   CaptureResult result;
   auto curvatures = states.curvatures();
   while (states.usable()) {
+    const Interval frequency_error = states.hull()[trackers::kFrequencyError];
+    result.frequency_errors.push_back(is_finite(frequency_error) ? magnitude(frequency_error)
+                                                                 : std::numeric_limits<double>::infinity());
     if (const std::optional<int> turns = target.settled(states.enclosure())) {
       result.outcome = *turns == 0 ? CaptureOutcome::locked : CaptureOutcome::locked_elsewhere;
       result.turns = *turns;

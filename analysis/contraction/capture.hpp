@@ -11,6 +11,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "analysis/contraction/capture_target.hpp"
 #include "analysis/rigor/interval.hpp"
@@ -54,6 +55,8 @@ struct CaptureResult {
   int samples = 0;           ///< after which the propagation ended
   int turns = 0;             ///< see locked_elsewhere
   int widest_direction = 2;  ///< 0, 1, 2 = amplitude, phase, frequency: where halving the box helps most
+  /// Upper bounds on |frequency error|, rad/sample, of every start after 0, 1, ..., `samples` samples.
+  std::vector<double> frequency_errors;
 };
 
 /// Follows all starts of the box at once. The target must be invariant for the problem's noise and slew: this

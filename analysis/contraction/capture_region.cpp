@@ -120,6 +120,14 @@ void require_sensible(const StartBox& starts, const RegionOptions& options) {
   }
 }
 
+/// Takes the bounds of a captured cell into those of the region.
+void add_frequency_errors(std::vector<double>& all, const std::vector<double>& cell) {
+  all.resize(std::max(all.size(), cell.size()), 0.0);
+  for (std::size_t k = 0; k < cell.size(); ++k) {
+    all[k] = std::max(all[k], cell[k]);
+  }
+}
+
 }  // namespace
 
 Region prove_region(const CaptureProblem& problem, const CaptureTarget& target, const StartBox& starts,
@@ -159,6 +167,12 @@ Region prove_region(const CaptureProblem& problem, const CaptureTarget& target, 
                       : done[i].verdict == Verdict::refuted ? so_far.refuted_share
                                                             : so_far.undecided_share;
       share += open[i].share;
+      if (done[i].verdict == Verdict::proved) {
+        add_frequency_errors(region.frequency_errors, done[i].result.frequency_errors);
+      }
+      // Of many thousand cells these would be more than the memory wants to hold.
+      done[i].result.frequency_errors.clear();
+      done[i].result.frequency_errors.shrink_to_fit();
       region.cells.push_back(done[i]);
     }
     open = std::move(next);

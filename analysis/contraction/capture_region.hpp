@@ -34,6 +34,9 @@ struct Region {
   std::vector<RegionCell> cells;
   std::size_t propagations = 0;  ///< how many boxes were followed
   std::size_t samples = 0;       ///< how many steps of the map that took
+  /// Upper bounds on |frequency error|, rad/sample, after 0, 1, ... samples, of the starts of those PROVED
+  /// cells that are not captured before: a captured start keeps to the bounds of the target from then on.
+  std::vector<double> frequency_errors;
 };
 
 /// What has been done so far, in terms of the volume of the box of starts (approximate, for display).

@@ -55,7 +55,6 @@ TEST_CASE("what contraction does not cover is undecided, with the reason") {
            {"noise = 0.001", "noise = 0.5"},
            {"slew = 0.0", "slew = 0.5"},
            {"initial_frequency_error = 0.005", "initial_frequency_error = 0.04999"},
-           {"initial_phase_error = 0.005", "initial_phase_error = 3.0"},
            {"epsilon = 0.0", "epsilon = 0.01"},
            {"q1 = 0.0023", "q1 = 0"}}) {
     const auto certificate = test::certificate({require, {from, to}});
@@ -68,6 +67,31 @@ TEST_CASE("what contraction does not cover is undecided, with the reason") {
       CHECK(claim.position.line > 0);
     }
   }
+}
+
+TEST_CASE("starts beyond the certified set are followed into it") {
+  const auto certificate =
+      test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.5\nsettles_within = 200"},
+                         {"initial_frequency_error = 0.005", "initial_frequency_error = 0.3"},
+                         {"initial_phase_error = 0.005", "initial_phase_error = 0.4"}});
+  CHECK(certificate.verdict == Verdict::proved);
+  CHECK(certificate.derivations.back().id == "capture");
+  CHECK(find_claim(certificate, "ekf/capture").verdict == Verdict::proved);
+  const auto bound = certificates::proved_frequency_bound(certificate);
+  REQUIRE(bound.has_value());
+  CHECK(bound->upper() >= 0.3);
+  REQUIRE(certificate.followed_starts.has_value());
+  for (const auto& record : certificate.simulation.trajectory) {
+    CHECK(std::fabs(record.filtered_state[2] - record.true_state[2]) <= bound->upper());
+  }
+}
+
+TEST_CASE("a start that locks a turn off refutes every bound below that") {
+  const auto certificate =
+      test::certificate({{"[require]", "[require]\nfrequency_error_below = 6.05"},
+                         {"initial_frequency_error = 0.005", "initial_frequency_error = 6.0"}});
+  CHECK(find_claim(certificate, "ekf/capture").verdict == Verdict::refuted);
+  CHECK(certificate.verdict == Verdict::refuted);
 }
 
 TEST_CASE("a bound that the assumed start does not keep is refuted") {

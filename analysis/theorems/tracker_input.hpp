@@ -1,0 +1,27 @@
+// What the results beside Theorem 2.9 are evaluated for: a design of the quadrature tracker and what is
+// assumed of signal and start, for a signal of amplitude 1.
+#pragma once
+
+#include <optional>
+
+#include "analysis/rigor/matrix.hpp"
+#include "analysis/theorems/theorem_2_9_constants.hpp"
+
+namespace veritrack::theorems {
+
+struct TrackerInput {
+  /// The design, the noise bounds and the largest initial error, as for Theorem 2.9.
+  Theorem29Input theorem_2_9;
+  /// P(0|0) in the frame of the estimated phase; none: the steady state of the filter.
+  std::optional<rigor::IntervalMatrix<3>> initial_covariance;
+};
+
+/// min(q1, q2) and max(q1, q2): Q lies between these multiples of the identity. q1_equals_q2 is honoured.
+[[nodiscard]] inline rigor::Interval smallest_process_noise(const Theorem29Input& input) {
+  return input.q1_equals_q2 ? input.q2 : min(input.q1, input.q2);
+}
+[[nodiscard]] inline rigor::Interval largest_process_noise(const Theorem29Input& input) {
+  return input.q1_equals_q2 ? input.q2 : max(input.q1, input.q2);
+}
+
+}  // namespace veritrack::theorems

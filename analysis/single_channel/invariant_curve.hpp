@@ -1,0 +1,65 @@
+// The steady state of the single-channel tracker on a noise-free tone: an invariant curve over the phase, and
+// the bias that it holds.
+//
+// With a tone of constant frequency omega the closed loop is a skew product, (phi, X) -> (phi + omega,
+// G_phi(X)), pi-periodic in phi (single_channel_rotating_frame.hpp). Its steady state is no fixed point but a
+// curve X*(phi) with G_phi(X*(phi)) = X*(phi + omega). Its frequency component nu* is the error that is left
+// when all transients are gone: it ripples with the phase, and its mean is the bias.
+//
+// What is verified. Given a trigonometric polynomial C(phi), cells I_i that cover a period, an invertible
+// matrix V_i for each, and a radius R, let the tube be {(phi, C(phi) + V_i u) : phi in I_i, |u| <= R}.
+// Suppose that for all i, all j whose cell meets I_i + omega modulo pi, and all points of the tube
+//   (a)  |V_j^-1 (G_phi(C(phi)) - C(phi + omega))| <= rho,
+//   (b)  |V_j^-1 DG_phi(X) V_i|_2 <= kappa < 1,
+//   (c)  kappa R + rho <= R.
+// Then the tube is mapped into itself, there is exactly one invariant curve in it, it is continuous, it
+// stays within rho / (1 - kappa) of C (in the same coordinates), and every start in the tube converges to it
+// by the factor kappa a sample.
+// Proof. For fixed phi the fibre {|u| <= R} is convex, so (b) bounds the distance of images by kappa times
+// the distance, and with (a) and (c) the fibre over phi goes into that over phi + omega. Hence the graph
+// transform, which maps a function phi -> X(phi) with values in the tube to phi + omega -> G_phi(X(phi)), is
+// a contraction of the functions with values in the tube, complete in the supremum of |u|; it maps continuous
+// functions to continuous ones, and C is one of them; its fixed point is X*. |X* - C| <= kappa |X* - C| +
+// rho. QED
+//
+// Without a leak {delta = nu = 0} is mapped into itself (a test holds that), so that with a C of which these
+// components are zero the graph transform keeps them zero: the error part of X* is exactly zero.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/verdict.hpp"
+#include "analysis/single_channel/phase_series.hpp"
+
+namespace veritrack::single_channel {
+
+/// The steady-state error of the frequency estimate, nu = estimate - truth, rad/sample.
+struct SteadyStateBias {
+  /// PROVED: the enclosures hold for the steady state of every start in a neighbourhood of the curve, and the
+  /// tracker is locked on it: the estimate z stays within a quarter turn of the signal at every phase.
+  /// UNDECIDED otherwise, with the reason.
+  rigor::Verdict verdict = rigor::Verdict::undecided;
+  std::string reason;
+  rigor::Interval frequency;  ///< omega, rad/sample
+  /// (1/pi) int_0^pi nu*(phi) dphi. It is also the mean over time along every trajectory when omega / pi is
+  /// irrational (Weyl), as it is for every rational omega but 0.
+  rigor::Interval mean_bias;
+  rigor::Interval min_error;  ///< min over phi of nu*
+  rigor::Interval max_error;  ///< max over phi of nu*
+  double rate = 1.0;          ///< kappa, an upper bound
+  double distance = 0.0;      ///< rho / (1 - kappa), an upper bound
+};
+
+/// The steady state that a simulation settles on from the exact estimate, in double: a proposal, no proof.
+/// Nothing when it does not come out finite. `frequency` in rad/sample.
+[[nodiscard]] std::optional<PhaseSeries> propose_invariant_curve(
+    const trackers::QuadratureEkfDesign<double>& design, double frequency);
+
+/// The bias for every design in `design` (q1, q2, r, epsilon at amplitude 1) and every omega in `frequency`
+/// (rad/sample, in [0, pi]; narrow: a decimal's enclosure). Deterministic. Holds its own rounding modes.
+[[nodiscard]] SteadyStateBias steady_state_bias(const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+                                                const rigor::Interval& frequency);
+
+}  // namespace veritrack::single_channel

@@ -58,12 +58,13 @@ BestPoint maximize(const std::function<double(const Eigen::VectorXd&)>& objectiv
   }
   Search search{objective, {space.start, kLowest}, space.evaluations, nullptr};
   try {
-    nlopt::opt optimizer(nlopt::LN_SBPLX, static_cast<unsigned int>(size));
+    const auto algorithm = space.method == SearchMethod::direct ? nlopt::GN_DIRECT_L : nlopt::LN_SBPLX;
+    nlopt::opt optimizer(algorithm, static_cast<unsigned int>(size));
     optimizer.set_max_objective(evaluate, &search);
     optimizer.set_lower_bounds(to_std(space.lower));
     optimizer.set_upper_bounds(to_std(space.upper));
     optimizer.set_initial_step(to_std(space.step));
-    optimizer.set_xtol_rel(1e-4);
+    optimizer.set_xtol_rel(space.tolerance);
     optimizer.set_maxeval(space.evaluations);
     std::vector<double> x = to_std(space.start.cwiseMax(space.lower).cwiseMin(space.upper));
     double value = 0.0;

@@ -1,4 +1,4 @@
-// Proposals: a local search for a maximum, by NLopt. Nothing it returns is evidence of anything.
+// Proposals: a search for a maximum, by NLopt. Nothing it returns is evidence of anything.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,12 +6,19 @@
 
 namespace veritrack::search {
 
-/// Where to look.
+/// How to look: locally with Sbplx (T. H. Rowan's variant of the Nelder-Mead method, which bears kinks and
+/// plateaus), or over the whole box with DIRECT (D. R. Jones and others, in its locally biased form), which
+/// ignores start and step.
+enum class SearchMethod { subplex, direct };
+
+/// Where to look, and how.
 struct SearchSpace {
   Eigen::VectorXd start;
   Eigen::VectorXd step;  ///< first change of each variable, > 0
   Eigen::VectorXd lower, upper;
   int evaluations = 200;  ///< at most
+  SearchMethod method = SearchMethod::subplex;
+  double tolerance = 1e-4;  ///< of the point, relative
 };
 
 /// The best point that was evaluated, the start at worst.
@@ -20,10 +27,9 @@ struct BestPoint {
   double value;
 };
 
-/// Looks for a large value of `objective` in the box, without derivatives (Sbplx, T. H. Rowan's variant of
-/// the Nelder-Mead method, which bears kinks and plateaus). Deterministic: the same calls give the same
-/// result. An objective may return anything, NaN included, which counts as -infinity; exceptions it throws
-/// pass through. Throws std::invalid_argument when sizes differ. NLopt's own status and complaints are
+/// Looks for a large value of `objective` in the box, without derivatives. Deterministic: the same calls give
+/// the same result. An objective may return anything, NaN included, which counts as -infinity; exceptions it
+/// throws pass through. Throws std::invalid_argument when sizes differ. NLopt's own status and complaints are
 /// ignored: the point is the best among those evaluated here.
 [[nodiscard]] BestPoint maximize(const std::function<double(const Eigen::VectorXd&)>& objective,
                                  const SearchSpace& space);

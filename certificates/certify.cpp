@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <utility>
 #include <variant>
 
+#include "analysis/theorems/other_results.hpp"
 #include "analysis/theorems/theorem_2_9.hpp"
 #include "analysis/theorems/theorem_2_9_gaps.hpp"
 #include "certificates/capture.hpp"
@@ -49,6 +52,24 @@ theorems::Theorem29Input theorem_input(const QuadratureEkfTables& tables) {
   return input;
 }
 
+/// What the other results are evaluated for, also at unit amplitude.
+theorems::TrackerInput tracker_input(const QuadratureEkfTables& tables,
+                                     const theorems::Theorem29Input& theorem) {
+  theorems::TrackerInput input{theorem, std::nullopt};
+  if (const auto& covariance = tables.assume.initial_covariance) {
+    rigor::IntervalMatrix<3>& start = input.initial_covariance.emplace();
+    const std::array<Interval, 3> unit = {tables.assume.amplitude.value, tables.assume.amplitude.value,
+                                          Interval(1.0)};
+    for (std::size_t row = 0; row < unit.size(); ++row) {
+      for (std::size_t column = 0; column < unit.size(); ++column) {
+        start(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
+            covariance->at(row).at(column).value / (unit.at(row) * unit.at(column));
+      }
+    }
+  }
+  return input;
+}
+
 /// "Theorem 2.9 applies", one claim a reading: the conditions, not what the theorem concludes from them.
 Claim applicability_claim(const theorems::Derivation& derivation) {
   Claim claim;
@@ -83,6 +104,10 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
   }
   for (const theorems::Statement& statement : theorems::theorem_2_9_gaps(input)) {
     certificate.claims.push_back(to_claim(statement));
+  }
+  for (theorems::Derivation& result : theorems::evaluate_other_results(tracker_input(tables, input))) {
+    certificate.claims.push_back(applicability_claim(result));
+    certificate.derivations.push_back(std::move(result));
   }
   if (!(amplitude.value == Interval(1.0))) {
     for (theorems::Derivation& derivation : certificate.derivations) {

@@ -9,6 +9,7 @@
 #include "analysis/rigor/versions.hpp"
 #include "certificates/guarantee.hpp"
 #include "certificates/markdown_contraction.hpp"
+#include "certificates/markdown_other_results.hpp"
 #include "certificates/markdown_text.hpp"
 #include "certificates/markdown_theorem.hpp"
 #include "certificates/theorem_claims.hpp"
@@ -190,8 +191,9 @@ std::string document(const Certificate& certificate, const MarkdownOptions& opti
          summary_section(certificate) + requirement_section(certificate) + design_section(certificate) +
          assumptions_section(certificate) + contraction_section(certificate) +
          figures_section(certificate, options) + conditions_section(certificate) +
-         proof_section(certificate) + constants_section(certificate) + audit_section(certificate) +
-         coverage_section() + reproduction_section(certificate, options);
+         proof_section(certificate) + other_results_section(certificate) + constants_section(certificate) +
+         other_constants_section(certificate) + audit_section(certificate) + coverage_section() +
+         reproduction_section(certificate, options);
 }
 
 }  // namespace

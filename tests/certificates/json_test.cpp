@@ -19,6 +19,9 @@ TEST_CASE("hexadecimal endpoints give back the enclosure bit by bit") {
   REQUIRE(json["derivations"].size() == certificate.derivations.size());
   for (std::size_t i = 0; i < certificate.derivations.size(); ++i) {
     for (const auto& quantity : certificate.derivations[i].quantities) {
+      if (quantity.not_applicable) {
+        continue;
+      }
       const auto& found = json["derivations"][i]["quantities"][quantity.name];
       CHECK(std::strtod(found["lo"].get<std::string>().c_str(), nullptr) == quantity.value.lower());
       CHECK(std::strtod(found["hi"].get<std::string>().c_str(), nullptr) == quantity.value.upper());

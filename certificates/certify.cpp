@@ -11,6 +11,7 @@
 #include "certificates/certificate.hpp"
 #include "certificates/design_reader.hpp"
 #include "certificates/guarantee.hpp"
+#include "certificates/guarantee_sentence.hpp"
 #include "certificates/simulation.hpp"
 #include "certificates/theorem_claims.hpp"
 
@@ -121,6 +122,7 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
   add_contraction(certificate);
   add_capture(certificate, progress);
   add_required_claims(certificate);
+  certificate.claims.push_back(guarantee_claim(certificate));
 }
 
 }  // namespace

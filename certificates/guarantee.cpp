@@ -58,20 +58,9 @@ std::string outward(const Interval& value) {
   return rigor::to_decimal(value.upper(), 4, rigor::Direction::up);
 }
 
-/// What decides about the assumed starts: "capture" when they had to be followed, else "contraction".
-const theorems::Derivation& contraction_derivation(const Certificate& certificate) {
-  const theorems::Derivation* found = &certificate.derivations.back();
-  for (const char* id : {kContraction, kCapture}) {
-    for (const theorems::Derivation& derivation : certificate.derivations) {
-      found = derivation.id == id ? &derivation : found;
-    }
-  }
-  return *found;
-}
-
 Claim frequency_error_claim(const Certificate& certificate, const Number& required) {
   const Assumptions& assume = certificate.design.quadrature_ekf().assume;
-  const theorems::Derivation& derivation = contraction_derivation(certificate);
+  const theorems::Derivation& derivation = deciding_derivation(certificate);
   const std::optional<Interval> bound = proved_frequency_bound(certificate);
   Claim claim;
   claim.id = "ekf/frequency-error-bound";
@@ -105,7 +94,7 @@ Claim frequency_error_claim(const Certificate& certificate, const Number& requir
 }
 
 Claim settling_claim(const Certificate& certificate, const Number& required) {
-  const theorems::Derivation& derivation = contraction_derivation(certificate);
+  const theorems::Derivation& derivation = deciding_derivation(certificate);
   const theorems::Quantity* samples = find(derivation, "settling_samples");
   Claim claim;
   claim.id = "ekf/settling-time";
@@ -154,8 +143,18 @@ contraction::ContractionQuestion contraction_question(const Design& design) {
   return question;
 }
 
+const theorems::Derivation& deciding_derivation(const Certificate& certificate) {
+  const theorems::Derivation* found = &certificate.derivations.back();
+  for (const char* id : {kContraction, kCapture}) {
+    for (const theorems::Derivation& derivation : certificate.derivations) {
+      found = derivation.id == id ? &derivation : found;
+    }
+  }
+  return *found;
+}
+
 std::optional<Interval> proved_frequency_bound(const Certificate& certificate) {
-  const theorems::Derivation& derivation = contraction_derivation(certificate);
+  const theorems::Derivation& derivation = deciding_derivation(certificate);
   const theorems::Quantity* bound = find(derivation, "frequency_error_bound");
   const bool covered = (derivation.id == kContraction || derivation.id == kCapture) &&
                        derivation.verdict == Verdict::proved && bound != nullptr;

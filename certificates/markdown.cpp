@@ -8,6 +8,7 @@
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/versions.hpp"
 #include "certificates/guarantee.hpp"
+#include "certificates/guarantee_sentence.hpp"
 #include "certificates/markdown_contraction.hpp"
 #include "certificates/markdown_other_results.hpp"
 #include "certificates/markdown_text.hpp"
@@ -187,7 +188,7 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
 /// The document of a quadrature tracker.
 std::string document(const Certificate& certificate, const MarkdownOptions& options,
                      const QuadratureEkfTables& /*tables*/) {
-  return "# " + headline(certificate) + "\n\n" + contraction_summary(certificate) +
+  return "# " + headline(certificate) + "\n\n" + guarantee_section(certificate) +
          summary_section(certificate) + requirement_section(certificate) + design_section(certificate) +
          assumptions_section(certificate) + contraction_section(certificate) +
          figures_section(certificate, options) + conditions_section(certificate) +

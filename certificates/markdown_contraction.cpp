@@ -6,8 +6,6 @@
 #include <array>
 #include <utility>
 
-#include "analysis/rigor/decimal.hpp"
-#include "certificates/guarantee.hpp"
 #include "certificates/markdown_derivation.hpp"
 #include "certificates/markdown_text.hpp"
 
@@ -15,74 +13,49 @@ namespace veritrack::certificates {
 
 namespace {
 
-/// What a quantity is, with its unit.
-std::string description(const std::string& name) {
-  static constexpr std::array<std::pair<const char*, const char*>, 11> kDescriptions{{
-      {"contraction_rate", "factor by which the error shrinks, per sample, at least"},
-      {"radius", "radius of the certified set, in its metric"},
-      {"frequency_error_radius", "frequency error at the edge of the set, rad/sample"},
-      {"phase_error_radius", "phase error at the edge of the set, rad"},
-      {"amplitude_error_radius", "amplitude error at the edge of the set, relative"},
-      {"ultimate_frequency_error", "frequency error in the long run, at most, rad/sample"},
-      {"frequency_error_bound",
-       "frequency error at any sample from the assumed start on, at most, rad/sample"},
-      {"settling_samples", "samples until within twice the long-run bound"},
-      {"largest_noise", "largest certified noise (without slew), relative to the amplitude"},
-      {"largest_slew", "largest certified slew (without noise), rad/sample per sample"},
-      {"bias_frequency", "steady-state frequency error of the leak, rad/sample"},
+using markdown::QuantityText;
+
+/// What a quantity is, with its unit, and which of its ends is the bound.
+QuantityText describe(const std::string& name) {
+  struct Entry {
+    const char* name;
+    const char* description;
+    std::string (*value)(const rigor::Interval& value, int digits);
+  };
+  using markdown::at_least;
+  using markdown::at_most;
+  using markdown::enclosure;
+  static constexpr std::array<Entry, 15> kEntries{{
+      {"contraction_rate", "factor by which the error shrinks, per sample", at_most},
+      {"radius", "radius of the certified set, in its metric", enclosure},
+      {"frequency_error_radius", "frequency error to which the set reaches, rad/sample", at_least},
+      {"phase_error_radius", "phase error to which the set reaches, rad", at_least},
+      {"amplitude_error_radius", "amplitude error to which the set reaches, relative", at_least},
+      {"ultimate_frequency_error", "frequency error in the long run, rad/sample", at_most},
+      {"frequency_error_bound", "frequency error at any sample from the assumed start on, rad/sample",
+       at_most},
+      {"settling_samples", "samples until within twice the long-run bound", at_most},
+      {"largest_noise", "largest certified noise (at constant frequency), relative to the amplitude",
+       at_least},
+      {"largest_slew", "largest certified slew (without noise), rad/sample per sample", at_least},
+      {"bias_frequency", "steady-state frequency error of the leak, rad/sample", enclosure},
+      {"capture_samples", "samples until every assumed start is in the certified set", at_most},
+      {"wrong_lock_frequency_error", "frequency error that a start ends with, rad/sample", at_least},
+      {"cells", "cells of assumed starts", enclosure},
+      {"cells_captured", "of them captured", enclosure},
   }};
-  const auto* found = std::find_if(kDescriptions.begin(), kDescriptions.end(),
-                                   [&](const auto& entry) { return name == entry.first; });
-  return found == kDescriptions.end() ? "`" + name + "`" : std::string(found->second);
+  const auto* found =
+      std::find_if(kEntries.begin(), kEntries.end(), [&](const Entry& entry) { return name == entry.name; });
+  return found == kEntries.end() ? QuantityText{"`" + name + "`", enclosure}
+                                 : QuantityText{found->description, found->value};
 }
 
-std::string value_of(const theorems::Derivation& derivation, const std::string& name) {
-  for (const theorems::Quantity& quantity : derivation.quantities) {
-    if (quantity.name == name && !quantity.not_applicable) {
-      return markdown::enclosure(quantity.value, 3);
-    }
-  }
-  return "unknown";
+std::string derivation_tables(const theorems::Derivation& derivation) {
+  return markdown::conditions_table(derivation) + "\n" + markdown::quantities_table(derivation, describe) +
+         "\n" + (derivation.notes.empty() ? "" : markdown::notes_list(derivation) + "\n");
 }
 
 }  // namespace
-
-std::string contraction_summary(const Certificate& certificate) {
-  const std::vector<theorems::Derivation> found = derivations_of(certificate, "contraction");
-  if (found.empty()) {
-    return "";
-  }
-  const theorems::Derivation& derivation = found.front();
-  const auto value = [&](const char* name) { return value_of(derivation, name); };
-  if (derivation.verdict == rigor::Verdict::proved) {
-    const bool covers_start = proved_frequency_bound(certificate).has_value();
-    return fmt::format(
-        "- Contraction, **PROVED**: with the assumed noise and slew, every start in the certified set stays "
-        "in it for "
-        "ever. The set reaches to a frequency error of {} rad/sample; in it the error shrinks by the factor "
-        "{} a "
-        "sample at least, and in the long run the frequency error is at most the value {} rad/sample. {} "
-        "Largest "
-        "certified noise {} (relative to the amplitude, without slew); largest certified slew {} rad/sample "
-        "per sample "
-        "(without noise).\n",
-        value("frequency_error_radius"), value("contraction_rate"), value("ultimate_frequency_error"),
-        covers_start
-            ? fmt::format(
-                  "The assumed start lies in the set: from the first sample on the frequency error is "
-                  "at most the value {} rad/sample.",
-                  value("frequency_error_bound"))
-            : "Whether the assumed start lies in the set is not shown.",
-        value("largest_noise"), value("largest_slew"));
-  }
-  for (const theorems::Condition& condition : derivation.conditions) {
-    if (condition.verdict == derivation.verdict) {
-      return fmt::format("- Contraction, {}: {}: {}\n", markdown::verdict(derivation.verdict), condition.id,
-                         condition.reason);
-    }
-  }
-  return fmt::format("- Contraction, {}.\n", markdown::verdict(derivation.verdict));
-}
 
 std::string contraction_section(const Certificate& certificate) {
   std::string text;
@@ -92,9 +65,17 @@ std::string contraction_section(const Certificate& certificate) {
     const bool leaks = certificate.design.quadrature_ekf().design.epsilon.nearest > 0.0;
     text += fmt::format("{}. The proof is in `{}` of the program's sources.\n\n", derivation.title,
                         leaks ? "analysis/contraction/ball.hpp" : "docs/contraction.md");
-    text += markdown::conditions_table(derivation) + "\n";
-    text += markdown::quantities_table(derivation, description) + "\n";
-    text += markdown::notes_list(derivation) + "\n";
+    text += derivation_tables(derivation);
+  }
+  for (const theorems::Derivation& derivation : derivations_of(certificate, "capture")) {
+    text += fmt::format(
+        "## Starts beyond the certified set: capture {}, {}\n\n",
+        derivation.id == "capture" ? "under the assumed noise and slew" : "without noise and slew",
+        markdown::verdict(derivation.verdict));
+    text += derivation.title +
+            ", by verified propagation: boxes of starts are followed sample by sample, with everything that "
+            "noise and slew can do to them, and cut in two where they cannot be followed.\n\n";
+    text += derivation_tables(derivation);
   }
   return text;
 }

@@ -7,10 +7,8 @@
 
 namespace veritrack::certificates {
 
-/// Conditions, the certified set in engineering units, and what it covers.
+/// Conditions, the certified set in engineering units, what it covers, and how starts beyond it were
+/// followed.
 [[nodiscard]] std::string contraction_section(const Certificate& certificate);
-
-/// One line for the top of the document: what is proved, or that nothing is.
-[[nodiscard]] std::string contraction_summary(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

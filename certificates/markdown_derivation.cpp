@@ -33,14 +33,15 @@ std::string conditions_table(const theorems::Derivation& derivation) {
 }
 
 std::string quantities_table(const theorems::Derivation& derivation,
-                             std::string (*describe)(const std::string& name)) {
+                             QuantityText (*describe)(const std::string& name)) {
   std::vector<std::vector<std::string>> rows;
   rows.reserve(derivation.quantities.size());
   for (const theorems::Quantity& quantity : derivation.quantities) {
-    rows.push_back({describe(quantity.name), quantity.symbol.empty() ? "—" : math(quantity.symbol),
+    const QuantityText text = describe(quantity.name);
+    rows.push_back({text.description, quantity.symbol.empty() ? "—" : math(quantity.symbol),
                     quantity.formula.empty() ? "—" : math(quantity.formula),
                     quantity.not_applicable ? "not applicable: " + *quantity.not_applicable
-                                            : enclosure(quantity.value)});
+                                            : text.value(quantity.value, 4)});
   }
   return table({"Quantity", "Symbol", "Formula", "Value"}, rows);
 }

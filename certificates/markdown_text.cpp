@@ -30,6 +30,17 @@ std::string enclosure(const rigor::Interval& value, int digits) {
   return lower == upper ? "= " + lower : "∈ [" + lower + ", " + upper + "]";
 }
 
+std::string at_most(const rigor::Interval& value, int digits) {
+  return rigor::is_empty(value) ? "unknown"
+                                : "at most " + rigor::to_decimal(value.upper(), digits, rigor::Direction::up);
+}
+
+std::string at_least(const rigor::Interval& value, int digits) {
+  return rigor::is_empty(value)
+             ? "unknown"
+             : "at least " + rigor::to_decimal(value.lower(), digits, rigor::Direction::down);
+}
+
 std::string verdict(rigor::Verdict value) {
   std::string word(rigor::to_string(value));
   std::transform(word.begin(), word.end(), word.begin(),

@@ -17,6 +17,13 @@ namespace veritrack::certificates::markdown {
 /// exactly; "unknown" when empty.
 [[nodiscard]] std::string enclosure(const rigor::Interval& value, int digits = 7);
 
+/// "at most x", x the upper end rounded up to `digits` significant digits: for a bound from above; "unknown"
+/// when empty.
+[[nodiscard]] std::string at_most(const rigor::Interval& value, int digits = 3);
+
+/// "at least x", x the lower end rounded down: for a bound from below; "unknown" when empty.
+[[nodiscard]] std::string at_least(const rigor::Interval& value, int digits = 3);
+
 /// PROVED, REFUTED or UNDECIDED, in bold.
 [[nodiscard]] std::string verdict(rigor::Verdict value);
 

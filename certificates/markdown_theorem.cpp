@@ -130,13 +130,20 @@ std::string summary_section(const Certificate& certificate) {
     if (stability == derivation.conditions.end() || start == derivation.conditions.end()) {
       continue;
     }
+    if (rigor::is_empty(stability->lhs)) {
+      text += fmt::format(
+          "- Theorem 2.9, *{}*: it cannot be evaluated, as some of its constants do not exist for this "
+          "design.\n",
+          reading(derivation.id));
+      continue;
+    }
     text += fmt::format(
         "- Theorem 2.9, *{}*: its main condition (2.43) asks that {} be below 1; for this design it is {}. "
-        "It admits a "
-        "start whose error is below the value {}; the assumed start may be wrong by {}.\n",
+        "It admits start errors of {}; the assumed start may be off by {}.\n",
         reading(derivation.id), math("\\beta(\\zeta + \\eta) + \\alpha"),
-        markdown::enclosure(stability->lhs, 3), markdown::enclosure(start->rhs, 3),
-        markdown::enclosure(start->lhs, 3));
+        stability->verdict == rigor::Verdict::proved ? markdown::at_most(stability->lhs)
+                                                     : markdown::at_least(stability->lhs),
+        markdown::at_most(start->rhs), markdown::at_most(start->lhs));
   }
   const theorems::Trajectory& run = certificate.simulation.trajectory;
   double largest = 0.0;

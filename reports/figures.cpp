@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "certificates/guarantee.hpp"
+#include "certificates/tube.hpp"
 #include "reports/gnuplot.hpp"
+#include "reports/region_map.hpp"
 
 namespace veritrack::reports {
 
@@ -134,13 +136,68 @@ Figure error_figure(const Certificate& certificate) {
   return {"error.svg", caption + stride_remark(certificate), run_gnuplot(script)};
 }
 
+/// The runs in grey, thin, under the bound, black and broad.
+Figure tube_figure(const Certificate& certificate, const certificates::Tube& tube) {
+  std::string script = preamble(380);
+  script += "$tube << END\n";
+  for (std::size_t k = 0; k < tube.bound.size(); ++k) {
+    script += fmt::format("{} {:.9g}", k, tube.bound[k]);
+    for (const std::vector<double>& run : tube.runs) {
+      // What rounding leaves of an error that is gone is not worth a decade of the picture.
+      script += run[k] > 1e-3 * tube.bound.back() ? fmt::format(" {:.9g}", run[k]) : " NaN";
+    }
+    script += '\n';
+  }
+  script +=
+      "END\n"
+      "set ylabel '|frequency error|, rad/sample'\n"
+      "set logscale y\n"
+      "unset mytics\n"
+      "set format y '10^{%L}'\n"
+      "set key maxcols 2\n"
+      "plot ";
+  for (std::size_t i = 0; i < tube.runs.size(); ++i) {
+    script += fmt::format("$tube using 1:{} with lines lw 1 lc rgb '#888888' notitle, ", i + 3);
+  }
+  script += fmt::format(
+      "$tube using 1:2 with lines lw 3 lc rgb '#000000' title 'certified, {}', "
+      "keyentry with lines lw 1 lc rgb '#888888' title 'simulated runs'",
+      tube.from_assumed_starts ? "assumed starts" : "all of the set");
+  if (!tube.bound_of_assumed_starts.empty()) {
+    script +=
+        fmt::format(", {:.9g} with lines lw 1.8 dt 4 lc rgb '#000000' title 'certified, assumed starts'",
+                    tube.bound_of_assumed_starts.front());
+  }
+  if (const auto& required = certificate.design.quadrature_ekf().require.frequency_error_below) {
+    script +=
+        fmt::format(", {:.9g} with lines lw 1.8 dt 2 lc rgb '#000000' title 'required'", required->nearest);
+  }
+  script += "\n";
+  return {"tube.svg",
+          fmt::format("Frequency error, rad/sample, logarithmic: the bound that is certified for every start "
+                      "{} and all noise and slew assumed (black), and simulated runs from the rim of these "
+                      "starts (grey), without disturbances and with noise and slew that push the errors out. "
+                      "The runs prove nothing.",
+                      tube.from_assumed_starts ? "within the assumed errors" : "in the certified set"),
+          run_gnuplot(script)};
+}
+
 }  // namespace
 
 std::vector<Figure> draw_figures(const Certificate& certificate) {
   if (certificate.simulation.trajectory.empty()) {
     return {};
   }
-  return {frequency_figure(certificate), error_figure(certificate)};
+  std::vector<Figure> figures = {frequency_figure(certificate), error_figure(certificate)};
+  if (const auto tube = certificates::certified_tube(certificate)) {
+    figures.push_back(tube_figure(certificate, *tube));
+  }
+  if (certificate.followed_starts && certificate.followed_starts->region.cells.size() > 1) {
+    Figure map = draw_region_map(certificate.followed_starts->region, certificate.followed_starts->basin);
+    map.file = "capture.svg";
+    figures.push_back(std::move(map));
+  }
+  return figures;
 }
 
 }  // namespace veritrack::reports

@@ -189,9 +189,10 @@ CaptureResult follow(const CaptureProblem& problem, const CaptureTarget& target,
     const Interval frequency_error = states.hull()[trackers::kFrequencyError];
     result.frequency_errors.push_back(is_finite(frequency_error) ? magnitude(frequency_error)
                                                                  : std::numeric_limits<double>::infinity());
-    if (const std::optional<int> turns = target.settled(states.enclosure())) {
-      result.outcome = *turns == 0 ? CaptureOutcome::locked : CaptureOutcome::locked_elsewhere;
-      result.turns = *turns;
+    if (const std::optional<Settled> settled = target.settled(states.enclosure())) {
+      result.outcome = settled->turns == 0 ? CaptureOutcome::locked : CaptureOutcome::locked_elsewhere;
+      result.turns = settled->turns;
+      result.level = settled->level;
       return result;
     }
     if (result.samples >= problem.most_samples) {

@@ -54,6 +54,7 @@ struct CaptureResult {
   CaptureOutcome outcome = CaptureOutcome::enclosure_lost;
   int samples = 0;           ///< after which the propagation ended
   int turns = 0;             ///< see locked_elsewhere
+  double level = 0.0;        ///< when locked: see Settled
   int widest_direction = 2;  ///< 0, 1, 2 = amplitude, phase, frequency: where halving the box helps most
   /// Upper bounds on |frequency error|, rad/sample, of every start after 0, 1, ..., `samples` samples.
   std::vector<double> frequency_errors;

@@ -1,11 +1,11 @@
 #include "analysis/contraction/capture_starts.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "analysis/contraction/capture_basin.hpp"
 #include "analysis/contraction/capture_target.hpp"
+#include "analysis/contraction/certified_level.hpp"
 #include "analysis/contraction/fixed_point_bias.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
@@ -40,36 +40,6 @@ std::size_t count(const Region& region, Verdict verdict) {
                     [verdict](const RegionCell& cell) { return cell.verdict == verdict; }));
 }
 
-/// What holds in the set from the capture on: |T e(k)| <= kappa^k R + (1 - kappa^k) u.
-class InTheSet {
- public:
-  InTheSet(const ContractionQuestion& question, const CertifiedSet& set)
-      : set_(set),
-        rate_(set.rate),
-        level_(set.radius),
-        ultimate_((Interval(set.noise_gain) * question.noise + Interval(set.slew_gain) * question.slew) /
-                  (Interval(1.0) - Interval(set.rate))) {}
-
-  /// An upper bound on |frequency error|, rad/sample; infinite when there is none.
-  [[nodiscard]] double frequency_error() const {
-    const Interval bound = error_bounds(set_, level_)[2];
-    return is_finite(bound) ? bound.upper() : std::numeric_limits<double>::infinity();
-  }
-  void step() { level_ = Interval((ultimate_ + rate_ * (level_ - ultimate_)).upper()); }
-  /// Without noise and slew the ultimate bound is zero, which is approached but not reached.
-  [[nodiscard]] bool can_settle() const { return certainly_positive(ultimate_); }
-  /// Certainly within twice the ultimate bound.
-  [[nodiscard]] bool settled() const {
-    return can_settle() && certainly_less_equal(level_, Interval(2.0) * Interval(ultimate_.lower()));
-  }
-
- private:
-  CertifiedSet set_;
-  Interval rate_;
-  Interval level_;
-  Interval ultimate_;
-};
-
 /// The number of samples after which every start of the PROVED cells has been captured.
 int capture_samples(const Region& region) {
   int samples = 0;
@@ -88,19 +58,21 @@ struct Tube {
 Tube tube_of(const ContractionQuestion& question, const CertifiedSet& set, const Region& region) {
   constexpr int kLongest = 100000;
   const int last_capture = capture_samples(region);
-  std::vector<char> captures(static_cast<std::size_t>(last_capture) + 1, 0);
+  std::vector<std::optional<double>> captures(static_cast<std::size_t>(last_capture) + 1);  // their levels
   for (const RegionCell& cell : region.cells) {
-    captures[static_cast<std::size_t>(cell.result.samples)] = 1;
+    std::optional<double>& level = captures[static_cast<std::size_t>(cell.result.samples)];
+    level = std::max(level.value_or(0.0), cell.result.level);
   }
   Tube tube;
-  std::optional<InTheSet> captured;
+  std::optional<CertifiedLevel> captured;
   for (int k = 0; k <= last_capture; ++k) {
     const auto index = static_cast<std::size_t>(k);
     if (captured) {
       captured->step();
     }
-    if (captures[index] != 0) {
-      captured.emplace(question, set);  // whoever is captured last may still be anywhere in the set
+    if (const std::optional<double>& level = captures[index]) {
+      const CertifiedLevel fresh(set, Interval(*level), question.noise, question.slew);
+      captured = captured && captured->above(fresh) ? captured : fresh;
     }
     tube.frequency_errors.push_back(
         std::max(region.frequency_errors.at(index), captured ? captured->frequency_error() : 0.0));
@@ -112,6 +84,10 @@ Tube tube_of(const ContractionQuestion& question, const CertifiedSet& set, const
     }
     captured->step();
     tube.frequency_errors.push_back(captured->frequency_error());
+  }
+  if (captured) {
+    tube.frequency_errors.back() =
+        std::max(tube.frequency_errors.back(), captured->largest_frequency_error());
   }
   return tube;
 }
@@ -156,8 +132,9 @@ void add_quantities(theorems::Derivation& derivation, const CertifiedSet& set, c
   add("capture_samples", "k_c", "\\min \\{k : X(k) \\in \\Omega \\text{ from every assumed start}\\}",
       samples, kNotAll);
   add("frequency_error_bound", "\\sup_k |\\nu(k)|",
-      "\\max(\\max_{k \\le k_c} |\\nu(k)|,\\ R\\,|e_3' T^{-1}|)", bound, kNotAll);
-  add("settling_samples", "k_s", "k_c + \\min \\{k : \\kappa^k R + (1 - \\kappa^k) u \\le 2 u\\}", settling,
+      "\\max(\\max_{k \\le k_c} |\\nu(k)|,\\ |T e(k_c)|\\,|e_3' T^{-1}|,\\ \\nu_\\infty)", bound, kNotAll);
+  add("settling_samples", "k_s", "k_c + \\min \\{k : \\kappa^k |T e(k_c)| + (1 - \\kappa^k) u \\le 2 u\\}",
+      settling,
       proved ? "Without noise and slew the ultimate bound is zero, which is approached but not reached."
              : kNotAll);
   if (const std::optional<Interval> wrong = wrong_lock(set, region)) {

@@ -81,7 +81,7 @@ bool worth_a_look(const CertifiedSet& set, const StateEnclosure& states, double 
 
 }  // namespace
 
-std::optional<int> CertifiedSetTarget::settled(const StateEnclosure& states) const {
+std::optional<Settled> CertifiedSetTarget::settled(const StateEnclosure& states) const {
   const double middle = states.center[trackers::kFrequencyError];
   const double turns = periodic_ ? std::nearbyint(middle / 6.283185307179586) : 0.0;
   if (!(std::fabs(turns) < 1e6) || !worth_a_look(set_, states, 6.283185307179586 * turns)) {
@@ -100,7 +100,7 @@ std::optional<int> CertifiedSetTarget::settled(const StateEnclosure& states) con
   const bool inside = certainly_less_equal(norm, Interval(set_.radius)) &&
                       rigor::is_positive_definite(above) == rigor::Verdict::proved &&
                       rigor::is_positive_definite(below) == rigor::Verdict::proved;
-  return inside ? std::optional<int>(static_cast<int>(turns)) : std::nullopt;
+  return inside ? std::optional(Settled{static_cast<int>(turns), norm.upper()}) : std::nullopt;
 }
 
 }  // namespace veritrack::contraction

@@ -8,6 +8,12 @@
 
 namespace veritrack::contraction {
 
+/// How states lie in a target.
+struct Settled {
+  int turns = 0;       ///< k when they do with 2 pi k subtracted from the frequency error; 0 is capture
+  double level = 0.0;  ///< an upper bound on their |T e|, at most the radius of the set
+};
+
 /// A set of states, of amplitude 1 in the frame of the true phase (trackers/quadrature_rotating_frame.hpp),
 /// that the tracker is known never to leave.
 class CaptureTarget {
@@ -19,10 +25,10 @@ class CaptureTarget {
   CaptureTarget(CaptureTarget&&) = delete;
   CaptureTarget& operator=(CaptureTarget&&) = delete;
 
-  /// The integer k when it is certain that every state of the enclosure, with 2 pi k subtracted from its
-  /// frequency error, lies in the set: k = 0 is capture, another k is a lock at a wrong frequency. Nothing
-  /// otherwise. Needs the upward mode. Called from several threads at once.
-  [[nodiscard]] virtual std::optional<int> settled(const StateEnclosure& states) const = 0;
+  /// When it is certain that every state of the enclosure, with 2 pi k subtracted from its frequency error,
+  /// lies in the set: k = 0 is capture, another k is a lock at a wrong frequency. Nothing otherwise. Needs
+  /// the upward mode. Called from several threads at once.
+  [[nodiscard]] virtual std::optional<Settled> settled(const StateEnclosure& states) const = 0;
 };
 
 /// The certified set of the polar frame. The shift by 2 pi k is looked for only when `periodic`, which holds
@@ -30,7 +36,7 @@ class CaptureTarget {
 class CertifiedSetTarget final : public CaptureTarget {
  public:
   CertifiedSetTarget(const CertifiedSet& set, bool periodic) : set_(set), periodic_(periodic) {}
-  [[nodiscard]] std::optional<int> settled(const StateEnclosure& states) const override;
+  [[nodiscard]] std::optional<Settled> settled(const StateEnclosure& states) const override;
 
  private:
   CertifiedSet set_;

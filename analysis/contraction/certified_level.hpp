@@ -1,0 +1,40 @@
+// What a certified set promises from a level on: how far the errors can be after so many samples.
+#pragma once
+
+#include "analysis/contraction/certified_set.hpp"
+
+namespace veritrack::contraction {
+
+/// An upper bound on |T e(k)|, sample by sample, of every start in the set with |T e(0)| <= level:
+/// |T e(k)| <= kappa^k level + (1 - kappa^k) u, u = (L_v V + L_w W) / (1 - kappa). Every function needs the
+/// upward mode.
+class CertifiedLevel {
+ public:
+  /// For noise |v| <= `noise` (relative to the amplitude) and slew |w| <= `slew` (rad/sample per sample),
+  /// which must be within those of the set, which must have been certified. `level` is at most its radius.
+  CertifiedLevel(const CertifiedSet& set, const rigor::Interval& level, const rigor::Interval& noise,
+                 const rigor::Interval& slew);
+
+  /// An upper bound on |frequency error| now, rad/sample; infinite when there is none.
+  [[nodiscard]] double frequency_error() const { return frequency_error_at(level_); }
+  /// The same from now on for ever: a level below u may rise to it.
+  [[nodiscard]] double largest_frequency_error() const;
+  /// One sample on.
+  void step();
+  /// True only when this level is certainly at least that of the other, which is of the same set.
+  [[nodiscard]] bool above(const CertifiedLevel& other) const {
+    return certainly_less_equal(other.level_, level_);
+  }
+  /// Without noise and slew the ultimate bound is zero, which is approached but not reached.
+  [[nodiscard]] bool can_settle() const { return certainly_positive(ultimate_); }
+  /// Certainly within twice the ultimate bound u.
+  [[nodiscard]] bool settled() const;
+
+ private:
+  [[nodiscard]] double frequency_error_at(const rigor::Interval& level) const;
+  CertifiedSet set_;
+  rigor::Interval level_;
+  rigor::Interval ultimate_;
+};
+
+}  // namespace veritrack::contraction

@@ -1,0 +1,182 @@
+#include "certificates/guarantee_sentence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/guarantee.hpp"
+#include "certificates/markdown_text.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+constexpr const char* kGuarantee = "ekf/guarantee";
+
+const Claim* find_claim(const Certificate& certificate, const std::string& id) {
+  const auto found = std::find_if(certificate.claims.begin(), certificate.claims.end(),
+                                  [&](const Claim& claim) { return claim.id == id; });
+  return found == certificate.claims.end() ? nullptr : &*found;
+}
+
+const theorems::Quantity* find(const theorems::Derivation& derivation, const std::string& name) {
+  const auto found =
+      std::find_if(derivation.quantities.begin(), derivation.quantities.end(),
+                   [&](const auto& quantity) { return quantity.name == name && !quantity.not_applicable; });
+  return found == derivation.quantities.end() ? nullptr : &*found;
+}
+
+/// The same of the derivation "contraction", which describes the certified set.
+const theorems::Quantity* find_of_set(const Certificate& certificate, const std::string& name) {
+  for (const theorems::Derivation& derivation : certificate.derivations) {
+    if (derivation.id == "contraction") {
+      return find(derivation, name);
+    }
+  }
+  return nullptr;
+}
+
+std::string up(const Interval& value) {
+  return rigor::to_decimal(value.upper(), 3, rigor::Direction::up);
+}
+std::string down(const Interval& value) {
+  return rigor::to_decimal(value.lower(), 3, rigor::Direction::down);
+}
+
+bool is_zero(const Number& number) {
+  return number.value == Interval(0.0);
+}
+
+/// "With measurement noise of at most 0.001 and a constant frequency, started within ..., "
+std::string assumptions(const QuadratureEkfTables& tables) {
+  const Assumptions& assume = tables.assume;
+  std::string text = is_zero(assume.noise) ? "Without measurement noise"
+                                           : "With measurement noise of at most " + assume.noise.text;
+  text += is_zero(assume.slew)
+              ? " and at a constant frequency"
+              : fmt::format(" and a frequency that changes by at most {} rad/sample per sample",
+                            assume.slew.text);
+  if (!is_zero(tables.design.epsilon)) {
+    text += fmt::format(" between {} and {} rad/sample", assume.frequency[0].text, assume.frequency[1].text);
+  }
+  return text + fmt::format(
+                    ", started within {} rad/sample of the true frequency, {} rad of the phase and {} of the "
+                    "amplitude ({}), ",
+                    assume.initial_frequency_error.text, assume.initial_phase_error.text,
+                    assume.initial_amplitude_error.text, assume.amplitude.text);
+}
+
+/// Why the bound holds, and what it comes to in the long run.
+std::string ground(const Certificate& certificate) {
+  const theorems::Derivation& derivation = deciding_derivation(certificate);
+  std::string text;
+  if (const auto* samples = find(derivation, "capture_samples")) {
+    text = fmt::format(
+        "Every such start is followed, by verified propagation, into a set that the tracker never leaves: it "
+        "is there after at most {} samples. ",
+        up(samples->value));
+  } else {
+    text = "All these starts lie in a set that the tracker never leaves. ";
+  }
+  const auto* rate = find_of_set(certificate, "contraction_rate");
+  const auto* ultimate = find_of_set(certificate, "ultimate_frequency_error");
+  if (rate != nullptr && ultimate != nullptr) {
+    text += fmt::format(
+        "There the error shrinks to at most {} of itself each sample, apart from what noise and slew add; "
+        "in the long run the frequency error is at most {} rad/sample",
+        up(rate->value), up(ultimate->value));
+    const auto* samples = find(derivation, "settling_samples");
+    text += samples == nullptr
+                ? "."
+                : fmt::format(", and at most twice that after {} samples.", up(samples->value));
+  }
+  return text;
+}
+
+/// Which hypothesis fails, by how much, and what would repair it.
+std::string objection(const Certificate& certificate) {
+  const theorems::Derivation& derivation = deciding_derivation(certificate);
+  for (const Verdict verdict : {Verdict::refuted, Verdict::undecided}) {
+    for (const theorems::Condition& condition : derivation.conditions) {
+      if (condition.verdict == verdict) {
+        std::string text = condition.reason;
+        const Claim* noise_free = find_claim(certificate, "ekf/capture-noise-free");
+        if (noise_free != nullptr && noise_free->verdict == Verdict::proved) {
+          text += " Without noise and slew every assumed start is captured: that is PROVED.";
+        }
+        return text;
+      }
+    }
+  }
+  return "A set that is never left is certified, but not that the assumed start lies in it.";
+}
+
+}  // namespace
+
+Claim guarantee_claim(const Certificate& certificate) {
+  const QuadratureEkfTables& tables = certificate.design.quadrature_ekf();
+  const std::optional<Number>& required = tables.require.frequency_error_below;
+  const Claim* requirement = find_claim(certificate, "ekf/frequency-error-bound");
+  const Claim* capture = find_claim(certificate, "ekf/capture");
+  const std::optional<Interval> bound = proved_frequency_bound(certificate);
+  const bool meets = requirement == nullptr || requirement->verdict == Verdict::proved;
+  Claim claim;
+  claim.id = kGuarantee;
+  claim.statement = assumptions(tables);
+  if (bound && meets) {
+    claim.verdict = Verdict::proved;
+    claim.statement += required ? fmt::format(
+                                      "the frequency error stays below {} rad/sample for ever: it "
+                                      "never exceeds {} rad/sample.",
+                                      required->text, up(*bound))
+                                : fmt::format("the frequency error never exceeds {} rad/sample.", up(*bound));
+    claim.reason = ground(certificate);
+    claim.evidence = {*find(deciding_derivation(certificate), "frequency_error_bound")};
+    return claim;
+  }
+  claim.statement +=
+      required ? fmt::format("the frequency error stays below {} rad/sample for ever.", required->text)
+               : "the tracker keeps its lock for ever.";
+  if (requirement != nullptr && (bound || requirement->verdict == Verdict::refuted)) {
+    claim.verdict = requirement->verdict;
+    claim.reason = requirement->reason;
+  } else {
+    claim.verdict = capture != nullptr && capture->verdict == Verdict::refuted && !required
+                        ? Verdict::refuted
+                        : Verdict::undecided;
+    claim.reason = objection(certificate);
+  }
+  return claim;
+}
+
+std::string guarantee_section(const Certificate& certificate) {
+  const Claim* claim = find_claim(certificate, kGuarantee);
+  if (claim == nullptr) {
+    return "";
+  }
+  std::string text =
+      fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
+                  claim->verdict == Verdict::proved ? "Why" : "What stands in the way", claim->reason);
+  const auto* radius = find_of_set(certificate, "frequency_error_radius");
+  const auto* noise = find_of_set(certificate, "largest_noise");
+  const auto* slew = find_of_set(certificate, "largest_slew");
+  if (radius != nullptr) {
+    text += fmt::format(
+        "- The set that is never left reaches to a frequency error of {} rad/sample (under the assumed "
+        "noise and slew).\n",
+        down(radius->value));
+  }
+  if (noise != nullptr && slew != nullptr) {
+    text += fmt::format(
+        "- Limits of this design: a set that is never left is certified for noise up to {} of the amplitude "
+        "(at a constant frequency), and for a slew up to {} rad/sample per sample (without noise).\n",
+        down(noise->value), down(slew->value));
+  }
+  return text;
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,19 @@
+// The guarantee in one sentence, in engineering words: what an engineer may rely on, or what is missing.
+#pragma once
+
+#include <string>
+
+#include "certificates/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// The claim "ekf/guarantee": with this noise and slew, started within these errors, the frequency error
+/// stays below so much for ever. PROVED with the bound that is certified (and the one that is required, when
+/// it is met); else the verdict on what is required, and as its reason which hypothesis fails, by how much,
+/// and what would repair it. Not a requirement itself. Call after add_required_claims.
+[[nodiscard]] Claim guarantee_claim(const Certificate& certificate);
+
+/// The top of the document: that claim, and how much more the design would bear.
+[[nodiscard]] std::string guarantee_section(const Certificate& certificate);
+
+}  // namespace veritrack::certificates

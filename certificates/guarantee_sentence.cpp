@@ -90,9 +90,8 @@ std::string ground(const Certificate& certificate) {
         "in the long run the frequency error is at most {} rad/sample",
         up(rate->value), up(ultimate->value));
     const auto* samples = find(derivation, "settling_samples");
-    text += samples == nullptr
-                ? "."
-                : fmt::format(", and at most twice that after {} samples.", up(samples->value));
+    const bool takes_time = samples != nullptr && samples->value.upper() > 0.0;
+    text += takes_time ? fmt::format(", and at most twice that after {} samples.", up(samples->value)) : ".";
   }
   return text;
 }

@@ -73,7 +73,7 @@ class Certify(CliTestCase):
         self.certify(self.write(DESIGN))
         text = (self.folder / "out/certificate.md").read_text()
         references = re.findall(r"\]\((figures/[^)]+)\)", text)
-        self.assertEqual(len(references), 2)
+        self.assertEqual(references, [f"figures/{name}.svg" for name in ("frequency", "error", "tube")])
         for reference in references:
             root = xml.etree.ElementTree.parse(self.folder / "out" / reference).getroot()
             self.assertTrue(root.tag.endswith("svg"))
@@ -109,6 +109,64 @@ class Certify(CliTestCase):
         claim = next(claim for claim in certificate["claims"] if claim["required"])
         self.assertLess(float.fromhex(claim["evidence"]["frequency_error_bound"]["hi"]), 0.05)
         self.assertIn("start-error", [entry["purpose"] for entry in certificate["certified_sets"]])
+
+    def guarantee(self, certificate):
+        """The claim, which must be what the document says below its first line."""
+        claim = next(claim for claim in certificate["claims"] if claim["id"] == "ekf/guarantee")
+        lines = (self.folder / "out/certificate.md").read_text().splitlines()
+        self.assertEqual(lines[2], f"**{claim['verdict'].upper()}**: {claim['statement']}")
+        self.assertTrue(lines[4].endswith(claim["reason"]), lines[4])
+        return claim
+
+    def test_the_guarantee_is_one_sentence_on_top(self):
+        design = self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.05\n")
+        _, certificate = self.certify(design)
+        claim = self.guarantee(certificate)
+        self.assertEqual(claim["verdict"], "proved")
+        self.assertTrue(claim["statement"].startswith(
+            "With measurement noise of at most 0.001 and at a constant frequency, started within 0.005 rad/sample of "
+            "the true frequency, 0.005 rad of the phase and 0.005 of the amplitude (1.0), the frequency error stays "
+            "below 0.05 rad/sample for ever"), claim["statement"])
+
+    def test_starts_beyond_the_certified_set_are_captured(self):
+        result, certificate = self.certify(ROOT / "designs/far-start.toml")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr, "")
+        self.assertEqual([error.message for error in jsonschema.Draft202012Validator(SCHEMA).iter_errors(certificate)], [])
+        verdicts = {derivation["id"]: derivation["verdict"] for derivation in certificate["derivations"]}
+        self.assertEqual((verdicts["contraction"], verdicts["capture"]), ("undecided", "proved"))
+        self.assertEqual(self.guarantee(certificate)["verdict"], "proved")
+        text = (self.folder / "out/certificate.md").read_text()
+        for figure in ("tube", "capture"):
+            self.assertIn(f"(figures/{figure}.svg)", text)
+
+    def test_what_fails_only_under_noise_is_said_to_hold_without(self):
+        design = self.write(DESIGN.replace("noise = 0.001", "noise = 0.01")
+                            .replace("initial_phase_error = 0.005", "initial_phase_error = 0.8")
+                            .replace("initial_frequency_error = 0.005", "initial_frequency_error = 0.5"))
+        result, certificate = self.certify(design)
+        self.assertEqual(result.returncode, 0, result.stderr)  # nothing is required
+        verdicts = {claim["id"]: claim["verdict"] for claim in certificate["claims"]}
+        self.assertEqual((verdicts["ekf/capture"], verdicts["ekf/capture-noise-free"]), ("undecided", "proved"))
+        claim = self.guarantee(certificate)
+        self.assertEqual(claim["verdict"], "undecided")
+        self.assertRegex(claim["reason"], r"[0-9]+ of [0-9]+ cells of assumed starts could not be followed")
+        self.assertIn("Without noise and slew every assumed start is captured", claim["reason"])
+        capture = next(one for one in certificate["derivations"] if one["id"] == "capture")
+        self.assertTrue(all("frequency error in [" in note for note in capture["notes"]), capture["notes"])
+        self.assertGreater(len(capture["notes"]), 0)
+
+    def test_failures_say_what_would_repair_them(self):
+        for change, words in {("q1 = 0.0023", "q1 = 0"): ("uncontrollable", "any q1 > 0 repairs this"),
+                              ("noise = 0.001", "noise = 0.05"): ("largest certified noise", "was assumed"),
+                              ("initial_frequency_error = 0.005", "initial_frequency_error = 6"):
+                                  ("witness", "1 turns per sample off", "Smaller start errors")}.items():
+            with self.subTest(change=change[1]):
+                _, certificate = self.certify(self.write(DESIGN.replace(*change)))
+                claim = self.guarantee(certificate)
+                self.assertNotEqual(claim["verdict"], "proved")
+                for word in words:
+                    self.assertIn(word, claim["reason"])
 
     def test_a_start_outside_the_required_bound_refutes_it(self):
         design = self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.005\n")

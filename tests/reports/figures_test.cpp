@@ -8,9 +8,9 @@ namespace {
 
 using namespace veritrack;
 
-TEST_CASE("a certificate has its two figures, with captions that carry units") {
+TEST_CASE("a certificate has its three figures, with captions that carry units") {
   const auto figures = reports::draw_figures(test::certificate());
-  REQUIRE(figures.size() == 2);
+  REQUIRE(figures.size() == 3);
   for (const reports::Figure& figure : figures) {
     CHECK(figure.svg.find("</svg>") != std::string::npos);
     CHECK(figure.caption.find("rad/sample") != std::string::npos);
@@ -41,7 +41,7 @@ TEST_CASE("without a run there are no figures") {
 TEST_CASE("a run that leaves the finite numbers is drawn as far as it goes") {
   auto certificate = test::certificate();
   certificate.simulation.trajectory[30].filtered_state.setConstant(std::nan(""));
-  CHECK(reports::draw_figures(certificate).size() == 2);
+  CHECK(reports::draw_figures(certificate).size() == 3);
 }
 
 }  // namespace

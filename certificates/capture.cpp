@@ -20,7 +20,7 @@ constexpr std::size_t kMostCells = 4000;
 constexpr std::size_t kMostCellsWithoutNoise = 2000;
 
 bool starts_are_outside(const Certificate& certificate) {
-  const theorems::Derivation& contraction = certificate.derivations.back();
+  const theorems::Derivation& contraction = deciding_derivation(certificate);
   return std::any_of(contraction.conditions.begin(), contraction.conditions.end(),
                      [](const theorems::Condition& condition) {
                        return condition.id == "start-in-set" && condition.verdict != Verdict::proved;

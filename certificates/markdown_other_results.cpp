@@ -27,14 +27,14 @@ std::vector<theorems::Derivation> other_results(const Certificate& certificate) 
   return found;
 }
 
-std::string description(const std::string& name) {
+markdown::QuantityText description(const std::string& name) {
   if (name == "initial_frequency_error_bound") {
-    return "largest certified initial error, rad/sample";
+    return {"largest certified initial error, rad/sample", markdown::at_least};
   }
   if (name == "noise_bound") {
-    return "largest certified noise, over the amplitude";
+    return {"largest certified noise, over the amplitude", markdown::at_least};
   }
-  return "`" + name + "`";
+  return {"`" + name + "`", [](const rigor::Interval& value, int) { return markdown::enclosure(value); }};
 }
 
 }  // namespace

@@ -1,9 +1,13 @@
 #include "certificates/capture.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "analysis/contraction/capture_starts.hpp"
+#include "analysis/rigor/decimal.hpp"
 #include "certificates/guarantee.hpp"
 
 namespace veritrack::certificates {
@@ -18,6 +22,7 @@ using rigor::Verdict;
 // Chosen for less than a minute on two cores, together.
 constexpr std::size_t kMostCells = 4000;
 constexpr std::size_t kMostCellsWithoutNoise = 2000;
+constexpr std::size_t kMostCellsAtReducedNoise = 600;
 
 bool starts_are_outside(const Certificate& certificate) {
   const theorems::Derivation& contraction = deciding_derivation(certificate);
@@ -43,6 +48,32 @@ Claim claim_of(const StartCapture& capture, std::string id, std::string statemen
     }
   }
   return claim;
+}
+
+/// The claim that all starts are captured under less noise and slew, for the first share of a few that will
+/// do; none otherwise.
+std::optional<Claim> capture_at_reduced_noise(
+    const ContractionQuestion& question, const contraction::CertifiedSet& set,
+    const std::function<bool(const contraction::RegionProgress&)>& progress) {
+  for (const double share : {0.5, 0.25, 0.125}) {
+    ContractionQuestion reduced = question;
+    reduced.noise = Interval(share) * question.noise;
+    reduced.slew = Interval(share) * question.slew;
+    const StartCapture capture =
+        contraction::capture_starts(reduced, set, "capture", kMostCellsAtReducedNoise, progress);
+    if (capture.derivation.verdict == Verdict::proved) {
+      const auto text = [](const Interval& value) {
+        return rigor::to_decimal(value.lower(), 3, rigor::Direction::down);
+      };
+      return claim_of(
+          capture, "ekf/capture-at-reduced-noise",
+          fmt::format("From every assumed start, with noise of at most {} of the amplitude and slew of at "
+                      "most {} rad/sample per sample, the tracker comes into the certified set, which it "
+                      "never leaves.",
+                      text(reduced.noise), text(reduced.slew)));
+    }
+  }
+  return std::nullopt;
 }
 
 contraction::SimulatedBasin basin_of_starts(const ContractionQuestion& question) {
@@ -92,7 +123,14 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
         claim_of(*noise_free, "ekf/capture-noise-free",
                  "From every assumed start, without noise and slew, the tracker comes into the certified "
                  "set, which it never leaves."));
+    const bool captured = noise_free->derivation.verdict == Verdict::proved;
     certificate.derivations.push_back(std::move(noise_free->derivation));
+    if (captured) {
+      if (auto reduced =
+              capture_at_reduced_noise(contraction_question(certificate.design), set->set, report)) {
+        certificate.claims.push_back(std::move(*reduced));
+      }
+    }
   }
   certificate.followed_starts =
       FollowedStarts{std::move(capture.region), basin_of_starts(question), std::move(capture.frequency_tube)};

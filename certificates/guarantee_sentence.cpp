@@ -103,9 +103,11 @@ std::string objection(const Certificate& certificate) {
     for (const theorems::Condition& condition : derivation.conditions) {
       if (condition.verdict == verdict) {
         std::string text = condition.reason;
-        const Claim* noise_free = find_claim(certificate, "ekf/capture-noise-free");
-        if (noise_free != nullptr && noise_free->verdict == Verdict::proved) {
-          text += " Without noise and slew every assumed start is captured: that is PROVED.";
+        for (const char* id : {"ekf/capture-at-reduced-noise", "ekf/capture-noise-free"}) {
+          const Claim* weaker = find_claim(certificate, id);
+          if (weaker != nullptr && weaker->verdict == Verdict::proved) {
+            return text + " What is PROVED: " + weaker->statement;
+          }
         }
         return text;
       }

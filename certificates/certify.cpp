@@ -12,6 +12,7 @@
 #include "certificates/design_reader.hpp"
 #include "certificates/guarantee.hpp"
 #include "certificates/guarantee_sentence.hpp"
+#include "certificates/kkl_observer.hpp"
 #include "certificates/simulation.hpp"
 #include "certificates/theorem_claims.hpp"
 
@@ -123,6 +124,11 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
   add_capture(certificate, progress);
   add_required_claims(certificate);
   certificate.claims.push_back(guarantee_claim(certificate));
+}
+
+void certify_tables(Certificate& certificate, const KklObserverTables& /*tables*/,
+                    const CertifyProgress& /*progress*/) {
+  certify_kkl_observer(certificate);
 }
 
 }  // namespace

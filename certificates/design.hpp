@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "analysis/rigor/interval.hpp"
 
@@ -86,13 +87,47 @@ struct QuadratureEkfTables {
   Theorem29Parameters theorem_2_9;
 };
 
+/// [design] of the KKL observer.
+struct KklObserverDesign {
+  std::vector<Number> lambda;  ///< filter rates, 1/s: four or more, positive and distinct
+  std::optional<Number> ell;   ///< of (9) of the paper; none: the proved one
+};
+
+/// What may be added to the signal: nothing is known but a bound, or a sinusoid of at least that frequency.
+struct KklDisturbance {
+  std::optional<Number> bound;      ///< signal units
+  std::optional<Number> amplitude;  ///< signal units, of the sinusoid
+  std::optional<Number> frequency;  ///< rad/s, of the sinusoid
+};
+
+/// [assume] of the KKL observer.
+struct KklAssumptions {
+  std::array<Number, 2> frequency;  ///< [lowest, highest], rad/s
+  std::array<Number, 2> amplitude;  ///< [lowest, highest], signal units
+  std::optional<KklDisturbance> disturbance;
+};
+
+/// [require] of the KKL observer, from the settling time on.
+struct KklRequirements {
+  std::optional<Number> frequency_error_below;  ///< rad/s
+  std::optional<Number> amplitude_error_below;  ///< signal units
+  std::optional<Number> settles_within;         ///< s
+};
+
+/// The tables of a design file for the tracker "kkl-observer".
+struct KklObserverTables {
+  KklObserverDesign design;
+  KklAssumptions assume;
+  KklRequirements require;
+};
+
 /// A design file: what every tracker's has, and the tables that go with the tracker. Another tracker brings
 /// a struct of its tables, an alternative of the variant, its keys (design_keys.hpp) and a certify function.
 struct Design {
   std::string name;
   std::string tracker;
   std::string source;
-  std::variant<QuadratureEkfTables> tables;
+  std::variant<QuadratureEkfTables, KklObserverTables> tables;
   /// Where the value of each key that the file gives stands, by its path, e.g. "design.q1"; defaults are not
   /// in it.
   std::map<std::string, Position> positions;
@@ -101,6 +136,7 @@ struct Design {
   [[nodiscard]] const QuadratureEkfTables& quadrature_ekf() const {
     return std::get<QuadratureEkfTables>(tables);
   }
+  [[nodiscard]] const KklObserverTables& kkl_observer() const { return std::get<KklObserverTables>(tables); }
 };
 
 }  // namespace veritrack::certificates

@@ -14,35 +14,18 @@
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/matrix.hpp"
 #include "certificates/input_error.hpp"
+#include "certificates/key_readers.hpp"
 #include "trackers/signals/test_signals.hpp"
 
 namespace veritrack::certificates {
 
 namespace {
 
-using rigor::Interval;
-
-// ---- what holds without a key
-// ---------------------------------------------------------------------------------------
-
-constexpr Absence kRequired{};
-constexpr Absence kOptional{Absence::Rule::is_nothing, {}};
-constexpr Absence defaults_to(std::string_view toml) {
-  return {Absence::Rule::is_default, toml};
-}
+using namespace keys;  // NOLINT(google-build-using-namespace): this file is made of them
 
 // ---- limits: true only when certain
 // -----------------------------------------------------------------------------------
 
-bool any_number(const Interval& x) {
-  return rigor::is_finite(x);
-}
-bool positive(const Interval& x) {
-  return rigor::certainly_positive(x);
-}
-bool not_negative(const Interval& x) {
-  return rigor::certainly_less_equal(Interval(0.0), x);
-}
 bool at_least_zero_below_one(const Interval& x) {
   return not_negative(x) && rigor::certainly_less(x, Interval(1.0));
 }
@@ -61,20 +44,6 @@ bool frequency_of_a_sampled_signal(const Interval& x) {
 
 // ---- how a key is read
 // ------------------------------------------------------------------------------------------------
-
-template <typename Member>
-struct OwnerOf;
-template <typename Owner, typename Type>
-struct OwnerOf<Type Owner::*> {
-  using type = Owner;
-};
-template <auto member>
-using Owner = typename OwnerOf<decltype(member)>::type;
-
-template <auto member, RealPredicate is_allowed>
-void real(const TomlValue& value, Owner<member>& target) {
-  target.*member = value.real(is_allowed);
-}
 
 template <auto member, RealPredicate is_allowed>
 void whole_number(const TomlValue& value, Owner<member>& target) {
@@ -175,13 +144,12 @@ void initial_covariance(const TomlValue& value, Assumptions& assume) {
 // ---- the keys
 // ---------------------------------------------------------------------------------------------------------
 
-constexpr std::string_view kPositive = "a number above 0";
 constexpr std::string_view kNotNegative = "a number, 0 or more";
 constexpr std::string_view kOneLine = "a string on one line, of 1 to 200 bytes";
 
 constexpr std::array kTopKeys{
     Key<Design>{"name", kOneLine, line_of_text<&Design::name, 200>, kRequired},
-    Key<Design>{"tracker", "\"quadrature-ekf\"", tracker, kRequired},
+    Key<Design>{"tracker", "\"quadrature-ekf\" or \"kkl-observer\"", tracker, kRequired},
     Key<Design>{"source", kOneLine, line_of_text<&Design::source, 200>, kOptional},
 };
 
@@ -240,6 +208,9 @@ constexpr std::array kTheorem29Keys{
 std::optional<decltype(Design::tables)> make_tables(std::string_view tracker) {
   if (tracker == "quadrature-ekf") {
     return QuadratureEkfTables{};
+  }
+  if (tracker == "kkl-observer") {
+    return KklObserverTables{};
   }
   return std::nullopt;
 }

@@ -44,21 +44,32 @@ struct Key {
 /// [theorem_2_9]
 [[nodiscard]] std::span<const Key<Theorem29Parameters>> theorem_2_9_keys();
 
+/// [design], [assume] and [require] for the tracker "kkl-observer".
+[[nodiscard]] std::span<const Key<KklObserverDesign>> kkl_design_keys();
+[[nodiscard]] std::span<const Key<KklAssumptions>> kkl_assume_keys();
+[[nodiscard]] std::span<const Key<KklRequirements>> kkl_require_keys();
+
 /// Calls visit(name, keys, member) for each table of the tracker whose tables are `Tables`, in the order of a
 /// design file; `member` is the part of Tables that the table fills.
 template <typename Tables, typename Visitor>
 void for_each_table(Visitor visit) {
-  static_assert(std::is_same_v<Tables, QuadratureEkfTables>, "a tracker without keys");
-  visit("design", quadrature_ekf_keys(), &Tables::design);
-  visit("assume", assume_keys(), &Tables::assume);
-  visit("require", require_keys(), &Tables::require);
-  visit("simulate", simulate_keys(), &Tables::simulate);
-  visit("theorem_2_9", theorem_2_9_keys(), &Tables::theorem_2_9);
+  if constexpr (std::is_same_v<Tables, KklObserverTables>) {
+    visit("design", kkl_design_keys(), &Tables::design);
+    visit("assume", kkl_assume_keys(), &Tables::assume);
+    visit("require", kkl_require_keys(), &Tables::require);
+  } else {
+    static_assert(std::is_same_v<Tables, QuadratureEkfTables>, "a tracker without keys");
+    visit("design", quadrature_ekf_keys(), &Tables::design);
+    visit("assume", assume_keys(), &Tables::assume);
+    visit("require", require_keys(), &Tables::require);
+    visit("simulate", simulate_keys(), &Tables::simulate);
+    visit("theorem_2_9", theorem_2_9_keys(), &Tables::theorem_2_9);
+  }
 }
 
 /// The trackers that a design file can name, in the order of the alternatives of Design::tables.
 inline constexpr std::array<std::string_view, std::variant_size_v<decltype(Design::tables)>> kTrackerNames{
-    "quadrature-ekf"};
+    "quadrature-ekf", "kkl-observer"};
 
 /// Empty tables for the tracker of that name; nothing when it is not known.
 [[nodiscard]] std::optional<decltype(Design::tables)> make_tables(std::string_view tracker);

@@ -80,6 +80,35 @@ Json tables_json(const QuadratureEkfTables& tables) {
             {"c2", number(theorem.c2)}}}};
 }
 
+Json tables_json(const KklObserverTables& tables) {
+  const auto& [design, assume, require] = tables;
+  Json rates = Json::array();
+  for (const Number& rate : design.lambda) {
+    rates.push_back(number(rate));
+  }
+  Json chosen{{"lambda", rates}};
+  const auto add = [](Json& json, const char* name, const std::optional<Number>& value) {
+    if (value) {
+      json[name] = number(*value);
+    }
+  };
+  add(chosen, "ell", design.ell);
+  Json assumed{{"frequency", {number(assume.frequency[0]), number(assume.frequency[1])}},
+               {"amplitude", {number(assume.amplitude[0]), number(assume.amplitude[1])}}};
+  if (assume.disturbance) {
+    Json disturbance = Json::object();
+    add(disturbance, "bound", assume.disturbance->bound);
+    add(disturbance, "amplitude", assume.disturbance->amplitude);
+    add(disturbance, "frequency", assume.disturbance->frequency);
+    assumed["disturbance"] = disturbance;
+  }
+  Json required = Json::object();
+  add(required, "frequency_error_below", require.frequency_error_below);
+  add(required, "amplitude_error_below", require.amplitude_error_below);
+  add(required, "settles_within", require.settles_within);
+  return {{"design", chosen}, {"assume", assumed}, {"require", required}};
+}
+
 Json design_json(const Certificate& certificate) {
   const Design& design = certificate.design;
   Json json{{"file", certificate.design_file},

@@ -10,6 +10,7 @@
 #include "certificates/guarantee.hpp"
 #include "certificates/guarantee_sentence.hpp"
 #include "certificates/markdown_contraction.hpp"
+#include "certificates/markdown_kkl_observer.hpp"
 #include "certificates/markdown_other_results.hpp"
 #include "certificates/markdown_text.hpp"
 #include "certificates/markdown_theorem.hpp"
@@ -197,9 +198,18 @@ std::string document(const Certificate& certificate, const MarkdownOptions& opti
          reproduction_section(certificate, options);
 }
 
+std::string document(const Certificate& certificate, const MarkdownOptions& options,
+                     const KklObserverTables& tables) {
+  return "# " + headline(certificate) + "\n\n" + requirement_section(certificate) +
+         kkl_observer_sections(certificate, tables, options) + reproduction_section(certificate, options);
+}
+
 }  // namespace
 
 std::string headline(const Certificate& certificate) {
+  if (!certificate.verdict && std::holds_alternative<KklObserverTables>(certificate.design.tables)) {
+    return kkl_observer_headline(certificate);
+  }
   if (!certificate.verdict) {
     const std::optional<rigor::Interval> bound = proved_frequency_bound(certificate);
     if (bound) {

@@ -1,5 +1,7 @@
 #include "certificates/region.hpp"
 
+#include <variant>
+
 #include "analysis/contraction/capture_starts.hpp"
 #include "analysis/contraction/capture_target.hpp"
 #include "analysis/contraction/quadrature_certificate.hpp"
@@ -12,6 +14,9 @@ using rigor::Interval;
 RegionResult prove_region_of_attraction(
     const Design& design, const RegionRequest& request,
     const std::function<bool(const contraction::RegionProgress&)>& progress) {
+  if (!std::holds_alternative<QuadratureEkfTables>(design.tables)) {
+    return {std::nullopt, "A map needs the tracker quadrature-ekf."};
+  }
   const rigor::UpwardRounding upward;
   contraction::ContractionQuestion question = contraction_question(design);
   if (!request.with_noise) {

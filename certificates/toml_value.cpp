@@ -152,18 +152,43 @@ std::string TomlValue::line_of_text(std::size_t limit) const {
 }
 
 std::vector<TomlValue> TomlValue::elements(std::size_t count) const {
+  return elements(count, count);
+}
+
+std::vector<TomlValue> TomlValue::elements(std::size_t fewest, std::size_t most) const {
   const toml::array* array = node_->as_array();
   if (array == nullptr) {
     refuse_kind();
   }
-  if (array->size() != count) {
+  if (array->size() < fewest || array->size() > most) {
     refuse(fmt::format("an array of {}", array->size()));
   }
   std::vector<TomlValue> elements;
-  for (std::size_t index = 0; index < count; ++index) {
+  elements.reserve(array->size());
+  for (std::size_t index = 0; index < array->size(); ++index) {
     elements.emplace_back(*source_, *array->get(index), fmt::format("{}[{}]", path_, index), allowed_);
   }
   return elements;
+}
+
+std::optional<std::vector<TomlValue>> TomlValue::fields(const std::vector<std::string_view>& keys) const {
+  const toml::table* table = node_->as_table();
+  if (table == nullptr) {
+    refuse_kind();
+  }
+  if (table->size() != keys.size()) {
+    return std::nullopt;
+  }
+  std::vector<TomlValue> values;
+  values.reserve(keys.size());
+  for (const std::string_view key : keys) {
+    const toml::node* node = table->get(key);
+    if (node == nullptr) {
+      return std::nullopt;
+    }
+    values.emplace_back(*source_, *node, fmt::format("{}.{}", path_, key), allowed_);
+  }
+  return values;
 }
 
 }  // namespace veritrack::certificates

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,6 +38,11 @@ class TomlValue {
   [[nodiscard]] bool is_string() const noexcept { return node_->is_string(); }
   /// The elements of an array of exactly `count`. Throws InputError otherwise.
   [[nodiscard]] std::vector<TomlValue> elements(std::size_t count) const;
+  /// The elements of an array of `fewest` to `most`. Throws InputError otherwise.
+  [[nodiscard]] std::vector<TomlValue> elements(std::size_t fewest, std::size_t most) const;
+  /// The values of an inline table that has exactly these keys, in their order; nothing when it has others.
+  /// Throws InputError when it is no table.
+  [[nodiscard]] std::optional<std::vector<TomlValue>> fields(const std::vector<std::string_view>& keys) const;
 
   [[nodiscard]] Position position() const;
   /// `path` is `found`; allowed: ... Throws InputError.

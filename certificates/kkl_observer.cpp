@@ -1,0 +1,156 @@
+#include "certificates/kkl_observer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "analysis/observers/kkl_claims.hpp"
+#include "analysis/observers/kkl_ell.hpp"
+#include "analysis/rigor/decimal.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+constexpr const char* kRobustness = "kkl-robustness";
+constexpr std::size_t kFilters = 4;
+
+Interval hull_of(const std::array<Number, 2>& range) {
+  return rigor::hull(range[0].value, range[1].value);
+}
+
+const theorems::Derivation* find_derivation(const Certificate& certificate, const std::string& id) {
+  const auto found = std::find_if(certificate.derivations.begin(), certificate.derivations.end(),
+                                  [&](const theorems::Derivation& each) { return each.id == id; });
+  return found == certificate.derivations.end() ? nullptr : &*found;
+}
+
+observers::Disturbance disturbance_of(const KklAssumptions& assume) {
+  if (!assume.disturbance) {
+    return observers::NoDisturbance{};
+  }
+  const KklDisturbance& given = *assume.disturbance;
+  if (given.bound) {
+    return observers::BoundedDisturbance{given.bound->value};
+  }
+  return observers::SinusoidalDisturbance{given.amplitude->value, given.frequency->value};
+}
+
+/// A requirement on a proved bound: `statement` says what is required of the quantity of that name.
+Claim bound_claim(const Certificate& certificate, const std::string& id, const std::string& name,
+                  const std::string& statement, const std::string& unit, const Number& required) {
+  Claim claim;
+  claim.id = id;
+  claim.statement = statement;
+  claim.required = true;
+  claim.position = required.position;
+  const std::optional<Interval> bound = proved_kkl_bound(certificate, name);
+  if (!bound) {
+    claim.reason = "No bound is certified for the assumed range and disturbance";
+    if (const theorems::Derivation* derivation = find_derivation(certificate, kRobustness)) {
+      for (const theorems::Condition& condition : derivation->conditions) {
+        if (condition.verdict != Verdict::proved) {
+          claim.reason += fmt::format(" ({}: {})", condition.id, condition.reason);
+          break;
+        }
+      }
+    }
+    claim.reason += ".";
+    return claim;
+  }
+  const std::string shown = rigor::to_decimal(bound->upper(), 4, rigor::Direction::up);
+  if (rigor::certainly_less(Interval(bound->upper()), required.value)) {
+    claim.verdict = Verdict::proved;
+    claim.reason = fmt::format("The proved bound is {} {}.", shown, unit);
+    claim.evidence = {theorems::find_quantity(*find_derivation(certificate, kRobustness), name)};
+  } else {
+    claim.reason = fmt::format("The proved bound is {} {}, which is not below it.", shown, unit);
+  }
+  return claim;
+}
+
+void add_required_claims(Certificate& certificate, const KklRequirements& require) {
+  if (require.frequency_error_below) {
+    const Number& required = *require.frequency_error_below;
+    certificate.claims.push_back(
+        bound_claim(certificate, "kkl/frequency-error-bound", "frequency_error_bound",
+                    fmt::format("the frequency error stays below {} rad/s once settled", required.text),
+                    "rad/s", required));
+  }
+  if (require.amplitude_error_below) {
+    const Number& required = *require.amplitude_error_below;
+    certificate.claims.push_back(bound_claim(
+        certificate, "kkl/amplitude-error-bound", "amplitude_error_bound",
+        fmt::format("the amplitude error stays below {} signal units once settled", required.text),
+        "signal units", required));
+  }
+  if (require.settles_within) {
+    const Number& required = *require.settles_within;
+    certificate.claims.push_back(bound_claim(
+        certificate, "kkl/settling-time", "settling_time",
+        fmt::format("the proved bounds hold within {} s of the start", required.text), "s", required));
+  }
+  std::vector<Verdict> verdicts;
+  for (const Claim& claim : certificate.claims) {
+    if (claim.required) {
+      verdicts.push_back(claim.verdict);
+    }
+  }
+  if (!verdicts.empty()) {
+    certificate.verdict = rigor::conjunction(verdicts);
+  }
+}
+
+}  // namespace
+
+observers::KklRange kkl_range(const KklObserverTables& tables) {
+  observers::KklRange range;
+  for (std::size_t i = 0; i < kFilters; ++i) {
+    range.lambda(static_cast<Eigen::Index>(i)) = tables.design.lambda.at(i).value;
+  }
+  range.frequency = hull_of(tables.assume.frequency);
+  return range;
+}
+
+observers::KklRobustnessQuestion kkl_robustness_question(const KklObserverTables& tables,
+                                                         const Interval& ell) {
+  observers::KklRobustnessQuestion question;
+  question.range = kkl_range(tables);
+  question.amplitude = hull_of(tables.assume.amplitude);
+  question.ell = ell;
+  question.disturbance = disturbance_of(tables.assume);
+  return question;
+}
+
+std::optional<Interval> proved_kkl_bound(const Certificate& certificate, const std::string& name) {
+  const theorems::Derivation* derivation = find_derivation(certificate, kRobustness);
+  if (derivation == nullptr || derivation->verdict != Verdict::proved) {
+    return std::nullopt;
+  }
+  const theorems::Quantity& quantity = theorems::find_quantity(*derivation, name);
+  return rigor::is_finite(quantity.value) ? std::optional(quantity.value) : std::nullopt;
+}
+
+void certify_kkl_observer(Certificate& certificate) {
+  const KklObserverTables& tables = certificate.design.kkl_observer();
+  observers::KklClaimsQuestion claims;
+  for (const Number& rate : tables.design.lambda) {
+    claims.lambda.push_back(rate.value);
+  }
+  claims.frequency = hull_of(tables.assume.frequency);
+  claims.amplitude = hull_of(tables.assume.amplitude);
+  if (claims.lambda.size() == kFilters) {
+    certificate.derivations.push_back(observers::derive_kkl_ell(kkl_range(tables)));
+    const Interval proved = theorems::find_quantity(certificate.derivations.back(), "ell").value;
+    claims.ell = tables.design.ell ? tables.design.ell->value : Interval(proved.lower());
+    certificate.derivations.push_back(
+        observers::derive_kkl_robustness(kkl_robustness_question(tables, claims.ell)));
+  }
+  certificate.derivations.push_back(observers::derive_kkl_claims(claims));
+  add_required_claims(certificate, tables.require);
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,26 @@
+// What is certified of a design of the KKL observer.
+#pragma once
+
+#include "analysis/observers/kkl_robustness.hpp"
+#include "certificates/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// Adds the derivations "kkl-ell", "kkl-paper" and "kkl-robustness", the required claims and their verdict to
+/// a certificate whose design is one of the KKL observer; with more than four filters "kkl-paper" alone.
+/// Needs the upward mode.
+void certify_kkl_observer(Certificate& certificate);
+
+/// The range of the signal, for four filters. Needs the upward mode.
+[[nodiscard]] observers::KklRange kkl_range(const KklObserverTables& tables);
+
+/// What is asked of the observer's robustness, for four filters and an ell in use. Needs the upward mode.
+[[nodiscard]] observers::KklRobustnessQuestion kkl_robustness_question(const KklObserverTables& tables,
+                                                                       const rigor::Interval& ell);
+
+/// The proved bound of that name ("frequency_error_bound", "amplitude_error_bound", "settling_time"); none
+/// when nothing was proved.
+[[nodiscard]] std::optional<rigor::Interval> proved_kkl_bound(const Certificate& certificate,
+                                                              const std::string& name);
+
+}  // namespace veritrack::certificates

@@ -110,7 +110,12 @@ double solve_reduced(const Midpoints& at, search::SearchMethod method) {
 
 theorems::Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value,
                             bool proved) {
-  return {std::move(name), std::move(symbol), std::move(formula), "paper, (10)", value, std::nullopt, proved};
+  theorems::Quantity result{
+      std::move(name), std::move(symbol), std::move(formula), "paper, (10)", value, std::nullopt, proved};
+  if (rigor::is_empty(value)) {
+    result.not_applicable = proved ? "It could not be enclosed." : "The solver found no number.";
+  }
+  return result;
 }
 
 /// Whether a solver's value is the minimum, as far as the enclosure can tell.

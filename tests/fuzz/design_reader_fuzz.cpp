@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "certificates/design_reader.hpp"
 
@@ -33,24 +34,22 @@ void check(const Number& number) {
   require((number.position.line > 0) == (number.position.column > 0), "half a position");
 }
 
-void check(const Design& design) {
-  const Assumptions& assume = design.quadrature_ekf().assume;
-  const Theorem29Parameters& theorem = design.quadrature_ekf().theorem_2_9;
+void check(const QuadratureEkfTables& tables) {
+  const Assumptions& assume = tables.assume;
+  const Theorem29Parameters& theorem = tables.theorem_2_9;
   for (const Number& number :
-       {design.quadrature_ekf().design.q1, design.quadrature_ekf().design.q2,
-        design.quadrature_ekf().design.r, design.quadrature_ekf().design.epsilon, assume.amplitude,
+       {tables.design.q1, tables.design.q2, tables.design.r, tables.design.epsilon, assume.amplitude,
         assume.frequency[0], assume.frequency[1], assume.noise, assume.slew, assume.initial_frequency_error,
         assume.initial_phase_error, assume.initial_amplitude_error, theorem.state_bound, theorem.sigma,
         theorem.gamma_fraction, theorem.c1, theorem.c2}) {
     check(number);
     require(number.value.lower() >= 0.0, "a negative number");
   }
-  for (const Number& number :
-       {design.quadrature_ekf().design.q2, design.quadrature_ekf().design.r, assume.amplitude,
-        theorem.state_bound, theorem.sigma, theorem.gamma_fraction}) {
+  for (const Number& number : {tables.design.q2, tables.design.r, assume.amplitude, theorem.state_bound,
+                               theorem.sigma, theorem.gamma_fraction}) {
     require(number.value.lower() > 0.0, "a number that may be zero");
   }
-  require(design.quadrature_ekf().design.epsilon.value.upper() < 1.0, "epsilon reaches 1");
+  require(tables.design.epsilon.value.upper() < 1.0, "epsilon reaches 1");
   require(theorem.gamma_fraction.value.upper() < 1.0, "gamma_fraction reaches 1");
   require(assume.frequency[0].value.lower() <= assume.frequency[1].value.upper(),
           "a reversed frequency band");
@@ -59,11 +58,26 @@ void check(const Design& design) {
       std::for_each(row.begin(), row.end(), [](const Number& number) { check(number); });
     }
   }
-  require(
-      design.quadrature_ekf().simulate.samples >= 1 && design.quadrature_ekf().simulate.samples <= 10'000'000,
-      "samples out of range");
+  require(tables.simulate.samples >= 1 && tables.simulate.samples <= 10'000'000, "samples out of range");
+}
+
+void check(const KklObserverTables& tables) {
+  require(tables.design.lambda.size() >= 4, "too few filters");
+  for (const Number& rate : tables.design.lambda) {
+    check(rate);
+    require(rate.value.lower() > 0.0, "a rate that may be zero");
+  }
+  for (const auto& range : {tables.assume.frequency, tables.assume.amplitude}) {
+    check(range[0]);
+    check(range[1]);
+    require(range[0].value.lower() > 0.0 && range[0].value.lower() <= range[1].value.upper(), "no range");
+  }
+}
+
+void check(const Design& design) {
+  std::visit([](const auto& tables) { check(tables); }, design.tables);
   require(!design.name.empty() && design.name.size() <= 200, "a name out of range");
-  require(design.tracker == "quadrature-ekf", "an unknown tracker");
+  require(design.tracker == "quadrature-ekf" || design.tracker == "kkl-observer", "an unknown tracker");
 }
 
 void check(const InputError& error) {

@@ -1,0 +1,102 @@
+"""The KKL observer as a user meets it: certificates of the paper's design, and of designs beside it."""
+
+import json
+import unittest
+
+import jsonschema
+from support import ROOT, CliTestCase
+
+SCHEMA = json.loads((ROOT / "certificates/certificate.schema.json").read_text())
+
+KKL = """\
+name = "an observer"
+tracker = "kkl-observer"
+
+[design]
+lambda = [1, 2, 3, 4]
+
+[assume]
+frequency = [3, 3]
+amplitude = [2, 2]
+disturbance = { amplitude = 0.2, frequency = 100.0 }
+"""
+
+
+def ends(quantity):
+    return float.fromhex(quantity["lo"]), float.fromhex(quantity["hi"])
+
+
+class KklObserver(CliTestCase):
+    def certify(self, text):
+        self.write(text)
+        result = self.run_here("certify", "design.toml", "--out", "out")
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        certificate = json.loads((self.folder / "out/certificate.json").read_text())
+        jsonschema.Draft202012Validator(SCHEMA).validate(certificate)
+        return result, {derivation["id"]: derivation for derivation in certificate["derivations"]}, certificate
+
+    def conditions(self, derivation):
+        return {condition["id"]: condition["verdict"] for condition in derivation["conditions"]}
+
+    def test_the_proved_ell_certifies(self):
+        _, found, _ = self.certify(KKL)
+        low, high = ends(found["kkl-ell"]["quantities"]["ell"])
+        self.assertLess(low, 0.0014601866285)
+        self.assertGreater(high, 0.0014601866285)
+        self.assertLessEqual(high - low, 1e-9 * low)
+        for solver in ("ell_ipopt", "ell_nlopt", "ell_nlopt_global"):
+            quantity = found["kkl-ell"]["quantities"][solver]
+            self.assertFalse(quantity["proved"])
+            self.assertTrue(low <= ends(quantity)[0] <= high, solver)
+        self.assertEqual(ends(found["kkl-ell"]["quantities"]["argmin_omega"]), (3.0, 3.0))
+        robustness = found["kkl-robustness"]
+        self.assertEqual(robustness["verdict"], "proved")
+        for name in ("frequency_error", "amplitude_error"):
+            bound = ends(robustness["quantities"][f"{name}_bound"])[1]
+            seen = ends(robustness["quantities"][f"{name}_simulated"])[1]
+            self.assertLessEqual(seen, bound)
+            self.assertLess(bound, 1.5 * seen)
+        self.assertIn("settling_time", robustness["quantities"])
+        claims = self.conditions(found["kkl-paper"])
+        for name in ("invariance", "determinant", "null-space", "injectivity", "mu-vanishes", "left-inverse",
+                     "positive-definite", "continuity"):
+            self.assertEqual(claims[name], "proved", name)
+        for name in ("phase-formula", "dimensions", "section-v-ell"):
+            self.assertEqual(claims[name], "refuted", name)
+
+    def test_the_ell_of_the_paper_is_refuted_and_nothing_is_bounded(self):
+        _, found, _ = self.certify(KKL.replace("4]\n\n", "4]\nell = 5\n\n", 1))
+        claims = self.conditions(found["kkl-paper"])
+        self.assertEqual(claims["mu-vanishes"], "refuted")
+        self.assertEqual(claims["left-inverse"], "refuted")
+        self.assertEqual(claims["positive-definite"], "proved")
+        self.assertEqual(found["kkl-robustness"]["verdict"], "undecided")
+        self.assertIn("frequency_error_bound", found["kkl-robustness"]["not_applicable"])
+
+    def test_requirements(self):
+        require = "\n[require]\nfrequency_error_below = 0.06\namplitude_error_below = 0.001\nsettles_within = 20\n"
+        result, _, certificate = self.certify(KKL + require)
+        verdicts = [claim["verdict"] for claim in certificate["claims"] if claim["required"]]
+        self.assertEqual(verdicts, ["proved", "undecided", "proved"])
+        self.assertEqual(result.returncode, 1)
+
+    def test_six_filters_are_injective_and_no_more_is_said(self):
+        _, found, _ = self.certify(KKL.replace("3, 4]", "3, 4, 5, 6]"))
+        self.assertEqual(list(found), ["kkl-paper"])
+        self.assertEqual(self.conditions(found["kkl-paper"])["injectivity"], "proved")
+
+    def test_many_decades_end_in_verdicts(self):
+        for frequency in ("[1e-3, 1e3]", "[1e-9, 1e9]", "[1e-150, 1e150]"):
+            with self.subTest(frequency=frequency):
+                _, found, _ = self.certify(KKL.replace("[3, 3]", frequency))
+                self.assertNotEqual(self.conditions(found["kkl-paper"])["left-inverse"], "refuted")
+
+    def test_a_map_is_refused_with_a_reason(self):
+        self.write(KKL)
+        result = self.run_here("map", "design.toml")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("quadrature-ekf", result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

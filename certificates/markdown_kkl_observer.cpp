@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "analysis/rigor/decimal.hpp"
@@ -26,30 +26,42 @@ std::string range(const std::array<Number, 2>& bounds) {
   return fmt::format("[{}, {}]", code(bounds[0]), code(bounds[1]));
 }
 
-/// What a quantity is, for people.
-std::string description(const std::string& name) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kDescriptions{{
-      {"ell", "the constant of (10), verified"},
-      {"ell_ipopt", "what Ipopt finds for (10) (not proved)"},
-      {"ell_nlopt", "what NLopt finds locally (not proved)"},
-      {"ell_nlopt_global", "what NLopt finds globally (not proved)"},
-      {"argmin_omega", "the frequencies that can attain it, rad/s"},
-      {"frequency_error_bound", "frequency error once settled, rad/s, at most"},
-      {"amplitude_error_bound", "amplitude error once settled, signal units, at most"},
-      {"settling_time", "settled after, s"},
-      {"largest_ell", "the largest ell that leaves the disturbed inverse exact, at least"},
-      {"frequency_error_simulated", "largest frequency error seen in simulation, rad/s (not proved)"},
-      {"amplitude_error_simulated", "largest amplitude error seen in simulation, signal units (not proved)"},
-      {"vandermonde_singular_value", "smallest singular value of the Vandermonde matrix"},
-      {"injectivity_constant", "constant of the injectivity of T"},
-      {"continuity_modulus", "bound on the slope of the inverse"},
+/// A number of a solver or a simulation.
+std::string about(const rigor::Interval& value, int digits) {
+  return fmt::format("≈ {:.{}g} (not proved)", rigor::midpoint(value), digits);
+}
+
+/// How a quantity is shown to people.
+markdown::QuantityText description(const std::string& name) {
+  using markdown::at_least;
+  using markdown::at_most;
+  using markdown::enclosure;
+  struct Entry {
+    std::string_view name, text;
+    std::string (*value)(const rigor::Interval&, int);
+  };
+  static constexpr std::array<Entry, 14> kEntries{{
+      {"ell", "the constant of (10)", enclosure},
+      {"ell_ipopt", "what Ipopt finds for (10)", about},
+      {"ell_nlopt", "what NLopt finds locally", about},
+      {"ell_nlopt_global", "what NLopt finds globally", about},
+      {"argmin_omega", "the frequencies that can attain it, rad/s", enclosure},
+      {"frequency_error_bound", "frequency error once settled, rad/s", at_most},
+      {"amplitude_error_bound", "amplitude error once settled, signal units", at_most},
+      {"settling_time", "settled after, s", at_most},
+      {"largest_ell", "an ell up to which the disturbed inverse is exact", at_least},
+      {"frequency_error_simulated", "largest frequency error seen in simulation, rad/s", about},
+      {"amplitude_error_simulated", "largest amplitude error seen in simulation, signal units", about},
+      {"vandermonde_singular_value", "smallest singular value of the Vandermonde matrix", enclosure},
+      {"injectivity_constant", "constant of the injectivity of T", at_most},
+      {"continuity_modulus", "bound on the slope of the inverse", at_most},
   }};
-  for (const auto& [known, text] : kDescriptions) {
-    if (known == name) {
-      return std::string(text);
+  for (const Entry& entry : kEntries) {
+    if (entry.name == name) {
+      return {std::string(entry.text), entry.value};
     }
   }
-  return name;
+  return {name, enclosure};
 }
 
 std::string design_section(const Certificate& certificate, const KklObserverTables& tables) {

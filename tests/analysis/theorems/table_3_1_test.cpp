@@ -1,0 +1,84 @@
+#include "analysis/theorems/table_3_1.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/analysis/theorems/tracker_inputs.hpp"
+
+namespace {
+
+using namespace veritrack;
+using rigor::Interval;
+using rigor::Verdict;
+using theorems::Theorem29Variant;
+
+/// log(s p^2 q) and log(p q) of the errata reading, written down again.
+struct Logarithms {
+  double alpha, beta;
+};
+Logarithms errata(const test::TestDesign& d) {
+  const double p = d.q2 + 2.0 * d.r / d.sigma;
+  const double q = 1.0 / d.q1 + 5.0 / d.r;
+  const double rho = 2.0 * (d.state_bound + 1.0 - d.sigma);
+  const double s = q + rho * rho / d.q1;
+  return {std::log(s) + 2.0 * std::log(p) + std::log(q), std::log(p) + std::log(q)};
+}
+
+}  // namespace
+
+TEST_CASE("Table 3.1: as printed only the word maximised fails; with the errata all of it holds") {
+  for (const test::TableRow& row : test::kTable32) {
+    CAPTURE(row.figure);
+    const theorems::TrackerInput input = test::tracker_input(test::table_design(row));
+    const auto printed = theorems::evaluate_table_3_1(Theorem29Variant::printed, input);
+    const auto errata = theorems::evaluate_table_3_1(Theorem29Variant::errata, input);
+    for (const theorems::Condition& condition : printed.conditions) {
+      INFO(condition.id, ": ", condition.reason);
+      CHECK(condition.verdict == (condition.id == "alpha-r" ? Verdict::refuted : Verdict::proved));
+    }
+    for (const theorems::Condition& condition : errata.conditions) {
+      INFO(condition.id, ": ", condition.reason);
+      CHECK(condition.verdict == Verdict::proved);
+    }
+  }
+}
+
+TEST_CASE("the stationary points are minima of the constants computed in double") {
+  test::Random random(101);
+  for (std::int64_t i = 0; i < test::effort(20); ++i) {
+    INFO("seed ", test::kSeed + 101, ", design ", i);
+    test::TestDesign design = test::random_design(random);
+    design.sigma = random.uniform(0.05, 0.5);
+    const auto derivation =
+        theorems::evaluate_table_3_1(Theorem29Variant::errata, test::tracker_input(design));
+    const Interval alpha = test::value_of(derivation, "r_alpha");
+    const Interval beta = test::value_of(derivation, "r_beta");
+    REQUIRE((is_finite(alpha) && is_finite(beta)));
+    test::TestDesign best = design;
+    for (const double factor : {0.5, 2.0}) {
+      test::TestDesign other = design;
+      best.r = alpha.lower();
+      other.r = factor * alpha.lower();
+      CHECK(errata(best).alpha < errata(other).alpha);
+      best.r = beta.lower();
+      other.r = factor * beta.lower();
+      CHECK(errata(best).beta < errata(other).beta);
+    }
+    CHECK(beta.lower() ==
+          doctest::Approx(std::sqrt(2.5 * design.q1 * design.q2 * design.sigma)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("q1 = 0 and values unknown decide nothing") {
+  theorems::TrackerInput input = test::tracker_input(test::table_design(test::kTable32[0]));
+  input.theorem_2_9.q1_equals_q2 = false;
+  for (const Interval& q1 :
+       {Interval(0.0), Interval::from_bounds(0.0, std::numeric_limits<double>::infinity())}) {
+    input.theorem_2_9.q1 = q1;
+    for (const auto& condition : theorems::evaluate_table_3_1(Theorem29Variant::errata, input).conditions) {
+      CHECK(condition.verdict == Verdict::undecided);
+    }
+  }
+}

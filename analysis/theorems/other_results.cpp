@@ -1,20 +1,31 @@
 #include "analysis/theorems/other_results.hpp"
 
+#include "analysis/theorems/continuous_time.hpp"
+#include "analysis/theorems/design_comparison.hpp"
+#include "analysis/theorems/linearisation_noise.hpp"
 #include "analysis/theorems/naive_riccati.hpp"
+#include "analysis/theorems/observability_rank.hpp"
 #include "analysis/theorems/reif.hpp"
 #include "analysis/theorems/song_grizzle.hpp"
+#include "analysis/theorems/table_3_1.hpp"
 #include "analysis/theorems/total_stability.hpp"
 
 namespace veritrack::theorems {
 
 std::vector<Derivation> evaluate_other_results(const TrackerInput& input) {
   return {evaluate_riccati_bounds(input),
+          evaluate_baras_bensoussan_james(input),
           evaluate_song_grizzle(input),
           evaluate_song_grizzle_local(input),
           evaluate_total_stability(input),
           evaluate_total_stability_corollary(input),
           evaluate_theorem_2_7_printed(input),
           evaluate_theorem_2_7_corrected(input),
+          evaluate_observability_rank(input),
+          evaluate_theorem_3_2(input),
+          evaluate_lemma_3_1(input),
+          evaluate_table_3_1(Theorem29Variant::printed, input),
+          evaluate_table_3_1(Theorem29Variant::errata, input),
           evaluate_reif(input),
           evaluate_reif_two_step(input)};
 }

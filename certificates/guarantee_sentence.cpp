@@ -82,13 +82,8 @@ std::string ground(const Certificate& certificate) {
   } else {
     text = "All these starts lie in a set that the tracker never leaves. ";
   }
-  const auto* rate = find_of_set(certificate, "contraction_rate");
-  const auto* ultimate = find_of_set(certificate, "ultimate_frequency_error");
-  if (rate != nullptr && ultimate != nullptr) {
-    text += fmt::format(
-        "There the error shrinks to at most {} of itself each sample, apart from what noise and slew add; "
-        "in the long run the frequency error is at most {} rad/sample",
-        up(rate->value), up(ultimate->value));
+  if (const auto* ultimate = find(derivation, "ultimate_frequency_error")) {
+    text += fmt::format("In the long run the frequency error is at most {} rad/sample", up(ultimate->value));
     const auto* samples = find(derivation, "settling_samples");
     const bool takes_time = samples != nullptr && samples->value.upper() > 0.0;
     text += takes_time ? fmt::format(", and at most twice that after {} samples.", up(samples->value)) : ".";
@@ -163,13 +158,15 @@ std::string guarantee_section(const Certificate& certificate) {
       fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
                   claim->verdict == Verdict::proved ? "Why" : "What stands in the way", claim->reason);
   const auto* radius = find_of_set(certificate, "frequency_error_radius");
+  const auto* rate = find_of_set(certificate, "contraction_rate");
   const auto* noise = find_of_set(certificate, "largest_noise");
   const auto* slew = find_of_set(certificate, "largest_slew");
-  if (radius != nullptr) {
+  if (radius != nullptr && rate != nullptr) {
     text += fmt::format(
-        "- The set that is never left reaches to a frequency error of {} rad/sample (under the assumed "
-        "noise and slew).\n",
-        down(radius->value));
+        "- The largest certified set, under the assumed noise and slew, reaches to a frequency error of {} "
+        "rad/sample; in it errors shrink to at most {} of themselves each sample, apart from what noise and "
+        "slew add.\n",
+        down(radius->value), up(rate->value));
   }
   if (noise != nullptr && slew != nullptr) {
     text += fmt::format(

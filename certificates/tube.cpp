@@ -93,21 +93,13 @@ std::vector<double> bound_from(contraction::CertifiedLevel level) {
   return bound;
 }
 
-/// max(l, u) holds at every sample.
-double bound_of_start(const CertifiedSet& set, const contraction::ContractionQuestion& question) {
-  const contraction::StartBox box = contraction::assumed_starts(question);
-  rigor::IntervalVector<3> error;
-  error << box.amplitude_error, box.phase_error, box.frequency_error;
-  return contraction::CertifiedLevel(set, contraction::metric_norm(set, error), question.noise, question.slew)
-      .largest_frequency_error();
-}
-
 }  // namespace
 
 std::optional<Tube> certified_tube(const Certificate& certificate) {
   const auto named = std::find_if(certificate.certified_sets.begin(), certificate.certified_sets.end(),
                                   [](const NamedSet& one) { return one.purpose == "start-error"; });
-  if (named == certificate.certified_sets.end() || !proved_frequency_bound(certificate)) {
+  const std::optional<Interval> bound = proved_frequency_bound(certificate);
+  if (named == certificate.certified_sets.end() || !bound) {
     return std::nullopt;
   }
   Tube tube;
@@ -132,7 +124,7 @@ std::optional<Tube> certified_tube(const Certificate& certificate) {
     } else {
       tube.bound = bound_from(contraction::CertifiedLevel(named->set, Interval(named->set.radius),
                                                           question.noise, question.slew));
-      tube.bound_of_assumed_starts.assign(tube.bound.size(), bound_of_start(named->set, question));
+      tube.bound_of_assumed_starts.assign(tube.bound.size(), bound->upper());
     }
   }
   const rigor::NearestRounding nearest;

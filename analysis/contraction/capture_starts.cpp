@@ -52,6 +52,7 @@ int capture_samples(const Region& region) {
 /// The bounds of all cells while they are followed, and those of the set from each cell's capture on.
 struct Tube {
   std::vector<double> frequency_errors;
+  double ultimate_frequency_error = 0.0;  ///< of the set that captures
   std::optional<int> settling_samples;
 };
 
@@ -88,6 +89,7 @@ Tube tube_of(const ContractionQuestion& question, const CertifiedSet& set, const
   if (captured) {
     tube.frequency_errors.back() =
         std::max(tube.frequency_errors.back(), captured->largest_frequency_error());
+    tube.ultimate_frequency_error = captured->ultimate_frequency_error();
   }
   return tube;
 }
@@ -121,8 +123,10 @@ void add_quantities(theorems::Derivation& derivation, const CertifiedSet& set, c
   constexpr const char* kNotAll = "Not every assumed start is proved to be captured.";
   std::optional<Interval> samples;
   std::optional<Interval> bound;
+  std::optional<Interval> ultimate;
   std::optional<Interval> settling;
   if (proved) {
+    ultimate = Interval(tube.ultimate_frequency_error);
     samples = Interval(static_cast<double>(capture_samples(region)));
     bound = Interval(*std::max_element(tube.frequency_errors.begin(), tube.frequency_errors.end()));
     if (tube.settling_samples) {
@@ -133,6 +137,7 @@ void add_quantities(theorems::Derivation& derivation, const CertifiedSet& set, c
       samples, kNotAll);
   add("frequency_error_bound", "\\sup_k |\\nu(k)|",
       "\\max(\\max_{k \\le k_c} |\\nu(k)|,\\ |T e(k_c)|\\,|e_3' T^{-1}|,\\ \\nu_\\infty)", bound, kNotAll);
+  add("ultimate_frequency_error", "\\nu_\\infty", "u\\,|e_3' T^{-1}|", ultimate, kNotAll);
   add("settling_samples", "k_s", "k_c + \\min \\{k : \\kappa^k |T e(k_c)| + (1 - \\kappa^k) u \\le 2 u\\}",
       settling,
       proved ? "Without noise and slew the ultimate bound is zero, which is approached but not reached."

@@ -24,8 +24,8 @@ namespace veritrack::contraction {
 
 /// What is proved of the starts.
 struct StartCapture {
-  /// Quantities capture_samples, frequency_error_bound, settling_samples, cells, cells_captured, and when
-  /// REFUTED wrong_lock_frequency_error; conditions certified-set, starts-captured.
+  /// Quantities capture_samples, frequency_error_bound, ultimate_frequency_error, settling_samples, cells,
+  /// cells_captured, and when REFUTED wrong_lock_frequency_error; conditions certified-set, starts-captured.
   theorems::Derivation derivation;
   Region region;  ///< the cells of starts; none when nothing was followed
   /// Upper bounds on |frequency error| (rad/sample) after 0, 1, ... samples, for every assumed start and all

@@ -19,6 +19,8 @@ class CertifiedLevel {
   [[nodiscard]] double frequency_error() const { return frequency_error_at(level_); }
   /// The same from now on for ever: a level below u may rise to it.
   [[nodiscard]] double largest_frequency_error() const;
+  /// The same in the long run: that of u.
+  [[nodiscard]] double ultimate_frequency_error() const { return frequency_error_at(ultimate_); }
   /// One sample on.
   void step();
   /// True only when this level is certainly at least that of the other, which is of the same set.

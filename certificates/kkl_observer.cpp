@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "analysis/observers/kkl_claims.hpp"
 #include "analysis/observers/kkl_ell.hpp"
+#include "analysis/observers/kkl_section_v.hpp"
 #include "analysis/rigor/decimal.hpp"
 
 namespace veritrack::certificates {
@@ -134,6 +136,29 @@ std::optional<Interval> proved_kkl_bound(const Certificate& certificate, const s
   return rigor::is_finite(quantity.value) ? std::optional(quantity.value) : std::nullopt;
 }
 
+std::optional<Eigen::Vector4d> section_v_rates(const KklObserverTables& tables) {
+  const Eigen::Vector4d printed(1.0, 2.0, 3.0, 4.0);
+  if (tables.design.lambda.size() != kFilters) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < kFilters; ++i) {
+    if (!(tables.design.lambda[i].value == Interval(printed(static_cast<Eigen::Index>(i))))) {
+      return std::nullopt;
+    }
+  }
+  return printed;
+}
+
+double kkl_ell_in_use(const Certificate& certificate) {
+  const KklObserverTables& tables = certificate.design.kkl_observer();
+  if (tables.design.ell) {
+    return tables.design.ell->nearest;
+  }
+  const theorems::Derivation* ell = find_derivation(certificate, "kkl-ell");
+  return ell != nullptr ? theorems::find_quantity(*ell, "ell").value.lower()
+                        : std::numeric_limits<double>::quiet_NaN();
+}
+
 void certify_kkl_observer(Certificate& certificate) {
   const KklObserverTables& tables = certificate.design.kkl_observer();
   observers::KklClaimsQuestion claims;
@@ -150,6 +175,9 @@ void certify_kkl_observer(Certificate& certificate) {
         observers::derive_kkl_robustness(kkl_robustness_question(tables, claims.ell)));
   }
   certificate.derivations.push_back(observers::derive_kkl_claims(claims));
+  if (const auto lambda = section_v_rates(tables)) {
+    certificate.derivations.push_back(observers::derive_kkl_section_v(*lambda, kkl_ell_in_use(certificate)));
+  }
   add_required_claims(certificate, tables.require);
 }
 

@@ -40,7 +40,7 @@ markdown::QuantityText description(const std::string& name) {
     std::string_view name, text;
     std::string (*value)(const rigor::Interval&, int);
   };
-  static constexpr std::array<Entry, 14> kEntries{{
+  static constexpr std::array<Entry, 16> kEntries{{
       {"ell", "the constant of (10)", enclosure},
       {"ell_ipopt", "what Ipopt finds for (10)", about},
       {"ell_nlopt", "what NLopt finds locally", about},
@@ -55,13 +55,15 @@ markdown::QuantityText description(const std::string& name) {
       {"vandermonde_singular_value", "smallest singular value of the Vandermonde matrix", enclosure},
       {"injectivity_constant", "constant of the injectivity of T", at_most},
       {"continuity_modulus", "bound on the slope of the inverse", at_most},
+      {"captions_reproduced", "captions of Figures 1 to 6 reproduced to the last digit, of twelve", about},
+      {"captions_within_one_unit", "within one unit of the last digit, of twelve", about},
   }};
   for (const Entry& entry : kEntries) {
     if (entry.name == name) {
       return {std::string(entry.text), entry.value};
     }
   }
-  return {name, enclosure};
+  return {name, about};
 }
 
 std::string design_section(const Certificate& certificate, const KklObserverTables& tables) {
@@ -100,7 +102,9 @@ std::string derivation_section(const Certificate& certificate, const std::string
     text += derivation.title +
             ". What is computed, and why it is a proof, is in `docs/kkl-observer.md` of the "
             "program's sources.\n\n";
-    text += markdown::conditions_table(derivation) + "\n";
+    if (!derivation.conditions.empty()) {
+      text += markdown::conditions_table(derivation) + "\n";
+    }
     text += markdown::quantities_table(derivation, description) + "\n";
     text += markdown::notes_list(derivation) + "\n";
   }
@@ -148,7 +152,9 @@ std::string kkl_observer_sections(const Certificate& certificate, const KklObser
   return design_section(certificate, tables) +
          derivation_section(certificate, "kkl-robustness", "What a disturbance does to it", true) +
          figures_section(options) + derivation_section(certificate, "kkl-ell", "The constant of (10)", true) +
-         derivation_section(certificate, "kkl-paper", "The paper's claims", false) + coverage_section();
+         derivation_section(certificate, "kkl-paper", "The paper's claims", false) +
+         derivation_section(certificate, "kkl-section-v", "The simulations of section V", false) +
+         coverage_section();
 }
 
 }  // namespace veritrack::certificates

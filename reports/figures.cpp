@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cmath>
+#include <variant>
 
 #include "certificates/guarantee.hpp"
 #include "certificates/tube.hpp"
 #include "reports/gnuplot.hpp"
+#include "reports/kkl_figures.hpp"
 #include "reports/region_map.hpp"
 
 namespace veritrack::reports {
@@ -185,6 +187,9 @@ Figure tube_figure(const Certificate& certificate, const certificates::Tube& tub
 }  // namespace
 
 std::vector<Figure> draw_figures(const Certificate& certificate) {
+  if (std::holds_alternative<certificates::KklObserverTables>(certificate.design.tables)) {
+    return draw_kkl_figures(certificate);
+  }
   if (certificate.simulation.trajectory.empty()) {
     return {};
   }

@@ -14,6 +14,7 @@
 #include "certificates/guarantee_sentence.hpp"
 #include "certificates/kkl_observer.hpp"
 #include "certificates/simulation.hpp"
+#include "certificates/single_channel.hpp"
 #include "certificates/theorem_claims.hpp"
 
 namespace veritrack::certificates {
@@ -129,6 +130,12 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
 void certify_tables(Certificate& certificate, const KklObserverTables& /*tables*/,
                     const CertifyProgress& /*progress*/) {
   certify_kkl_observer(certificate);
+}
+
+/// The same of the single-channel tracker.
+void certify_tables(Certificate& certificate, const SingleChannelEkfTables& tables,
+                    const CertifyProgress& /*progress*/) {
+  certify_single_channel(certificate, tables);
 }
 
 }  // namespace

@@ -39,6 +39,17 @@ struct QuadratureEkfDesign {
   Number q1, q2, r, epsilon;
 };
 
+/// [design] of the single-channel tracker: Q = diag(q1, q1, q2) in one of three readings.
+struct SingleChannelEkfDesign {
+  enum class ProcessNoise { frequency_only, identity, diagonal };
+  ProcessNoise process_noise = ProcessNoise::identity;
+  std::optional<std::array<Number, 2>> variances;  ///< {q1, q2}, with ProcessNoise::diagonal only
+  std::optional<Number> q;                         ///< with the other two, unless lambda is given
+  std::optional<Number> r;                         ///< signal units squared, unless lambda is given
+  std::optional<Number> lambda;                    ///< r/q: then q = 1 and r = lambda
+  Number epsilon;
+};
+
 /// What P(0|0) is, in the frame of the estimated phase: the filter's steady state, or a symmetric positive
 /// definite matrix, row by row.
 using CovarianceArray = std::array<std::array<Number, 3>, 3>;
@@ -121,13 +132,21 @@ struct KklObserverTables {
   KklRequirements require;
 };
 
+/// The tables of a design file for the tracker "single-channel-ekf".
+struct SingleChannelEkfTables {
+  SingleChannelEkfDesign design;
+  Assumptions assume;
+  Requirements require;
+  SimulationSettings simulate;
+};
+
 /// A design file: what every tracker's has, and the tables that go with the tracker. Another tracker brings
 /// a struct of its tables, an alternative of the variant, its keys (design_keys.hpp) and a certify function.
 struct Design {
   std::string name;
   std::string tracker;
   std::string source;
-  std::variant<QuadratureEkfTables, KklObserverTables> tables;
+  std::variant<QuadratureEkfTables, KklObserverTables, SingleChannelEkfTables> tables;
   /// Where the value of each key that the file gives stands, by its path, e.g. "design.q1"; defaults are not
   /// in it.
   std::map<std::string, Position> positions;
@@ -137,6 +156,9 @@ struct Design {
     return std::get<QuadratureEkfTables>(tables);
   }
   [[nodiscard]] const KklObserverTables& kkl_observer() const { return std::get<KklObserverTables>(tables); }
+  [[nodiscard]] const SingleChannelEkfTables& single_channel_ekf() const {
+    return std::get<SingleChannelEkfTables>(tables);
+  }
 };
 
 }  // namespace veritrack::certificates

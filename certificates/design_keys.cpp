@@ -83,6 +83,20 @@ void signal(const TomlValue& value, SimulationSettings& simulate) {
   choose(value, trackers::signal_names(), simulate.signal);
 }
 
+void process_noise(const TomlValue& value, SingleChannelEkfDesign& design) {
+  using ProcessNoise = SingleChannelEkfDesign::ProcessNoise;
+  if (!value.is_string()) {
+    const std::vector<TomlValue> variances = value.entries(std::array<std::string_view, 2>{"q1", "q2"});
+    design.process_noise = ProcessNoise::diagonal;
+    design.variances = {variances[0].real(not_negative), variances[1].real(not_negative)};
+    return;
+  }
+  constexpr std::array<std::string_view, 2> kReadings{"frequency-only", "identity"};
+  std::string reading;
+  choose(value, kReadings, reading);
+  design.process_noise = reading == kReadings[0] ? ProcessNoise::frequency_only : ProcessNoise::identity;
+}
+
 void frequency(const TomlValue& value, Assumptions& assume) {
   const std::vector<TomlValue> bounds = value.elements(2);
   const Number lowest = bounds[0].real(frequency_of_a_sampled_signal);
@@ -94,6 +108,16 @@ void frequency(const TomlValue& value, Assumptions& assume) {
     value.refuse(fmt::format("[{}, {}]", printable(lowest.text, 40), printable(highest.text, 40)));
   }
   assume.frequency = {lowest, highest};
+}
+
+/// One frequency, or a band.
+void one_frequency_or_band(const TomlValue& value, Assumptions& assume) {
+  if (!value.is_number()) {
+    frequency(value, assume);
+    return;
+  }
+  const Number number = value.real(frequency_of_a_sampled_signal);
+  assume.frequency = {number, number};
 }
 
 /// Symmetry is that of the intervals: they hold the symmetric matrices that a certificate is about.
@@ -149,7 +173,8 @@ constexpr std::string_view kOneLine = "a string on one line, of 1 to 200 bytes";
 
 constexpr std::array kTopKeys{
     Key<Design>{"name", kOneLine, line_of_text<&Design::name, 200>, kRequired},
-    Key<Design>{"tracker", "\"quadrature-ekf\" or \"kkl-observer\"", tracker, kRequired},
+    Key<Design>{"tracker", "\"quadrature-ekf\", \"kkl-observer\" or \"single-channel-ekf\"", tracker,
+                kRequired},
     Key<Design>{"source", kOneLine, line_of_text<&Design::source, 200>, kOptional},
 };
 
@@ -160,6 +185,20 @@ constexpr std::array kQuadratureEkfKeys{
     Key<Ekf>{"r", kPositive, real<&Ekf::r, positive>, kRequired},
     Key<Ekf>{"epsilon", "a number, 0 or more and below 1", real<&Ekf::epsilon, at_least_zero_below_one>,
              kRequired},
+};
+
+using Single = SingleChannelEkfDesign;
+constexpr std::array kSingleChannelEkfKeys{
+    Key<Single>{"q", kPositive, real<&Single::q, positive>, kOptional},
+    Key<Single>{"r", kNotNegative, real<&Single::r, not_negative>, kOptional},
+    Key<Single>{"lambda", "a number, 0 or more, in place of q and r", real<&Single::lambda, not_negative>,
+                kOptional},
+    Key<Single>{"epsilon", "a number, 0 or more and below 1", real<&Single::epsilon, at_least_zero_below_one>,
+                defaults_to("0")},
+    Key<Single>{"process_noise",
+                "\"frequency-only\" for Q = q diag(0, 0, 1), \"identity\" for Q = q diag(1, 1, 1), or { q1 = "
+                "..., q2 = ... } for Q = diag(q1, q1, q2), each 0 or more",
+                process_noise, kRequired},
 };
 
 using Assume = Assumptions;
@@ -182,6 +221,21 @@ constexpr std::array kAssumeKeys{
                 "\"steady-state\" or a symmetric positive definite 3x3 array of numbers", initial_covariance,
                 defaults_to("\"steady-state\"")},
 };
+
+/// kAssumeKeys with a frequency that may be one number.
+constexpr std::array<Key<Assume>, kAssumeKeys.size()> with_one_frequency() {
+  std::array<Key<Assume>, kAssumeKeys.size()> keys = kAssumeKeys;
+  for (Key<Assume>& key : keys) {
+    if (key.name == "frequency") {
+      key.allowed =
+          "a number or [lowest, highest] in rad/sample, 0 <= lowest <= highest <= 3.141592653589793 (beyond "
+          "pi a sampled frequency is the same as a lower one)";
+      key.read = one_frequency_or_band;
+    }
+  }
+  return keys;
+}
+constexpr std::array kAssumeKeysWithOneFrequency = with_one_frequency();
 
 using Require = Requirements;
 constexpr std::array kRequireKeys{
@@ -212,6 +266,9 @@ std::optional<decltype(Design::tables)> make_tables(std::string_view tracker) {
   if (tracker == "kkl-observer") {
     return KklObserverTables{};
   }
+  if (tracker == "single-channel-ekf") {
+    return SingleChannelEkfTables{};
+  }
   return std::nullopt;
 }
 
@@ -220,6 +277,12 @@ std::span<const Key<Design>> top_keys() {
 }
 std::span<const Key<QuadratureEkfDesign>> quadrature_ekf_keys() {
   return kQuadratureEkfKeys;
+}
+std::span<const Key<SingleChannelEkfDesign>> single_channel_ekf_keys() {
+  return kSingleChannelEkfKeys;
+}
+std::span<const Key<Assumptions>> assume_keys_with_one_frequency() {
+  return kAssumeKeysWithOneFrequency;
 }
 std::span<const Key<Assumptions>> assume_keys() {
   return kAssumeKeys;

@@ -35,8 +35,12 @@ struct Key {
 [[nodiscard]] std::span<const Key<Design>> top_keys();
 /// [design], for the tracker "quadrature-ekf".
 [[nodiscard]] std::span<const Key<QuadratureEkfDesign>> quadrature_ekf_keys();
+/// [design], for the tracker "single-channel-ekf".
+[[nodiscard]] std::span<const Key<SingleChannelEkfDesign>> single_channel_ekf_keys();
 /// [assume]
 [[nodiscard]] std::span<const Key<Assumptions>> assume_keys();
+/// [assume] of a tracker whose frequency may also be a single number.
+[[nodiscard]] std::span<const Key<Assumptions>> assume_keys_with_one_frequency();
 /// [require]
 [[nodiscard]] std::span<const Key<Requirements>> require_keys();
 /// [simulate]
@@ -57,19 +61,24 @@ void for_each_table(Visitor visit) {
     visit("design", kkl_design_keys(), &Tables::design);
     visit("assume", kkl_assume_keys(), &Tables::assume);
     visit("require", kkl_require_keys(), &Tables::require);
-  } else {
-    static_assert(std::is_same_v<Tables, QuadratureEkfTables>, "a tracker without keys");
+  } else if constexpr (std::is_same_v<Tables, QuadratureEkfTables>) {
     visit("design", quadrature_ekf_keys(), &Tables::design);
     visit("assume", assume_keys(), &Tables::assume);
     visit("require", require_keys(), &Tables::require);
     visit("simulate", simulate_keys(), &Tables::simulate);
     visit("theorem_2_9", theorem_2_9_keys(), &Tables::theorem_2_9);
+  } else {
+    static_assert(std::is_same_v<Tables, SingleChannelEkfTables>, "a tracker without keys");
+    visit("design", single_channel_ekf_keys(), &Tables::design);
+    visit("assume", assume_keys_with_one_frequency(), &Tables::assume);
+    visit("require", require_keys(), &Tables::require);
+    visit("simulate", simulate_keys(), &Tables::simulate);
   }
 }
 
 /// The trackers that a design file can name, in the order of the alternatives of Design::tables.
 inline constexpr std::array<std::string_view, std::variant_size_v<decltype(Design::tables)>> kTrackerNames{
-    "quadrature-ekf", "kkl-observer"};
+    "quadrature-ekf", "kkl-observer", "single-channel-ekf"};
 
 /// Empty tables for the tracker of that name; nothing when it is not known.
 [[nodiscard]] std::optional<decltype(Design::tables)> make_tables(std::string_view tracker);

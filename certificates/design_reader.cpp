@@ -159,6 +159,29 @@ decltype(Design::tables) expected_tables(const TomlSource& source) {
   return make_tables(tracker.value_or("")).value_or(decltype(Design::tables){});
 }
 
+/// Where a table of the file begins.
+Position start_of(const TomlSource& source, const std::string& table) {
+  return to_position(find_table(source, table)->source().begin);
+}
+
+/// What no single key can say. Throws InputError.
+template <typename Tables>
+void check_together(const TomlSource& /*source*/, const Tables& /*tables*/) {}
+
+void check_together(const TomlSource& source, const SingleChannelEkfTables& tables) {
+  const SingleChannelEkfDesign& design = tables.design;
+  const bool by_variances = design.variances.has_value();
+  const bool by_ratio = design.lambda.has_value();
+  const bool consistent = by_ratio ? !design.q && !design.r && !by_variances
+                                   : design.r.has_value() && design.q.has_value() != by_variances;
+  if (!consistent) {
+    source.fail(
+        start_of(source, "design"),
+        "the keys of [design] do not go together; allowed: q and r; or lambda = r/q alone (q = 1); or "
+        "r with process_noise = { q1 = ..., q2 = ... }");
+  }
+}
+
 template <typename Tables>
 void read_tables(const TomlSource& source, Design& design, Tables& tables) {
   reject_unknown_keys<Tables>(source);
@@ -166,6 +189,7 @@ void read_tables(const TomlSource& source, Design& design, Tables& tables) {
   for_each_table<Tables>([&](const std::string& name, auto keys, auto member) {
     read_table(source, find_table(source, name), name, keys, tables.*member, design.positions);
   });
+  check_together(source, tables);
 }
 
 }  // namespace

@@ -188,6 +188,10 @@ void add_required_claims(Certificate& certificate) {
   if (require.settles_within) {
     certificate.claims.push_back(settling_claim(certificate, *require.settles_within));
   }
+  conclude_requirements(certificate);
+}
+
+void conclude_requirements(Certificate& certificate) {
   std::vector<Verdict> verdicts;
   for (const Claim& claim : certificate.claims) {
     if (claim.required) {

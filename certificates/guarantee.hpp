@@ -19,6 +19,9 @@ void add_required_claims(Certificate& certificate);
 /// What decides about the assumed starts: "capture" when they had to be followed, else "contraction".
 [[nodiscard]] const theorems::Derivation& deciding_derivation(const Certificate& certificate);
 
+/// Sets the certificate's verdict: all required claims together, none when nothing is required.
+void conclude_requirements(Certificate& certificate);
+
 /// The proved bound on |frequency error|, rad/sample, at every sample from the start on; none when the
 /// contraction certificate does not cover the assumed start, noise and slew.
 [[nodiscard]] std::optional<rigor::Interval> proved_frequency_bound(const Certificate& certificate);

@@ -54,6 +54,21 @@ Json require_json(const Requirements& require) {
   return json;
 }
 
+Json assume_json(const Assumptions& assume) {
+  return {{"amplitude", number(assume.amplitude)},
+          {"frequency", {number(assume.frequency[0]), number(assume.frequency[1])}},
+          {"noise", number(assume.noise)},
+          {"slew", number(assume.slew)},
+          {"initial_frequency_error", number(assume.initial_frequency_error)},
+          {"initial_phase_error", number(assume.initial_phase_error)},
+          {"initial_amplitude_error", number(assume.initial_amplitude_error)},
+          {"initial_covariance", initial_covariance(assume.initial_covariance)}};
+}
+
+Json simulate_json(const SimulationSettings& simulate) {
+  return {{"samples", simulate.samples}, {"seed", simulate.seed}, {"signal", simulate.signal}};
+}
+
 Json tables_json(const QuadratureEkfTables& tables) {
   const auto& [design, assume, require, simulate, theorem] = tables;
   return {{"design",
@@ -61,17 +76,9 @@ Json tables_json(const QuadratureEkfTables& tables) {
             {"q2", number(design.q2)},
             {"r", number(design.r)},
             {"epsilon", number(design.epsilon)}}},
-          {"assume",
-           {{"amplitude", number(assume.amplitude)},
-            {"frequency", {number(assume.frequency[0]), number(assume.frequency[1])}},
-            {"noise", number(assume.noise)},
-            {"slew", number(assume.slew)},
-            {"initial_frequency_error", number(assume.initial_frequency_error)},
-            {"initial_phase_error", number(assume.initial_phase_error)},
-            {"initial_amplitude_error", number(assume.initial_amplitude_error)},
-            {"initial_covariance", initial_covariance(assume.initial_covariance)}}},
+          {"assume", assume_json(assume)},
           {"require", require_json(require)},
-          {"simulate", {{"samples", simulate.samples}, {"seed", simulate.seed}, {"signal", simulate.signal}}},
+          {"simulate", simulate_json(simulate)},
           {"theorem_2_9",
            {{"R_x", number(theorem.state_bound)},
             {"sigma", number(theorem.sigma)},
@@ -107,6 +114,32 @@ Json tables_json(const KklObserverTables& tables) {
   add(required, "amplitude_error_below", require.amplitude_error_below);
   add(required, "settles_within", require.settles_within);
   return {{"design", chosen}, {"assume", assumed}, {"require", required}};
+}
+
+Json tables_json(const SingleChannelEkfTables& tables) {
+  const auto& [design, assume, require, simulate] = tables;
+  Json chosen = Json::object();
+  const auto add = [&](const char* name, const std::optional<Number>& value) {
+    if (value) {
+      chosen[name] = number(*value);
+    }
+  };
+  add("q", design.q);
+  add("r", design.r);
+  add("lambda", design.lambda);
+  chosen["epsilon"] = number(design.epsilon);
+  if (design.variances) {
+    chosen["process_noise"] = {{"q1", number((*design.variances)[0])},
+                               {"q2", number((*design.variances)[1])}};
+  } else {
+    chosen["process_noise"] = design.process_noise == SingleChannelEkfDesign::ProcessNoise::identity
+                                  ? "identity"
+                                  : "frequency-only";
+  }
+  return {{"design", chosen},
+          {"assume", assume_json(assume)},
+          {"require", require_json(require)},
+          {"simulate", simulate_json(simulate)}};
 }
 
 Json design_json(const Certificate& certificate) {

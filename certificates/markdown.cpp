@@ -12,6 +12,7 @@
 #include "certificates/markdown_contraction.hpp"
 #include "certificates/markdown_kkl_observer.hpp"
 #include "certificates/markdown_other_results.hpp"
+#include "certificates/markdown_single_channel.hpp"
 #include "certificates/markdown_text.hpp"
 #include "certificates/markdown_theorem.hpp"
 #include "certificates/theorem_claims.hpp"
@@ -95,8 +96,7 @@ std::string covariance_text(const std::optional<CovarianceArray>& covariance) {
   return text;
 }
 
-std::string assumptions_section(const Certificate& certificate) {
-  const Assumptions& assume = certificate.design.quadrature_ekf().assume;
+std::string assumptions_section(const Assumptions& assume) {
   const auto row = [](const std::string& what, const std::string& relation, const std::string& value,
                       const std::string& unit) {
     return std::vector<std::string>{what, relation.empty() ? value : math(relation) + " " + value, unit};
@@ -122,11 +122,11 @@ std::string assumptions_section(const Certificate& certificate) {
          "nearest to it, which is what the filter runs with.\n\n";
 }
 
-std::string figures_section(const Certificate& certificate, const MarkdownOptions& options) {
+std::string figures_section(const Certificate& certificate, const SimulationSettings& run,
+                            const MarkdownOptions& options) {
   if (options.figures.empty()) {
     return "";
   }
-  const SimulationSettings& run = certificate.design.quadrature_ekf().simulate;
   std::string text = "## The simulated run\n\n";
   text += fmt::format(
       "The double-precision tracker on the signal `{}`, {} samples, seed {}, started at the edge of the "
@@ -188,11 +188,11 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
 
 /// The document of a quadrature tracker.
 std::string document(const Certificate& certificate, const MarkdownOptions& options,
-                     const QuadratureEkfTables& /*tables*/) {
+                     const QuadratureEkfTables& tables) {
   return "# " + headline(certificate) + "\n\n" + guarantee_section(certificate) +
          summary_section(certificate) + requirement_section(certificate) + design_section(certificate) +
-         assumptions_section(certificate) + contraction_section(certificate) +
-         figures_section(certificate, options) + conditions_section(certificate) +
+         assumptions_section(tables.assume) + contraction_section(certificate) +
+         figures_section(certificate, tables.simulate, options) + conditions_section(certificate) +
          proof_section(certificate) + other_results_section(certificate) + constants_section(certificate) +
          other_constants_section(certificate) + audit_section(certificate) + coverage_section() +
          reproduction_section(certificate, options);
@@ -204,6 +204,17 @@ std::string document(const Certificate& certificate, const MarkdownOptions& opti
          kkl_observer_sections(certificate, tables, options) + reproduction_section(certificate, options);
 }
 
+/// The document of a single-channel tracker.
+std::string document(const Certificate& certificate, const MarkdownOptions& options,
+                     const SingleChannelEkfTables& tables) {
+  return "# " + headline(certificate) + "\n\n" + single_channel_summary(certificate) +
+         requirement_section(certificate) + single_channel_design_section(certificate) +
+         assumptions_section(tables.assume) + bias_section(certificate) +
+         figures_section(certificate, tables.simulate, options) + transfer_function_section(certificate) +
+         proposition_section(certificate) + single_channel_coverage_section() +
+         reproduction_section(certificate, options);
+}
+
 }  // namespace
 
 std::string headline(const Certificate& certificate) {
@@ -211,6 +222,9 @@ std::string headline(const Certificate& certificate) {
     return kkl_observer_headline(certificate);
   }
   if (!certificate.verdict) {
+    if (std::holds_alternative<SingleChannelEkfTables>(certificate.design.tables)) {
+      return single_channel_headline(certificate);
+    }
     const std::optional<rigor::Interval> bound = proved_frequency_bound(certificate);
     if (bound) {
       return fmt::format(

@@ -151,6 +151,23 @@ std::string TomlValue::line_of_text(std::size_t limit) const {
   return text;
 }
 
+std::vector<TomlValue> TomlValue::entries(std::span<const std::string_view> names) const {
+  const toml::table* table = node_->as_table();
+  if (table == nullptr) {
+    refuse_kind();
+  }
+  std::vector<TomlValue> entries;
+  entries.reserve(names.size());
+  for (const std::string_view name : names) {
+    const toml::node* node = table->get(name);
+    if (node == nullptr || table->size() != names.size()) {
+      refuse("a table with other keys");
+    }
+    entries.emplace_back(*source_, *node, fmt::format("{}.{}", path_, name), allowed_);
+  }
+  return entries;
+}
+
 std::vector<TomlValue> TomlValue::elements(std::size_t count) const {
   return elements(count, count);
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,6 +37,9 @@ class TomlValue {
   /// One line of text of 1 to `limit` bytes. Throws InputError otherwise.
   [[nodiscard]] std::string line_of_text(std::size_t limit) const;
   [[nodiscard]] bool is_string() const noexcept { return node_->is_string(); }
+  [[nodiscard]] bool is_number() const noexcept { return node_->is_number(); }
+  /// The values of a table that has exactly these keys, in the order of `names`. Throws InputError otherwise.
+  [[nodiscard]] std::vector<TomlValue> entries(std::span<const std::string_view> names) const;
   /// The elements of an array of exactly `count`. Throws InputError otherwise.
   [[nodiscard]] std::vector<TomlValue> elements(std::size_t count) const;
   /// The elements of an array of `fewest` to `most`. Throws InputError otherwise.

@@ -11,6 +11,7 @@
 #include "reports/gnuplot.hpp"
 #include "reports/kkl_figures.hpp"
 #include "reports/region_map.hpp"
+#include "reports/single_channel_figures.hpp"
 
 namespace veritrack::reports {
 
@@ -192,6 +193,11 @@ std::vector<Figure> draw_figures(const Certificate& certificate) {
   }
   if (certificate.simulation.trajectory.empty()) {
     return {};
+  }
+  if (std::holds_alternative<certificates::SingleChannelEkfTables>(certificate.design.tables)) {
+    std::vector<Figure> figures = draw_single_channel_figures(certificate);
+    figures.insert(figures.begin(), frequency_figure(certificate));
+    return figures;
   }
   std::vector<Figure> figures = {frequency_figure(certificate), error_figure(certificate)};
   if (const auto tube = certificates::certified_tube(certificate)) {

@@ -135,10 +135,10 @@ std::vector<Statement> proposition_1_formulas() {
                "one with its term K1 cos x3 multiplied by z.",
                [](const Symbols& x) { return corrected_denominator(x) * x.w - characteristic(x); }));
   for (const int row : {1, 2}) {
-    statements.push_back(identity(
-        fmt::format("proposition-1/numerator-{}", row),
-        fmt::format("The numerator printed in (4) for x{} is that of the filter (3).", row),
-        [row](const Symbols& x) { return printed_numerator(x, row) * x.w - numerator(x, row); }));
+    statements.push_back(
+        identity(fmt::format("proposition-1/numerator-{}", row),
+                 fmt::format("The numerator printed in (4) for x{} is that of the filter (3).", row),
+                 [row](const Symbols& x) { return printed_numerator(x, row) * x.w - numerator(x, row); }));
   }
   statements.push_back(printed(
       "proposition-1/response-printed",
@@ -156,7 +156,9 @@ std::vector<Statement> proposition_1_formulas() {
 std::vector<Statement> proposition_1_conclusion(const SteadyStateBias& with_leak,
                                                 const SteadyStateBias& without_leak,
                                                 const Interval& epsilon) {
-  const auto frequency = [](const SteadyStateBias& bias) { return theorems::enclosed(bias.frequency); };
+  const auto frequency = [](const SteadyStateBias& bias) {
+    return theorems::enclosed(Interval(midpoint(bias.frequency)));
+  };
   std::vector<Statement> statements;
   const bool exact = without_leak.verdict == Verdict::proved && without_leak.min_error == Interval(0.0) &&
                      without_leak.max_error == Interval(0.0);

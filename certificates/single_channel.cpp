@@ -1,0 +1,209 @@
+#include "certificates/single_channel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "analysis/contraction/fixed_point_bias.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/single_channel/frozen_observer.hpp"
+#include "analysis/single_channel/invariant_curve.hpp"
+#include "analysis/single_channel/propositions.hpp"
+#include "analysis/theorems/derivation_builder.hpp"
+#include "certificates/guarantee.hpp"
+#include "certificates/theorem_claims.hpp"
+#include "trackers/quadrature_rotating_frame.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+using single_channel::SteadyStateBias;
+
+/// A frequency of the band, rad/sample, with its decimal.
+struct Frequency {
+  std::string text;
+  Interval value;
+};
+
+/// Frequencies of the band at which the bias is enclosed: both ends and points between them.
+std::vector<Frequency> frequencies_of(const Assumptions& assume) {
+  const auto& [low, high] = assume.frequency;
+  if (rigor::identical(low.value, high.value)) {
+    return {{low.text, low.value}};
+  }
+  constexpr int kCount = 9;  // odd: the middle is one of them
+  std::vector<Frequency> frequencies;
+  frequencies.reserve(kCount);
+  frequencies.push_back({low.text, low.value});
+  for (int i = 1; i + 1 < kCount; ++i) {
+    const double part = static_cast<double>(i) / (kCount - 1);
+    const std::string text = fmt::format("{:.6f}", low.nearest + part * (high.nearest - low.nearest));
+    frequencies.push_back({text.substr(0, text.find_last_not_of('0') + 1), rigor::parse_decimal(text)});
+  }
+  frequencies.push_back({high.text, high.value});
+  return frequencies;
+}
+
+/// The bias of the quadrature tracker with the same design values, for comparison; empty when it is not
+/// verified at that frequency.
+Interval quadrature_bias(const contraction::LockBranch& branch, const Interval& frequency) {
+  for (const auto& cell : branch.cells) {
+    const contraction::SteadyStateError error = contraction::steady_state_error(cell);
+    if (rigor::is_subset(frequency, error.frequency)) {
+      return error.frequency_error;
+    }
+  }
+  return Interval::empty();
+}
+
+theorems::Derivation bias_derivation(const SteadyStateBias& bias, const std::string& frequency,
+                                     std::string id, const Interval& quadrature) {
+  const std::string source = "this program: invariant curve over the phase";
+  theorems::Derivation derivation;
+  derivation.id = std::move(id);
+  derivation.title = "Steady-state frequency error on a noise-free tone";
+  const auto add = [&](const char* name, const char* symbol, const char* formula, const Interval& value) {
+    theorems::add_quantity(derivation, {name, symbol, formula, source}, value, bias.reason + ".");
+  };
+  add("frequency", "\\omega", frequency.c_str(), bias.frequency);
+  add("mean_bias", "\\bar\\nu", "\\frac1\\pi \\int_0^\\pi \\nu_*(\\varphi)\\,d\\varphi", bias.mean_bias);
+  add("min_error", "\\min_\\varphi \\nu_*", "", bias.min_error);
+  add("max_error", "\\max_\\varphi \\nu_*", "", bias.max_error);
+  if (bias.verdict == Verdict::proved) {
+    add("contraction_rate", "\\kappa", "", Interval::from_bounds(0.0, bias.rate));
+  }
+  theorems::add_quantity(derivation,
+                         {"quadrature_bias", "\\nu_*", "",
+                          "this program: lock branch of the quadrature tracker, same q1, q2, r, \u03b5"},
+                         quadrature, "It is not verified at this frequency.");
+  theorems::Condition condition;
+  condition.id = "invariant-curve";
+  condition.statement = "X_*(\\varphi + \\omega) = G_\\varphi(X_*(\\varphi))";
+  condition.verdict = bias.verdict;
+  condition.reason = bias.reason + ".";
+  derivation.conditions.push_back(condition);
+  theorems::conclude(derivation);
+  return derivation;
+}
+
+/// Frequency-only process noise without a leak: no exponentially stable steady state, with the witness.
+Claim stability_claim(const Interval& r) {
+  Claim claim;
+  claim.id = "single-channel/exponentially-stable-steady-state";
+  claim.statement = "The tracker has an exponentially stable steady state on a noise-free tone.";
+  claim.verdict = rigor::certainly_positive(r) ? Verdict::refuted : Verdict::undecided;
+  claim.reason =
+      "The amplitude is an uncontrollable mode on the unit circle. In the frame of the signal F has the rows "
+      "(1, 0, 0), (0, 1, 1), (0, 0, 1), and w = (1, 0, 0) has w F = w and w Q w' = 0. Each sample adds at "
+      "most "
+      "1/r to the information on the amplitude, so that with r > 0 its variance falls no faster than 1/k.";
+  return claim;
+}
+
+Claim undecided_requirement(std::string id, std::string statement, const Position& position) {
+  Claim claim;
+  claim.id = std::move(id);
+  claim.statement = std::move(statement);
+  claim.required = true;
+  claim.position = position;
+  claim.reason =
+      "This version certifies the single-channel tracker's steady state without noise, but no set of starts "
+      "under noise.";
+  return claim;
+}
+
+void add_requirements(Certificate& certificate, const Requirements& require) {
+  if (require.frequency_error_below) {
+    certificate.claims.push_back(
+        undecided_requirement("ekf/frequency-error-bound",
+                              fmt::format("the frequency error stays below {} rad/sample for ever",
+                                          require.frequency_error_below->text),
+                              require.frequency_error_below->position));
+  }
+  if (require.settles_within) {
+    certificate.claims.push_back(undecided_requirement(
+        "ekf/settling-time",
+        fmt::format("within {} samples the frequency error comes within twice its ultimate bound",
+                    require.settles_within->text),
+        require.settles_within->position));
+  }
+  conclude_requirements(certificate);
+}
+
+}  // namespace
+
+trackers::QuadratureEkfDesign<Interval> enclosed_values(const SingleChannelEkfDesign& design) {
+  using ProcessNoise = SingleChannelEkfDesign::ProcessNoise;
+  const Interval r = design.lambda ? design.lambda->value : design.r->value;
+  if (design.process_noise == ProcessNoise::diagonal) {
+    return {(*design.variances)[0].value, (*design.variances)[1].value, r, design.epsilon.value};
+  }
+  const Interval q = design.q ? design.q->value : Interval(1.0);
+  const bool identity = design.process_noise == ProcessNoise::identity;
+  return {identity ? q : Interval(0.0), q, r, design.epsilon.value};
+}
+
+trackers::QuadratureEkfDesign<double> nearest_values(const SingleChannelEkfDesign& design) {
+  using ProcessNoise = SingleChannelEkfDesign::ProcessNoise;
+  const double r = design.lambda ? design.lambda->nearest : design.r->nearest;
+  if (design.process_noise == ProcessNoise::diagonal) {
+    return {(*design.variances)[0].nearest, (*design.variances)[1].nearest, r, design.epsilon.nearest};
+  }
+  const double q = design.q ? design.q->nearest : 1.0;
+  const bool identity = design.process_noise == ProcessNoise::identity;
+  return {identity ? q : 0.0, q, r, design.epsilon.nearest};
+}
+
+void certify_single_channel(Certificate& certificate, const SingleChannelEkfTables& tables) {
+  certificate.simulation = simulate_single_channel(tables);
+  const trackers::QuadratureEkfDesign<Interval> design =
+      trackers::at_unit_amplitude(enclosed_values(tables.design), tables.assume.amplitude.value);
+  const std::vector<Frequency> frequencies = frequencies_of(tables.assume);
+  const std::size_t middle = frequencies.size() / 2;
+
+  const bool has_steady_state = !(design.q1 == Interval(0.0)) || !(design.epsilon == Interval(0.0));
+  if (!has_steady_state) {
+    certificate.claims.push_back(stability_claim(design.r));
+  }
+  const contraction::LockBranch quadrature = contraction::verify_lock_branch(
+      design, rigor::hull(frequencies.front().value, frequencies.back().value));
+  SteadyStateBias at_middle;
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    SteadyStateBias bias;
+    bias.frequency = frequencies[i].value;
+    bias.reason = "there is no exponentially stable steady state, see the claims";
+    if (has_steady_state) {
+      bias = single_channel::steady_state_bias(design, frequencies[i].value);
+    }
+    if (i == middle) {
+      at_middle = bias;
+    }
+    certificate.derivations.push_back(
+        bias_derivation(bias, frequencies[i].text,
+                        i == middle ? "single-channel-bias" : "single-channel-bias/" + frequencies[i].text,
+                        quadrature_bias(quadrature, frequencies[i].value)));
+  }
+  certificate.derivations.push_back(single_channel::transfer_function(single_channel::mean_gain(
+      trackers::at_unit_amplitude(nearest_values(tables.design), tables.assume.amplitude.nearest),
+      midpoint(frequencies[middle].value))));
+
+  trackers::QuadratureEkfDesign<Interval> without_leak = design;
+  without_leak.epsilon = Interval(0.0);
+  SteadyStateBias exact = at_middle;
+  if (!(design.epsilon == Interval(0.0))) {
+    exact = single_channel::steady_state_bias(without_leak, frequencies[middle].value);
+  }
+  const auto add_all = [&](const std::vector<theorems::Statement>& statements) {
+    std::transform(statements.begin(), statements.end(), std::back_inserter(certificate.claims), to_claim);
+  };
+  add_all(single_channel::proposition_1_formulas());
+  add_all(single_channel::proposition_1_conclusion(at_middle, exact, design.epsilon));
+  add_all(single_channel::proposition_2());
+  add_requirements(certificate, tables.require);
+}
+
+}  // namespace veritrack::certificates

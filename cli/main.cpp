@@ -15,6 +15,7 @@
 #include "certificates/markdown.hpp"
 #include "certificates/output_files.hpp"
 #include "certificates/region.hpp"
+#include "certificates/tuning.hpp"
 #include "reports/certificate_files.hpp"
 #include "reports/check_reports.hpp"
 #include "reports/region_files.hpp"
@@ -128,6 +129,30 @@ ExitStatus run_map(const MapOptions& options) {
   return all_proved;
 }
 
+struct TuneOptions {
+  std::string design;
+  std::string output;
+};
+
+ExitStatus run_tune(const TuneOptions& options) {
+  const certificates::TuningResult result =
+      certificates::tune(certificates::read_design_file(options.design));
+  if (!result.design_text) {
+    fmt::print("{}: undecided: {}\n", options.design, result.reason);
+    return not_proved;
+  }
+  std::string output = options.output;
+  if (output.empty()) {
+    output = std::filesystem::path(options.design).stem().string() + "-tuned.toml";
+  }
+  certificates::OutputFiles files;
+  files.stage(output, *result.design_text);
+  files.commit();
+  const certificates::Certificate certificate = certificates::certify_file(output);
+  fmt::print("{}: {}\n", output, certificates::headline(certificate));
+  return status_of(certificate);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Machine-checked certificates for frequency trackers.", "veritrack"};
   app.set_version_flag("--version", std::string("veritrack ") + VERITRACK_VERSION);
@@ -168,6 +193,14 @@ int run(int argc, char** argv) {
   map->add_flag("--noise", map_options.request.with_noise,
                 "with the noise and slew of [assume]; otherwise without any");
 
+  TuneOptions tune_options;
+  CLI::App* tune = app.add_subcommand(
+      "tune",
+      "choose the filter rates of a KKL observer for a small frequency error, and certify the result");
+  tune->add_option("DESIGN", tune_options.design, "design file (TOML), tracker kkl-observer")->required();
+  tune->add_option("--out", tune_options.output,
+                   "design file to write (default: <name of the design file>-tuned.toml)");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -186,6 +219,9 @@ int run(int argc, char** argv) {
   }
   if (map->parsed()) {
     return run_map(map_options);
+  }
+  if (tune->parsed()) {
+    return run_tune(tune_options);
   }
   return certify->parsed() ? run_certify(design, directory) : run_check(check_options);
 }

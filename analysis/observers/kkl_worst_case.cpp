@@ -41,7 +41,7 @@ Eigen::Vector4d bang_bang(const Map& map, double frequency, double phase, double
 
 }  // namespace
 
-SampledErrors sample_errors(const KklRobustnessQuestion& question) {
+SampledErrors sample_errors(const KklRobustnessQuestion& question, int phases) {
   const rigor::NearestRounding nearest;
   const Eigen::Vector4d lambda = rigor::midpoint(question.range.lambda);
   const trackers::KklObserverDesign<double, 4> design{lambda, rigor::midpoint(question.ell)};
@@ -59,19 +59,18 @@ SampledErrors sample_errors(const KklRobustnessQuestion& question) {
   };
   const bool is_point = question.range.frequency.lower() == question.range.frequency.upper();
   const int frequencies = is_point ? 1 : 17;
-  constexpr int kPhases = 90;
   const double low = question.range.frequency.lower();
   const double ratio = question.range.frequency.upper() / low;
   for (int k = 0; k < frequencies; ++k) {
     const double frequency = is_point ? low : low * std::pow(ratio, k / (frequencies - 1.0));
-    for (int j = 0; j < kPhases; ++j) {
-      const double phase = std::numbers::pi * j / kPhases;
+    for (int j = 0; j < phases; ++j) {
+      const double phase = std::numbers::pi * j / phases;
       for (const double amplitude : {question.amplitude.lower(), question.amplitude.upper()}) {
         const Eigen::Vector4d clean =
             trackers::kkl_transform<double, 4>(oscillator_state(amplitude, phase, frequency), lambda);
         if (const auto* sinusoidal = std::get_if<SinusoidalDisturbance>(&question.disturbance)) {
-          for (int l = 0; l < 2 * kPhases; ++l) {
-            const double other_phase = std::numbers::pi * l / kPhases;
+          for (int l = 0; l < 2 * phases; ++l) {
+            const double other_phase = std::numbers::pi * l / phases;
             const auto other = oscillator_state(rigor::midpoint(sinusoidal->amplitude), other_phase,
                                                 rigor::midpoint(sinusoidal->frequency));
             look(clean + trackers::kkl_transform<double, 4>(other, lambda), amplitude, frequency);

@@ -91,6 +91,21 @@ class KklObserver(CliTestCase):
                 _, found, _ = self.certify(KKL.replace("[3, 3]", frequency))
                 self.assertNotEqual(self.conditions(found["kkl-paper"])["left-inverse"], "refuted")
 
+    def test_tuning_proves_a_smaller_bound(self):
+        text = KKL + "\n[require]\nsettles_within = 15\n"
+        _, before, _ = self.certify(text)
+        result = self.run_here("tune", "design.toml", "--out", "tuned.toml")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        _, after, _ = self.certify((self.folder / "tuned.toml").read_text())
+        bounds = [ends(found["kkl-robustness"]["quantities"]["frequency_error_bound"])[1] for found in (before, after)]
+        self.assertLess(bounds[1], 0.8 * bounds[0])
+
+    def test_tuning_needs_a_disturbance(self):
+        self.write("".join(line for line in KKL.splitlines(keepends=True) if not line.startswith("disturbance")))
+        result = self.run_here("tune", "design.toml")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("disturbance", result.stdout)
+
     def test_a_map_is_refused_with_a_reason(self):
         self.write(KKL)
         result = self.run_here("map", "design.toml")

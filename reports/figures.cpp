@@ -206,6 +206,7 @@ std::vector<Figure> draw_figures(const Certificate& certificate) {
   if (certificate.followed_starts && certificate.followed_starts->region.cells.size() > 1) {
     Figure map = draw_region_map(certificate.followed_starts->region, certificate.followed_starts->basin);
     map.file = "capture.svg";
+    map.caption = "The assumed starts, followed under the assumed noise and slew. " + map.caption;
     figures.push_back(std::move(map));
   }
   return figures;

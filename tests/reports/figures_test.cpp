@@ -26,6 +26,15 @@ TEST_CASE("the bounds that the error is compared with are in the figure") {
   CHECK(svg.find("(2.45) admits, errata") != std::string::npos);
 }
 
+TEST_CASE("starts that had to be followed are mapped") {
+  const auto figures = reports::draw_figures(
+      test::certificate({{"initial_frequency_error = 0.005", "initial_frequency_error = 0.3"}}));
+  REQUIRE(figures.size() == 4);
+  CHECK(figures.back().file == "capture.svg");
+  CHECK(figures.back().caption.starts_with("The assumed starts, followed"));
+  CHECK(figures[2].svg.find("certified, assumed starts") != std::string::npos);
+}
+
 TEST_CASE("a long run is thinned out, and says so") {
   const auto figures = reports::draw_figures(test::certificate({{"samples = 60", "samples = 5000"}}));
   CHECK(figures.front().caption.find("One sample in 3") != std::string::npos);

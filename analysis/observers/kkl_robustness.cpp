@@ -59,18 +59,21 @@ class SinusoidalErrors {
     return weights;
   }
 
-  /// Minus the square of w_hat - w.
+  /// The errors have two signs, each to be bounded.
+  static constexpr std::array<double, 2> kSigns{1.0, -1.0};
+
+  /// w_hat - w.
   template <typename Number>
   [[nodiscard]] Number frequency(const Eigen::Matrix<Number, kVariables, 1>& v) const {
     const Disturbed<Number> at = disturbed(v);
-    return -square(Map::frequency_error(at.signal, at.squared_error()));
+    return Map::frequency_error(at.signal, at.squared_error());
   }
 
-  /// Minus the square of A_hat - A.
+  /// A_hat - A.
   template <typename Number>
   [[nodiscard]] Number amplitude(const Eigen::Matrix<Number, kVariables, 1>& v) const {
     const Disturbed<Number> at = disturbed(v);
-    return -square(Number(v(2) * map_.amplitude_error(at.signal, at.u, at.squared_error())));
+    return v(2) * map_.amplitude_error(at.signal, at.u, at.squared_error());
   }
 
   /// x3_hat / s.
@@ -167,17 +170,19 @@ class BoundedErrors {
   [[nodiscard]] const Box& box() const { return box_; }
   [[nodiscard]] static rigor::Vector<kVariables> importance() { return rigor::Vector<kVariables>::Ones(); }
 
+  /// The largest sizes of the errors, as numbers below zero.
+  static constexpr std::array<double, 1> kSigns{1.0};
   template <typename Number>
   [[nodiscard]] Number frequency(const Eigen::Matrix<Number, kVariables, 1>& v) const {
     const State at = state(values(v));
     // The error is largest in size when x3_hat is below s.
     const Interval error = Map::frequency_error(at.signal, Interval(-at.squared_error));
-    return without_slopes<Number>(-square(Interval(rigor::magnitude(error))));
+    return without_slopes<Number>(-Interval(rigor::magnitude(error)));
   }
 
   template <typename Number>
   [[nodiscard]] Number amplitude(const Eigen::Matrix<Number, kVariables, 1>& v) const {
-    return without_slopes<Number>(-square(Interval(amplitude_error(values(v)))));
+    return without_slopes<Number>(-Interval(amplitude_error(values(v))));
   }
 
   /// x3_hat / s.
@@ -326,17 +331,13 @@ class BoundedErrors {
   Box box_;
 };
 
-/// sqrt(-x) for the lower bound of minus a square; empty when that is not finite.
-Interval root_of_bound(double lower) {
-  return lower <= 0.0 && std::isfinite(lower) ? sqrt(Interval(-lower)) : Interval::empty();
-}
-
 template <typename Errors>
 KklRobustness search_errors(const Errors& errors, const KklRobustnessQuestion& question) {
   KklRobustness result;
-  const auto minimize = [&](double tolerance, const auto& function) {
+  const auto minimize = [&](double tolerance, double sufficient, const auto& function) {
     search::BranchAndBoundSettings<kVariables> settings;
     settings.relative_tolerance = tolerance;
+    settings.sufficient = sufficient;
     settings.cells = question.cells;
     settings.batch = 256;
     settings.importance = errors.importance();
@@ -345,21 +346,37 @@ KklRobustness search_errors(const Errors& errors, const KklRobustnessQuestion& q
     result.cells += minimum.cells;
     return minimum;
   };
-  const auto ratio = minimize(0.2, [&](const auto& v) { return errors.ratio(v); });
+  // The largest size of an error: minus the least of both signs.
+  const auto bound = [&](const auto& error, auto& worst) {
+    double least = 0.0;
+    double reached = 0.0;
+    double sufficient = std::numeric_limits<double>::infinity();
+    for (const double sign : Errors::kSigns) {
+      const auto minimum = minimize(question.relative_tolerance, sufficient,
+                                    [&](const auto& v) { return error(v) * Interval(sign); });
+      least = std::min(least, minimum.lower);
+      sufficient = least;
+      if (minimum.upper < reached) {
+        reached = minimum.upper;
+        worst = minimum.best;
+      }
+    }
+    return Interval(-least);
+  };
+  const auto ratio =
+      minimize(0.2, std::numeric_limits<double>::infinity(), [&](const auto& v) { return errors.ratio(v); });
   result.largest_ell = Interval(2.0) * Interval(ratio.lower);
-  const auto square = minimize(0.2, [&](const auto& v) { return errors.relative_square(v); });
+  const auto square = minimize(0.2, std::numeric_limits<double>::infinity(),
+                               [&](const auto& v) { return errors.relative_square(v); });
   result.smallest_relative_square = Interval(square.lower);
   if (!certainly_positive(result.smallest_relative_square)) {
     return result;
   }
-  // Of squares; the bounds themselves are half as far off.
-  const double tolerance = 2.0 * question.relative_tolerance;
-  const auto frequency = minimize(tolerance, [&](const auto& v) { return errors.frequency(v); });
-  const auto amplitude = minimize(tolerance, [&](const auto& v) { return errors.amplitude(v); });
-  result.frequency_error_bound = Interval(root_of_bound(frequency.lower).upper());
-  result.amplitude_error_bound = Interval(root_of_bound(amplitude.lower).upper());
+  rigor::Vector<kVariables> worst = rigor::Vector<kVariables>::Zero();
+  result.amplitude_error_bound = bound([&](const auto& v) { return errors.amplitude(v); }, worst);
+  result.frequency_error_bound = bound([&](const auto& v) { return errors.frequency(v); }, worst);
   for (int i = 0; i < kVariables; ++i) {
-    result.worst[static_cast<std::size_t>(i)] = frequency.best(i);
+    result.worst[static_cast<std::size_t>(i)] = worst(i);
   }
   return result;
 }

@@ -28,6 +28,8 @@ struct BranchAndBoundSettings {
   double absolute_tolerance = 0.0;
   std::int64_t cells = 100'000;  ///< at most
   int batch = 1;
+  /// A lower bound as high as this is good enough to stop.
+  double sufficient = std::numeric_limits<double>::infinity();
   /// The function hides something unknown, for which its intervals have room even at a point: the minimum
   /// sought is that of their lower ends, and `upper` is such a lower end.
   bool of_lower_ends = false;
@@ -278,7 +280,7 @@ template <int N, typename Function>
     const double tolerance =
         std::max(settings.absolute_tolerance, settings.relative_tolerance * std::fabs(result.upper));
     result.converged = result.upper - result.lower <= tolerance;
-    if (result.converged || result.cells + 2 > settings.cells) {
+    if (result.converged || result.lower >= settings.sufficient || result.cells + 2 > settings.cells) {
       break;
     }
     batch.clear();

@@ -34,6 +34,18 @@ struct Condition {
   std::string reason;  ///< one sentence: what decided it, or why it could not be decided
 };
 
+/// Is there any admissible choice of the theorem's free parameters for which its stability conditions hold?
+struct Feasibility {
+  /// PROVED: yes, with the point as witness. REFUTED: no, by the argument and the lower bound.
+  rigor::Verdict verdict = rigor::Verdict::undecided;
+  std::string argument;       ///< plain sentences
+  bool every_design = false;  ///< REFUTED for every design, not for this one alone
+  /// What the left-hand side of the condition exceeds at every admissible point.
+  std::optional<rigor::Interval> lower_bound;
+  std::vector<Quantity> witness;     ///< a point that satisfies the conditions
+  std::vector<Quantity> best_found;  ///< the least left-hand side that a search found, and its point
+};
+
 /// A theorem, in one reading of its text, evaluated for a design.
 struct Derivation {
   std::string id;     ///< e.g. "theorem-2.9/printed"
@@ -43,6 +55,8 @@ struct Derivation {
   std::vector<std::string> notes;  ///< sentences a reader needs, e.g. which of our choices entered
   /// All conditions together.
   rigor::Verdict verdict = rigor::Verdict::undecided;
+  /// Only where a theorem has parameters that are free to choose.
+  std::optional<Feasibility> feasibility;
 };
 
 /// The quantity of that name. Throws std::out_of_range when there is none.

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "analysis/theorems/theorem_2_9_conditions.hpp"
+#include "analysis/theorems/theorem_2_9_feasibility.hpp"
 #include "analysis/theorems/theorem_2_9_quantities.hpp"
 
 namespace veritrack::theorems {

@@ -188,6 +188,23 @@ Json condition_json(const theorems::Condition& condition) {
   return json;
 }
 
+Json feasibility_json(const theorems::Feasibility& feasibility) {
+  Json not_applicable = Json::object();
+  Json json{{"verdict", std::string(rigor::to_string(feasibility.verdict))},
+            {"argument", feasibility.argument},
+            {"every_design", feasibility.every_design}};
+  if (feasibility.lower_bound) {
+    json["lower_bound"] = enclosure(*feasibility.lower_bound);
+  }
+  if (!feasibility.witness.empty()) {
+    json["witness"] = quantities_json(feasibility.witness, not_applicable);
+  }
+  if (!feasibility.best_found.empty()) {
+    json["best_found"] = quantities_json(feasibility.best_found, not_applicable);
+  }
+  return json;
+}
+
 Json derivation_json(const theorems::Derivation& derivation) {
   Json not_applicable = Json::object();
   Json json{{"id", derivation.id}, {"title", derivation.title}};
@@ -200,6 +217,9 @@ Json derivation_json(const theorems::Derivation& derivation) {
     json["conditions"].push_back(condition_json(condition));
   }
   json["verdict"] = std::string(rigor::to_string(derivation.verdict));
+  if (derivation.feasibility) {
+    json["feasibility"] = feasibility_json(*derivation.feasibility);
+  }
   json["notes"] = derivation.notes;
   return json;
 }

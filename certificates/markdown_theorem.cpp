@@ -84,6 +84,24 @@ std::string outcome_text(const theorems::Audit& audit, const theorems::AuditedIn
   return text;
 }
 
+/// Whether any choice of the free parameters would do, and the point or the argument.
+std::string feasibility_text(const theorems::Feasibility& feasibility) {
+  std::string text =
+      fmt::format("For some choice of the free parameters: {}. {}", markdown::verdict(feasibility.verdict),
+                  markdown::escaped(feasibility.argument));
+  const auto add_point = [&](const char* title, const std::vector<theorems::Quantity>& point) {
+    std::string separator = title;
+    for (const theorems::Quantity& quantity : point) {
+      text += fmt::format("{}`{}` {}", separator, quantity.name, markdown::enclosure(quantity.value, 4));
+      separator = ", ";
+    }
+    text += point.empty() ? "" : ".";
+  };
+  add_point(" Witness: ", feasibility.witness);
+  add_point(" The least left side of (2.43) that a search found: ", feasibility.best_found);
+  return text;
+}
+
 std::vector<std::string> audit_row(const theorems::Audit& audit,
                                    const theorems::AuditedInequality& inequality) {
   const bool evaluated = inequality.worst.has_value() && !inequality.not_applicable;
@@ -168,10 +186,14 @@ std::string conditions_section(const Certificate& certificate) {
       "The theorem (La Scala 1994, section 2.4.5) promises a bounded estimation error when all of its "
       "conditions hold. "
       "Its text is read twice: *printed* is the body of the thesis, *errata* has the changes of its errata "
-      "sheet.\n\n";
+      "sheet. *repaired* is our own theorem of the same form, with every gap of the proof closed "
+      "(docs/repaired-theorem.md).\n\n";
   for (const auto& derivation : derivations_of(certificate, kTheorem)) {
     text += fmt::format("### {}: {}\n\n", derivation.title, markdown::verdict(derivation.verdict));
     text += markdown::conditions_table(derivation) + "\n";
+    if (derivation.feasibility) {
+      text += feasibility_text(*derivation.feasibility) + "\n\n";
+    }
     text += markdown::notes_list(derivation) + "\n";
   }
   return text;

@@ -53,7 +53,7 @@ void set_contraction(ErrorRecursion& recursion, const IntervalMatrix<3>& carried
 
 std::optional<ErrorRecursion> error_recursion(const IntervalDesign& design, const EstimateTube& tube,
                                               int window) {
-  const auto range = covariance_range(design, tube, window);
+  const auto range = matrix_range(design, tube, window);
   if (!range) {
     return std::nullopt;
   }

@@ -18,7 +18,7 @@ namespace veritrack::theorems {
 struct ErrorRecursion {
   EstimateTube tube;
   int window = 1;  ///< N of the Riccati bounds, samples
-  CovarianceRange range;
+  MatrixRange range;
 
   rigor::Interval alpha;             ///< factor of the linear part, in [0, 1)
   rigor::Interval one_minus_alpha;   ///< without cancellation

@@ -1,6 +1,6 @@
-#include "analysis/rigor/eigenvalues.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/theorems/comparison.hpp"
+#include "analysis/theorems/covariance_range.hpp"
 #include "analysis/theorems/signal_model.hpp"
 #include "analysis/theorems/theorem_2_9_gaps_parts.hpp"
 #include "trackers/quadrature_polar_frame.hpp"
@@ -25,20 +25,6 @@ Statement predicted_in_general(const Readings& readings) {
       {evidence("smallest_predicted_variance", "q_1", "", variance), evidence("s", "s", "", bound)});
 }
 
-/// The largest eigenvalue of a bound on P(k|k), k >= 2, for any P(0|0), from the last two measurements alone
-/// (covariance_bound of riccati_bounds.hpp for N = 1, written out): with mu = |z(k-1|k-1)|/(1 - epsilon),
-/// amplitude r/2 + q1/4, and r [[1, 1/mu], [1/mu, 2/mu^2]] + (0, 0; 0, q1/mu^2 + q2) for phase and frequency.
-Interval filtered_bound(const Readings& readings, const Interval& smallest_magnitude) {
-  const Theorem29Input& input = readings.input;
-  const Interval inverse = (Interval(1.0) - input.epsilon) / smallest_magnitude;
-  const Interval two(2.0);
-  rigor::IntervalMatrix<2> phase_and_frequency;
-  phase_and_frequency << input.r, input.r * inverse,  //
-      input.r * inverse, (two * input.r + input.q1) * square(inverse) + input.q2;
-  const auto eigenvalues = rigor::symmetric_eigenvalues(phase_and_frequency);
-  return eigenvalues ? max((*eigenvalues)(1), input.r / two + input.q1 / Interval(4.0)) : Interval::empty();
-}
-
 Statement predicted_for_design(const Reading& reading, const Readings& readings) {
   const Theorem29Constants& c = reading.constants;
   const Theorem29Input& input = readings.input;
@@ -46,7 +32,7 @@ Statement predicted_for_design(const Reading& reading, const Readings& readings)
   const Interval largest_variance = max(input.q1, input.q2);
   const bool ranged = certainly_positive(c.epsilon_r) && certainly_less(c.epsilon_r, one);
   const Interval upper = ranged ? square(first_derivative_norm(one + c.epsilon_r, input.epsilon)) *
-                                          filtered_bound(readings, one - c.epsilon_r) +
+                                          largest_covariance(input, one - c.epsilon_r) +
                                       largest_variance
                                 : Interval::empty();
   const Verdict above = decide_less_equal(largest_variance, c.s);

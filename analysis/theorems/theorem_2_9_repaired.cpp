@@ -1,6 +1,5 @@
 #include "analysis/theorems/theorem_2_9_repaired.hpp"
 
-#include "analysis/rigor/linear_solve.hpp"
 #include "analysis/theorems/comparison.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 #include "analysis/theorems/error_recursion_search.hpp"
@@ -14,6 +13,7 @@ using rigor::Interval;
 using rigor::Verdict;
 
 constexpr const char* kProof = "docs/repaired-theorem.md";
+constexpr const char* kNotBorne = "No tube was found that bears the assumed noise.";
 constexpr const char* kNoRecursion =
     "No tube around the signal was found in which the covariance bounds make the error shrink.";
 
@@ -130,7 +130,7 @@ Condition start_covariance(const Repaired& found,
       not_found("P(0|0)", R"(q^{-1} I \le P(k|k) \le p I \text{ from } k = 0)",
                 "Whether the bounds on P(k|k) hold before the window is full is not shown.");
   if (!found.assumed) {
-    condition.reason = kNoRecursion;
+    condition.reason = kNotBorne;
     return condition;
   }
   const ErrorRecursion& recursion = *found.assumed;
@@ -163,8 +163,7 @@ void add_conditions(Derivation& derivation, const Repaired& found, const Theorem
   derivation.conditions.push_back(std::move(leak));
   constexpr const char* kInvariance = R"(\alpha R + c R^2 + g_w \lVert w \rVert + g_v \lVert v \rVert \le R)";
   if (!found.assumed) {
-    derivation.conditions.push_back(
-        not_found("invariance", kInvariance, "No tube was found that bears the assumed noise."));
+    derivation.conditions.push_back(not_found("invariance", kInvariance, kNotBorne));
   } else {
     const ErrorRecursion& r = *found.assumed;
     const Interval& radius = found.assumed_radius;
@@ -241,16 +240,15 @@ Feasibility feasibility_of(const Repaired& found) {
 
 }  // namespace
 
-Derivation derive_repaired_theorem(const Theorem29Input& unchecked,
-                                   const std::optional<rigor::IntervalMatrix<3>>& initial_covariance) {
+Derivation derive_repaired_theorem(const TrackerInput& question) {
   const rigor::UpwardRounding upward;
-  const Theorem29Input input = with_finite_members(unchecked);
+  const Theorem29Input input = with_finite_members(question.theorem_2_9);
   const Repaired found = search(input);
   Derivation derivation;
   derivation.id = "theorem-2.9/repaired";
   derivation.title = "Theorem 2.9 repaired: error and noise bounds with every gap of the proof closed";
   add_quantities(derivation, found);
-  add_conditions(derivation, found, input, initial_covariance);
+  add_conditions(derivation, found, input, question.initial_covariance);
   conclude(derivation);
   add_assured(derivation, found);
   derivation.feasibility = feasibility_of(found);

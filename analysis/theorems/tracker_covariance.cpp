@@ -64,8 +64,7 @@ IntervalMatrix<3> own_frame_transition(const Interval& amplitude, const Interval
   return transition;
 }
 
-std::optional<CovarianceRange> covariance_range(const IntervalDesign& design, const EstimateTube& tube,
-                                                int window) {
+std::optional<MatrixRange> matrix_range(const IntervalDesign& design, const EstimateTube& tube, int window) {
   const IntervalMatrix<3> straight = own_frame_transition(tube.amplitude(), design.epsilon);
   const IntervalMatrix<3> turned = tube.turn() * straight;
   const auto steps = static_cast<std::size_t>(window);
@@ -91,11 +90,11 @@ std::optional<CovarianceRange> covariance_range(const IntervalDesign& design, co
   if (!upper || !most_information) {
     return std::nullopt;
   }
-  return CovarianceRange{*upper, *most_information};
+  return MatrixRange{*upper, *most_information};
 }
 
-Verdict decide_start(const IntervalMatrix<3>& start, const CovarianceRange& range,
-                     const IntervalDesign& design, const EstimateTube& tube, int window) {
+Verdict decide_start(const IntervalMatrix<3>& start, const MatrixRange& range, const IntervalDesign& design,
+                     const EstimateTube& tube, int window) {
   using Covariance = trackers::PolarCovariance<Interval>;
   const IntervalMatrix<3> turn = tube.turn();
   Covariance covariance = Covariance::from_matrix(start);

@@ -32,7 +32,7 @@ struct EstimateTube {
 };
 
 /// Matrices of points with P(k|k) <= upper and P(k|k)^-1 <= information, in the frame of the predicted phase.
-struct CovarianceRange {
+struct MatrixRange {
   rigor::IntervalMatrix<3> upper, information;
 };
 
@@ -42,12 +42,12 @@ struct CovarianceRange {
 
 /// The range for all k > window when every estimate stays in the tube; nothing when it could not be verified
 /// (q1 may be zero and the window is 1, say). `window` >= 1 is N of riccati_bounds.hpp.
-[[nodiscard]] std::optional<CovarianceRange> covariance_range(const IntervalDesign& design,
-                                                              const EstimateTube& tube, int window);
+[[nodiscard]] std::optional<MatrixRange> matrix_range(const IntervalDesign& design, const EstimateTube& tube,
+                                                      int window);
 
 /// Does P(k|k) lie in the range for k = 0, ..., window too, when the filter starts with P(0|0) = `start` (in
 /// the frame of the estimated phase) and every estimate stays in the tube? Nothing is refuted.
-[[nodiscard]] rigor::Verdict decide_start(const rigor::IntervalMatrix<3>& start, const CovarianceRange& range,
+[[nodiscard]] rigor::Verdict decide_start(const rigor::IntervalMatrix<3>& start, const MatrixRange& range,
                                           const IntervalDesign& design, const EstimateTube& tube, int window);
 
 }  // namespace veritrack::theorems

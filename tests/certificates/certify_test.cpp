@@ -23,7 +23,7 @@ TEST_CASE("nothing required is no verdict") {
   const certificates::Certificate certificate = test::certificate();
   CHECK_FALSE(certificate.verdict.has_value());
   CHECK(certificates::verdict_text(certificate) == "nothing-required");
-  CHECK(certificates::derivations_of(certificate, "theorem-2.9/").size() == 2);
+  CHECK(certificates::derivations_of(certificate, "theorem-2.9/").size() == 3);
   CHECK(certificates::derivations_of(certificate, "contraction").size() == 1);
   CHECK(certificates::derivations_of(certificate, "reif-1999").size() == 2);
   CHECK(certificate.audits.size() == 2);

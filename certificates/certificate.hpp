@@ -50,6 +50,17 @@ struct FollowedStarts {
   std::vector<double> frequency_tube;  ///< see contraction::StartCapture; empty unless PROVED
 };
 
+/// What one result gives for the design, side by side with the others.
+struct ComparedResult {
+  std::string result;                     ///< the derivation's id, or "simulation"
+  std::optional<rigor::Verdict> verdict;  ///< of its conditions; none for a simulation
+  std::optional<rigor::Interval>
+      frequency_error;                   ///< of the start, certified up to the lower end, rad/sample
+  std::optional<rigor::Interval> noise;  ///< up to the lower end, relative to the amplitude
+  std::optional<rigor::Interval> rate;   ///< factor per sample, at most the upper end
+  bool simulated = false;                ///< proves nothing
+};
+
 struct Certificate {
   Design design;
   std::string design_file;  ///< its name, without folders
@@ -61,6 +72,7 @@ struct Certificate {
   std::vector<NamedSet> certified_sets;
   std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
   std::vector<AuditedDerivation> audits;
+  std::vector<ComparedResult> comparison;
   std::vector<Claim> claims;
   /// Of all required claims together; none when nothing is required, which is no verdict at all.
   std::optional<rigor::Verdict> verdict;

@@ -10,6 +10,7 @@
 #include "analysis/theorems/theorem_2_9_repaired.hpp"
 #include "certificates/capture.hpp"
 #include "certificates/certificate.hpp"
+#include "certificates/comparison_table.hpp"
 #include "certificates/design_reader.hpp"
 #include "certificates/guarantee.hpp"
 #include "certificates/guarantee_sentence.hpp"
@@ -127,6 +128,7 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
   }
   add_contraction(certificate);
   add_capture(certificate, progress);
+  add_comparison(certificate);
   add_required_claims(certificate);
   certificate.claims.push_back(guarantee_claim(certificate));
 }

@@ -271,6 +271,23 @@ Json audit_json(const AuditedDerivation& audited) {
   return json;
 }
 
+Json compared_json(const ComparedResult& row) {
+  Json json{{"result", row.result}, {"proved", !row.simulated}};
+  if (row.verdict) {
+    json["verdict"] = std::string(rigor::to_string(*row.verdict));
+  }
+  if (row.frequency_error) {
+    json["initial_frequency_error"] = enclosure(*row.frequency_error);
+  }
+  if (row.noise) {
+    json["noise"] = enclosure(*row.noise);
+  }
+  if (row.rate) {
+    json["rate"] = enclosure(*row.rate);
+  }
+  return json;
+}
+
 /// A matrix of exact doubles, row by row.
 template <typename Matrix>
 Json matrix_json(const Matrix& matrix) {
@@ -324,6 +341,10 @@ std::string to_json(const Certificate& certificate) {
   json["audits"] = Json::array();
   for (const AuditedDerivation& audited : certificate.audits) {
     json["audits"].push_back(audit_json(audited));
+  }
+  json["comparison"] = Json::array();
+  for (const ComparedResult& row : certificate.comparison) {
+    json["comparison"].push_back(compared_json(row));
   }
   json["claims"] = Json::array();
   for (const Claim& claim : certificate.claims) {

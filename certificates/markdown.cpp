@@ -7,6 +7,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/versions.hpp"
+#include "certificates/comparison_table.hpp"
 #include "certificates/guarantee.hpp"
 #include "certificates/guarantee_sentence.hpp"
 #include "certificates/markdown_contraction.hpp"
@@ -195,10 +196,10 @@ std::string document(const Certificate& certificate, const MarkdownOptions& opti
   return "# " + headline(certificate) + "\n\n" + guarantee_section(certificate) +
          summary_section(certificate) + requirement_section(certificate) + design_section(certificate) +
          assumptions_section(tables.assume) + contraction_section(certificate) +
-         figures_section(certificate, tables.simulate, options) + conditions_section(certificate) +
-         proof_section(certificate) + other_results_section(certificate) + constants_section(certificate) +
-         other_constants_section(certificate) + audit_section(certificate) + coverage_section() +
-         reproduction_section(certificate, options);
+         comparison_section(certificate) + figures_section(certificate, tables.simulate, options) +
+         conditions_section(certificate) + proof_section(certificate) + other_results_section(certificate) +
+         constants_section(certificate) + other_constants_section(certificate) + audit_section(certificate) +
+         coverage_section() + reproduction_section(certificate, options);
 }
 
 std::string document(const Certificate& certificate, const MarkdownOptions& options,

@@ -4,6 +4,7 @@
 
 #include "analysis/rigor/eigenvalues.hpp"
 #include "analysis/rigor/linear_solve.hpp"
+#include "analysis/theorems/invariant_covariance.hpp"
 
 namespace veritrack::theorems {
 
@@ -53,7 +54,7 @@ void set_contraction(ErrorRecursion& recursion, const IntervalMatrix<3>& carried
 
 std::optional<ErrorRecursion> error_recursion(const IntervalDesign& design, const EstimateTube& tube,
                                               int window) {
-  const auto range = matrix_range(design, tube, window);
+  const auto range = window > 0 ? matrix_range(design, tube, window) : invariant_range(design, tube);
   if (!range) {
     return std::nullopt;
   }

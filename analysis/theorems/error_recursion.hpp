@@ -17,7 +17,7 @@ namespace veritrack::theorems {
 /// The constants of the recursion, and where it holds.
 struct ErrorRecursion {
   EstimateTube tube;
-  int window = 1;  ///< N of the Riccati bounds, samples
+  int window = 0;  ///< N of the Riccati bounds, samples; 0: the range of invariant_covariance.hpp
   MatrixRange range;
 
   rigor::Interval alpha;             ///< factor of the linear part, in [0, 1)
@@ -50,7 +50,8 @@ struct ErrorRecursion {
   [[nodiscard]] rigor::Interval ultimate_radius(const rigor::Interval& disturbance) const;
 };
 
-/// The recursion for a tube and a window; nothing where a bound is not finite or alpha is not certainly below
+/// The recursion for a tube and a window (see ErrorRecursion::window); nothing where a bound is not finite or
+/// alpha is not certainly below
 /// 1. Needs the held rounding mode.
 [[nodiscard]] std::optional<ErrorRecursion> error_recursion(const IntervalDesign& design,
                                                             const EstimateTube& tube, int window);

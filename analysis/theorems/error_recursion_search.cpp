@@ -9,7 +9,7 @@ std::vector<ErrorRecursion> recursion_ladder(const IntervalDesign& design) {
   constexpr double kLargest = 0.4;
   constexpr double kStep = 1.5;
   std::vector<ErrorRecursion> ladder;
-  for (const int window : {1, 2, 3, 4, 5, 6, 8}) {
+  for (const int window : {0, 1, 2, 3, 4, 6}) {
     // Both limits of the tube should be met at the same W.
     double ratio = 1.0;
     for (double plane_error = kSmallest; plane_error < kLargest; plane_error *= kStep) {

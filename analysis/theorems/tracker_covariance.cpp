@@ -12,9 +12,17 @@ using rigor::Interval;
 using rigor::IntervalMatrix;
 using rigor::Verdict;
 
-/// A matrix of points that is at least every symmetric matrix in `matrix`: what the entries may be off the
-/// middle is at most the diagonal matrix of its row sums.
-std::optional<IntervalMatrix<3>> point_above(const SmallMatrix& matrix) {
+SmallMatrix process_noise(const IntervalDesign& design) {
+  SmallMatrix noise = SmallMatrix::Constant(3, 3, Interval(0.0));
+  noise(0, 0) = noise(1, 1) = design.q1;
+  noise(2, 2) = design.q2;
+  return noise;
+}
+
+}  // namespace
+
+// What the entries may be off the middle is at most the diagonal matrix of its row sums.
+std::optional<IntervalMatrix<3>> point_above(const IntervalMatrix<3>& matrix) {
   IntervalMatrix<3> above;
   for (int i = 0; i < 3; ++i) {
     Interval slack(0.0);
@@ -28,15 +36,6 @@ std::optional<IntervalMatrix<3>> point_above(const SmallMatrix& matrix) {
   }
   return rigor::is_finite(above) ? std::optional(above) : std::nullopt;
 }
-
-SmallMatrix process_noise(const IntervalDesign& design) {
-  SmallMatrix noise = SmallMatrix::Constant(3, 3, Interval(0.0));
-  noise(0, 0) = noise(1, 1) = design.q1;
-  noise(2, 2) = design.q2;
-  return noise;
-}
-
-}  // namespace
 
 Interval EstimateTube::amplitude() const {
   return Interval(1.0) + rigor::symmetric(plane_error.upper());

@@ -36,6 +36,10 @@ struct MatrixRange {
   rigor::IntervalMatrix<3> upper, information;
 };
 
+/// A matrix of points that is at least every symmetric 3x3 matrix in `matrix`; nothing when an entry is not
+/// finite.
+[[nodiscard]] std::optional<rigor::IntervalMatrix<3>> point_above(const rigor::IntervalMatrix<3>& matrix);
+
 /// F(rho), the Jacobian in the frame of the estimated phase.
 [[nodiscard]] rigor::IntervalMatrix<3> own_frame_transition(const rigor::Interval& amplitude,
                                                             const rigor::Interval& epsilon);

@@ -69,7 +69,7 @@ Eigen::VectorXd search_for_point(Theorem29Variant variant, const Theorem29Input&
   space.evaluations = 300;
   space.method = search::SearchMethod::direct;
   space.start = search::maximize(objective, space).point;
-  space.method = search::SearchMethod::sbplx;
+  space.method = search::SearchMethod::subplex;
   return search::maximize(objective, space).point;
 }
 

@@ -6,6 +6,7 @@
 
 #include "analysis/theorems/other_results.hpp"
 #include "analysis/theorems/theorem_2_9.hpp"
+#include "analysis/theorems/theorem_2_9_feasibility.hpp"
 #include "analysis/theorems/theorem_2_9_gaps.hpp"
 #include "analysis/theorems/theorem_2_9_repaired.hpp"
 #include "certificates/capture.hpp"
@@ -103,6 +104,7 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
   for (const auto variant : {theorems::Theorem29Variant::printed, theorems::Theorem29Variant::errata}) {
     const theorems::Theorem29 theorem = theorems::evaluate_theorem_2_9(variant, input);
     certificate.derivations.push_back(theorem.derivation);
+    certificate.derivations.back().feasibility = theorems::theorem_2_9_feasibility(variant, input);
     certificate.audits.push_back(
         {theorem.derivation.id, theorems::audit_theorem_2_9(theorem, input, trajectory)});
     certificate.claims.push_back(applicability_claim(theorem.derivation));

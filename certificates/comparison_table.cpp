@@ -50,8 +50,9 @@ void add_comparison(Certificate& certificate) {
     row.frequency_error = value_of(derivation, {"initial_frequency_error_bound", "frequency_error_radius"});
     row.noise = value_of(derivation, {"noise_bound", "largest_noise"});
     row.rate = value_of(derivation, {"rate", "contraction_rate"});
-    const bool is_reading = derivation.id.starts_with("theorem-2.9/");
-    if (is_reading || row.frequency_error || row.noise || row.rate) {
+    const bool always_shown =
+        derivation.id.starts_with("theorem-2.9/") || derivation.id.starts_with("contraction");
+    if (always_shown || row.frequency_error || row.noise || row.rate) {
       certificate.comparison.push_back(std::move(row));
     }
   }
@@ -83,7 +84,10 @@ std::string comparison_section(const Certificate& certificate) {
          "from an exact start where a result has both; \"none\" means that the result certifies none for "
          "this "
          "design. The last column is about this design's [assume]: a result may certify something and still "
-         "not reach the assumed start or noise. For contraction the start error is the largest in the "
+         "not reach the assumed start or noise. Where the frequency state leaks the certified start and "
+         "noise are for "
+         "a signal that leaks as the model says; a constant frequency then counts as process noise. For "
+         "contraction the start error is the largest in the "
          "certified set. The simulation is one frequency, exact phase and amplitude, and a few noise "
          "patterns.\n\n";
 }

@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "analysis/theorems/theorem_2_9_conditions.hpp"
-#include "analysis/theorems/theorem_2_9_feasibility.hpp"
 #include "analysis/theorems/theorem_2_9_quantities.hpp"
 
 namespace veritrack::theorems {
@@ -64,7 +63,6 @@ Theorem29 evaluate_theorem_2_9(Theorem29Variant variant, const Theorem29Input& u
   derivation.quantities = theorem_2_9_quantities(variant, input, c);
   derivation.conditions = theorem_2_9_conditions(variant, input, c);
   derivation.notes = notes(variant, input);
-  derivation.feasibility = theorem_2_9_feasibility(variant, input);
 
   std::vector<Verdict> verdicts;
   for (const Condition& condition : derivation.conditions) {

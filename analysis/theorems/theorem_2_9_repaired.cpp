@@ -258,6 +258,8 @@ Derivation derive_repaired_theorem(const TrackerInput& question) {
       "came about, only on bounds that hold for every run in the tube.",
       "The largest start and the largest noise are each certified on their own: the start without noise, the "
       "noise from an exact start. initial_frequency_error_bound is for exact phase and amplitude.",
+      "Start and noise bounds are for w = 0, a frequency that leaks as (3.1) says; with a leak a constant "
+      "frequency omega is a process noise epsilon omega, which process_noise_bound must bear.",
       "The start covariance is the filter's steady state along exact estimates unless the design file gives "
       "a "
       "matrix."};

@@ -109,8 +109,7 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
         {theorem.derivation.id, theorems::audit_theorem_2_9(theorem, input, trajectory)});
     certificate.claims.push_back(applicability_claim(theorem.derivation));
   }
-  certificate.derivations.push_back(theorems::derive_repaired_theorem(
-      {input, contraction_question(certificate.design).initial_covariance}));
+  certificate.derivations.push_back(theorems::derive_repaired_theorem(tracker_input(tables, input)));
   certificate.claims.push_back(applicability_claim(certificate.derivations.back()));
   for (const theorems::Statement& statement : theorems::theorem_2_9_gaps(input)) {
     certificate.claims.push_back(to_claim(statement));

@@ -36,8 +36,11 @@ std::string bound_text(const ComparedResult& row, const std::optional<Interval>&
   if (row.simulated) {
     return fmt::format("≈ {:.3g}", rigor::midpoint(*value));
   }
-  const bool down = direction == Direction::down;
-  return (down ? "" : "≤ ") + rigor::to_decimal(down ? value->lower() : value->upper(), 4, direction);
+  if (direction == Direction::down) {
+    return rigor::to_decimal(value->lower(), 4, direction);
+  }
+  const std::string rounded = rigor::to_decimal(value->upper(), 4, direction);
+  return value->upper() < 1.0 && rounded == "1" ? "< 1" : "≤ " + rounded;
 }
 
 }  // namespace

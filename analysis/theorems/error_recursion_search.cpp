@@ -12,7 +12,8 @@ std::vector<ErrorRecursion> recursion_ladder(const IntervalDesign& design) {
   for (const int window : {0, 1, 2, 3, 4, 6}) {
     // Both limits of the tube should be met at the same W.
     double ratio = 1.0;
-    for (double plane_error = kSmallest; plane_error < kLargest; plane_error *= kStep) {
+    double plane_error = kSmallest;
+    while (plane_error < kLargest) {
       const auto recursion =
           error_recursion(design, {Interval(plane_error), Interval(ratio * plane_error)}, window);
       if (!recursion) {
@@ -20,6 +21,7 @@ std::vector<ErrorRecursion> recursion_ladder(const IntervalDesign& design) {
       }
       ratio = recursion->frequency_gain.upper() / recursion->plane_gain.upper();
       ladder.push_back(*recursion);
+      plane_error *= kStep;
     }
   }
   return ladder;

@@ -80,7 +80,8 @@ std::optional<MatrixRange> verified(const Eigen::Matrix3d& upper, const Eigen::M
 
 std::optional<MatrixRange> invariant_range(const IntervalDesign& design, const EstimateTube& tube) {
   constexpr double kLargestShare = 0.75;
-  for (double share = tube.plane_error.upper(); share < kLargestShare; share *= 1.5) {
+  double share = tube.plane_error.upper();
+  while (share < kLargestShare) {
     const auto upper = scaled_steady_state(design, 1.0 + share);
     const auto lower = scaled_steady_state(design, 1.0 - share);
     if (!upper || !lower) {
@@ -89,6 +90,7 @@ std::optional<MatrixRange> invariant_range(const IntervalDesign& design, const E
     if (auto range = verified(*upper, *lower, design, tube)) {
       return range;
     }
+    share *= 1.5;
   }
   return std::nullopt;
 }

@@ -18,6 +18,7 @@
 #include "certificates/tuning.hpp"
 #include "reports/certificate_files.hpp"
 #include "reports/check_reports.hpp"
+#include "reports/example_report.hpp"
 #include "reports/region_files.hpp"
 
 namespace {
@@ -153,6 +154,16 @@ ExitStatus run_tune(const TuneOptions& options) {
   return status_of(certificate);
 }
 
+struct ReproduceOptions {
+  std::string directory = "reports-out/bittanti-savaresi-2000";
+  int seeds = 200;
+};
+
+ExitStatus run_reproduce(const ReproduceOptions& options) {
+  fmt::print("{}\n", reports::write_example_report(options.seeds, options.directory).string());
+  return all_proved;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Machine-checked certificates for frequency trackers.", "veritrack"};
   app.set_version_flag("--version", std::string("veritrack ") + VERITRACK_VERSION);
@@ -201,6 +212,14 @@ int run(int argc, char** argv) {
   tune->add_option("--out", tune_options.output,
                    "design file to write (default: <name of the design file>-tuned.toml)");
 
+  ReproduceOptions reproduce_options;
+  CLI::App* reproduce = app.add_subcommand(
+      "reproduce", "simulate the published examples of the single-channel tracker and report what comes out");
+  reproduce->add_option("--out", reproduce_options.directory, "folder for the report")->capture_default_str();
+  reproduce->add_option("--seeds", reproduce_options.seeds, "noise seeds")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -222,6 +241,9 @@ int run(int argc, char** argv) {
   }
   if (tune->parsed()) {
     return run_tune(tune_options);
+  }
+  if (reproduce->parsed()) {
+    return run_reproduce(reproduce_options);
   }
   return certify->parsed() ? run_certify(design, directory) : run_check(check_options);
 }

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/contraction/ball_quadrature.hpp"
 #include "analysis/contraction/quadrature_certificate.hpp"
+#include "analysis/contraction/steady_certificate.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "trackers/quadrature_rotating_frame.hpp"
 
@@ -22,16 +22,6 @@ trackers::QuadratureEkfDesign<Interval> design_at_unit_amplitude(const Design& d
   return trackers::at_unit_amplitude<Interval>(
       {chosen.q1.value, chosen.q2.value, chosen.r.value, chosen.epsilon.value},
       design.quadrature_ekf().assume.amplitude.value);
-}
-
-contraction::BallQuestion ball_question_of(const Design& design) {
-  const Assumptions& assume = design.quadrature_ekf().assume;
-  contraction::BallQuestion question;
-  question.design = design_at_unit_amplitude(design);
-  question.band = rigor::hull(assume.frequency[0].value, assume.frequency[1].value);
-  question.noise = (assume.noise.value / assume.amplitude.value).upper();
-  question.slew = assume.slew.value.upper();
-  return question;
 }
 
 const theorems::Quantity* find(const theorems::Derivation& derivation, const std::string& name) {
@@ -175,8 +165,12 @@ void add_contraction(Certificate& certificate) {
     keep("largest-noise", found.noise_set);
     keep("largest-slew", found.slew_set);
   } else {
+    const Assumptions& assume = certificate.design.quadrature_ekf().assume;
     certificate.derivations.push_back(
-        contraction::derive_quadrature_ball(ball_question_of(certificate.design)));
+        contraction::certify_with_leak(
+            {contraction_question(certificate.design),
+             rigor::hull(assume.frequency[0].value, assume.frequency[1].value)})
+            .derivation);
   }
 }
 

@@ -96,8 +96,9 @@ std::string explain_end(double reached, const char* side) {
   const rigor::Direction toward_zero = reached > 0.0 ? rigor::Direction::down : rigor::Direction::up;
   return std::string("the lock branch, continued from frequency 0, is verified only up to ") +
          rigor::to_decimal(reached, 6, toward_zero) + " rad/sample, and the band's " + side +
-         " end lies beyond: the steady state may cease to exist there; a smaller leak epsilon or a larger q2 "
-         "carries it farther";
+         " end lies beyond: the steady state may cease to exist there; restrict [assume] frequency to at " +
+         (reached > 0.0 ? "most " : "least ") + rigor::to_decimal(reached, 4, toward_zero) +
+         " rad/sample, or take a smaller leak epsilon or a larger q2, which carry it farther";
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+// Verification of a set around the steady state: the proof, from nothing but the design, the verified lock
+// branch and the proposal. docs/leak.md.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "analysis/contraction/fixed_point_bias.hpp"
+#include "analysis/contraction/steady_set.hpp"
+
+namespace veritrack::contraction {
+
+/// What verify_steady_set found.
+struct SteadyVerification {
+  /// PROVED: the promise of SteadySet over all cells of the branch. Otherwise UNDECIDED: that a set was not
+  /// certified refutes nothing.
+  rigor::Verdict verdict = rigor::Verdict::undecided;
+  std::string reason;                       ///< one sentence
+  SteadySet set;                            ///< the proposal
+  rigor::Interval failed_frequency;         ///< the cell where it failed, rad/sample; empty when it did not
+  double noise_gain = 0.0;                  ///< L_v at level 1, an upper bound, in the metric
+  std::int64_t cells = 0;                   ///< examined
+};
+
+/// Is the promise of SteadySet true over these neighbouring cells of a lock branch? Proved are
+///   1. T invertible, below > 0, above > 0, P* - below > 0, and the ranges of all inputs;
+///   2. from level s the errors come to a level of at most kappa s (steady_contraction.hpp), and
+///   3. so does the covariance (steady_order.hpp), for every range of levels and every cell of frequencies.
+/// Cells run in parallel; the result does not depend on how many threads there are. Opens its own
+/// UpwardRounding scope; never throws for odd numbers.
+[[nodiscard]] SteadyVerification verify_steady_set(
+    const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+    const std::vector<FixedPointTube<QuadraturePolarLoop::kStates>>& branch, const SteadySet& proposal);
+
+/// The steady state over a part of a cell. Needs the upward mode.
+[[nodiscard]] SteadyState<rigor::Interval> steady_state(
+    const FixedPointTube<QuadraturePolarLoop::kStates>& cell, const rigor::Interval& part);
+
+}  // namespace veritrack::contraction

@@ -191,7 +191,10 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
       "Covers the tracker in exact arithmetic, for every frequency of the band, signal amplitude constant.",
       "With a leak the tracker settles off the truth: radii are about the steady state, error bounds about the "
       "truth. Amplitude error and noise are relative to the true amplitude."};
-  const LockBranch branch = verify_lock_branch(question.tracker.design, question.band);
+  // Wider cells are fewer, narrower ones give larger sets.
+  constexpr double kCellWidth = 0.1;  // rad/sample
+  const LockBranch branch =
+      verify_lock_branch(question.tracker.design, question.band, {.largest = kCellWidth});
   double largest_noise = 0.0;
   double largest_slew = 0.0;
   std::string why = branch.reason;

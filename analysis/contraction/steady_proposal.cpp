@@ -230,19 +230,37 @@ class Sampler {
   Matrix<3> inverse_root_;
 };
 
-constexpr double kGoal = 0.9;  // of its own bounds, for the covariance
+/// How much is to spare: of its own bounds for the covariance, and of the level.
+struct Strictness {
+  double covariance, rate;
+};
 constexpr int kCoarse = 12;
 constexpr int kFine = 24;
 
 /// Is a set of this metric invariant, as far as coarse samples can tell?
-bool holds(const Sampler& sampler, const Matrix<3>& metric, double noise, int angles) {
+bool holds(const Sampler& sampler, const Matrix<3>& metric, double noise, const Strictness& strictness) {
   auto settings = sampler.settings(metric);
-  return sampler.find_band(settings, noise, kGoal, angles) && sampler.rate(settings, 1.0, noise, angles) < 0.96;
+  return sampler.find_band(settings, noise, strictness.covariance, kCoarse) &&
+         sampler.rate(settings, 1.0, noise, kCoarse) < strictness.rate;
+}
+
+/// How far a small set of this metric is from being invariant, for a search that has found none yet.
+double failure(const Sampler& sampler, const Matrix<3>& metric, const Strictness& strictness) {
+  constexpr double kSmall = 0.1;
+  constexpr double kWorst = 10.0;
+  auto settings = sampler.settings(metric / kSmall);
+  for (const double goal : {strictness.covariance, 1.5, 3.0, 6.0}) {
+    if (sampler.find_band(settings, 0.0, goal, kCoarse)) {
+      return std::min(kWorst, goal + sampler.rate(settings, 1.0, 0.0, kCoarse));
+    }
+  }
+  return kWorst;
 }
 
 /// The largest R for which T/R holds; 0 when there is none.
-double largest_radius(const Sampler& sampler, const Matrix<3>& metric, double noise, double guess) {
-  const auto fits = [&](double radius) { return holds(sampler, metric / radius, noise, kCoarse); };
+double largest_radius(const Sampler& sampler, const Matrix<3>& metric, double noise, double guess,
+                      const Strictness& strictness) {
+  const auto fits = [&](double radius) { return holds(sampler, metric / radius, noise, strictness); };
   constexpr double kStep = 1.6;
   double good = 0.0;
   double bad = guess;
@@ -295,31 +313,34 @@ search::SearchSpace space_of(int evaluations) {
 std::optional<SteadyShape> propose_steady_shape(const SteadyRequest& request) {
   const rigor::NearestRounding nearest;
   const Sampler sampler(request);
-  double guess = 1.0;
-  Matrix<3> best_metric = Matrix<3>::Zero();
-  double best_value = 0.0;
-  static_cast<void>(search::maximize(
-      [&](const Eigen::VectorXd& x) {
-        const Matrix<3> metric = sampler.metric(x);
-        const double radius = largest_radius(sampler, metric, request.noise, guess);
-        if (!(radius > 0.0)) {
-          return 0.0;
-        }
-        guess = radius;
-        const double frequency = radius * metric.inverse().row(2).norm();
-        const double room = std::min(1.0, start_room(request, metric / radius) / 1.15);
-        const double value = frequency * room * room;
-        if (value > best_value) {
-          best_value = value;
-          best_metric = metric / radius;
-        }
-        return value;
-      },
-      space_of(request.evaluations)));
-  if (!(best_value > 0.0)) {
-    return std::nullopt;
+  // With room for the proof first; where there is no such set, with less.
+  for (const Strictness& strictness : {Strictness{0.9, 0.96}, Strictness{0.97, 0.985}}) {
+    double guess = 1.0;
+    Matrix<3> best_metric = Matrix<3>::Zero();
+    double best_value = 0.0;
+    static_cast<void>(search::maximize(
+        [&](const Eigen::VectorXd& x) {
+          const Matrix<3> metric = sampler.metric(x);
+          const double radius = largest_radius(sampler, metric, request.noise, guess, strictness);
+          if (!(radius > 0.0)) {
+            return -failure(sampler, metric, strictness);
+          }
+          guess = radius;
+          const double frequency = radius * metric.inverse().row(2).norm();
+          const double room = std::min(1.0, start_room(request, metric / radius) / 1.15);
+          const double value = frequency * room * room;
+          if (value > best_value) {
+            best_value = value;
+            best_metric = metric / radius;
+          }
+          return value;
+        },
+        space_of(request.evaluations)));
+    if (best_value > 0.0) {
+      return SteadyShape{best_metric};
+    }
   }
-  return SteadyShape{best_metric, 0.0};
+  return std::nullopt;
 }
 
 std::optional<SteadySet> propose_steady_set(const SteadyRequest& request, const SteadyShape& shape,

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/contraction/proposal.hpp"
 #include "analysis/contraction/steady_set.hpp"
 
 namespace veritrack::contraction {
@@ -17,26 +16,23 @@ struct SteadyRequest {
   std::vector<SteadyState<double>> steady;
   /// dX*/domega there, in the order of the polar frame; used for the slew only.
   std::vector<rigor::Vector<9>> slopes;
-  Objective objective = Objective::start_error;
-  double noise = 0.0;  ///< relative to the amplitude; without meaning for Objective::noise
-  double slew = 0.0;   ///< rad/sample per sample; without meaning for Objective::slew
+  double noise = 0.0;  ///< relative to the amplitude
+  double slew = 0.0;   ///< rad/sample per sample
   /// Largest errors of the start about the truth: amplitude, phase (rad), frequency (rad/sample). A set that
   /// holds them is preferred.
   rigor::Vector<3> start = rigor::Vector<3>::Zero();
   int evaluations = 60;
 };
 
-/// A metric T/R that sampling found good, with the largest R or disturbance that it found.
+/// The metric in which sampling found the largest set, scaled to level 1.
 struct SteadyShape {
-  rigor::Matrix<3> metric;  ///< at level 1
-  double disturbance = 0.0;  ///< noise or slew that the set bears, for those objectives
+  rigor::Matrix<3> metric;
 };
 
 /// The best shape found; nothing when sampling finds no set at all. Deterministic.
 [[nodiscard]] std::optional<SteadyShape> propose_steady_shape(const SteadyRequest& request);
 
-/// A set of this shape, smaller by `fraction` (the disturbance, for those objectives), with covariance bounds
-/// and rates that leave room for the verification; nothing when sampling finds that none is there. With
+/// A set of this shape, smaller by `fraction`, with covariance bounds and rates that leave room for the verification; nothing when sampling finds that none is there. With
 /// `invariance_only` there is one level and no rate below 1.
 [[nodiscard]] std::optional<SteadySet> propose_steady_set(const SteadyRequest& request,
                                                           const SteadyShape& shape, double fraction,

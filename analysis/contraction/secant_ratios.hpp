@@ -16,8 +16,8 @@ template <int N>
   return x.chain(sine_ratio(x.value()), -(x.value() * hull(least, third)));
 }
 
-/// atan(t)/t with derivative -t h(t). atan(t)/t is the integral over u in [0, 1] of 1/(1 + t^2 u^2), so that h
-/// is that of (1 - u^2) / ((1 + t^2 u^2) (1 + t^2)), which lies between 2/3 times 1/(1 + t^2)^2 and 1/(1 +
+/// atan(t)/t with derivative -t h(t). atan(t)/t is the integral over u in [0, 1] of 1/(1 + t^2 u^2), so that
+/// h is that of (1 - u^2) / ((1 + t^2 u^2) (1 + t^2)), which lies between 2/3 times 1/(1 + t^2)^2 and 1/(1 +
 /// t^2).
 template <int N>
 [[nodiscard]] rigor::Dual<rigor::Interval, N> arctangent_ratio(const rigor::Dual<rigor::Interval, N>& t) {

@@ -31,8 +31,9 @@ inline rigor::Interval balance(const rigor::Interval& a, const rigor::Interval& 
 
 /// The z that a step leaves lies within `radius` of the mean one, z_bar = rho* + s shift, on which the
 /// Jacobian J of (|z|, arg z) depends: its rows are the radial unit vector, which turns by at most 1/|z| per
-/// unit, and the transverse one over |z|, which changes by 1/|z|^2. Averaged over the segment from z_bar, J is
-/// J(z_bar) + E with rows of E up to half of that times `radius`. And (X + Y)(X + Y)' <= (1 + theta) X X' + (1
+/// unit, and the transverse one over |z|, which changes by 1/|z|^2. Averaged over the segment from z_bar, J
+/// is J(z_bar) + E with rows of E up to half of that times `radius`. And (X + Y)(X + Y)' <= (1 + theta) X X'
+/// + (1
 /// + 1/theta) |Y|^2 I for every theta > 0.
 template <typename Scalar>
 [[nodiscard]] SteadyBounds<Scalar> steady_bounds(const SteadyStep<Scalar>& step,
@@ -54,7 +55,8 @@ template <typename Scalar>
   bounds.least_along = setting.steady.rho + level * step.shift1 - radius;
   // (a + o2)/(b + o1) - a/b = (o2 - (a/b) o1)/(b + o1).
   bounds.tangent_reach =
-      (reach2 + detail::size(Scalar(level * turn_tangent(setting, step, level))) * reach1) / bounds.least_along;
+      (reach2 + detail::size(Scalar(level * turn_tangent(setting, step, level))) * reach1) /
+      bounds.least_along;
   const Scalar bend = half * radius / bounds.least_along;
   const Scalar bent =
       t.t11 * bend + detail::root(Scalar(square(t.t12) + square(t.t22))) * bend / bounds.least_along;
@@ -69,9 +71,9 @@ template <typename Scalar>
 
   // |T J K| for every gain K = P+ H' / r: that of the mean one, and of the spread.
   const auto& n = step.noise;
-  const Scalar mean_squared = detail::larger_eigenvalue(
-      Scalar(square(n[0]) + square(n[2]) + square(n[4])), Scalar(n[0] * n[1] + n[2] * n[3] + n[4] * n[5]),
-      Scalar(square(n[1]) + square(n[3]) + square(n[5])));
+  const Scalar mean_squared = detail::larger_eigenvalue(Scalar(square(n[0]) + square(n[2]) + square(n[4])),
+                                                        Scalar(n[0] * n[1] + n[2] * n[3] + n[4] * n[5]),
+                                                        Scalar(square(n[1]) + square(n[3]) + square(n[5])));
   const auto& b = bounds.gram;
   const Scalar spread_squared =
       detail::larger(detail::larger(Scalar(b.p11 + detail::size(b.p12) + detail::size(b.p13)),

@@ -123,12 +123,13 @@ class Report {
                         {}};
     condition.reason =
         inside_ ? "every assumed start lies in the certified set around the steady state of its frequency."
-        : start_ ? "the assumed starts reach " + at_most(*start_) +
-                       " in a metric where the set ends at 1, measured from the steady state, which is up to " +
-                       at_most(Interval(bias_)) +
-                       " rad/sample off the truth: a smaller leak epsilon, a narrower [assume] frequency or "
-                       "smaller start errors would do."
-                 : "the initial covariance is not certainly between the bounds of the certified set.";
+        : start_
+            ? "the assumed starts reach " + at_most(*start_) +
+                  " in a metric where the set ends at 1, measured from the steady state, which is up to " +
+                  at_most(Interval(bias_)) +
+                  " rad/sample off the truth: a smaller leak epsilon, a narrower [assume] frequency or "
+                  "smaller start errors would do."
+            : "the initial covariance is not certainly between the bounds of the certified set.";
     return condition;
   }
 
@@ -189,7 +190,8 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
   derivation.title = "Contraction in a set around the steady state of every frequency of the band";
   derivation.notes = {
       "Covers the tracker in exact arithmetic, for every frequency of the band, signal amplitude constant.",
-      "With a leak the tracker settles off the truth: radii are about the steady state, error bounds about the "
+      "With a leak the tracker settles off the truth: radii are about the steady state, error bounds about "
+      "the "
       "truth. Amplitude error and noise are relative to the true amplitude."};
   // Wider cells are fewer, narrower ones give larger sets.
   constexpr double kCellWidth = 0.1;  // rad/sample
@@ -225,7 +227,8 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
     invariant.reason = "no set could be certified for this noise and slew: " + why +
                        " The largest certified noise (without slew) is " +
                        rigor::to_decimal(largest_noise, 4, Direction::down) + "; " +
-                       at_most(question.tracker.noise) + " was assumed. The largest certified slew (without noise) is " +
+                       at_most(question.tracker.noise) +
+                       " was assumed. The largest certified slew (without noise) is " +
                        rigor::to_decimal(largest_slew, 4, Direction::down) + "; " +
                        at_most(question.tracker.slew) + " was assumed.";
   }
@@ -253,7 +256,8 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
   const std::string outside = report ? "The assumed starts are not in the certified set." : why;
   derivation.quantities = {
       quantity("contraction_rate", "\\kappa", "\\Omega_s \\to \\Omega_{\\kappa s}", rate, why),
-      quantity("radius", "R", "|T (e - e^*)| \\le 1", report ? std::optional(Interval(1.0)) : std::nullopt, why),
+      quantity("radius", "R", "|T (e - e^*)| \\le 1", report ? std::optional(Interval(1.0)) : std::nullopt,
+               why),
       quantity("frequency_error_radius", "\\nu_R", "|e_3' T^{-1}|", radius(2), why),
       quantity("phase_error_radius", "\\psi_R", "|e_2' T^{-1}|", radius(1), why),
       quantity("amplitude_error_radius", "a_R", "|e_1' T^{-1}|", radius(0), why),

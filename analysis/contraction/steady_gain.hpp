@@ -59,12 +59,8 @@ template <typename Scalar>
   const Scalar r31 = m.p13 - k.k31 * m.p11 - k.k32 * m.p12;
   const Scalar r32 = m.p23 - k.k31 * m.p12 - k.k32 * m.p22;
   const Scalar r33 = m.p33 - k.k31 * m.p13 - k.k32 * m.p23;
-  return {r11 * l11 - r12 * l.k12,
-          r12 * l22 - r11 * l.k12,
-          r13 - r11 * l.k31 - r12 * l.k32,
-          r22 * l22 - r21 * l.k12,
-          r23 - r21 * l.k31 - r22 * l.k32,
-          r33 - r31 * l.k31 - r32 * l.k32};
+  return {r11 * l11 - r12 * l.k12, r12 * l22 - r11 * l.k12,         r13 - r11 * l.k31 - r12 * l.k32,
+          r22 * l22 - r21 * l.k12, r23 - r21 * l.k31 - r22 * l.k32, r33 - r31 * l.k31 - r32 * l.k32};
 }
 
 /// What the filtered covariance may be at a level s and an amplitude rho* + s alpha: between P* + s low and
@@ -79,8 +75,8 @@ struct CovarianceImage {
 
 /// See CovarianceImage. The turn by nu* is given by its sine and cosine.
 template <typename Scalar>
-[[nodiscard]] CovarianceImage<Scalar> covariance_image(const SteadyState<Scalar>& steady,
-                                                       const Scalar& sine, const Scalar& cosine,
+[[nodiscard]] CovarianceImage<Scalar> covariance_image(const SteadyState<Scalar>& steady, const Scalar& sine,
+                                                       const Scalar& cosine,
                                                        const CovarianceBand<Scalar>& band,
                                                        const trackers::QuadratureEkfDesign<Scalar>& design,
                                                        const Scalar& level, const Scalar& alpha) {
@@ -95,9 +91,10 @@ template <typename Scalar>
     return trackers::turned(trackers::predicted_covariance(deviation, rho, quiet), sine, cosine);
   };
   // (F(rho) P* F(rho)' - F(rho*) P* F(rho*)') / (s alpha).
-  const Symmetric<Scalar> drift = trackers::turned(
-      Symmetric<Scalar>{zero, p.p13, zero, p.p23 + p.p23 + (rho + steady.rho) * p.p33, retention * p.p33, zero},
-      sine, cosine);
+  const Symmetric<Scalar> drift =
+      trackers::turned(Symmetric<Scalar>{zero, p.p13, zero, p.p23 + p.p23 + (rho + steady.rho) * p.p33,
+                                         retention * p.p33, zero},
+                       sine, cosine);
   const Symmetric<Scalar> start =
       trackers::turned(trackers::predicted_covariance(p, steady.rho, design), sine, cosine);
   const Symmetric<Scalar> below = predict(band.below);

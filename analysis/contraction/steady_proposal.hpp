@@ -32,8 +32,9 @@ struct SteadyShape {
 /// The best shape found; nothing when sampling finds no set at all. Deterministic.
 [[nodiscard]] std::optional<SteadyShape> propose_steady_shape(const SteadyRequest& request);
 
-/// A set of this shape, smaller by `fraction`, with covariance bounds and rates that leave room for the verification; nothing when sampling finds that none is there. With
-/// `invariance_only` there is one level and no rate below 1.
+/// A set of this shape, smaller by `fraction`, with covariance bounds and rates that leave room for the
+/// verification; nothing when sampling finds that none is there. With `invariance_only` there is one level
+/// and no rate below 1.
 [[nodiscard]] std::optional<SteadySet> propose_steady_set(const SteadyRequest& request,
                                                           const SteadyShape& shape, double fraction,
                                                           bool invariance_only);

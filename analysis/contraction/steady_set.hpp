@@ -17,11 +17,11 @@ namespace veritrack::contraction {
 /// followed by one of Omega_(rate s) with the rate of that range; a state of Omega_s with a smaller s, by one
 /// of Omega_(lowest level).
 struct SteadySet {
-  rigor::Matrix<3> metric;  ///< T, upper triangular with a positive diagonal
-  rigor::Matrix<3> below;   ///< symmetric
-  rigor::Matrix<3> above;   ///< symmetric
-  double noise = 0.0;       ///< V >= 0, relative to the amplitude
-  double slew = 0.0;        ///< W >= 0, rad/sample per sample
+  rigor::Matrix<3> metric;         ///< T, upper triangular with a positive diagonal
+  rigor::Matrix<3> below;          ///< symmetric
+  rigor::Matrix<3> above;          ///< symmetric
+  double noise = 0.0;              ///< V >= 0, relative to the amplitude
+  double slew = 0.0;               ///< W >= 0, rad/sample per sample
   std::vector<LevelRange> levels;  ///< adjoining, the first one ends at 1
 };
 

@@ -67,11 +67,12 @@ struct SteadyStep {
   static constexpr std::size_t kEntries = 36;
   /// All but the last two, for what is done to each.
   [[nodiscard]] std::array<Scalar*, kEntries> entries() {
-    return {&slope[0],    &slope[1],  &slope[2], &slope[3],  &slope[4],  &slope[5],  &slope[6],  &slope[7],
-            &slope[8],    &constant[0], &constant[1], &constant[2], &gram.p11, &gram.p12, &gram.p13, &gram.p22,
-            &gram.p23,    &gram.p33,  &noise[0], &noise[1],  &noise[2],  &noise[3],  &noise[4],  &noise[5],
-            &eta_squared, &spread11,  &spread12, &spread22,  &largest11, &largest12, &largest22, &alpha,
-            &swing,       &shift1,    &shift2,   &along};
+    return {&slope[0],    &slope[1], &slope[2], &slope[3],    &slope[4],    &slope[5],
+            &slope[6],    &slope[7], &slope[8], &constant[0], &constant[1], &constant[2],
+            &gram.p11,    &gram.p12, &gram.p13, &gram.p22,    &gram.p23,    &gram.p33,
+            &noise[0],    &noise[1], &noise[2], &noise[3],    &noise[4],    &noise[5],
+            &eta_squared, &spread11, &spread12, &spread22,    &largest11,   &largest12,
+            &largest22,   &alpha,    &swing,    &shift1,      &shift2,      &along};
   }
 };
 
@@ -121,9 +122,8 @@ template <typename Scalar>
   const Scalar innovation1 = steady1 + s * (slope1[1] * step.alpha + signal1 * c);
   const Scalar innovation2 = steady2 + s * (slope2[1] * step.alpha + signal2 * c);
 
-  const CovarianceImage<Scalar> image =
-      covariance_image(setting.steady, setting.sine_turn, setting.cosine_turn, setting.band, setting.design,
-                       s, step.alpha);
+  const CovarianceImage<Scalar> image = covariance_image(
+      setting.steady, setting.sine_turn, setting.cosine_turn, setting.band, setting.design, s, step.alpha);
   step.low = image.low;
   step.high = image.high;
   step.spread11 = image.spread.p11;
@@ -136,7 +136,8 @@ template <typename Scalar>
   step.largest22 = over_r * (setting.steady.covariance.p22 + s * image.high.p22);
 
   // The mean gain, and what it leaves of the innovation, as divided differences.
-  const Symmetric<Scalar> mean = plus(setting.steady.covariance, plus(image.mean_of_band, image.mean_by_alpha, step.alpha), s);
+  const Symmetric<Scalar> mean =
+      plus(setting.steady.covariance, plus(image.mean_of_band, image.mean_by_alpha, step.alpha), s);
   const Scalar k11 = over_r * mean.p11;
   const Scalar k12 = over_r * mean.p12;
   const Scalar k22 = over_r * mean.p22;
@@ -147,9 +148,12 @@ template <typename Scalar>
   };
   const auto& by_band = image.mean_of_band;
   const auto& by_alpha = image.mean_by_alpha;
-  const std::array<Scalar, 3> moved1{moved(by_band.p11, by_band.p12), moved(by_alpha.p11, by_alpha.p12), zero};
-  const std::array<Scalar, 3> moved2{moved(by_band.p12, by_band.p22), moved(by_alpha.p12, by_alpha.p22), zero};
-  const std::array<Scalar, 3> moved3{moved(by_band.p13, by_band.p23), moved(by_alpha.p13, by_alpha.p23), zero};
+  const std::array<Scalar, 3> moved1{moved(by_band.p11, by_band.p12), moved(by_alpha.p11, by_alpha.p12),
+                                     zero};
+  const std::array<Scalar, 3> moved2{moved(by_band.p12, by_band.p22), moved(by_alpha.p12, by_alpha.p22),
+                                     zero};
+  const std::array<Scalar, 3> moved3{moved(by_band.p13, by_band.p23), moved(by_alpha.p13, by_alpha.p23),
+                                     zero};
 
   // Of the corrected estimate times e^{i s c}, which is in the frame of the true phase, turned to be rho* in
   // the steady state: -e^{i s c} rest' - i c e^{i s c / 2} ratio rest*, rest* = e^{-i psi*} - rho*.
@@ -217,10 +221,10 @@ template <typename Scalar>
   const Scalar radial2 = z2 * over_length;
   const Scalar turn1 = -(radial2 * over_length);
   const Scalar turn2 = radial1 * over_length;
-  const std::array<std::array<Scalar, 3>, 3> b{{{t.t11 * radial1 + t.t12 * turn1,
-                                                 t.t11 * radial2 + t.t12 * turn2, t.t13},
-                                                {t.t22 * turn1, t.t22 * turn2, t.t23},
-                                                {zero, zero, t.t33}}};
+  const std::array<std::array<Scalar, 3>, 3> b{
+      {{t.t11 * radial1 + t.t12 * turn1, t.t11 * radial2 + t.t12 * turn2, t.t13},
+       {t.t22 * turn1, t.t22 * turn2, t.t23},
+       {zero, zero, t.t33}}};
   const Symmetric<Scalar>& m = image.spread;
   std::array<std::array<Scalar, 3>, 3> bm;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "analysis/contraction/small_definiteness.hpp"
+#include "analysis/contraction/steady_rate.hpp"
 #include "analysis/contraction/steady_setting.hpp"
 #include "analysis/rigor/decimal.hpp"
 
@@ -205,7 +206,8 @@ CellResult verify_cell(const Design& design, const Tube& tube, const SteadySet& 
   settings.slopes.steady = steady_slopes(tube);
   fill_turns(settings.slopes);
   for (const LevelRange& range : set.levels) {
-    const SteadyContraction contraction = prove_contraction(settings, range, {Interval(set.noise), motion.errors, motion.covariance});
+    const SteadyContraction contraction =
+        prove_contraction(settings, range, {Interval(set.noise), motion.errors, motion.covariance});
     result.cells += contraction.cells;
     result.noise_gain = std::max(result.noise_gain, contraction.noise_gain);
     if (!contraction.proved) {
@@ -243,9 +245,8 @@ SteadyVerification verify_steady_set(const Design& design, const std::vector<Tub
   std::vector<CellResult> results(branch.size());
   for (std::size_t begin = 0; begin < branch.size(); begin += kBlock) {
     const std::size_t end = std::min(begin + kBlock, branch.size());
-    tbb::parallel_for(begin, end, [&](std::size_t i) {
-      results[i] = verify_cell(design, branch[i], proposal, *motion);
-    });
+    tbb::parallel_for(begin, end,
+                      [&](std::size_t i) { results[i] = verify_cell(design, branch[i], proposal, *motion); });
     for (std::size_t i = begin; i < end; ++i) {
       result.cells += results[i].cells;
       result.noise_gain = std::max(result.noise_gain, results[i].noise_gain);

@@ -15,11 +15,11 @@ struct SteadyVerification {
   /// PROVED: the promise of SteadySet over all cells of the branch. Otherwise UNDECIDED: that a set was not
   /// certified refutes nothing.
   rigor::Verdict verdict = rigor::Verdict::undecided;
-  std::string reason;                       ///< one sentence
-  SteadySet set;                            ///< the proposal
-  rigor::Interval failed_frequency;         ///< the cell where it failed, rad/sample; empty when it did not
-  double noise_gain = 0.0;                  ///< L_v at level 1, an upper bound, in the metric
-  std::int64_t cells = 0;                   ///< examined
+  std::string reason;                ///< one sentence
+  SteadySet set;                     ///< the proposal
+  rigor::Interval failed_frequency;  ///< the cell where it failed, rad/sample; empty when it did not
+  double noise_gain = 0.0;           ///< L_v at level 1, an upper bound, in the metric
+  std::int64_t cells = 0;            ///< examined
 };
 
 /// Is the promise of SteadySet true over these neighbouring cells of a lock branch? Proved are

@@ -159,12 +159,13 @@ TEST_CASE("sets around the steady state: the textbook filter does not break a PR
 }
 
 TEST_CASE("sets around the steady state: false proposals are not PROVED") {
-  const Example example = example_of(0.0013, 0.01, 0.01, 0.5, 0.55, 0.0005, 0.0, 0.4);
+  static const Example example = example_of(0.0013, 0.01, 0.01, 0.5, 0.55, 0.0005, 0.0, 0.4);
   REQUIRE(example.proposal.has_value());
   const auto verdict = [&](const SteadySet& set) {
     return verify_steady_set(example.design, example.branch.cells, set).verdict;
   };
-  REQUIRE(verdict(*example.proposal) == Verdict::proved);
+  static const Verdict as_proposed = verdict(*example.proposal);
+  REQUIRE(as_proposed == Verdict::proved);
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   SteadySet set = *example.proposal;

@@ -24,7 +24,9 @@ RegionResult prove_region_of_attraction(
     question.slew = Interval(0.0);
   }
   if (!(question.design.epsilon == Interval(0.0))) {
-    return {std::nullopt, "A map needs a design without leak (epsilon = 0)."};
+    return {std::nullopt,
+            "A map needs a design without leak (epsilon = 0): with a leak the set that starts are followed "
+            "into moves with the frequency, which the map does not do yet."};
   }
   const contraction::ContractionCertificate certificate = contraction::certify_contraction(question);
   if (!certificate.set || certificate.set->verdict != rigor::Verdict::proved) {

@@ -58,7 +58,7 @@ Interval printed_bound(const Theorem29Input& input, const Constants& c, double s
 
 Derivation evaluate_baras_bensoussan_james(const TrackerInput& unchecked) {
   const rigor::UpwardRounding upward;
-  const TrackerInput input{with_finite_members(unchecked.theorem_2_9), unchecked.initial_covariance};
+  const TrackerInput input = with_finite_members(unchecked);
   const Constants c = constants(input.theorem_2_9);
   const Interval start_covariance = is_finite(c.nu) ? c.nu : Interval(1.0);
   const Interval printed = printed_bound(input.theorem_2_9, c, 1.0, start_covariance);

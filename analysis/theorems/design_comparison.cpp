@@ -13,10 +13,6 @@ namespace {
 
 using rigor::Interval;
 
-SmallMatrix symmetrized(const SmallMatrix& matrix) {
-  return rigor::intersection(matrix, matrix.transpose());
-}
-
 /// The gain of the filter with prediction covariance p.
 std::optional<SmallMatrix> gain(const SmallMatrix& p, const SmallMatrix& h, const SmallMatrix& r) {
   const SmallMatrix seen = h * p;
@@ -120,17 +116,29 @@ Derivation evaluate_theorem_3_2(const TrackerInput& unchecked) {
       compare("over-design", R"(P^p(k \mid k-1) \le P^d(k \mid k-1), \quad k = 1, \ldots, 6)", zero(),
               {"the smallest eigenvalue of P^d - P^p", over_gap}),
       compare("under-design", R"(P^d(k \mid k-1) \le P^o(k \mid k-1), \quad k = 1, \ldots, 6)", zero(),
-              {"the smallest eigenvalue of P^o - P^d", under_gap}),
+              {"the smallest eigenvalue of P^o - P^d", under_gap})};
+  derivation.notes.emplace_back(
+      "Proof of the theorem: with the gain of the design both P^p and P^d obey one affine recursion, "
+      "monotone in "
+      "noise and start; P^o <= P^p since P^o is optimal; P^d <= P^o since the Riccati map is monotone in Q "
+      "and R.");
+  conclude(derivation);
+  return derivation;
+}
+
+Derivation evaluate_theorem_3_2_any_start() {
+  const rigor::UpwardRounding upward;
+  Derivation derivation;
+  derivation.id = "theorem-3.2/any-start";
+  derivation.title = "Theorem 3.2 of the thesis as printed, which asks nothing of the start";
+  derivation.conditions.push_back(
       compare("any-start", R"(P^p(0 \mid -1) \le P^d(0 \mid -1) \text{ for any two})",
               {"P^p at a start with the variance 1", Interval(1.0)},
-              {"P^d of a filter that is told 0", Interval(0.0)}, Strictness::weak)};
-  derivation.notes = {
-      "Proof of the theorem: with the gain of the design both P^p and P^d obey one affine recursion, "
-      "monotone in noise "
-      "and start; P^o <= P^p since P^o is optimal; P^d <= P^o since the Riccati map is monotone in Q and R.",
-      "The theorem says nothing of P(0|-1). It needs the order there too: a filter that starts "
-      "over-confident computes "
-      "less than it performs, however large its Q and R."};
+              {"P^d of a filter that is told 0", Interval(0.0)}, Strictness::weak));
+  derivation.notes.emplace_back(
+      "The theorem needs the order at the start too: a filter that starts over-confident computes less than "
+      "it "
+      "performs, however large its Q and R.");
   conclude(derivation);
   return derivation;
 }

@@ -30,4 +30,8 @@ struct DesignedCovariances {
 /// UpwardRounding scope.
 [[nodiscard]] Derivation evaluate_theorem_3_2(const TrackerInput& input);
 
+/// id "theorem-3.2/any-start": the theorem as printed does not ask for an order of the starts, and fails
+/// without one. Opens its own UpwardRounding scope.
+[[nodiscard]] Derivation evaluate_theorem_3_2_any_start();
+
 }  // namespace veritrack::theorems

@@ -102,27 +102,43 @@ Derivation evaluate_observability_rank(const TrackerInput& unchecked) {
                 R"(3 |z|^2 \left(3(1 + (2 - \epsilon)^2) - (3 - \epsilon)^2\right))",
                 "thesis, section 3.2.1, at |z| = 1"},
                on_circle);
-  derivation.conditions = {
-      compare("rank", R"(0 < \det J'J \text{ at } |z| = 1)", zero(), {"the determinant", on_circle}),
-      compare("rank-everywhere", R"(0 < \det J'J \text{ for every } x)", zero(),
-              {"the determinant at z = 0", determinant(Interval(0.0), input.epsilon)})};
   derivation.conditions.push_back(
-      {"printed-gram", R"(J'J \text{ is the printed matrix, with } (1 - \epsilon)x_i)", grams_agree(),
-       Interval::empty(), Interval::empty(),
-       "Compared exactly at 27 points, more than polynomials of their degree can agree at by chance."});
+      compare("rank", R"(0 < \det J'J \text{ at } |z| = 1)", zero(), {"the determinant", on_circle}));
+  derivation.conditions.push_back({"printed-gram",
+                                   R"(J'J \text{ is the printed matrix, with } (1 - \epsilon)x_i)",
+                                   grams_agree(), Interval::empty(), Interval::empty(),
+                                   "The entries are equal on a grid with three values of each variable, and "
+                                   "of degree two at most in each."});
+  derivation.notes.emplace_back(
+      "Full rank at every state but z = 0: the determinant is |z|^2 times a number that is positive for "
+      "every "
+      "epsilon. Two outputs suffice for that; the thesis takes three.");
+  conclude(derivation);
+  return derivation;
+}
+
+Derivation evaluate_observability_to_the_letter(const TrackerInput& unchecked) {
+  const rigor::UpwardRounding upward;
+  const Interval epsilon = with_finite_members(unchecked.theorem_2_9).epsilon;
+  Derivation derivation;
+  derivation.id = "theorem-3.1/to-the-letter";
+  derivation.title = "What section 3.2.1 of the thesis prints besides, taken to the letter";
+  derivation.conditions.push_back(compare("rank-everywhere", R"(0 < \det J'J \text{ for every } x)", zero(),
+                                          {"the determinant at z = 0", determinant(Interval(0.0), epsilon)}));
   // In the scan the entry reads -2 x2 - 1 - epsilon x2, without the parentheses; at x = (1, 0, 0):
   const rigor::IntervalVector<3> witness(Interval(1.0), Interval(0.0), Interval(0.0));
   derivation.conditions.push_back(
-      compare("printed-gram-to-the-letter", R"((J'J)_{13} \le -2x_2 - 1 - \epsilon x_2)",
-              {"the entry at x = (1, 0, 0)", observability_gram(witness, input.epsilon)(0, 2)},
+      compare("gram-entry", R"((J'J)_{13} \le -2x_2 - 1 - \epsilon x_2)",
+              {"the entry at x = (1, 0, 0)", observability_gram(witness, epsilon)(0, 2)},
               {"what is printed there, without parentheses,", Interval(-1.0)}, Strictness::weak));
-  derivation.notes = {
-      "Full rank at every state but z = 0: the determinant is |z|^2 times a number that is positive for "
-      "every epsilon. "
-      "Two outputs suffice for that; the thesis takes three.",
-      "Definition 3.1 asks that the outputs of two states differ at every k; two states that differ in "
-      "frequency alone "
-      "have the same output at k = 0. It must ask for some k."};
+  // Two states that differ in frequency alone have the same output at k = 0.
+  derivation.conditions.push_back(
+      compare("definition-3.1", R"(h(f^k(x)) \ne h(f^k(\bar x)) \text{ for every } k = 0, \ldots, n-1)",
+              zero(), {"the distance of the outputs of (1, 0, 0) and (1, 0, 1) at k = 0", Interval(0.0)}));
+  derivation.notes.emplace_back(
+      "Corollary 3.1.1 does not apply: the rank is not full at z = 0. Definition 3.1 must ask that the "
+      "outputs differ "
+      "at some k.");
   conclude(derivation);
   return derivation;
 }

@@ -17,7 +17,11 @@ namespace veritrack::theorems {
 [[nodiscard]] rigor::IntervalMatrix<3> printed_gram(const rigor::IntervalVector<3>& state,
                                                     const rigor::Interval& epsilon);
 
-/// id "theorem-3.1". Opens its own UpwardRounding scope.
+/// id "theorem-3.1": full rank at |z| = 1, and the printed matrix as an identity. Opens its own
+/// UpwardRounding scope.
 [[nodiscard]] Derivation evaluate_observability_rank(const TrackerInput& input);
+
+/// id "theorem-3.1/to-the-letter": what is printed beside it and fails. Opens its own UpwardRounding scope.
+[[nodiscard]] Derivation evaluate_observability_to_the_letter(const TrackerInput& input);
 
 }  // namespace veritrack::theorems

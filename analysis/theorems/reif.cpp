@@ -39,8 +39,7 @@ PublishedConstants published_constants(const TrackerInput& input, const Interval
 
 Derivation evaluate_reif(const TrackerInput& unchecked) {
   const rigor::UpwardRounding upward;
-  TrackerInput input = unchecked;
-  input.theorem_2_9 = with_finite_members(unchecked.theorem_2_9);
+  const TrackerInput input = with_finite_members(unchecked);
   const Interval radius =
       best_radius([&](const Interval& candidate) { return published_constants(input, candidate).epsilon; });
   const ErrorEquation equation = error_equation(input, radius);
@@ -107,8 +106,7 @@ Derivation evaluate_reif(const TrackerInput& unchecked) {
 
 Derivation evaluate_reif_two_step(const TrackerInput& unchecked) {
   const rigor::UpwardRounding upward;
-  TrackerInput input = unchecked;
-  input.theorem_2_9 = with_finite_members(unchecked.theorem_2_9);
+  const TrackerInput input = with_finite_members(unchecked);
   const Interval two(2.0);
   const auto growth = [&](const ErrorEquation& equation) {
     return equation.curvature / two * equation.correction;

@@ -35,11 +35,6 @@ void validate(const LinearWindow& window) {
   }
 }
 
-/// The matrix is known to be symmetric: both enclosures of an entry hold it.
-SmallMatrix symmetrized(const SmallMatrix& matrix) {
-  return rigor::intersection(matrix, matrix.transpose());
-}
-
 SmallMatrix zero(Eigen::Index size) {
   return SmallMatrix::Constant(size, size, Interval(0.0));
 }
@@ -72,6 +67,10 @@ Interval eigenvalue(const SmallMatrix& matrix, bool largest) {
 }
 
 }  // namespace
+
+SmallMatrix symmetrized(const SmallMatrix& matrix) {
+  return rigor::intersection(matrix, matrix.transpose());
+}
 
 std::optional<WindowGramians> window_gramians(const LinearWindow& window) {
   validate(window);

@@ -32,6 +32,9 @@ inline constexpr int kMaxStates = 4;
 /// At most kMaxStates rows and columns; no allocation.
 using SmallMatrix = Eigen::Matrix<rigor::Interval, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
 
+/// The same, known to be symmetric: both enclosures of an entry hold it.
+[[nodiscard]] SmallMatrix symmetrized(const SmallMatrix& matrix);
+
 /// A window of N >= 0 steps: N transitions with their process noise, N + 1 measurements.
 struct LinearWindow {
   std::vector<SmallMatrix> transitions;         ///< F(k-N), ..., F(k-1), n x n, invertible

@@ -71,7 +71,7 @@ Derivation evaluate_song_grizzle(const TrackerInput& unchecked) {
 
 Derivation evaluate_song_grizzle_local(const TrackerInput& unchecked) {
   const rigor::UpwardRounding upward;
-  const TrackerInput input{with_finite_members(unchecked.theorem_2_9), unchecked.initial_covariance};
+  const TrackerInput input = with_finite_members(unchecked);
   const auto start = [](const LocalConstants& c) {
     return c.largest_error / sqrt(c.p * c.q) / c.equation.transition;
   };

@@ -33,10 +33,6 @@ ErrorEquation best_equation(const TrackerInput& input, double share) {
                         }));
 }
 
-TrackerInput with_finite_members(const TrackerInput& input) {
-  return {theorems::with_finite_members(input.theorem_2_9), input.initial_covariance};
-}
-
 /// |g(k)| at most, for the noise that is assumed.
 Interval perturbation(const TrackerInput& input, const ErrorEquation& equation) {
   const AssumedNoise noise = assumed_noise(input);
@@ -139,7 +135,7 @@ Derivation evaluate_total_stability_corollary(const TrackerInput& input) {
 
 Derivation evaluate_theorem_2_7_printed(const TrackerInput& unchecked) {
   const rigor::UpwardRounding upward;
-  const Theorem29Input input = theorems::with_finite_members(unchecked.theorem_2_9);
+  const Theorem29Input input = with_finite_members(unchecked.theorem_2_9);
   const Interval factor = amplitude_factor(input);
   const Interval least = Interval(3.0) * factor;
   Derivation derivation;
@@ -177,7 +173,8 @@ Derivation evaluate_theorem_2_7_corrected(const TrackerInput& unchecked) {
   const TrackerInput input = with_finite_members(unchecked);
   const Interval two(2.0);
   // beta (zeta + eta) + alpha_2 with zeta = (L/2) r_delta, alpha_2 = alpha + beta L r_x, r_delta = r_x/2, L
-  // the Lipschitz rate: beta L r_x = 0.4 (1 - alpha) takes half of 1 - alpha and leaves half to the noise.
+  // the Lipschitz rate: beta L r_x = (3/8)(1 - alpha) takes 15/32 of 1 - alpha and leaves the rest to the
+  // noise.
   const double share = 0.375;
   const ErrorEquation equation = best_equation(input, share);
   const Interval r_x = ball(equation, share);

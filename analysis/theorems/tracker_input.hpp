@@ -16,6 +16,11 @@ struct TrackerInput {
   std::optional<rigor::IntervalMatrix<3>> initial_covariance;
 };
 
+/// The members of theorem_2_9 as there; nothing is known of those that are not finite.
+[[nodiscard]] inline TrackerInput with_finite_members(const TrackerInput& input) {
+  return {with_finite_members(input.theorem_2_9), input.initial_covariance};
+}
+
 /// min(q1, q2) and max(q1, q2): Q lies between these multiples of the identity. q1_equals_q2 is honoured.
 [[nodiscard]] inline rigor::Interval smallest_process_noise(const Theorem29Input& input) {
   return input.q1_equals_q2 ? input.q2 : min(input.q1, input.q2);

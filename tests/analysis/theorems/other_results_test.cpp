@@ -32,7 +32,7 @@ TEST_CASE("every result has an id of its own, reasons, and quantities that are f
         CHECK_MESSAGE(!condition.reason.empty(), condition.id);
       }
     }
-    CHECK(ids.size() == 15);
+    CHECK(ids.size() == 17);
   }
 }
 

@@ -67,6 +67,9 @@ std::string other_constants_section(const Certificate& certificate) {
   }
   std::string text = "## Constants of the other results\n\n";
   for (const theorems::Derivation& derivation : results) {
+    if (derivation.quantities.empty()) {
+      continue;
+    }
     text += fmt::format("### `{}`\n\n", derivation.id);
     text += markdown::quantities_table(derivation, description) + "\n";
   }

@@ -72,16 +72,19 @@ std::optional<SteadyVerification> largest_set(const LeakQuestion& question, cons
 /// The largest disturbance on a ladder for which a set of this shape verifies; at least `known`.
 double largest_disturbance(const LeakQuestion& question, const LockBranch& branch, SteadyRequest request,
                            const SteadyShape& shape, double SteadyRequest::*size, double known) {
-  constexpr double kFraction = 0.4;
   constexpr double kStep = 0.8;
   request.noise = 0.0;
   request.slew = 0.0;
   double value = 0.3;  // relative to the amplitude, or rad/sample per sample: more than any tracker bears
-  constexpr int kTries = 3;
-  for (int tries = 0; tries < kTries && value > known;) {
+  constexpr int kTries = 5;
+  int tries = 0;
+  while (tries < kTries && value > known) {
     request.*size = value;
-    const auto proposal = propose_steady_set(request, shape, kFraction, true);
-    if (proposal) {
+    for (const double fraction : {0.7, 0.4}) {
+      const auto proposal = propose_steady_set(request, shape, fraction, true);
+      if (!proposal) {
+        continue;
+      }
       ++tries;
       if (verify_steady_set(question.tracker.design, branch.cells, *proposal).verdict == Verdict::proved) {
         return value;

@@ -83,6 +83,27 @@ std::string draw_failure(const ExampleRun& run) {
   return run_gnuplot(script);
 }
 
+/// How far two runs are apart in frequency, logarithmic.
+std::string draw_difference(const std::vector<Panel>& others, const ExampleRun& run) {
+  std::string script = preamble(1);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    script += fmt::format("$other{} << END\n", i);
+    for (std::size_t t = 0; t < run.frequency.size(); ++t) {
+      const double difference = std::fabs(others[i].run.frequency[t] - run.frequency[t]);
+      script += fmt::format("{} {:.6g}\n", t + 1, std::max(difference, 1e-17));
+    }
+    script += "END\n";
+  }
+  script +=
+      "set key outside top center horizontal\nset logscale y\nset yrange [1e-17:1]\nset xrange [0:300]\n"
+      "set format y '10^{%L}'\nset xlabel 'sample t'\nset ylabel 'rad/sample'\nplot ";
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    script += fmt::format("{}$other{} using 1:2 with lines lw 1.4 dt {} lc rgb '#000000' title '{}'",
+                          i == 0 ? "" : ", ", i, i + 1, others[i].title);
+  }
+  return run_gnuplot(script + "\n");
+}
+
 std::string rate_table(const std::vector<StartRates>& rates) {
   std::vector<std::string> header{"Statement", "Reading of Q"};
   for (const StartRates& one : rates) {
@@ -151,6 +172,15 @@ std::string document(const std::vector<StartRates>& rates, int seeds, std::uint6
       "*Example 2, the same start and reading, seed " +
       std::to_string(figure_3_seed) +
       ", the first for which all three panels come out as published.*\n\n"
+      "## Proposition 2 when P(0) is not scaled\n\n"
+      "![The difference of the estimates falls below rounding](figures/start-influence.svg)\n\n"
+      "*Example 1 without leak, the same start, reading and seed: difference between the frequency estimates "
+      "with "
+      "(q, r) = (0.005, 0.01) and with both multiplied by α, P(0) = I in all cases; rad/sample, logarithmic, "
+      "cut "
+      "off at 1e-17.* Only with P(0) multiplied by α too are the estimates the same from the start, which is "
+      "proved; with the same P(0) they differ, and the difference dies out with the influence of the "
+      "start.\n\n"
       "## The tracker that settles near frequency zero\n\n"
       "![The frequency estimate near zero, the quadrature part large](figures/near-zero.svg)\n\n"
       "*Example 1 with Q = q diag(0, 0, 1), ε = 0, the same start.*\n\n"
@@ -223,6 +253,11 @@ std::filesystem::path write_example_report(int seeds, const std::filesystem::pat
       draw_panels({{"(a) λ = 0", run_2(0.0)}, {"(b) λ = 1", run_2(1.0)}, {"(c) λ = 10", run_2(10.0)}}));
   files.stage(directory / "figures/near-zero.svg",
               draw_failure(run(drawn(Example::one, ProcessNoiseReading::frequency_only, 0.005, 0.01, 0.0))));
+  const auto scaled = [&](double factor) {
+    return run(drawn(Example::one, kIdentity, factor * 0.005, factor * 0.01, 0.0));
+  };
+  files.stage(directory / "figures/start-influence.svg",
+              draw_difference({{"α = 2", scaled(2.0)}, {"α = 100", scaled(100.0)}}, scaled(1.0)));
   std::filesystem::path path = directory / "report.md";
   files.stage(path, document(simulate_published_examples(seeds), seeds, figure_3_seed));
   files.commit();

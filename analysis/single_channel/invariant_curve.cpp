@@ -76,8 +76,10 @@ void for_each_cell(const Problem& problem, const Body& body) {
 
 /// The larger one; infinite unless both are numbers.
 double larger(double a, double b) {
-  const bool known = a <= kInfinity && b <= kInfinity;
-  return known ? std::max(a, b) : kInfinity;
+  if (a <= kInfinity && b <= kInfinity) {
+    return std::max(a, b);
+  }
+  return kInfinity;
 }
 
 /// Cells that cover [0, pi], without coordinates.

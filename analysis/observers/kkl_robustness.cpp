@@ -219,7 +219,7 @@ class BoundedErrors {
   /// The lower end of a value, with nothing known of derivatives.
   template <typename Number>
   [[nodiscard]] static Number without_slopes(const Interval& value) {
-    const Interval lowest(value.lower());
+    Interval lowest(value.lower());
     if constexpr (std::is_same_v<Number, Interval>) {
       return lowest;
     } else {
@@ -342,7 +342,7 @@ KklRobustness search_errors(const Errors& errors, const KklRobustnessQuestion& q
     settings.batch = 256;
     settings.importance = errors.importance();
     settings.of_lower_ends = true;  // what is left of the start is anywhere in its intervals
-    const auto minimum = search::minimize_globally<kVariables>(function, errors.box(), settings);
+    auto minimum = search::minimize_globally<kVariables>(function, errors.box(), settings);
     result.cells += minimum.cells;
     return minimum;
   };

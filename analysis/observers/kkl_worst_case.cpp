@@ -49,13 +49,13 @@ SampledErrors sample_errors(const KklRobustnessQuestion& question, int phases) {
   SampledErrors largest;
   const auto look = [&](const Eigen::Vector4d& xi, double amplitude, double frequency) {
     const auto x = trackers::kkl_inverse<double, 4>(xi, design);
-    const bool has_frequency = x(2) > 0.0;
+    if (!(x(2) > 0.0)) {
+      largest.frequency = largest.amplitude = std::numeric_limits<double>::infinity();
+      return;
+    }
     const auto estimate = trackers::in_engineering_units(x);
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    largest.frequency =
-        std::max(largest.frequency, has_frequency ? std::fabs(estimate.frequency - frequency) : kNone);
-    largest.amplitude =
-        std::max(largest.amplitude, has_frequency ? std::fabs(estimate.amplitude - amplitude) : kNone);
+    largest.frequency = std::max(largest.frequency, std::fabs(estimate.frequency - frequency));
+    largest.amplitude = std::max(largest.amplitude, std::fabs(estimate.amplitude - amplitude));
   };
   const bool is_point = question.range.frequency.lower() == question.range.frequency.upper();
   const int frequencies = is_point ? 1 : 17;

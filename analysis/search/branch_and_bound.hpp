@@ -178,7 +178,7 @@ class CellHeap {
   [[nodiscard]] double lower() const { return cells_.front().lower; }
   Cell<N> take_best() {
     std::pop_heap(cells_.begin(), cells_.end(), is_worse<N>);
-    const Cell<N> best = cells_.back();
+    Cell<N> best = cells_.back();
     cells_.pop_back();
     return best;
   }

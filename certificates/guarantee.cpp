@@ -167,9 +167,8 @@ void add_contraction(Certificate& certificate) {
   } else {
     const Assumptions& assume = certificate.design.quadrature_ekf().assume;
     certificate.derivations.push_back(
-        contraction::certify_with_leak(
-            {contraction_question(certificate.design),
-             rigor::hull(assume.frequency[0].value, assume.frequency[1].value)})
+        contraction::certify_with_leak({contraction_question(certificate.design),
+                                        rigor::hull(assume.frequency[0].value, assume.frequency[1].value)})
             .derivation);
   }
 }

@@ -4,8 +4,8 @@
 // not at hand and the print is damaged (both filters carry the same name, the constant regressor is missing),
 // so the observer is derived here anew.
 //
-// Derivation. y = s + A sin(w t + p) gives y'' = -w^2 (y - s) and y'^2 = w^2 (A^2 - (y - s)^2), so that v = y^2/2
-// satisfies
+// Derivation. y = s + A sin(w t + p) gives y'' = -w^2 (y - s) and y'^2 = w^2 (A^2 - (y - s)^2), so that v =
+// y^2/2 satisfies
 //     v'' = y'^2 + y y'' = f't,   f = (1, 3 y, -2 y^2),   t = (w^2 (A^2 - s^2), w^2 s, w^2):
 // linear in the unknown t. Filter f: r' = -lambda r + lambda f. With z1 = lambda v and z2 = z1' - r't,
 //     z1' = z2 + r't,   z2' = lambda v'' - r''t = lambda r't,

@@ -5,12 +5,12 @@
 //
 // The signal is y = x1 with
 //     x1' = -x2,   x2' = x3 x1,   x3' = 0,
-// that is y(t) = A sin(w t + p), x1 = A sin(w t + p), x2 = -A w cos(w t + p), x3 = w^2. With this sign the map
-// of (6), T_i(x) = (lambda_i x1 + x2) / (lambda_i^2 + x3), solves (3) for the filters xi_i' = -lambda_i xi_i + y.
-// (The phase formula of the paper's section III belongs to the other sign, x1' = x2.)
+// that is y(t) = A sin(w t + p), x1 = A sin(w t + p), x2 = -A w cos(w t + p), x3 = w^2. With this sign the
+// map of (6), T_i(x) = (lambda_i x1 + x2) / (lambda_i^2 + x3), solves (3) for the filters xi_i' = -lambda_i
+// xi_i + y. (The phase formula of the paper's section III belongs to the other sign, x1' = x2.)
 //
-// The observer is M filters, whose states xi tend to T(x), and the static map gamma of (8)-(9), which turns xi
-// into an estimate of x.
+// The observer is M filters, whose states xi tend to T(x), and the static map gamma of (8)-(9), which turns
+// xi into an estimate of x.
 //
 // Everything is a template over the scalar, free of branches on scalar values. It does not allocate, and it
 // never throws unless the scalar does. Assumed, not checked: lambda positive and distinct, ell >= 0, M >= 4.
@@ -106,12 +106,13 @@ template <typename Scalar, int M>
   for (int i = 0; i < M; ++i) {
     squared_norm += square(xi(i));
   }
-  return max(Scalar(design.ell * squared_norm - Scalar(2.0) * kkl_excitation(xi, design.lambda)), Scalar(0.0));
+  return max(Scalar(design.ell * squared_norm - Scalar(2.0) * kkl_excitation(xi, design.lambda)),
+             Scalar(0.0));
 }
 
-/// gamma of (8): the solution of (15), with (L'L + mu I) x = L' F^2 xi and L = (lambda, 1, -xi). The matrix is
-/// 3 x 3 (the paper's "4 x 4 identity" is a slip). At xi = 0, where (8) leaves the value free, it divides by
-/// zero.
+/// gamma of (8): the solution of (15), with (L'L + mu I) x = L' F^2 xi and L = (lambda, 1, -xi). The matrix
+/// is 3 x 3 (the paper's "4 x 4 identity" is a slip). At xi = 0, where (8) leaves the value free, it divides
+/// by zero.
 template <typename Scalar, int M>
 [[nodiscard]] inline OscillatorState<Scalar> kkl_inverse(const Eigen::Matrix<Scalar, M, 1>& xi,
                                                          const KklObserverDesign<Scalar, M>& design) {

@@ -22,6 +22,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/rigor/eigen_scalar.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/interval.hpp"
 
@@ -296,20 +297,7 @@ template <typename Scalar, int N>
 namespace Eigen {
 
 template <typename Scalar, int N>
-struct NumTraits<veritrack::rigor::Dual<Scalar, N>> : GenericNumTraits<veritrack::rigor::Dual<Scalar, N>> {
-  using Real = veritrack::rigor::Dual<Scalar, N>;
-  using NonInteger = veritrack::rigor::Dual<Scalar, N>;
-  using Nested = veritrack::rigor::Dual<Scalar, N>;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = HugeCost,
-    AddCost = HugeCost,
-    MulCost = HugeCost
-  };
-};
+struct NumTraits<veritrack::rigor::Dual<Scalar, N>>
+    : veritrack::rigor::CostlyEigenScalar<veritrack::rigor::Dual<Scalar, N>> {};
 
 }  // namespace Eigen

@@ -6,26 +6,14 @@
 
 #include <Eigen/Core>
 
+#include "analysis/rigor/eigen_scalar.hpp"
 #include "analysis/rigor/interval.hpp"
 
 namespace Eigen {
 
 template <>
-struct NumTraits<veritrack::rigor::Interval> : GenericNumTraits<veritrack::rigor::Interval> {
-  using Real = veritrack::rigor::Interval;
-  using NonInteger = veritrack::rigor::Interval;
-  using Nested = veritrack::rigor::Interval;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 2,
-    AddCost = 4,
-    MulCost = 12
-  };
-};
+struct NumTraits<veritrack::rigor::Interval>
+    : veritrack::rigor::EigenScalar<veritrack::rigor::Interval, 2, 4, 12> {};
 
 }  // namespace Eigen
 

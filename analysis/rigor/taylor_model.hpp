@@ -21,6 +21,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/rigor/eigen_scalar.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/monomials.hpp"
@@ -271,20 +272,6 @@ namespace Eigen {
 
 template <int Variables, int Degree>
 struct NumTraits<veritrack::rigor::TaylorModel<Variables, Degree>>
-    : GenericNumTraits<veritrack::rigor::TaylorModel<Variables, Degree>> {
-  using Real = veritrack::rigor::TaylorModel<Variables, Degree>;
-  using NonInteger = veritrack::rigor::TaylorModel<Variables, Degree>;
-  using Nested = veritrack::rigor::TaylorModel<Variables, Degree>;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = HugeCost,
-    AddCost = HugeCost,
-    MulCost = HugeCost
-  };
-};
+    : veritrack::rigor::CostlyEigenScalar<veritrack::rigor::TaylorModel<Variables, Degree>> {};
 
 }  // namespace Eigen

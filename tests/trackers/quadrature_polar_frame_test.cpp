@@ -10,6 +10,7 @@
 #include "analysis/rigor/derivatives.hpp"
 #include "analysis/rigor/matrix.hpp"
 #include "tests/support/random.hpp"
+#include "tests/trackers/frame_run.hpp"
 #include "tests/trackers/random_tracker.hpp"
 #include "tests/trackers/textbook_ekf.hpp"
 
@@ -20,6 +21,7 @@ using test::Random;
 using test::random_covariance;
 using test::random_design;
 using test::random_power;
+using test::turn;
 
 using State = PolarFrameState<double>;
 using Input = PolarInput<double>;
@@ -41,15 +43,6 @@ State random_state(Random& random) {
 Input random_input(Random& random) {
   return {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1),
           random.uniform(-3.0, 3.0)};
-}
-
-/// diag(Rot(angle), 1).
-Eigen::Matrix<long double, 3, 3> turn(long double angle) {
-  Eigen::Matrix<long double, 3, 3> u = Eigen::Matrix<long double, 3, 3>::Identity();
-  u(0, 0) = u(1, 1) = std::cos(angle);
-  u(1, 0) = std::sin(angle);
-  u(0, 1) = -u(1, 0);
-  return u;
 }
 
 /// The closed loop as the sources have it: the textbook filter in the plane, at the true phase `phase` and
@@ -118,32 +111,23 @@ TEST_CASE("the polar map is the closed loop of the textbook filter and the true 
   CHECK(worst <= 1e-11);
 }
 
-TEST_CASE("the polar map is the closed loop of the shipped tracker over a run") {
-  Random random(32);
-  for (int run = 0; run < 50; ++run) {
-    const auto design = random_design(random);
-    double phase = random.uniform(-3.0, 3.0);
-    double frequency = random.uniform(0.1, 2.0);
-    const QuadratureEstimate<double> start{
-        std::cos(phase) + 0.1, std::sin(phase) - 0.05, frequency + 0.02,
-        FactoredCovariance<double>::from_matrix(0.1 * random_covariance(random))};
-    QuadratureEkf<double> tracker(design, start);
-    State state = to_polar_frame(start, 1.0, phase, frequency);
-    for (int k = 0; k < 100; ++k) {
-      const double slew = random.uniform(-0.001, 0.001);
-      const double v1 = random.uniform(-0.01, 0.01);
-      const double v2 = random.uniform(-0.01, 0.01);
-      phase += frequency;
-      const double predicted = phase + state.error.phase + state.error.frequency;
-      const double c = std::cos(predicted);
-      const double s = std::sin(predicted);
-      state = polar_frame_map(state, {c * v1 + s * v2, c * v2 - s * v1, slew, frequency}, design);
-      tracker.step(std::cos(phase) + v1, std::sin(phase) + v2);
-      frequency += slew;
-      REQUIRE(gap(entries(state), entries(to_polar_frame(tracker.filtered(), 1.0, phase, frequency))) <=
-              1e-9);
-    }
+struct PolarFrame {
+  using State = PolarFrameState<double>;
+  static State from(const QuadratureEstimate<double>& estimate, double phase, double frequency) {
+    return to_polar_frame(estimate, 1.0, phase, frequency);
   }
+  /// The predicted phase: the true one plus the errors so far.
+  static double noise_angle(const State& state, double next_phase) {
+    return next_phase + state.error.phase + state.error.frequency;
+  }
+  static State next(const State& state, const Input& input, const QuadratureEkfDesign<double>& design) {
+    return polar_frame_map(state, input, design);
+  }
+  static double gap(const State& a, const State& b) { return trackers::gap(entries(a), entries(b)); }
+};
+
+TEST_CASE("the polar map is the closed loop of the shipped tracker over a run") {
+  CHECK(test::worst_gap_over_runs(PolarFrame{}, 32) <= 1e-9);
 }
 
 TEST_CASE("without a leak, no errors stay no errors whatever P is") {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tests/support/random.hpp"
+#include "tests/trackers/frame_run.hpp"
 #include "tests/trackers/random_tracker.hpp"
 #include "tests/trackers/textbook_ekf.hpp"
 
@@ -18,6 +19,7 @@ using test::Random;
 using test::random_covariance;
 using test::random_design;
 using test::random_power;
+using test::turn;
 
 using State = RotatingFrameState<double>;
 using Input = RotatingFrameInput<double>;
@@ -40,15 +42,6 @@ Eigen::Matrix3d covariance_of(const State& state) {
   p << state(kP11), state(kP12), state(kP13), state(kP12), state(kP22), state(kP23), state(kP13), state(kP23),
       state(kP33);
   return p;
-}
-
-/// diag(Rot(angle), 1).
-Eigen::Matrix<long double, 3, 3> turn(long double angle) {
-  Eigen::Matrix<long double, 3, 3> u = Eigen::Matrix<long double, 3, 3>::Identity();
-  u(0, 0) = u(1, 1) = std::cos(angle);
-  u(1, 0) = std::sin(angle);
-  u(0, 1) = -u(1, 0);
-  return u;
 }
 
 /// The closed loop as the sources have it: the textbook filter, driven by A e^{i phi(k+1)} + v(k+1), seen
@@ -102,31 +95,20 @@ TEST_CASE("G is the closed loop of the textbook filter and the true signal") {
   CHECK(worst <= 1e-11);
 }
 
-TEST_CASE("G is the closed loop of the shipped tracker and the true signal, over a run") {
-  Random random(12);
-  for (int run = 0; run < 50; ++run) {
-    const auto design = random_design(random);
-    double phase = random.uniform(-3.0, 3.0);
-    double frequency = random.uniform(0.1, 2.0);
-    const QuadratureEstimate<double> start{
-        std::cos(phase) + 0.1, std::sin(phase) - 0.05, frequency + 0.02,
-        FactoredCovariance<double>::from_matrix(0.1 * random_covariance(random))};
-    QuadratureEkf<double> tracker(design, start);
-    State state = to_rotating_frame(start, 1.0, phase, frequency);
-    for (int k = 0; k < 100; ++k) {
-      const double slew = random.uniform(-0.001, 0.001);
-      const double v1 = random.uniform(-0.01, 0.01);
-      const double v2 = random.uniform(-0.01, 0.01);
-      phase += frequency;
-      const double c = std::cos(phase);
-      const double s = std::sin(phase);
-      // v' = e^{-i phi} v.
-      state = rotating_frame_map(state, {c * v1 + s * v2, c * v2 - s * v1, slew, frequency}, design);
-      tracker.step(c + v1, s + v2);
-      frequency += slew;
-      REQUIRE(gap(state, to_rotating_frame(tracker.filtered(), 1.0, phase, frequency)) <= 1e-10);
-    }
+struct RotatingFrame {
+  using State = RotatingFrameState<double>;
+  static State from(const QuadratureEstimate<double>& estimate, double phase, double frequency) {
+    return to_rotating_frame(estimate, 1.0, phase, frequency);
   }
+  static double noise_angle(const State& /*state*/, double next_phase) { return next_phase; }
+  static State next(const State& state, const Input& input, const QuadratureEkfDesign<double>& design) {
+    return rotating_frame_map(state, input, design);
+  }
+  static double gap(const State& a, const State& b) { return trackers::gap(a, b); }
+};
+
+TEST_CASE("G is the closed loop of the shipped tracker and the true signal, over a run") {
+  CHECK(test::worst_gap_over_runs(RotatingFrame{}, 12) <= 1e-10);
 }
 
 TEST_CASE("a filter at amplitude A is the filter (q1/A^2, r/A^2, v/A) at amplitude 1") {

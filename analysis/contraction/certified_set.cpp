@@ -38,4 +38,10 @@ IntervalVector<3> error_bounds(const CertifiedSet& set, const Interval& level) {
   return bounds;
 }
 
+Interval ultimate_level(const CertifiedSet& set, const Interval& noise, const Interval& slew) {
+  const Interval pushed =
+      rigor::square(Interval(set.noise_gain) * noise) + rigor::square(Interval(set.slew_gain) * slew);
+  return rigor::sqrt(pushed / (Interval(1.0) - rigor::square(Interval(set.rate))));
+}
+
 }  // namespace veritrack::contraction

@@ -12,8 +12,8 @@ namespace veritrack::contraction {
 /// describe. Signals have amplitude 1.
 ///
 /// When verify_certified_set has certified it: starts in Omega stay in Omega for ever, for every noise |v| <=
-/// `noise` and slew |w| <= `slew`, and
-///     |T e(k)| <= rate^k |T e(0)| + (noise_gain |v|_sup + slew_gain |w|_sup) / (1 - rate).
+/// `noise` and slew |w| <= `slew`, and every step satisfies
+///     |T e+|^2 <= rate^2 |T e|^2 + noise_gain^2 |v|^2 + slew_gain^2 w^2.
 struct CertifiedSet {
   rigor::Matrix<3> metric;            ///< T = [[t_a, 0, 0], [0, t22, t23], [0, 0, t33]], invertible
   double radius = 0.0;                ///< R > 0
@@ -22,8 +22,8 @@ struct CertifiedSet {
   double noise = 0.0;                 ///< V >= 0, relative to the amplitude
   double slew = 0.0;                  ///< W >= 0, rad/sample per sample
   double rate = 1.0;                  ///< kappa, an upper bound
-  double noise_gain = 0.0;            ///< L_v, an upper bound
-  double slew_gain = 0.0;             ///< L_w, an upper bound
+  double noise_gain = 0.0;            ///< L_v; without meaning when there is no noise
+  double slew_gain = 0.0;             ///< L_w; without meaning when there is no slew
 };
 
 /// |T e|_2 for every e in the box; empty when an operand is not finite. Needs the upward mode.
@@ -39,5 +39,10 @@ struct CertifiedSet {
 /// `level`}: `level` times the lengths of the rows of T^-1. Empty when T is not certainly invertible. Needs
 /// the upward mode.
 [[nodiscard]] rigor::IntervalVector<3> error_bounds(const CertifiedSet& set, const rigor::Interval& level);
+
+/// What |T e(k)| tends to at most, for |v| <= `noise` and |w| <= `slew`, which must not exceed those of the
+/// set: u with u^2 (1 - rate^2) = L_v^2 |v|^2 + L_w^2 w^2. Needs the upward mode.
+[[nodiscard]] rigor::Interval ultimate_level(const CertifiedSet& set, const rigor::Interval& noise,
+                                             const rigor::Interval& slew);
 
 }  // namespace veritrack::contraction

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "analysis/rigor/dual.hpp"
 #include "analysis/rigor/interval.hpp"
 
 namespace veritrack::contraction {
@@ -21,6 +22,21 @@ namespace veritrack::contraction {
 [[nodiscard]] rigor::Interval sine_ratio(const rigor::Interval& x);
 /// atan(t)/t. Needs the upward mode.
 [[nodiscard]] rigor::Interval arctangent_ratio(const rigor::Interval& t);
+
+/// -1/x times the derivative of sin(x)/x: (sin x - x cos x)/x^3, for |x| <= 3, empty beyond. Needs the upward
+/// mode.
+[[nodiscard]] rigor::Interval sine_ratio_slope(const rigor::Interval& x);
+/// -1/t times the derivative of atan(t)/t: (atan(t)/t - 1/(1 + t^2))/t^2. Needs the upward mode.
+[[nodiscard]] rigor::Interval arctangent_ratio_slope(const rigor::Interval& t);
+
+template <int N>
+[[nodiscard]] rigor::Dual<rigor::Interval, N> sine_ratio(const rigor::Dual<rigor::Interval, N>& x) {
+  return x.chain(sine_ratio(x.value()), -(x.value() * sine_ratio_slope(x.value())));
+}
+template <int N>
+[[nodiscard]] rigor::Dual<rigor::Interval, N> arctangent_ratio(const rigor::Dual<rigor::Interval, N>& t) {
+  return t.chain(arctangent_ratio(t.value()), -(t.value() * arctangent_ratio_slope(t.value())));
+}
 
 /// (1 - cos x)/x^2 = (1/2) (sin(x/2)/(x/2))^2. Over intervals: for |x| <= 6, empty beyond.
 template <typename Scalar>

@@ -25,6 +25,10 @@ constexpr double kRelativeRoom = 1e-9;
 constexpr double kAbsoluteRoom = 1e-12;
 constexpr double kCovarianceRoom = 1e-7;  // relative to P_hi - P_lo
 
+double square(double x) {
+  return x * x;
+}
+
 /// By leading minors.
 bool is_positive_definite(const Eigen::Matrix3d& m) {
   return m(0, 0) > 0.0 && m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1) > 0.0 && m.determinant() > 0.0;
@@ -46,9 +50,7 @@ Claim::Claim(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double
   inverse_root_ = root_.inverse();
   {
     const rigor::UpwardRounding upward;
-    const Interval ultimate =
-        (Interval(set.noise_gain) * Interval(set.noise) + Interval(set.slew_gain) * Interval(set.slew)) /
-        (Interval(1.0) - Interval(set.rate));
+    const Interval ultimate = ultimate_level(set, Interval(set.noise), Interval(set.slew));
     bound_from_rim_ = error_bounds(set, Interval(set.radius))[2].upper();
     bound_from_zero_ = error_bounds(set, ultimate)[2].upper();
   }
@@ -112,8 +114,9 @@ RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolic
     outcome.states.push_back(after);
     const Eigen::Vector3d error = as_vector(after.error);
     const double level = claim.level(error);
-    const double allowed = set.rate * level_before + set.noise_gain * std::hypot(input[0], input[1]) +
-                           set.slew_gain * std::abs(input[2]);
+    const double allowed = std::sqrt(square(set.rate * level_before) +
+                                     square(set.noise_gain * std::hypot(input[0], input[1])) +
+                                     square(set.slew_gain * input[2]));
     outcome.largest_level = std::max(outcome.largest_level, level / set.radius);
     if (!(std::abs(error[2]) <= outcome.frequency_error)) {
       outcome.frequency_error = std::abs(error[2]);
@@ -121,7 +124,7 @@ RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolic
     }
     // Negated on purpose: NaN is an alarm too.
     if (!(level <= allowed * (1.0 + kRelativeRoom) + kAbsoluteRoom * set.metric.norm())) {
-      raise(told("|T e+| <= rate |T e| + L_v |v| + L_w |w|", level, allowed), k + 1);
+      raise(told("|T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2 w^2", level, allowed), k + 1);
     } else if (!(level <= set.radius * (1.0 + kRelativeRoom))) {
       raise(told("|T e| <= R", level, set.radius), k + 1);
     } else if (!claim.covariance_is_inside(after.covariance.matrix())) {

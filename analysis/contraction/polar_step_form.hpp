@@ -1,54 +1,43 @@
-// One step of the errors, along a ray from zero, as quadratic forms: what decides whether it contracts.
+// One step of the errors, around a ray from zero, as quadratic forms: what decides whether it contracts.
 //
 // The errors e = (a, psi, nu) enter a step through a, the phase error chi = psi + nu of the prediction, and
-// nu itself, which is merely carried along (epsilon = 0). So fix the ray
-//     a = s A cos(beta),  chi = s C sin(beta),  nu = s m,   s > 0,
-// and divide by s: e/s = b + m n with b = (A cos beta, C sin beta, 0), n = (0, -1, 1), and
-//     e+/s = c + m (0, 0, 1)' + J D y / r,   |y|^2 <= eta^2,
-// exactly. Here c is the step under the mean gain (K_lo + K_hi)/2, written with secant slopes, and the last
-// term is what the covariance may do: P+ = Phi lies between Phi_lo and Phi_hi (riccati_order.hpp), that is
-// Phi = (Phi_lo + Phi_hi)/2 + D Y D' with D D' = Delta = (Phi_hi - Phi_lo)/2 and |Y|_2 <= 1, so that the gain
-// K = Phi H'/r moves the correction K i by D y / r, y = Y D' H' i, |y| <= eta = |D' H' i|. J is the Jacobian
-// of
-// (|z|, arg z, x3), averaged between the two corrected estimates.
+// nu itself, which is merely carried along (epsilon = 0). With A and C the largest |a| and |chi| of the set,
+//     a = s A cos(beta),  chi = s C sin(beta),  0 <= s <= 1.
+// Fix an axis, a vector (c0, s0) near the (cos(beta), sin(beta)) that matter, and write
+//     (a / A, chi / C) = x (c0, s0) + y (-s0, c0),
+// so that e is linear in (x, y, nu). With noise v (in the frame of the predicted phase) and slew w, and with
+// secant slopes in place of derivatives, the step is linear in (x, y, nu, v, w, z) too, exactly:
+//     e+ = c_x x + c_y y + nu (0, 0, 1)' + J (K_mean v + D z / r) - w (0, 0, 1)',
+//     |z|^2 <= Delta11 (i1 + v1)^2 + Delta22 (i2 + v2)^2,  i = i_x x + i_y y.
+// Here i is the innovation without noise, c the step under the mean gain K_mean = (K_lo + K_hi)/2, and z is
+// what the covariance may do: P+ = Phi lies between Phi_lo and Phi_hi (riccati_order.hpp), that is Phi =
+// (Phi_lo + Phi_hi)/2 + D Y D' with D D' = Delta = (Phi_hi - Phi_lo)/2 and |Y|_2 <= 1, so that the gain K =
+// Phi H'/r moves the correction K (i + v) by D z / r, z = Y D' H' (i + v). J is the Jacobian of (|z|, arg z,
+// x3), averaged between the estimate that the mean gain corrects without noise and the one that comes about.
 //
-// The template runs on double, at a point, to propose, and on Interval, over a cell of (s, beta), to prove.
+// The template runs on double, at a point, to propose; on Interval, at the middle of a cell; and on intervals
+// with derivatives, over the cell: the mean value theorem then encloses the coefficients of all its points.
 #pragma once
 
 #include <array>
 #include <cmath>
 
-#include "analysis/contraction/elementary_ratios.hpp"
-#include "analysis/contraction/riccati_order.hpp"
+#include "analysis/contraction/correction.hpp"
+#include "analysis/rigor/dual.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "trackers/scalar_functions.hpp"
 
 namespace veritrack::contraction {
 
-/// T = [[amplitude, 0, 0], [0, phase, coupling], [0, 0, frequency]].
-template <typename Scalar>
-struct BlockMetric {
-  Scalar amplitude, phase, coupling, frequency;
-};
-
-/// What the steps of a whole set have in common.
-template <typename Scalar>
-struct StepSetting {
-  trackers::QuadratureEkfDesign<Scalar> design;  ///< epsilon = 0
-  BlockMetric<Scalar> metric;
-  BlockCovariance<Scalar> covariance_lower, covariance_upper;
-  Scalar largest_amplitude;  ///< A
-  Scalar largest_chi;        ///< C, rad
-  Scalar noise;              ///< V
-};
-
-/// A ray, or a cell of rays with a range of s.
-template <typename Scalar>
+/// A point, or a cell.
+template <typename Constant, typename Scalar>
 struct RayCell {
-  Scalar scale;         ///< s in [0, 1]
-  Scalar cosine, sine;  ///< of beta
-  /// Where in the box around the mean correction the correction lies, as fractions of its half sides.
+  Scalar scale;                     ///< s in [0, 1]
+  Scalar beta;                      ///< rad
+  Constant axis_cosine, axis_sine;  ///< (c0, s0), exact, not both zero
+  /// Where the correction lies around the mean correction: multiples, between -1 and 1, of `reach`.
   Scalar along, across;
+  std::array<Constant, 2> reach;  ///< along and across; at least what correction_reach says
 };
 
 /// A symmetric 3x3 matrix.
@@ -57,88 +46,27 @@ struct Gram {
   Scalar g11, g12, g13, g22, g23, g33;
 };
 
-/// A step along a ray, divided by s.
-template <typename Scalar>
+/// A step: see above. Arrays are over the two basis vectors of x and y.
+template <typename Constant, typename Scalar>
 struct PolarStepForm {
-  Scalar q11, q12, q22;          ///< |T e|^2 / s^2 as a form in (1, m)
-  std::array<Scalar, 3> centre;  ///< T c
-  Gram<Scalar> gram;             ///< T J Delta J' T' / r^2
-  Scalar eta_squared;
-  Scalar rho;                        ///< 1 + a
-  Scalar turn_tangent;               ///< bound on |tan| of the turn, noise included
-  Scalar least_along;                ///< lower bound on the component of the corrected z along the prediction
-  Scalar mean_real;                  ///< component of the z corrected by the mean gain along the true signal
-  Scalar reach_along, reach_across;  ///< half sides of the box in which the spread of the gain moves z
-  Scalar noise_gain;                 ///< bound on |T (e+ with noise v - e+ without)| / |v|
+  Gram<Constant> size;                              ///< |T e|^2 as a form in (x, y, nu)
+  std::array<std::array<Scalar, 3>, 2> centre;      ///< T c
+  std::array<std::array<Scalar, 2>, 2> innovation;  ///< i: [basis vector][along, across]
+  std::array<Scalar, 2> spread;                     ///< (Delta11, Delta22)
+  std::array<std::array<Scalar, 3>, 2> gain;        ///< the columns of T J K_mean
+  Gram<Scalar> gram;                                ///< T J Delta J' T' / r^2
+  Constant least_along;  ///< lower bound on the component of the corrected z along the prediction
+  Constant mean_real;    ///< component of the z corrected by the mean gain along the true signal
+  std::array<Constant, 2> reach;  ///< correction_reach
 };
 
-namespace detail {
-
-/// fraction times radius.
-inline double offset(double fraction, double radius) {
-  return fraction * radius;
-}
-inline rigor::Interval offset(const rigor::Interval& fraction, const rigor::Interval& radius) {
-  return fraction * rigor::Interval(radius.upper());
-}
-/// All fractions between 0 and these: over doubles the end.
-inline double up_to(double fraction) {
-  return fraction;
-}
-inline rigor::Interval up_to(const rigor::Interval& fraction) {
-  return rigor::hull(rigor::Interval(0.0), fraction);
-}
-/// All fractions there are: over doubles this one.
-inline double anywhere(double fraction) {
-  return fraction;
-}
-inline rigor::Interval anywhere(const rigor::Interval& /*fraction*/) {
-  return rigor::symmetric(1.0);
-}
-/// sqrt of a quantity that is non-negative although its enclosure may not be.
-inline double root(double x) {
-  return std::sqrt(std::fmax(x, 0.0));
-}
-inline rigor::Interval root(const rigor::Interval& x) {
-  return rigor::sqrt(rigor::max(x, rigor::Interval(0.0)));
-}
-inline double larger(double a, double b) {
-  return a < b ? b : a;
-}
-inline rigor::Interval larger(const rigor::Interval& a, const rigor::Interval& b) {
-  return rigor::max(a, b);
-}
-inline double size(double x) {
-  return std::fabs(x);
-}
-inline rigor::Interval size(const rigor::Interval& x) {
-  return rigor::abs(x);
-}
-/// The larger eigenvalue of [[a, b], [b, c]].
-template <typename Scalar>
-[[nodiscard]] Scalar larger_eigenvalue(const Scalar& a, const Scalar& b, const Scalar& c) {
-  using trackers::detail::square;
-  return Scalar(0.5) * (a + c) + root(Scalar(square(Scalar(0.5) * (a - c)) + square(b)));
-}
-
-}  // namespace detail
-
-/// Delta = (Phi_hi - Phi_lo)/2.
-template <typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> spread(const BlockUpdate<Scalar>& low,
-                                             const BlockUpdate<Scalar>& high) {
-  const Scalar half(0.5);
-  return {half * (high.filtered.p11 - low.filtered.p11), half * (high.filtered.p22 - low.filtered.p22),
-          half * (high.filtered.p23 - low.filtered.p23), half * (high.filtered.p33 - low.filtered.p33)};
-}
-
 /// B Delta B' / r^2 for B = T J = [[b11, b12, 0], [b21, b22, coupling], [0, 0, frequency]].
-template <typename Scalar>
-[[nodiscard]] Gram<Scalar> gram(const BlockMetric<Scalar>& t, const Scalar& b11, const Scalar& b12,
-                                const Scalar& b21, const Scalar& b22, const BlockCovariance<Scalar>& delta,
-                                const Scalar& r) {
+template <typename Constant, typename Scalar>
+[[nodiscard]] Gram<Scalar> gram(const BlockMetric<Constant>& t, const std::array<Scalar, 4>& b,
+                                const BlockCovariance<Scalar>& delta, const Constant& r) {
   using trackers::detail::square;
-  const Scalar scale = square(Scalar(Scalar(1.0) / r));
+  const Constant scale = square(Constant(Constant(1.0) / r));
+  const auto& [b11, b12, b21, b22] = b;
   const Scalar row2 = delta.p22 * b22 + delta.p23 * t.coupling;
   const Scalar row3 = delta.p23 * b22 + delta.p33 * t.coupling;
   return {scale * (delta.p11 * square(b11) + delta.p22 * square(b12)),
@@ -149,142 +77,99 @@ template <typename Scalar>
           scale * (delta.p33 * square(t.frequency))};
 }
 
-/// The derivatives of (|z|, arg z), [[cosine, sine], [-sine, cosine] over_length], at (z1, z2), z1 > 0.
-template <typename Scalar>
-struct PolarJacobian {
-  Scalar cosine, sine, over_length;
-};
-template <typename Scalar>
-[[nodiscard]] PolarJacobian<Scalar> polar_jacobian(const Scalar& z1, const Scalar& z2) {
+/// T times the derivatives of (|z|, arg z) at (z1, z2), z1 > 0: (b11, b12, b21, b22) of the matrix above.
+template <typename Constant, typename Scalar>
+[[nodiscard]] std::array<Scalar, 4> polar_jacobian(const BlockMetric<Constant>& t, const Scalar& z1,
+                                                   const Scalar& z2) {
+  using std::sqrt;
   using trackers::detail::square;
+  const Constant one(1.0);
   const Scalar tangent = z2 / z1;
-  const Scalar cosine = Scalar(1.0) / detail::root(Scalar(Scalar(1.0) + square(tangent)));
-  return {cosine, tangent * cosine, cosine / z1};
+  const Scalar cosine = one / sqrt(one + square(tangent));
+  const Scalar over_length = cosine / z1;
+  return {t.amplitude * cosine, t.amplitude * (tangent * cosine), -(t.phase * (tangent * cosine * over_length)),
+          t.phase * (cosine * over_length)};
 }
 
-/// A bound on |T J K| for every gain K between the two bounds and the Jacobians in `there`:
-/// |T J K| <= |T J K_mean| + |T J D| |D' H'| / r, the Gram matrix of T J D / r bounded through its row sums.
-template <typename Scalar>
-[[nodiscard]] Scalar noise_gain(const StepSetting<Scalar>& setting, const BlockUpdate<Scalar>& low,
-                                const BlockUpdate<Scalar>& high, const PolarJacobian<Scalar>& there) {
-  using trackers::detail::square;
-  const Scalar half(0.5);
-  const BlockMetric<Scalar>& t = setting.metric;
-  const Scalar b11 = t.amplitude * there.cosine;
-  const Scalar b12 = t.amplitude * there.sine;
-  const Scalar b21 = -(t.phase * there.sine * there.over_length);
-  const Scalar b22 = t.phase * there.cosine * there.over_length;
-  const Scalar gain1 = half * (low.gain_amplitude + high.gain_amplitude);
-  const Scalar gain2 = half * (low.gain_phase + high.gain_phase);
-  const Scalar gain3 = half * (low.gain_frequency + high.gain_frequency);
-  const Scalar second2 = b22 * gain2 + t.coupling * gain3;
-  const Scalar mean_squared = detail::larger_eigenvalue(
-      Scalar(square(gain1) * (square(b11) + square(b21))),
-      Scalar(gain1 * (b11 * b12 * gain2 + b21 * second2)),
-      Scalar(square(Scalar(b12 * gain2)) + square(second2) + square(Scalar(t.frequency * gain3))));
-  const BlockCovariance<Scalar> delta = spread(low, high);
-  const Gram<Scalar> g = gram(t, b11, b12, b21, b22, delta, setting.design.r);
-  const Scalar spread_squared =
-      detail::larger(detail::larger(Scalar(g.g11 + detail::size(g.g12) + detail::size(g.g13)),
-                                    Scalar(g.g22 + detail::size(g.g12) + detail::size(g.g23))),
-                     Scalar(g.g33 + detail::size(g.g13) + detail::size(g.g23)));
-  return detail::root(mean_squared) +
-         detail::root(Scalar(spread_squared * detail::larger(delta.p11, delta.p22)));
+/// The same, averaged over the segment from z to z + d, d = (d1, d2). Proposal: in the middle.
+[[nodiscard]] inline std::array<double, 4> averaged_jacobian(const BlockMetric<double>& t, double z1, double z2,
+                                                             double d1, double d2) {
+  return polar_jacobian(t, z1 + 0.5 * d1, z2 + 0.5 * d2);
+}
+/// In the middle, with the remainder f''/24 of the midpoint rule. Along the segment (cos, sin)(arg z) has a
+/// second derivative of at most sqrt(2) |d|^2/|z|^2, and 1/z one of 2 |d|^2/|z|^3.
+[[nodiscard]] inline std::array<rigor::Interval, 4> averaged_jacobian(const BlockMetric<rigor::Interval>& t,
+                                                                      const rigor::Interval& z1,
+                                                                      const rigor::Interval& z2,
+                                                                      const rigor::Interval& d1,
+                                                                      const rigor::Interval& d2) {
+  using rigor::Interval;
+  const Interval half(0.5);
+  std::array<Interval, 4> b = polar_jacobian(t, Interval(z1 + half * d1), Interval(z2 + half * d2));
+  const Interval least = rigor::hull(z1, z1 + d1);  // |z| is at least its first component, which is positive
+  const Interval bend = (rigor::square(d1) + rigor::square(d2)) / rigor::square(least);
+  const Interval of_direction = t.amplitude * bend / Interval(16.0);
+  const Interval of_inverse = t.phase * bend / (Interval(12.0) * least);
+  for (std::size_t i = 0; i < 4; ++i) {
+    b[i] += rigor::symmetric((i < 2 ? of_direction : of_inverse).upper());
+  }
+  return b;
+}
+/// Its derivatives: those of the Jacobian at any point of the segment.
+template <int N>
+[[nodiscard]] std::array<rigor::Dual<rigor::Interval, N>, 4> averaged_jacobian(
+    const BlockMetric<rigor::Interval>& t, const rigor::Dual<rigor::Interval, N>& z1,
+    const rigor::Dual<rigor::Interval, N>& z2, const rigor::Dual<rigor::Interval, N>& d1,
+    const rigor::Dual<rigor::Interval, N>& d2) {
+  const auto part = rigor::Interval::from_bounds(0.0, 1.0);
+  return polar_jacobian(t, z1 + d1 * part, z2 + d2 * part);
 }
 
-/// The form of a ray, or an enclosure of the forms of a cell. Over intervals it means something only if
-/// `least_along` and `mean_real` are certainly positive. Then the corrected estimate stays in the half plane
-/// around the prediction, where |z| and arg z are smooth; and the phase error after the mean correction, chi
-/// + arg z in (-pi/2, 3 + pi/2), is the principal arg(1 + delta) in (-pi/2, pi/2) itself, because the two
-/// differ by a multiple of 2 pi. (chi <= 3, beyond which the ratios are empty.)
-template <typename Scalar>
-[[nodiscard]] PolarStepForm<Scalar> polar_step_form(const StepSetting<Scalar>& setting,
-                                                    const RayCell<Scalar>& ray) {
+/// The form at a point, or over a cell. Over intervals it means something only if `least_along` and
+/// `mean_real` are certainly positive: see Correction.
+template <typename Constant, typename Scalar>
+[[nodiscard]] PolarStepForm<Constant, Scalar> polar_step_form(const StepSetting<Constant>& setting,
+                                                              const RayCell<Constant, Scalar>& ray) {
   using trackers::detail::sin_cos;
   using trackers::detail::square;
-  const Scalar one(1.0);
-  const Scalar half(0.5);
-  const BlockMetric<Scalar>& t = setting.metric;
-  const Scalar& r = setting.design.r;
-  PolarStepForm<Scalar> form;
+  const BlockMetric<Constant>& t = setting.metric;
+  PolarStepForm<Constant, Scalar> form;
 
-  // |T (b + m n)|^2.
-  const Scalar a_slope = setting.largest_amplitude * ray.cosine;
-  const Scalar chi_slope = setting.largest_chi * ray.sine;
-  const Scalar tb2 = t.phase * chi_slope;
-  const Scalar tn2 = t.coupling - t.phase;
-  form.q11 = square(Scalar(t.amplitude * a_slope)) + square(tb2);
-  form.q12 = tb2 * tn2;
-  form.q22 = square(tn2) + square(t.frequency);
+  // |T (x b_x + y b_y + nu n)|^2, n = (0, -1, 1).
+  const Constant a_axis = setting.largest_amplitude * ray.axis_cosine;
+  const Constant a_other = -(setting.largest_amplitude * ray.axis_sine);
+  const Constant chi_axis = setting.largest_chi * ray.axis_sine;
+  const Constant chi_other = setting.largest_chi * ray.axis_cosine;
+  const Constant tn2 = t.coupling - t.phase;
+  const Constant amplitude_squared = square(t.amplitude);
+  const Constant phase_squared = square(t.phase);
+  form.size = {amplitude_squared * square(a_axis) + phase_squared * square(chi_axis),
+               amplitude_squared * a_axis * a_other + phase_squared * chi_axis * chi_other,
+               t.phase * chi_axis * tn2,
+               amplitude_squared * square(a_other) + phase_squared * square(chi_other),
+               t.phase * chi_other * tn2,
+               square(tn2) + square(t.frequency)};
 
-  // Innovation (cos chi - rho, -sin chi) / s.
-  const Scalar chi = ray.scale * chi_slope;
-  form.rho = one + ray.scale * a_slope;
-  const Scalar along = -(a_slope + chi_slope * chi * cosine_ratio(chi));
-  const Scalar across = -(chi_slope * sine_ratio(chi));
+  const auto [beta_sine, beta_cosine] = sin_cos(ray.beta);
+  const Scalar a = ray.scale * (setting.largest_amplitude * beta_cosine);
+  const Scalar chi = ray.scale * (setting.largest_chi * beta_sine);
+  const Correction<Constant, Scalar> correction = correction_at(setting, a, chi);
+  const GainSpread<Scalar>& gains = correction.gains;
+  const MeanCorrection<Scalar>& mean = correction.mean;
+  form.spread = {gains.spread.p11, gains.spread.p22};
+  form.innovation = {mean.innovation(a_axis, chi_axis), mean.innovation(a_other, chi_other)};
+  form.centre = {mean.step(t, form.innovation[0]), mean.step(t, form.innovation[1])};
+  form.mean_real = detail::value_of(mean.real);
+  form.least_along = correction.least_along;
+  form.reach = correction.reach;
 
-  // The gains of both bounds, their mean and their spread.
-  const BlockUpdate<Scalar> low = riccati_update(setting.covariance_lower, form.rho, setting.design);
-  const BlockUpdate<Scalar> high = riccati_update(setting.covariance_upper, form.rho, setting.design);
-  const BlockCovariance<Scalar> delta = spread(low, high);
-  form.eta_squared = delta.p11 * square(along) + delta.p22 * square(across);
-
-  // The mean correction leaves z e^{i chi} = 1 + delta in the frame of the true phase, delta = -e^{i chi} u.
-  const auto [sine, cosine] = sin_cos(chi);
-  const Scalar u1 = half * (low.rest_amplitude + high.rest_amplitude) * along;
-  const Scalar u2 = half * (low.rest_phase + high.rest_phase) * across;
-  const Scalar delta1 = u2 * sine - u1 * cosine;
-  const Scalar delta2 = -(u1 * sine + u2 * cosine);
-  const Scalar full1 = ray.scale * delta1;
-  const Scalar full2 = ray.scale * delta2;
-  const Scalar real = one + full1;
-  form.mean_real = real;
-  const Scalar slope = delta2 / real;
-  const Scalar length = real * detail::root(Scalar(one + square(Scalar(full2 / real))));
-  const Scalar next_amplitude = ((one + real) * delta1 + full2 * delta2) / (one + length);
-  const Scalar next_phase = arctangent_ratio(Scalar(ray.scale * slope)) * slope;
-  const Scalar next_frequency = half * (low.gain_frequency + high.gain_frequency) * across;
-  form.centre = {t.amplitude * next_amplitude, t.phase * next_phase + t.coupling * next_frequency,
-                 t.frequency * next_frequency};
-
-  // Everywhere the corrected z may be, in the frame of the prediction: the mean one, the spread of the gain,
-  // and the noise through a gain K_zz <= K_hi.
-  const Scalar eta = ray.scale * detail::root(form.eta_squared) / r;
-  const Scalar reach1 = detail::root(delta.p11) * eta;
-  const Scalar reach2 = detail::root(delta.p22) * eta;
-  const Scalar noise_reach = detail::larger(high.gain_amplitude, high.gain_phase) * setting.noise;
-  const Scalar z1 = cosine - ray.scale * u1;
-  const Scalar z2 = -sine - ray.scale * u2;
-  form.least_along = z1 - (reach1 + noise_reach);
-  form.turn_tangent = (detail::size(z2) + reach2 + noise_reach) / form.least_along;
-
-  // T J for the spread of the gain: averaged over the segment that leaves the mean z by d, J lies in J(mean)
-  // + (1/2) J'(segment) d, since the weight 1 - t of the remainder integrates to 1/2.
-  const PolarJacobian<Scalar> at_mean = polar_jacobian(z1, z2);
-  const PolarJacobian<Scalar> around =
-      polar_jacobian(Scalar(z1 + detail::offset(detail::up_to(ray.along), reach1)),
-                     Scalar(z2 + detail::offset(detail::up_to(ray.across), reach2)));
-  const Scalar d1 = half * detail::offset(ray.along, reach1);
-  const Scalar d2 = half * detail::offset(ray.across, reach2);
-  const Scalar twice = around.sine * around.cosine * (one + one);
-  const Scalar over_squared = square(around.over_length);
-  const Scalar transverse = around.over_length * (around.cosine * d2 - around.sine * d1);
-  const Scalar b11 = t.amplitude * (at_mean.cosine - around.sine * transverse);
-  const Scalar b12 = t.amplitude * (at_mean.sine + around.cosine * transverse);
-  const Scalar cosine_twice = one - square(around.sine) * (one + one);
-  const Scalar b21 =
-      t.phase * (over_squared * (twice * d1 - cosine_twice * d2) - at_mean.sine * at_mean.over_length);
-  const Scalar b22 =
-      t.phase * (at_mean.cosine * at_mean.over_length - over_squared * (cosine_twice * d1 + twice * d2));
-
-  form.gram = gram(t, b11, b12, b21, b22, delta, r);
-  form.reach_along = reach1;
-  form.reach_across = reach2;
-  const Scalar noisy1 =
-      z1 + detail::offset(ray.along, reach1) + detail::offset(detail::anywhere(ray.along), noise_reach);
-  const Scalar noisy2 =
-      z2 + detail::offset(ray.across, reach2) + detail::offset(detail::anywhere(ray.across), noise_reach);
-  form.noise_gain = noise_gain(setting, low, high, polar_jacobian(noisy1, noisy2));
+  const std::array<Scalar, 4> b =
+      averaged_jacobian(t, correction.z1, correction.z2, Scalar(ray.along * ray.reach[0]), Scalar(ray.across * ray.reach[1]));
+  const Scalar none(0.0);
+  form.gain = {{{b[0] * gains.mean_amplitude, b[2] * gains.mean_amplitude, none},
+                {b[1] * gains.mean_phase, b[3] * gains.mean_phase + t.coupling * gains.mean_frequency,
+                 t.frequency * gains.mean_frequency}}};
+  form.gram = gram(t, b, gains.spread, setting.design.r);
   return form;
 }
 

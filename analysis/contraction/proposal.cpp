@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "analysis/contraction/covariance_proposal.hpp"
 #include "analysis/contraction/sampled_set.hpp"
@@ -12,48 +13,124 @@ namespace veritrack::contraction {
 
 namespace {
 
-constexpr double kLargestRate = 0.995;  // a slower set is of no use
+constexpr double kLargestRateSquared = 0.985;  // a slower set is of no use
+constexpr double kWorthless = -std::numeric_limits<double>::max();
+
+bool is_about_a_start(Objective objective) {
+  return objective == Objective::frequency_bound || objective == Objective::ultimate_error ||
+         objective == Objective::settling;
+}
+
+/// Sets about a start are small, and their steps nearly linear: little room will do.
+double covariance_margin(Objective objective) {
+  return is_about_a_start(objective) ? 0.003 : 0.02;
+}
+
+/// The largest |T e| of the start.
+double start_level(const BlockMetric<double>& t, const rigor::Vector<3>& start) {
+  const double across = std::max(std::fabs(t.phase * start[1] + t.coupling * start[2]),
+                                 std::fabs(t.phase * start[1] - t.coupling * start[2]));
+  return std::hypot(t.amplitude * start[0], across, t.frequency * start[2]);
+}
+
+/// |T K| of the steady state on the truth: what noise does at least.
+double least_noise_gain(const BlockMetric<double>& t, const BlockUpdate<double>& steady) {
+  return std::max(t.amplitude * steady.gain_amplitude,
+                  std::hypot(t.phase * steady.gain_phase + t.coupling * steady.gain_frequency,
+                             t.frequency * steady.gain_frequency));
+}
 
 class Proposer {
  public:
   Proposer(const ProposalRequest& request, const BlockCovariance<double>& steady)
-      : request_(request), steady_(steady) {
-    request_.noise = request.objective == Objective::noise ? 0.0 : request.noise;
-    request_.slew = request.objective == Objective::slew ? 0.0 : request.slew;
+      : request_(request), steady_(steady), update_(riccati_update(steady, 1.0, request.design)) {
+    const bool given = request.objective != Objective::noise && request.objective != Objective::slew;
+    request_.noise = given ? request.noise : 0.0;
+    request_.slew = given ? request.slew : 0.0;
+    noisy_ = request_.noise > 0.0 || request.objective == Objective::noise;
+    slewing_ = request_.slew > 0.0 || request.objective == Objective::slew;
+    about_radius_ = !given;
   }
 
   /// T from three numbers: the weights of amplitude and frequency against phase, as logarithms, and the
-  /// coupling, all in units of the steady state's standard deviations.
-  [[nodiscard]] BlockMetric<double> metric(const Eigen::VectorXd& x) const {
+  /// coupling, all in units of the steady state's standard deviations. Then, for noise and slew if there are
+  /// any, by how much their gains squared exceed the least; and the radius, when it is searched for.
+  [[nodiscard]] search::SearchSpace space() const {
+    struct Variable {
+      double start, step, lower, upper;
+    };
+    std::vector<Variable> variables{{0.0, 0.5, -5.0, 5.0}, {0.0, 0.5, -5.0, 5.0}, {-0.5, 0.3, -8.0, 8.0}};
+    for (const bool there : {noisy_, slewing_}) {
+      if (there) {
+        variables.push_back({2.0, 0.5, -6.0, 9.0});
+      }
+    }
+    if (about_radius_) {
+      variables.push_back({0.0, 0.5, -12.0, 6.0});
+    }
+    const auto size = static_cast<Eigen::Index>(variables.size());
+    search::SearchSpace space{Eigen::VectorXd(size), Eigen::VectorXd(size), Eigen::VectorXd(size),
+                              Eigen::VectorXd(size), request_.evaluations};
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const Variable& variable = variables[static_cast<std::size_t>(i)];
+      space.start[i] = variable.start;
+      space.step[i] = variable.step;
+      space.lower[i] = variable.lower;
+      space.upper[i] = variable.upper;
+    }
+    return space;
+  }
+
+  [[nodiscard]] Shape shape(const Eigen::VectorXd& x) const {
     const double phase = 1.0 / std::sqrt(steady_.p22);
     const double frequency = 1.0 / std::sqrt(steady_.p33);
-    return {std::exp(x[0]) / std::sqrt(steady_.p11), phase, x[2] * frequency, std::exp(x[1]) * frequency};
-  }
-
-  [[nodiscard]] SampledSet sample(const BlockMetric<double>& t, double radius) const {
-    return sample(t, radius, request_.noise);
-  }
-  [[nodiscard]] SampledSet sample(const BlockMetric<double>& t, double radius, double noise) const {
-    return sample_set(request_.design, steady_, t, radius, noise);
-  }
-
-  /// What one step leaves for noise and slew beyond those that are given, in the metric; -1 when nothing.
-  [[nodiscard]] double slack(const SampledSet& s, double radius) const {
-    if (!(s.rate < kLargestRate)) {
-      return -1.0;
+    Shape shape;
+    shape.metric = {std::exp(x[0]) / std::sqrt(steady_.p11), phase, x[2] * frequency,
+                    std::exp(x[1]) * frequency};
+    Eigen::Index next = 3;
+    if (noisy_) {
+      shape.noise_gain = least_noise_gain(shape.metric, update_) * std::sqrt(1.0 + std::exp(x[next++]));
     }
-    return (1.0 - s.rate) * radius - s.noise_gain * request_.noise - s.slew_gain * request_.slew;
+    if (slewing_) {
+      shape.slew_gain = std::hypot(shape.metric.coupling, shape.metric.frequency) *
+                        std::sqrt(1.0 + std::exp(x[next++]));
+    }
+    shape.radius = about_radius_ ? std::exp(x[next]) : 0.0;
+    return shape;
   }
 
-  /// The largest radius with some slack, 0 if there is none: growth by steps, then bisection.
-  [[nodiscard]] double largest_radius(const BlockMetric<double>& t) const {
+  [[nodiscard]] SampledSet sample(const Shape& shape, double radius, double noise) const {
+    return sample_set({request_.design,
+                       shape.metric,
+                       radius,
+                       noise,
+                       {0.0, shape.noise_gain * shape.noise_gain, shape.slew_gain * shape.slew_gain, noisy_,
+                        slewing_},
+                       covariance_margin(request_.objective)},
+                      steady_);
+  }
+
+  /// What noise and slew add to |T e|^2 in a step.
+  [[nodiscard]] double pushed(const Shape& shape) const {
+    const double noise = shape.noise_gain * request_.noise;
+    const double slew = shape.slew_gain * request_.slew;
+    return noise * noise + slew * slew;
+  }
+
+  /// The largest radius that bears noise and slew, 0 if there is none: growth by steps, then bisection.
+  [[nodiscard]] double largest_radius(const Shape& shape) const {
     constexpr double kSmallest = 0.001;  // rad/sample
     constexpr double kLargest = 4.0;
     constexpr double kStep = 1.8;
-    const auto holds = [&](double radius) { return slack(sample(t, radius), radius) > 0.0; };
+    const double pushed_out = pushed(shape);
+    const auto holds = [&](double radius) {
+      const double rate_squared = sample(shape, radius, request_.noise).rate_squared;
+      return rate_squared < kLargestRateSquared &&
+             rate_squared * radius * radius + pushed_out < radius * radius;
+    };
     double good = 0.0;
-    double bad = kSmallest * t.frequency;
-    while (bad < kLargest * t.frequency) {
+    double bad = kSmallest * shape.metric.frequency;
+    while (bad < kLargest * shape.metric.frequency) {
       const bool held = holds(bad);
       if (!held && good > 0.0) {
         break;
@@ -71,38 +148,76 @@ class Proposer {
     return good;
   }
 
-  /// The noise or slew that the set bears. Noise turns the estimate and so widens the covariance bounds and
-  /// its own gain: the first value is tried, in part, before the second is believed.
-  [[nodiscard]] double largest_disturbance(const BlockMetric<double>& t, double radius) const {
+  /// The noise or slew that the set bears. Noise turns the estimate and so widens the covariance bounds: the
+  /// first value is tried, in part, before the second is believed.
+  [[nodiscard]] double largest_disturbance(const Shape& shape) const {
     constexpr double kPart = 0.7;
-    const SampledSet quiet = sample(t, radius);
-    const double left = slack(quiet, radius);
-    if (!(left > 0.0)) {
-      return left;
+    const auto borne = [&](double noise) {
+      const double rate_squared = sample(shape, shape.radius, noise).rate_squared;
+      const double gain = noisy_ ? shape.noise_gain : shape.slew_gain;
+      return rate_squared < kLargestRateSquared ? shape.radius * std::sqrt(1.0 - rate_squared) / gain
+                                                : kWorthless;
+    };
+    const double first = borne(0.0);
+    return noisy_ && first > 0.0 ? std::min(first, borne(kPart * first)) : first;
+  }
+
+  /// The set around the start: its radius and what it promises. Grows the set when noise and slew lead out of
+  /// it.
+  struct Promise {
+    double radius = 0.0, start_level = 0.0, rate_squared = 0.0, ultimate = 0.0;
+  };
+  [[nodiscard]] std::optional<Promise> promise(const Shape& shape) const {
+    constexpr double kRoom = 1.001;
+    constexpr double kShare = 0.8;  // of the contraction: the rest is left for the verification
+    constexpr int kMostGrowths = 4;
+    Promise promise;
+    promise.start_level = start_level(shape.metric, request_.start);
+    promise.radius = kRoom * promise.start_level;
+    for (int i = 0; i < kMostGrowths; ++i) {
+      promise.rate_squared = sample(shape, promise.radius, request_.noise).rate_squared;
+      if (!(promise.rate_squared < kLargestRateSquared)) {
+        return std::nullopt;
+      }
+      promise.ultimate = std::sqrt(pushed(shape) / (kShare * (1.0 - promise.rate_squared)));
+      if (promise.ultimate <= promise.radius) {
+        return promise;
+      }
+      promise.radius = 1.05 * promise.ultimate;
     }
-    if (request_.objective == Objective::slew) {
-      return left / quiet.slew_gain;
+    return std::nullopt;
+  }
+
+  /// What is to be maximised among the sets about a start.
+  [[nodiscard]] double worth(const Shape& shape) const {
+    const std::optional<Promise> found = promise(shape);
+    if (!found) {
+      return kWorthless;
     }
-    const double first = left / quiet.noise_gain;
-    const SampledSet noisy = sample(t, radius, kPart * first);
-    const double left_then = slack(noisy, radius);
-    return left_then > 0.0 ? std::min(first, left_then / noisy.noise_gain) : 0.5 * left_then;
+    switch (request_.objective) {
+      case Objective::ultimate_error:
+        return -found->ultimate / shape.metric.frequency;
+      case Objective::settling: {
+        // rate^(2k) (l^2 - u^2) + u^2 = (settled |t33|)^2.
+        const double settled = request_.settled_error * shape.metric.frequency;
+        const double above = settled * settled - found->ultimate * found->ultimate;
+        const double start = found->start_level * found->start_level - found->ultimate * found->ultimate;
+        if (!(above > 0.0)) {
+          return kWorthless;
+        }
+        return start > above ? -std::log(above / start) / std::log(found->rate_squared) : 0.0;
+      }
+      default:
+        return -std::max(found->start_level, found->ultimate) / shape.metric.frequency;
+    }
   }
 
  private:
   ProposalRequest request_;
   BlockCovariance<double> steady_;
+  BlockUpdate<double> update_;
+  bool noisy_ = false, slewing_ = false, about_radius_ = false;
 };
-
-search::SearchSpace space_of(int dimensions, int evaluations) {
-  search::SearchSpace space;
-  space.start = Eigen::Vector4d(0.0, 0.0, -0.5, 0.0).head(dimensions);
-  space.step = Eigen::Vector4d(0.5, 0.5, 0.3, 0.5).head(dimensions);
-  space.lower = Eigen::Vector4d(-5.0, -5.0, -8.0, -12.0).head(dimensions);
-  space.upper = Eigen::Vector4d(5.0, 5.0, 8.0, 6.0).head(dimensions);
-  space.evaluations = evaluations;
-  return space;
-}
 
 rigor::Matrix<3> matrix(const BlockCovariance<double>& p) {
   rigor::Matrix<3> m;
@@ -118,36 +233,38 @@ std::optional<Shape> propose_shape(const ProposalRequest& request) {
     return std::nullopt;
   }
   const Proposer proposer(request, *steady);
-  const bool of_start = request.objective == Objective::start_error;
+  search::SearchSpace space = proposer.space();
+  const auto search = [&](const auto& value) {
+    return search::maximize([&](const Eigen::VectorXd& x) { return value(proposer.shape(x)); }, space);
+  };
+  const bool about_start = is_about_a_start(request.objective);
   search::BestPoint best;
-  double radius = 0.0;
-  if (of_start) {
-    best = search::maximize(
-        [&](const Eigen::VectorXd& x) {
-          const auto t = proposer.metric(x);
-          return proposer.largest_radius(t) / t.frequency;
-        },
-        space_of(3, request.evaluations));
-    radius = proposer.largest_radius(proposer.metric(best.point));
+  if (request.objective == Objective::start_error) {
+    best = search(
+        [&](const Shape& shape) { return proposer.largest_radius(shape) / shape.metric.frequency; });
+  } else if (about_start) {
+    space.evaluations *= 6;  // one sample instead of a bisection each time
+    best = search([&](const Shape& shape) { return proposer.worth(shape); });
   } else {
-    // The radius joins the search, as a logarithm; one sample instead of a bisection each time.
-    search::SearchSpace space = space_of(4, 4 * request.evaluations);
-    const double start = proposer.largest_radius(proposer.metric(space.start));
+    space.evaluations *= 6;
+    const double start = proposer.largest_radius(proposer.shape(space.start));
     if (start > 0.0) {
-      space.start[3] = std::log(0.5 * start);
+      space.start[space.start.size() - 1] = std::log(0.5 * start);
     }
-    best = search::maximize(
-        [&](const Eigen::VectorXd& x) {
-          return proposer.largest_disturbance(proposer.metric(x), std::exp(x[3]));
-        },
-        space);
-    radius = std::exp(best.point[3]);
+    best = search([&](const Shape& shape) { return proposer.largest_disturbance(shape); });
   }
-  if (!(best.value > 0.0)) {
+  if (about_start ? !(best.value > kWorthless) : !(best.value > 0.0)) {
     return std::nullopt;
   }
-  const auto t = proposer.metric(best.point);
-  return Shape{t.amplitude, t.phase, t.coupling, t.frequency, radius, best.value};
+  Shape shape = proposer.shape(best.point);
+  shape.objective = best.value;
+  if (request.objective == Objective::start_error) {
+    shape.radius = proposer.largest_radius(shape);
+  } else if (about_start) {
+    const auto promise = proposer.promise(shape);
+    shape.radius = promise ? promise->radius : 0.0;
+  }
+  return shape;
 }
 
 std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Shape& shape, double fraction) {
@@ -155,30 +272,36 @@ std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Sh
   if (!steady) {
     return std::nullopt;
   }
+  const Objective objective = request.objective;
   CertifiedSet set;
-  set.metric << shape.amplitude, 0.0, 0.0, 0.0, shape.phase, shape.coupling, 0.0, 0.0, shape.frequency;
-  set.radius = shape.radius;
-  set.noise = request.noise;
-  set.slew = request.slew;
-  (request.objective == Objective::start_error ? set.radius
-   : request.objective == Objective::noise     ? set.noise
-                                               : set.slew) =
-      fraction * (request.objective == Objective::start_error ? shape.radius : shape.objective);
-  const SampledSet s =
-      sample_set(request.design, *steady, {shape.amplitude, shape.phase, shape.coupling, shape.frequency},
-                 set.radius, set.noise);
-  // What noise and slew need of the contraction, with room for the noise gain to grow in the verification.
-  constexpr double kNoiseRoom = 1.25;
-  constexpr double kSlewRoom = 1.001;
-  const double needed = kNoiseRoom * s.noise_gain * set.noise + kSlewRoom * s.slew_gain * set.slew;
-  const double allowed = 1.0 - needed / set.radius;
-  if (!(s.rate < allowed)) {
+  const BlockMetric<double>& t = shape.metric;
+  set.metric << t.amplitude, 0.0, 0.0, 0.0, t.phase, t.coupling, 0.0, 0.0, t.frequency;
+  set.radius = (objective == Objective::start_error ? fraction : 1.0) * shape.radius;
+  set.noise = objective == Objective::noise ? fraction * shape.objective
+              : objective == Objective::slew ? 0.0
+                                             : request.noise;
+  set.slew = objective == Objective::slew    ? fraction * shape.objective
+             : objective == Objective::noise ? 0.0
+                                             : request.slew;
+  set.noise_gain = shape.noise_gain;
+  set.slew_gain = shape.slew_gain;
+  const StepConstants<double> constants{0.0, set.noise_gain * set.noise_gain, set.slew_gain * set.slew_gain,
+                                        set.noise > 0.0, set.slew > 0.0};
+  const SampledSet sampled = sample_set(
+      {request.design, t, set.radius, set.noise, constants, covariance_margin(objective)}, *steady);
+  // What noise and slew leave for the contraction, with room for rounding.
+  constexpr double kRoom = 1.0 + 1e-9;
+  const double noise = set.noise_gain * set.noise / set.radius;
+  const double slew = set.slew_gain * set.slew / set.radius;
+  const double allowed = 1.0 - kRoom * (noise * noise + slew * slew);
+  const double wanted = is_about_a_start(objective) ? 1.0 - fraction * (1.0 - sampled.rate_squared)
+                                                    : 0.5 * (1.0 + sampled.rate_squared);
+  if (!(sampled.rate_squared < allowed)) {
     return std::nullopt;
   }
-  set.rate = std::min(allowed, 0.5 * (1.0 + s.rate));
-  set.noise_gain = 2.0 * s.noise_gain;
-  set.covariance_lower = matrix(s.setting.covariance_lower);
-  set.covariance_upper = matrix(s.setting.covariance_upper);
+  set.rate = std::sqrt(std::min(allowed, wanted)) * (1.0 - 1e-12);
+  set.covariance_lower = matrix(sampled.setting.covariance_lower);
+  set.covariance_upper = matrix(sampled.setting.covariance_upper);
   return set;
 }
 

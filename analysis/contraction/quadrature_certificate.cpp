@@ -77,8 +77,7 @@ class SetReport {
  public:
   SetReport(const ContractionQuestion& question, const CertifiedSet& set)
       : set_(set), rate_(set.rate), radius_(set.radius) {
-    ultimate_ = (Interval(set.noise_gain) * question.noise + Interval(set.slew_gain) * question.slew) /
-                (Interval(1.0) - rate_);
+    ultimate_ = ultimate_level(set, question.noise, question.slew);
     IntervalVector<3> start;
     start << rigor::symmetric(question.initial_amplitude_error.upper()),
         rigor::symmetric(question.initial_phase_error.upper()),

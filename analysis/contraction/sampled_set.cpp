@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "analysis/contraction/covariance_proposal.hpp"
-#include "analysis/contraction/error_contraction.hpp"
 
 namespace veritrack::contraction {
 
@@ -15,24 +14,37 @@ namespace {
 /// Estimates closer to zero than this, along the prediction or the signal, are not worth a try.
 constexpr double kLeastComponent = 0.05;
 
+/// The form at a point on its own axis, the correction at these shares of its reach.
+PolarStepForm<double, double> form_at(const StepSetting<double>& setting, double scale, double beta,
+                                      double along, double across) {
+  RayCell<double, double> ray{scale, beta, std::cos(beta), std::sin(beta), along, across, {0.0, 0.0}};
+  const PolarStepForm<double, double> still = polar_step_form(setting, ray);
+  if (along == 0.0 && across == 0.0) {
+    return still;
+  }
+  ray.reach = still.reach;
+  return polar_step_form(setting, ray);
+}
+
 /// Moves the covariance bounds of the setting out until the images of the rim stay between them. False when
 /// they run away.
-bool find_covariance_bounds(StepSetting<double>& setting, const BlockCovariance<double>& steady) {
+bool find_covariance_bounds(StepSetting<double>& setting, const BlockCovariance<double>& steady,
+                            double margin) {
   constexpr int kMostSteps = 80;
-  constexpr double kMargin = 0.02;  // in units of the steady state: room for a proof
   constexpr double kStandstill = 1e-4;
   CovarianceBounds bounds(steady);
   for (int k = 0; k < kMostSteps; ++k) {
     std::array<TurnSample, 9> turns;
     for (std::size_t j = 0; j < turns.size(); ++j) {
       const double beta = std::numbers::pi * static_cast<double>(j) / static_cast<double>(turns.size() - 1);
-      const auto form = polar_step_form(setting, {1.0, std::cos(beta), std::sin(beta), 0.0, 0.0});
-      if (!(form.least_along > kLeastComponent)) {
+      const double a = setting.largest_amplitude * std::cos(beta);
+      const auto correction = correction_at(setting, a, setting.largest_chi * std::sin(beta));
+      if (!(correction.least_along > kLeastComponent)) {
         return false;
       }
-      turns[j] = {form.rho, form.turn_tangent};
+      turns[j] = {1.0 + a, correction.turn_tangent};
     }
-    const double moved = bounds.iterate(turns, setting.design, kMargin);
+    const double moved = bounds.iterate(turns, setting.design, margin);
     if (!bounds.usable()) {
       return false;
     }
@@ -47,23 +59,19 @@ bool find_covariance_bounds(StepSetting<double>& setting, const BlockCovariance<
 
 }  // namespace
 
-SampledSet sample_set(const trackers::QuadratureEkfDesign<double>& design,
-                      const BlockCovariance<double>& steady, const BlockMetric<double>& metric, double radius,
-                      double noise) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+SampledSet sample_set(const SampleRequest& request, const BlockCovariance<double>& steady) {
   constexpr int kAngles = 16;
-  const double amplitude = radius / metric.amplitude;
+  const BlockMetric<double>& metric = request.metric;
+  const double amplitude = request.radius / metric.amplitude;
   const double chi =
-      radius * std::hypot(1.0 / metric.phase, (1.0 - metric.coupling / metric.phase) / metric.frequency);
-  SampledSet result{{design, metric, steady, steady, amplitude, chi, noise},
-                    kInfinity,
-                    kInfinity,
-                    std::hypot(metric.coupling, metric.frequency)};
-  if (!(amplitude < 0.9) || !(chi < 2.9) || !find_covariance_bounds(result.setting, steady)) {
+      request.radius * std::hypot(1.0 / metric.phase, (1.0 - metric.coupling / metric.phase) / metric.frequency);
+  SampledSet result{{request.design, metric, steady, steady, amplitude, chi, request.noise},
+                    std::numeric_limits<double>::infinity()};
+  if (!(amplitude < 0.9) || !(chi < 2.9) ||
+      !find_covariance_bounds(result.setting, steady, request.covariance_margin)) {
     return result;
   }
   double rate_squared = 0.0;
-  double noise_gain = 0.0;
   // The rim with the corners of what the covariance may do decides; the middle of the set seldom does.
   struct Sample {
     double scale, along, across;
@@ -77,20 +85,17 @@ SampledSet sample_set(const trackers::QuadratureEkfDesign<double>& design,
   for (int j = 0; j <= kAngles; ++j) {
     const double beta = std::numbers::pi * j / kAngles;
     for (const Sample& sample : kSamples) {
-      const auto form = polar_step_form(
-          result.setting, {sample.scale, std::cos(beta), std::sin(beta), sample.along, sample.across});
+      const auto form = form_at(result.setting, sample.scale, beta, sample.along, sample.across);
       if (!(form.least_along > kLeastComponent) || !(form.mean_real > kLeastComponent)) {
         return result;
       }
-      rate_squared = std::max(rate_squared, propose_rate(form, metric).rate_squared);
-      noise_gain = std::max(noise_gain, form.noise_gain);
+      rate_squared = std::max(rate_squared, propose_rate(form, metric, request.constants).rate_squared);
       if (!(rate_squared < 1.0)) {
         return result;
       }
     }
   }
-  result.rate = std::sqrt(rate_squared);
-  result.noise_gain = noise_gain;
+  result.rate_squared = rate_squared;
   return result;
 }
 

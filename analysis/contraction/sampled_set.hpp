@@ -1,21 +1,31 @@
 // A set of errors and covariances as a few samples see it, in floating point: for proposals only.
 #pragma once
 
-#include "analysis/contraction/polar_step_form.hpp"
+#include "analysis/contraction/step_inequality.hpp"
 
 namespace veritrack::contraction {
 
 /// What sampling finds of the set {|T e| <= radius} with covariance bounds to match.
 struct SampledSet {
   StepSetting<double> setting;  ///< with the covariance bounds found
-  double rate;                  ///< infinity when there are no bounds or a sample does not contract
-  double noise_gain;
-  double slew_gain;
+  /// The least rate^2 with which the samples satisfy the inequality of step_inequality.hpp; infinity when
+  /// there are no bounds or a sample does not contract.
+  double rate_squared;
 };
 
-/// Finds covariance bounds by iteration from the steady state and samples the rate of contraction.
-[[nodiscard]] SampledSet sample_set(const trackers::QuadratureEkfDesign<double>& design,
-                                    const BlockCovariance<double>& steady, const BlockMetric<double>& metric,
-                                    double radius, double noise);
+/// The set to sample. The rate in `constants` is not read.
+struct SampleRequest {
+  trackers::QuadratureEkfDesign<double> design;
+  BlockMetric<double> metric;
+  double radius = 0.0;
+  double noise = 0.0;  ///< relative to the amplitude
+  StepConstants<double> constants;
+  /// By how much the covariance bounds are moved out beyond what is needed, in units of the steady state: room
+  /// for a proof.
+  double covariance_margin = 0.02;
+};
+
+/// Finds covariance bounds by iteration from the steady state and samples the inequality.
+[[nodiscard]] SampledSet sample_set(const SampleRequest& request, const BlockCovariance<double>& steady);
 
 }  // namespace veritrack::contraction

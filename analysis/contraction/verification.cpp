@@ -1,11 +1,10 @@
 #include "analysis/contraction/verification.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "analysis/contraction/error_contraction.hpp"
 #include "analysis/contraction/small_definiteness.hpp"
+#include "analysis/contraction/turn_bounds.hpp"
 
 namespace veritrack::contraction {
 
@@ -54,8 +53,8 @@ std::string objection(const Design& design, const CertifiedSet& set) {
       !certainly_positive(Interval(t(2, 2)))) {
     return "the metric is not certainly invertible.";
   }
-  if (!certainly_not_negative(Interval(set.noise_gain))) {
-    return "the proposed noise gain is not a number that a gain can be.";
+  if (!certainly_not_negative(Interval(set.noise_gain)) || !certainly_not_negative(Interval(set.slew_gain))) {
+    return "the gains of noise and slew are not numbers that gains can be.";
   }
   if (!certainly_positive(Interval(set.radius)) || !certainly_not_negative(Interval(set.noise)) ||
       !certainly_not_negative(Interval(set.slew)) || !certainly_not_negative(Interval(set.rate)) ||
@@ -94,16 +93,9 @@ StepSetting<Interval> setting_of(const Design& design, const CertifiedSet& set) 
           Interval(set.noise)};
 }
 
-/// The noise gain that is worth proving: the proposed one if there is one, and what the noise leaves room
-/// for. A matter of when to stop refining, not of proof.
-double gain_limit(const CertifiedSet& set, const Interval& slew_gain) {
-  double limit = set.noise_gain > 0.0 ? set.noise_gain : std::numeric_limits<double>::infinity();
-  if (set.noise > 0.0) {
-    const Interval room =
-        (Interval(1.0) - Interval(set.rate)) * Interval(set.radius) - slew_gain * Interval(set.slew);
-    limit = std::min(limit, (room / Interval(set.noise)).lower());
-  }
-  return limit;
+StepConstants<Interval> constants_of(const CertifiedSet& set) {
+  return {rigor::square(Interval(set.rate)), rigor::square(Interval(set.noise_gain)),
+          rigor::square(Interval(set.slew_gain)), set.noise > 0.0, set.slew > 0.0};
 }
 
 }  // namespace
@@ -112,8 +104,6 @@ Verification verify_certified_set(const Design& design, const CertifiedSet& prop
   const rigor::UpwardRounding upward;
   Verification result;
   result.set = proposal;
-  result.set.noise_gain = 0.0;
-  result.set.slew_gain = 0.0;
   result.reason = objection(design, proposal);
   if (!result.reason.empty()) {
     return result;
@@ -123,31 +113,25 @@ Verification verify_certified_set(const Design& design, const CertifiedSet& prop
     result.reason = "the set reaches amplitudes near zero, where there is no phase.";
     return result;
   }
-  // |T (0, 0, -w)| = |w| |(t23, t33)|.
-  const Interval slew_gain =
-      rigor::sqrt(rigor::square(setting.metric.coupling) + rigor::square(setting.metric.frequency));
-  const Interval radius(proposal.radius);
-  const ContractionOverSet contraction =
-      prove_contraction(setting, proposal.rate, gain_limit(proposal, slew_gain));
+  const StepConstants<Interval> constants = constants_of(proposal);
+  const ContractionOverSet contraction = prove_contraction(setting, constants);
   result.cells = contraction.cells;
   if (!contraction.proved) {
     result.reason = contraction.reason;
     return result;
   }
   if (!certainly_keeps_covariance_between(setting.covariance_lower, setting.covariance_upper, design,
-                                          contraction.turns)) {
+                                          bound_turns(setting))) {
     result.reason = "the covariance could not be shown to stay between its bounds.";
     return result;
   }
-  const Interval noise_gain(contraction.noise_gain);
-  const Interval reach =
-      Interval(proposal.rate) * radius + noise_gain * setting.noise + slew_gain * Interval(proposal.slew);
-  if (!certainly_less_equal(reach, radius)) {
+  const Interval reach_squared = constants.rate_squared * rigor::square(Interval(proposal.radius)) +
+                                 constants.noise_gain_squared * rigor::square(Interval(proposal.noise)) +
+                                 constants.slew_gain_squared * rigor::square(Interval(proposal.slew));
+  if (!certainly_less_equal(reach_squared, rigor::square(Interval(proposal.radius)))) {
     result.reason = "noise and slew are too large for the rate of contraction.";
     return result;
   }
-  result.set.noise_gain = contraction.noise_gain;
-  result.set.slew_gain = slew_gain.upper();
   result.verdict = Verdict::proved;
   result.reason = "every step from the set leads back into it and contracts.";
   return result;

@@ -15,18 +15,17 @@ struct Verification {
   rigor::Verdict verdict =
       rigor::Verdict::undecided;  ///< proved or undecided: a failed search refutes nothing
   std::string reason;             ///< one sentence: what is proved, or which step failed
-  CertifiedSet set;               ///< the proposal, with the verified noise_gain and slew_gain when PROVED
+  CertifiedSet set;               ///< the proposal
   std::int64_t cells = 0;         ///< examined
 };
 
-/// Is the promise of CertifiedSet true for this proposal? Uses metric, radius, covariance bounds, noise, slew
-/// and rate of the proposal, for every design in the intervals. The gains are computed; a positive noise_gain
-/// in the proposal asks for one that is at most that. Proved are
+/// Is the promise of CertifiedSet true for this proposal, for every design in the intervals? Proved are
 ///   1. P_lo > 0, P_hi - P_lo > 0, T invertible, 0 <= rate < 1, and the ranges of all inputs;
-///   2. contraction, |T e+| <= rate |T e| + L_v |v| + L_w |w| over the set (error_contraction.hpp);
+///   2. |T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2 w^2 over the set, for |v| <= V and |w| <= W
+///      (error_contraction.hpp);
 ///   3. invariance of the covariance bounds under every |z| and turn that occur in the set with noise up to V
 ///      (riccati_order.hpp);
-///   4. rate R + L_v V + L_w W <= R.
+///   4. rate^2 R^2 + L_v^2 V^2 + L_w^2 W^2 <= R^2.
 /// By 3 and 4 a step does not leave the set, so that 2 applies to the next; docs/contraction.md has the
 /// proof. epsilon must be zero. Opens its own UpwardRounding scope; never throws for odd numbers.
 [[nodiscard]] Verification verify_certified_set(const trackers::QuadratureEkfDesign<rigor::Interval>& design,

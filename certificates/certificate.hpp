@@ -39,7 +39,7 @@ struct AuditedDerivation {
 /// A set that the tracker never leaves, with what it was made for: evidence that can be checked again without
 /// the search that found it.
 struct NamedSet {
-  std::string purpose;  ///< "start-error", "largest-noise" or "largest-slew"
+  std::string purpose;  ///< as in certificate.schema.json, e.g. "start-error"
   contraction::CertifiedSet set;
 };
 

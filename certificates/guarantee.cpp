@@ -164,6 +164,9 @@ void add_contraction(Certificate& certificate) {
     keep("start-error", found.set);
     keep("largest-noise", found.noise_set);
     keep("largest-slew", found.slew_set);
+    keep("frequency-error-bound", found.bound_set);
+    keep("ultimate-error", found.ultimate_set);
+    keep("settling", found.settling_set);
   } else {
     const Assumptions& assume = certificate.design.quadrature_ekf().assume;
     certificate.derivations.push_back(

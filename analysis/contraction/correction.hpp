@@ -78,10 +78,11 @@ template <typename Constant>
   return {detail::root(spread1) * eta + noise, detail::root(spread2) * eta + noise};
 }
 
-/// The correction of an estimate with amplitude error a and predicted phase error chi (rad). Over intervals it
-/// means something only if `least_along` and the mean correction's real part are certainly positive. Then the
-/// corrected estimate stays in the half plane around the prediction, where |z| and arg z are smooth; and the
-/// phase error after the mean correction, chi + arg z in (-pi/2, 3 + pi/2), is the principal arg(1 + delta) in
+/// The correction of an estimate with amplitude error a and predicted phase error chi (rad). Over intervals
+/// it means something only if `least_along` and the mean correction's real part are certainly positive. Then
+/// the corrected estimate stays in the half plane around the prediction, where |z| and arg z are smooth; and
+/// the phase error after the mean correction, chi + arg z in (-pi/2, 3 + pi/2), is the principal arg(1 +
+/// delta) in
 /// (-pi/2, pi/2) itself, because the two differ by a multiple of 2 pi. (chi <= 3, beyond which the ratios are
 /// empty.)
 template <typename Constant, typename Scalar>
@@ -94,15 +95,16 @@ struct Correction {
   Constant turn_tangent;          ///< bound on |tan| of the turn of the estimate
 };
 template <typename Constant, typename Scalar>
-[[nodiscard]] Correction<Constant, Scalar> correction_at(const StepSetting<Constant>& setting, const Scalar& a,
-                                                         const Scalar& chi) {
+[[nodiscard]] Correction<Constant, Scalar> correction_at(const StepSetting<Constant>& setting,
+                                                         const Scalar& a, const Scalar& chi) {
   using detail::value_of;
   using std::sqrt;
   using trackers::detail::sin_cos;
   using trackers::detail::square;
   const Constant one(1.0);
   Correction<Constant, Scalar> result;
-  result.gains = gain_spread(setting.covariance_lower, setting.covariance_upper, Scalar(one + a), setting.design);
+  result.gains =
+      gain_spread(setting.covariance_lower, setting.covariance_upper, Scalar(one + a), setting.design);
   const GainSpread<Scalar>& gains = result.gains;
   MeanCorrection<Scalar>& mean = result.mean;
   const auto [sine, cosine] = sin_cos(chi);

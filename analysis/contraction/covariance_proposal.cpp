@@ -95,6 +95,14 @@ Block CovarianceBounds::image(const Block& p, const TurnSample& sample, const De
   return bound;
 }
 
+void CovarianceBounds::include(const CovarianceRange& range, double margin) {
+  const Block unit{1.0, 1.0, 0.0, 1.0};
+  const Block above = plus(enter(range.upper), unit, margin);
+  const Block below = plus(enter(range.lower), unit, -margin);
+  high_ = plus(high_, positive_part(plus(above, high_, -1.0)), 1.0);
+  low_ = plus(low_, positive_part(plus(low_, below, -1.0)), -1.0);
+}
+
 double CovarianceBounds::iterate(const std::array<TurnSample, 9>& samples, const Design& design,
                                  double margin) {
   const Block unit{1.0, 1.0, 0.0, 1.0};

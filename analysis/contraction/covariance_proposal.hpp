@@ -13,6 +13,11 @@ namespace veritrack::contraction {
 [[nodiscard]] std::optional<BlockCovariance<double>> steady_covariance(
     const trackers::QuadratureEkfDesign<double>& design);
 
+/// Two covariances in the Loewner order.
+struct CovarianceRange {
+  BlockCovariance<double> lower, upper;
+};
+
 /// A value of |z| and the tangent of the turn that goes with it.
 struct TurnSample {
   double rho;
@@ -26,6 +31,8 @@ class CovarianceBounds {
 
   [[nodiscard]] BlockCovariance<double> lower() const { return leave(low_); }
   [[nodiscard]] BlockCovariance<double> upper() const { return leave(high_); }
+  /// Moves both bounds out until they hold the range, with a margin (in units of the steady state).
+  void include(const CovarianceRange& range, double margin);
   /// Moves both bounds to bounds of their images under the samples, with a margin (in units of the steady
   /// state). Returns how far they moved.
   double iterate(const std::array<TurnSample, 9>& samples,

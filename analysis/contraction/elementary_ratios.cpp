@@ -61,14 +61,14 @@ Interval sine_ratio_slope(const Interval& x) {
     return Interval::empty();
   }
   // (2i + 3)!/(2i + 2).
-  constexpr std::array<double, 7> kDivisors = {3.0,       30.0,       840.0,        45360.0,
+  constexpr std::array<double, 7> kDivisors = {3.0,       30.0,        840.0,        45360.0,
                                                3991680.0, 518918400.0, 93405312000.0};
   return Interval::from_bounds(alternating_sum(size.upper(), kDivisors, 6).lower(),
                                alternating_sum(size.lower(), kDivisors, 7).upper());
 }
 
-// (atan(t)/t - 1/(1 + t^2))/t^2 is the integral of 2 u^2/(1 + t^2 u^2)^2 over u in [0, 1]: it falls for t >= 0.
-// For t <= 1 its series sum (-1)^i t^{2i} (2i + 2)/(2i + 3) is alternating; the formula takes over beyond.
+// (atan(t)/t - 1/(1 + t^2))/t^2 is the integral of 2 u^2/(1 + t^2 u^2)^2 over u in [0, 1]: it falls for t >=
+// 0. For t <= 1 its series sum (-1)^i t^{2i} (2i + 2)/(2i + 3) is alternating; the formula takes over beyond.
 Interval arctangent_ratio_slope(const Interval& t) {
   constexpr double kSeriesEnd = 0.25;
   const Interval size = rigor::abs(t);
@@ -82,7 +82,8 @@ Interval arctangent_ratio_slope(const Interval& t) {
       const Interval squared = rigor::square(value);
       for (std::size_t i = terms; i-- > 0;) {
         const auto twice = static_cast<double>(2 * i);
-        sum = Interval(i % 2 == 0 ? 1.0 : -1.0) * (Interval(twice + 2.0) / Interval(twice + 3.0)) + squared * sum;
+        sum = Interval(i % 2 == 0 ? 1.0 : -1.0) * (Interval(twice + 2.0) / Interval(twice + 3.0)) +
+              squared * sum;
       }
       return sum;
     }

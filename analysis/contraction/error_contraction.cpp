@@ -40,7 +40,7 @@ enum Side : std::size_t { kScale = 0, kBeta = 1, kAlong = 2, kAcross = 3 };
 
 RayCell<double, double> middle_ray(const Cell& cell) {
   const double beta = cell.middle(kBeta);
-  return {cell.middle(kScale),  beta,       std::cos(beta), std::sin(beta), cell.middle(kAlong),
+  return {cell.middle(kScale),  beta,      std::cos(beta), std::sin(beta), cell.middle(kAlong),
           cell.middle(kAcross), cell.reach};
 }
 
@@ -58,8 +58,7 @@ class Cover {
   bool set_reach(Cell& cell) const {
     const Interval none(0.0);
     const PolarStepForm<Interval, Interval> form = polar_step_form<Interval, Interval>(
-        setting_,
-        {cell.side(kScale), cell.side(kBeta), Interval(1.0), none, none, none, {none, none}});
+        setting_, {cell.side(kScale), cell.side(kBeta), Interval(1.0), none, none, none, {none, none}});
     cell.reach = {form.reach[0].upper(), form.reach[1].upper()};
     return rigor::is_finite(form.reach[0]) && rigor::is_finite(form.reach[1]);
   }
@@ -106,16 +105,14 @@ class Cover {
   }
 
  private:
-  static constexpr std::int64_t kMostCells = 200000;
+  static constexpr std::int64_t kMostCells = 12000;
 
   [[nodiscard]] CellForms forms_of(const Cell& cell) const {
     const RayCell<double, double> middle = middle_ray(cell);
     const Interval axis_cosine(middle.axis_cosine);
     const Interval axis_sine(middle.axis_sine);
     const std::array<Interval, 2> reach{Interval(cell.reach[0]), Interval(cell.reach[1])};
-    const auto variable = [&](std::size_t i) {
-      return Derivatives(cell.side(i), unit(i));
-    };
+    const auto variable = [&](std::size_t i) { return Derivatives(cell.side(i), unit(i)); };
     CellForms forms;
     forms.proposal = polar_step_form(middle_, middle);
     forms.middle = polar_step_form<Interval, Interval>(
@@ -144,20 +141,21 @@ class Cover {
   /// largest. A matter of speed only.
   [[nodiscard]] static std::size_t widest(const CellForms& forms, const CellVerdict& verdict) {
     std::array<double, kCellVariables> weights = verdict.influence;
-    const bool known = std::all_of(weights.begin(), weights.end(),
-                                   [](double weight) { return std::isfinite(weight) && weight >= 0.0; }) &&
-                       std::any_of(weights.begin(), weights.end(), [](double weight) { return weight > 0.0; });
+    const bool known =
+        std::all_of(weights.begin(), weights.end(),
+                    [](double weight) { return std::isfinite(weight) && weight >= 0.0; }) &&
+        std::any_of(weights.begin(), weights.end(), [](double weight) { return weight > 0.0; });
     if (!known) {
-      weights = {forms.half_widths[kScale], forms.half_widths[kBeta],
-                 0.1 * forms.half_widths[kAlong], 0.1 * forms.half_widths[kAcross]};
+      weights = {forms.half_widths[kScale], forms.half_widths[kBeta], 0.1 * forms.half_widths[kAlong],
+                 0.1 * forms.half_widths[kAcross]};
     }
     return static_cast<std::size_t>(
         std::distance(weights.begin(), std::max_element(weights.begin(), weights.end())));
   }
 
   /// An upper bound on the tangent squared of the angle between the axis and any beta of the cell; infinity
-  /// when it may be a right angle. On an interval of betas less than pi wide the tangent is monotone where the
-  /// cosine is positive at both ends.
+  /// when it may be a right angle. On an interval of betas less than pi wide the tangent is monotone where
+  /// the cosine is positive at both ends.
   static double tangent_squared_from(const Interval& axis_cosine, const Interval& axis_sine,
                                      const Cell& cell) {
     double largest = 0.0;

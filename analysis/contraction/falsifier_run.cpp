@@ -114,9 +114,9 @@ RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolic
     outcome.states.push_back(after);
     const Eigen::Vector3d error = as_vector(after.error);
     const double level = claim.level(error);
-    const double allowed = std::sqrt(square(set.rate * level_before) +
-                                     square(set.noise_gain * std::hypot(input[0], input[1])) +
-                                     square(set.slew_gain * input[2]));
+    const double allowed =
+        std::sqrt(square(set.rate * level_before) + square(set.noise_gain * std::hypot(input[0], input[1])) +
+                  square(set.slew_gain * input[2]));
     outcome.largest_level = std::max(outcome.largest_level, level / set.radius);
     if (!(std::abs(error[2]) <= outcome.frequency_error)) {
       outcome.frequency_error = std::abs(error[2]);

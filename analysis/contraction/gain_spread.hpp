@@ -9,10 +9,10 @@ namespace veritrack::contraction {
 /// Phi lies between Phi_lo = riccati_update(P_lo) and Phi_hi, and K = Phi H' / r.
 template <typename Scalar>
 struct GainSpread {
-  BlockCovariance<Scalar> spread;                        ///< (Phi_hi - Phi_lo)/2
-  Scalar mean_amplitude, mean_phase, mean_frequency;     ///< of the gains K11, K22, K32 of the two bounds
-  Scalar rest_amplitude, rest_phase;                     ///< 1 - mean of K11 and K22
-  Scalar largest_amplitude, largest_phase;               ///< K11 and K22 of the upper bound
+  BlockCovariance<Scalar> spread;                     ///< (Phi_hi - Phi_lo)/2
+  Scalar mean_amplitude, mean_phase, mean_frequency;  ///< of the gains K11, K22, K32 of the two bounds
+  Scalar rest_amplitude, rest_phase;                  ///< 1 - mean of K11 and K22
+  Scalar largest_amplitude, largest_phase;            ///< K11 and K22 of the upper bound
 };
 
 /// The spread at |z| = rho.

@@ -55,8 +55,8 @@ struct PolarStepForm {
   std::array<Scalar, 2> spread;                     ///< (Delta11, Delta22)
   std::array<std::array<Scalar, 3>, 2> gain;        ///< the columns of T J K_mean
   Gram<Scalar> gram;                                ///< T J Delta J' T' / r^2
-  Constant least_along;  ///< lower bound on the component of the corrected z along the prediction
-  Constant mean_real;    ///< component of the z corrected by the mean gain along the true signal
+  Constant least_along;           ///< lower bound on the component of the corrected z along the prediction
+  Constant mean_real;             ///< component of the z corrected by the mean gain along the true signal
   std::array<Constant, 2> reach;  ///< correction_reach
 };
 
@@ -87,13 +87,13 @@ template <typename Constant, typename Scalar>
   const Scalar tangent = z2 / z1;
   const Scalar cosine = one / sqrt(one + square(tangent));
   const Scalar over_length = cosine / z1;
-  return {t.amplitude * cosine, t.amplitude * (tangent * cosine), -(t.phase * (tangent * cosine * over_length)),
-          t.phase * (cosine * over_length)};
+  return {t.amplitude * cosine, t.amplitude * (tangent * cosine),
+          -(t.phase * (tangent * cosine * over_length)), t.phase * (cosine * over_length)};
 }
 
 /// The same, averaged over the segment from z to z + d, d = (d1, d2). Proposal: in the middle.
-[[nodiscard]] inline std::array<double, 4> averaged_jacobian(const BlockMetric<double>& t, double z1, double z2,
-                                                             double d1, double d2) {
+[[nodiscard]] inline std::array<double, 4> averaged_jacobian(const BlockMetric<double>& t, double z1,
+                                                             double z2, double d1, double d2) {
   return polar_jacobian(t, z1 + 0.5 * d1, z2 + 0.5 * d2);
 }
 /// In the middle, with the remainder f''/24 of the midpoint rule. Along the segment (cos, sin)(arg z) has a
@@ -163,8 +163,8 @@ template <typename Constant, typename Scalar>
   form.least_along = correction.least_along;
   form.reach = correction.reach;
 
-  const std::array<Scalar, 4> b =
-      averaged_jacobian(t, correction.z1, correction.z2, Scalar(ray.along * ray.reach[0]), Scalar(ray.across * ray.reach[1]));
+  const std::array<Scalar, 4> b = averaged_jacobian(
+      t, correction.z1, correction.z2, Scalar(ray.along * ray.reach[0]), Scalar(ray.across * ray.reach[1]));
   const Scalar none(0.0);
   form.gain = {{{b[0] * gains.mean_amplitude, b[2] * gains.mean_amplitude, none},
                 {b[1] * gains.mean_phase, b[3] * gains.mean_phase + t.coupling * gains.mean_frequency,

@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "analysis/contraction/covariance_proposal.hpp"
 #include "analysis/contraction/sampled_set.hpp"
 #include "analysis/search/maximize.hpp"
 
@@ -19,6 +18,10 @@ constexpr double kWorthless = -std::numeric_limits<double>::max();
 bool is_about_a_start(Objective objective) {
   return objective == Objective::frequency_bound || objective == Objective::ultimate_error ||
          objective == Objective::settling;
+}
+
+bool sets_a_disturbance(Objective objective) {
+  return objective == Objective::noise || objective == Objective::slew;
 }
 
 /// Sets about a start are small, and their steps nearly linear: little room will do.
@@ -44,12 +47,15 @@ class Proposer {
  public:
   Proposer(const ProposalRequest& request, const BlockCovariance<double>& steady)
       : request_(request), steady_(steady), update_(riccati_update(steady, 1.0, request.design)) {
-    const bool given = request.objective != Objective::noise && request.objective != Objective::slew;
-    request_.noise = given ? request.noise : 0.0;
-    request_.slew = given ? request.slew : 0.0;
+    about_radius_ = sets_a_disturbance(request.objective);
+    if (about_radius_) {
+      request_.noise = request_.slew = 0.0;
+    }
     noisy_ = request_.noise > 0.0 || request.objective == Objective::noise;
     slewing_ = request_.slew > 0.0 || request.objective == Objective::slew;
-    about_radius_ = !given;
+    if (!is_about_a_start(request.objective)) {
+      request_.start_covariance.reset();
+    }
   }
 
   /// T from three numbers: the weights of amplitude and frequency against phase, as logarithms, and the
@@ -62,7 +68,8 @@ class Proposer {
     std::vector<Variable> variables{{0.0, 0.5, -5.0, 5.0}, {0.0, 0.5, -5.0, 5.0}, {-0.5, 0.3, -8.0, 8.0}};
     for (const bool there : {noisy_, slewing_}) {
       if (there) {
-        variables.push_back({2.0, 0.5, -6.0, 9.0});
+        // A large set has room for large gains.
+        variables.push_back({request_.objective == Objective::start_error ? 5.0 : 2.0, 0.5, -6.0, 9.0});
       }
     }
     if (about_radius_) {
@@ -88,26 +95,27 @@ class Proposer {
     shape.metric = {std::exp(x[0]) / std::sqrt(steady_.p11), phase, x[2] * frequency,
                     std::exp(x[1]) * frequency};
     Eigen::Index next = 3;
+    const auto above_the_least = [&](double least) { return least * std::sqrt(1.0 + std::exp(x[next++])); };
     if (noisy_) {
-      shape.noise_gain = least_noise_gain(shape.metric, update_) * std::sqrt(1.0 + std::exp(x[next++]));
+      shape.noise_gain = above_the_least(least_noise_gain(shape.metric, update_));
     }
     if (slewing_) {
-      shape.slew_gain = std::hypot(shape.metric.coupling, shape.metric.frequency) *
-                        std::sqrt(1.0 + std::exp(x[next++]));
+      shape.slew_gain = above_the_least(std::hypot(shape.metric.coupling, shape.metric.frequency));
     }
     shape.radius = about_radius_ ? std::exp(x[next]) : 0.0;
     return shape;
   }
 
   [[nodiscard]] SampledSet sample(const Shape& shape, double radius, double noise) const {
-    return sample_set({request_.design,
-                       shape.metric,
-                       radius,
-                       noise,
-                       {0.0, shape.noise_gain * shape.noise_gain, shape.slew_gain * shape.slew_gain, noisy_,
-                        slewing_},
-                       covariance_margin(request_.objective)},
-                      steady_);
+    return sample_set(
+        {request_.design,
+         shape.metric,
+         radius,
+         noise,
+         {0.0, shape.noise_gain * shape.noise_gain, shape.slew_gain * shape.slew_gain, noisy_, slewing_},
+         covariance_margin(request_.objective),
+         request_.start_covariance},
+        steady_);
   }
 
   /// What noise and slew add to |T e|^2 in a step.
@@ -203,7 +211,8 @@ class Proposer {
         const double above = settled * settled - found->ultimate * found->ultimate;
         const double start = found->start_level * found->start_level - found->ultimate * found->ultimate;
         if (!(above > 0.0)) {
-          return kWorthless;
+          constexpr double kNever = 1e9;  // samples; worse the further away
+          return -kNever * (found->ultimate / settled);
         }
         return start > above ? -std::log(above / start) / std::log(found->rate_squared) : 0.0;
       }
@@ -240,8 +249,8 @@ std::optional<Shape> propose_shape(const ProposalRequest& request) {
   const bool about_start = is_about_a_start(request.objective);
   search::BestPoint best;
   if (request.objective == Objective::start_error) {
-    best = search(
-        [&](const Shape& shape) { return proposer.largest_radius(shape) / shape.metric.frequency; });
+    best =
+        search([&](const Shape& shape) { return proposer.largest_radius(shape) / shape.metric.frequency; });
   } else if (about_start) {
     space.evaluations *= 6;  // one sample instead of a bisection each time
     best = search([&](const Shape& shape) { return proposer.worth(shape); });
@@ -277,25 +286,30 @@ std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Sh
   const BlockMetric<double>& t = shape.metric;
   set.metric << t.amplitude, 0.0, 0.0, 0.0, t.phase, t.coupling, 0.0, 0.0, t.frequency;
   set.radius = (objective == Objective::start_error ? fraction : 1.0) * shape.radius;
-  set.noise = objective == Objective::noise ? fraction * shape.objective
+  set.noise = objective == Objective::noise  ? fraction * shape.objective
               : objective == Objective::slew ? 0.0
                                              : request.noise;
   set.slew = objective == Objective::slew    ? fraction * shape.objective
              : objective == Objective::noise ? 0.0
                                              : request.slew;
-  set.noise_gain = shape.noise_gain;
-  set.slew_gain = shape.slew_gain;
+  // A smaller disturbance leaves room; half of it goes to the gains.
+  const double widening = sets_a_disturbance(objective) ? 1.0 / std::sqrt(fraction) : 1.0;
+  set.noise_gain = widening * shape.noise_gain;
+  set.slew_gain = widening * shape.slew_gain;
   const StepConstants<double> constants{0.0, set.noise_gain * set.noise_gain, set.slew_gain * set.slew_gain,
                                         set.noise > 0.0, set.slew > 0.0};
-  const SampledSet sampled = sample_set(
-      {request.design, t, set.radius, set.noise, constants, covariance_margin(objective)}, *steady);
+  const SampledSet sampled =
+      sample_set({request.design, t, set.radius, set.noise, constants, covariance_margin(objective),
+                  is_about_a_start(objective) ? request.start_covariance : std::nullopt},
+                 *steady);
   // What noise and slew leave for the contraction, with room for rounding.
   constexpr double kRoom = 1.0 + 1e-9;
   const double noise = set.noise_gain * set.noise / set.radius;
   const double slew = set.slew_gain * set.slew / set.radius;
   const double allowed = 1.0 - kRoom * (noise * noise + slew * slew);
-  const double wanted = is_about_a_start(objective) ? 1.0 - fraction * (1.0 - sampled.rate_squared)
-                                                    : 0.5 * (1.0 + sampled.rate_squared);
+  const double wanted = is_about_a_start(objective)     ? 1.0 - fraction * (1.0 - sampled.rate_squared)
+                        : sets_a_disturbance(objective) ? allowed
+                                                        : 0.5 * (1.0 + sampled.rate_squared);
   if (!(sampled.rate_squared < allowed)) {
     return std::nullopt;
   }

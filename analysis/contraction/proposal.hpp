@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "analysis/contraction/certified_set.hpp"
+#include "analysis/contraction/covariance_proposal.hpp"
 #include "analysis/contraction/step_inequality.hpp"
 #include "trackers/quadrature_ekf.hpp"
 
@@ -29,8 +30,9 @@ struct ProposalRequest {
   double slew = 0.0;   ///< rad/sample per sample; without meaning for Objective::noise and slew
   /// Bounds on |amplitude|, |phase| (rad) and |frequency error| (rad/sample) at the start.
   rigor::Vector<3> start = rigor::Vector<3>::Zero();
-  double settled_error = 0.0;  ///< rad/sample, for Objective::settling
-  int evaluations = 150;       ///< of the search; a hundred take about a quarter of a second
+  std::optional<CovarianceRange> start_covariance;  ///< to be held by the set; for objectives about a start
+  double settled_error = 0.0;                       ///< rad/sample, for Objective::settling
+  int evaluations = 150;  ///< of the search; a hundred take about a quarter of a second
 };
 
 /// A metric, a radius and gains at which sampling found the objective best.

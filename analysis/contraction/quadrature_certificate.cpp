@@ -1,13 +1,14 @@
 #include "analysis/contraction/quadrature_certificate.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "analysis/contraction/proposal.hpp"
+#include "analysis/contraction/set_search.hpp"
+#include "analysis/contraction/start_bounds.hpp"
 #include "analysis/rigor/decimal.hpp"
-#include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::contraction {
 
@@ -29,42 +30,6 @@ std::string at_least(const Interval& x) {
   return rigor::to_decimal(x.lower(), 4, Direction::down);
 }
 
-/// The largest proposal on a ladder of fractions that verifies; nothing when none does. Runs in the rounding
-/// mode of the filter; the verification opens its own.
-std::optional<Verification> largest_set(const ContractionQuestion& question, Objective objective) {
-  const rigor::NearestRounding nearest;
-  ProposalRequest request;
-  const auto& design = question.design;
-  request.design = {midpoint(design.q1), midpoint(design.q2), midpoint(design.r), 0.0};
-  request.objective = objective;
-  if (objective == Objective::start_error) {
-    request.noise = question.noise.upper();
-    request.slew = question.slew.upper();
-  }
-  request.evaluations = question.search_evaluations;
-  const auto shape = propose_shape(request);
-  if (!shape) {
-    return std::nullopt;
-  }
-  for (const double fraction : {0.8, 0.7, 0.6, 0.45, 0.3, 0.15, 0.05}) {
-    const auto proposal = propose_set(request, *shape, fraction);
-    if (!proposal) {
-      continue;
-    }
-    Verification verification = verify_certified_set(design, *proposal);
-    // A proposal is not to be believed, not even in the noise and slew that it was asked to bear.
-    const rigor::UpwardRounding upward;
-    const bool bears_what_is_assumed =
-        objective != Objective::start_error ||
-        (certainly_less_equal(question.noise, Interval(verification.set.noise)) &&
-         certainly_less_equal(question.slew, Interval(verification.set.slew)));
-    if (verification.verdict == Verdict::proved && bears_what_is_assumed) {
-      return verification;
-    }
-  }
-  return std::nullopt;
-}
-
 Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value) {
   return {std::move(name), std::move(symbol), std::move(formula), kSource, value, std::nullopt};
 }
@@ -72,99 +37,115 @@ Quantity missing(std::string name, std::string symbol, std::string formula, std:
   return {std::move(name), std::move(symbol), std::move(formula), kSource, Interval(), std::move(why)};
 }
 
-/// Everything that is said of the set for the assumed noise and slew.
-class SetReport {
+/// The sets that say something of the assumed starts, noise and slew.
+class Promises {
  public:
-  SetReport(const ContractionQuestion& question, const CertifiedSet& set)
-      : set_(set), rate_(set.rate), radius_(set.radius) {
-    ultimate_ = ultimate_level(set, question.noise, question.slew);
-    IntervalVector<3> start;
-    start << rigor::symmetric(question.initial_amplitude_error.upper()),
-        rigor::symmetric(question.initial_phase_error.upper()),
-        rigor::symmetric(question.initial_frequency_error.upper());
-    start_level_ = metric_norm(set, start);
-    // For the steady state nothing needs to be checked: the bounds are invariant under the Riccati map at
-    // |z| = 1 without a turn, whose iterates from any covariance tend to the steady state.
-    starts_inside_ = question.initial_covariance
-                         ? certainly_contains(set, start, *question.initial_covariance)
-                         : certainly_less_equal(start_level_, radius_);
+  Promises(const ContractionQuestion& question, const ContractionCertificate& certificate) {
+    std::vector<StartBounds> others;
+    for (const auto* set :
+         {&certificate.set, &certificate.bound_set, &certificate.ultimate_set, &certificate.settling_set}) {
+      if (*set) {
+        const StartBounds bounds(question, (*set)->set);
+        (bounds.contains_starts() ? bases_ : others).push_back(bounds);
+      }
+    }
+    starts_inside_ = !bases_.empty();
+    if (!starts_inside_ && certificate.set) {
+      bases_ = {StartBounds(question, certificate.set->set)};
+    }
+    ultimate_ = least([](const StartBounds& bounds) { return bounds.ultimate_frequency_error(); });
+    for (const StartBounds& inner : others) {
+      const bool led_into = std::any_of(bases_.begin(), bases_.end(), [&](const StartBounds& base) {
+        return certainly_leads_into(base.set(), inner.set(), question.noise, question.slew);
+      });
+      if (led_into) {
+        ultimate_ = Interval(std::min(ultimate_.upper(), inner.ultimate_frequency_error().upper()));
+      }
+    }
   }
 
-  [[nodiscard]] Condition start_in_set() const {
-    Condition condition{"start-in-set",
-                        "|T e(0)| \\le R,\\ P_{lo} \\le P(0) \\le P_{hi}",
-                        starts_inside_ ? Verdict::proved : Verdict::undecided,
-                        Interval(start_level_.upper()),
-                        radius_,
-                        {}};
-    condition.reason =
-        starts_inside_ ? "every assumed start lies in the certified set."
-        : certainly_less_equal(start_level_, radius_)
-            ? "the initial covariance is not certainly between the bounds of the certified set."
-            : "the assumed start errors reach " + at_most(start_level_) +
-                  " in a metric where the set ends at " + at_least(radius_) +
-                  ": smaller start errors, or a proof of capture, would do.";
-    return condition;
-  }
+  [[nodiscard]] bool starts_inside() const { return starts_inside_; }
+  [[nodiscard]] const Interval& ultimate() const { return ultimate_; }
 
   void add_to(std::vector<Quantity>& quantities) const {
-    const IntervalVector<3> bounds = error_bounds(set_, radius_);
-    quantities.push_back(quantity("contraction_rate", "\\kappa", "\\sup |T e^+| / |T e|", rate_));
-    quantities.push_back(quantity("radius", "R", "", radius_));
-    quantities.push_back(quantity("frequency_error_radius", "\\nu_R", "R\\,|e_3' T^{-1}|", bounds[2]));
-    quantities.push_back(quantity("phase_error_radius", "\\psi_R", "R\\,|e_2' T^{-1}|", bounds[1]));
-    quantities.push_back(quantity("amplitude_error_radius", "a_R", "R\\,|e_1' T^{-1}|", bounds[0]));
     quantities.push_back(quantity("ultimate_frequency_error", "\\nu_\\infty",
-                                  "\\frac{L_v V + L_w W}{1 - \\kappa}\\,|e_3' T^{-1}|",
-                                  error_bounds(set_, ultimate_)[2]));
-    add_bound(quantities);
+                                  "u\\,|e_3' T^{-1}|,\\ u^2 = \\tfrac{L_v^2 V^2 + L_w^2 W^2}{1 - \\kappa^2}",
+                                  ultimate_));
+    const std::string symbol = "\\sup_k |\\nu(k)|";
+    const std::string formula = "\\max(|T e(0)|, u)\\,|e_3' T^{-1}|";
+    quantities.push_back(starts_inside_ ? quantity("frequency_error_bound", symbol, formula,
+                                                   least([](const StartBounds& bounds) {
+                                                     return bounds.frequency_error_bound();
+                                                   }))
+                                        : missing("frequency_error_bound", symbol, formula,
+                                                  "The assumed starts are not in a certified set."));
     add_settling(quantities);
   }
 
  private:
-  /// |T e(k)| <= kappa^k l + (1 - kappa^k) u <= max(l, u).
-  void add_bound(std::vector<Quantity>& quantities) const {
-    const std::string name = "frequency_error_bound";
-    const std::string symbol = "\\sup_k |\\nu(k)|";
-    const std::string formula = "\\max(|T e(0)|, \\tfrac{L_v V + L_w W}{1 - \\kappa})\\,|e_3' T^{-1}|";
-    if (!starts_inside_) {
-      quantities.push_back(
-          missing(name, symbol, formula, "The assumed starts are not in the certified set."));
-      return;
+  template <typename Promise>
+  [[nodiscard]] Interval least(Promise promise) const {
+    double result = std::numeric_limits<double>::infinity();
+    for (const StartBounds& bounds : bases_) {
+      const Interval value = promise(bounds);
+      if (rigor::is_finite(value)) {
+        result = std::min(result, value.upper());
+      }
     }
-    const Interval level(std::max(start_level_.upper(), ultimate_.upper()));
-    quantities.push_back(quantity(name, symbol, formula, Interval(error_bounds(set_, level)[2].upper())));
+    return Interval(result);
   }
 
-  /// The least k with kappa^k l <= u: then |T e(k)| <= 2 u.
   void add_settling(std::vector<Quantity>& quantities) const {
     const std::string name = "settling_samples";
     const std::string symbol = "k_s";
-    const std::string formula =
-        "\\lceil \\log(u / |T e(0)|) / \\log \\kappa \\rceil,\\ u = \\tfrac{L_v V + L_w W}{1 - \\kappa}";
-    if (!certainly_positive(ultimate_)) {
-      quantities.push_back(missing(name, symbol, formula,
-                                   "Without noise and slew the ultimate bound is zero, which is approached "
-                                   "but not reached."));
-      return;
+    const std::string formula = "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s";
+    std::optional<Interval> samples;
+    for (const StartBounds& bounds : bases_) {
+      const auto found =
+          certainly_positive(ultimate_) ? bounds.samples_until(Interval(2.0) * ultimate_) : std::nullopt;
+      samples = found && samples ? rigor::min(*samples, *found) : found ? found : samples;
     }
-    const Interval start(starts_inside_ ? start_level_.upper() : radius_.upper());
-    const Interval smallest(ultimate_.lower());
-    if (certainly_less_equal(start, smallest)) {
-      quantities.push_back(quantity(name, symbol, formula, Interval(0.0)));
-      return;
-    }
-    const Interval samples = rigor::log(smallest / start) / rigor::log(rate_);
-    quantities.push_back(quantity(name, symbol, formula, Interval(std::ceil(samples.upper()))));
+    quantities.push_back(samples
+                             ? quantity(name, symbol, formula, *samples)
+                             : missing(name, symbol, formula,
+                                       certainly_positive(ultimate_)
+                                           ? "No set promises from when on it holds."
+                                           : "Without noise and slew the ultimate bound is zero, which is "
+                                             "approached but not reached."));
   }
 
-  CertifiedSet set_;
-  Interval rate_;
-  Interval radius_;
-  Interval ultimate_;
-  Interval start_level_;
+  std::vector<StartBounds> bases_;  ///< those that hold the starts; the largest when none does
   bool starts_inside_ = false;
+  Interval ultimate_;
 };
+
+Condition start_in_set(const ContractionQuestion& question, const CertifiedSet& set, bool starts_inside) {
+  const Interval radius(set.radius);
+  const Interval level = StartBounds(question, set).start_level();
+  Condition condition{"start-in-set",
+                      "|T e(0)| \\le R,\\ P_{lo} \\le P(0) \\le P_{hi}",
+                      starts_inside ? Verdict::proved : Verdict::undecided,
+                      Interval(level.upper()),
+                      radius,
+                      {}};
+  condition.reason = starts_inside ? "every assumed start lies in a certified set."
+                     : certainly_less_equal(level, radius)
+                         ? "the initial covariance is not certainly between the bounds of the certified set."
+                         : "the assumed start errors reach " + at_most(level) +
+                               " in a metric where the set ends at " + at_least(radius) +
+                               ": smaller start errors, or a proof of capture, would do.";
+  return condition;
+}
+
+void add_size(const CertifiedSet& set, std::vector<Quantity>& quantities) {
+  const Interval radius(set.radius);
+  const IntervalVector<3> bounds = error_bounds(set, radius);
+  quantities.push_back(quantity("contraction_rate", "\\kappa", "\\sup |T e^+| / |T e|", Interval(set.rate)));
+  quantities.push_back(quantity("radius", "R", "", radius));
+  quantities.push_back(quantity("frequency_error_radius", "\\nu_R", "R\\,|e_3' T^{-1}|", bounds[2]));
+  quantities.push_back(quantity("phase_error_radius", "\\psi_R", "R\\,|e_2' T^{-1}|", bounds[1]));
+  quantities.push_back(quantity("amplitude_error_radius", "a_R", "R\\,|e_1' T^{-1}|", bounds[0]));
+}
 
 Condition leak(const Interval& epsilon) {
   const bool none = epsilon == Interval(0.0);
@@ -196,14 +177,15 @@ Condition controllable_amplitude(const Interval& q1) {
 }
 
 Condition invariant_set(const ContractionQuestion& question, const ContractionCertificate& certificate) {
-  Condition condition{"invariant-set", "\\kappa R + L_v V + L_w W \\le R", Verdict::undecided, {}, {}, {}};
+  Condition condition{
+      "invariant-set", "\\kappa^2 R^2 + L_v^2 V^2 + L_w^2 W^2 \\le R^2", Verdict::undecided, {}, {}, {}};
   if (certificate.set) {
     const CertifiedSet& set = certificate.set->set;
     condition.verdict = certificate.set->verdict;
-    condition.lhs = Interval(set.rate) * Interval(set.radius) +
-                    Interval(set.noise_gain) * Interval(set.noise) +
-                    Interval(set.slew_gain) * Interval(set.slew);
-    condition.rhs = Interval(set.radius);
+    condition.lhs = rigor::square(Interval(set.rate) * Interval(set.radius)) +
+                    rigor::square(Interval(set.noise_gain) * Interval(set.noise)) +
+                    rigor::square(Interval(set.slew_gain) * Interval(set.slew));
+    condition.rhs = rigor::square(Interval(set.radius));
     condition.reason = certificate.set->reason;
     return condition;
   }
@@ -232,6 +214,26 @@ bool is_sensible(const ContractionQuestion& question) {
          certainly_less_equal(Interval(0.0), question.initial_frequency_error);
 }
 
+void find_sets(const ContractionQuestion& question, ContractionCertificate& certificate) {
+  certificate.noise_set = find_set(question, Objective::noise);
+  certificate.slew_set = find_set(question, Objective::slew);
+  certificate.set = find_set(question, Objective::start_error);
+  if (!certificate.set) {
+    return;
+  }
+  certificate.bound_set = find_set(question, Objective::frequency_bound);
+  const bool disturbed = certainly_positive(question.noise) || certainly_positive(question.slew);
+  if (!disturbed) {
+    return;
+  }
+  certificate.ultimate_set = find_set(question, Objective::ultimate_error);
+  if (!certificate.ultimate_set) {
+    certificate.ultimate_set = find_inner_set(question, certificate.set->set);
+  }
+  const Interval ultimate = Promises(question, certificate).ultimate();
+  certificate.settling_set = find_set(question, Objective::settling, 2.0 * ultimate.upper());
+}
+
 }  // namespace
 
 ContractionCertificate certify_contraction(const ContractionQuestion& question) {
@@ -246,17 +248,16 @@ ContractionCertificate certify_contraction(const ContractionQuestion& question) 
       "the "
       "estimated phase."};
   if (is_sensible(question)) {
-    certificate.set = largest_set(question, Objective::start_error);
-    certificate.noise_set = largest_set(question, Objective::noise);
-    certificate.slew_set = largest_set(question, Objective::slew);
+    find_sets(question, certificate);
   }
   derivation.conditions = {leak(question.design.epsilon), controllable_amplitude(question.design.q1),
                            invariant_set(question, certificate)};
   auto& quantities = derivation.quantities;
   if (certificate.set) {
-    const SetReport report(question, certificate.set->set);
-    derivation.conditions.push_back(report.start_in_set());
-    report.add_to(quantities);
+    const Promises promises(question, certificate);
+    derivation.conditions.push_back(start_in_set(question, certificate.set->set, promises.starts_inside()));
+    add_size(certificate.set->set, quantities);
+    promises.add_to(quantities);
   } else {
     for (const char* name : {"contraction_rate", "radius", "frequency_error_radius", "phase_error_radius",
                              "amplitude_error_radius", "ultimate_frequency_error", "frequency_error_bound",

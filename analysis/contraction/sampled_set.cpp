@@ -5,8 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "analysis/contraction/covariance_proposal.hpp"
-
 namespace veritrack::contraction {
 
 namespace {
@@ -29,7 +27,7 @@ PolarStepForm<double, double> form_at(const StepSetting<double>& setting, double
 /// Moves the covariance bounds of the setting out until the images of the rim stay between them. False when
 /// they run away.
 bool find_covariance_bounds(StepSetting<double>& setting, const BlockCovariance<double>& steady,
-                            double margin) {
+                            const SampleRequest& request) {
   constexpr int kMostSteps = 80;
   constexpr double kStandstill = 1e-4;
   CovarianceBounds bounds(steady);
@@ -44,7 +42,10 @@ bool find_covariance_bounds(StepSetting<double>& setting, const BlockCovariance<
       }
       turns[j] = {1.0 + a, correction.turn_tangent};
     }
-    const double moved = bounds.iterate(turns, setting.design, margin);
+    const double moved = bounds.iterate(turns, setting.design, request.covariance_margin);
+    if (request.start_covariance) {
+      bounds.include(*request.start_covariance, 0.5 * request.covariance_margin);
+    }
     if (!bounds.usable()) {
       return false;
     }
@@ -63,12 +64,11 @@ SampledSet sample_set(const SampleRequest& request, const BlockCovariance<double
   constexpr int kAngles = 16;
   const BlockMetric<double>& metric = request.metric;
   const double amplitude = request.radius / metric.amplitude;
-  const double chi =
-      request.radius * std::hypot(1.0 / metric.phase, (1.0 - metric.coupling / metric.phase) / metric.frequency);
+  const double chi = request.radius * std::hypot(1.0 / metric.phase,
+                                                 (1.0 - metric.coupling / metric.phase) / metric.frequency);
   SampledSet result{{request.design, metric, steady, steady, amplitude, chi, request.noise},
                     std::numeric_limits<double>::infinity()};
-  if (!(amplitude < 0.9) || !(chi < 2.9) ||
-      !find_covariance_bounds(result.setting, steady, request.covariance_margin)) {
+  if (!(amplitude < 0.9) || !(chi < 2.9) || !find_covariance_bounds(result.setting, steady, request)) {
     return result;
   }
   double rate_squared = 0.0;

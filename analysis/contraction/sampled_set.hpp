@@ -1,6 +1,9 @@
 // A set of errors and covariances as a few samples see it, in floating point: for proposals only.
 #pragma once
 
+#include <optional>
+
+#include "analysis/contraction/covariance_proposal.hpp"
 #include "analysis/contraction/step_inequality.hpp"
 
 namespace veritrack::contraction {
@@ -20,9 +23,10 @@ struct SampleRequest {
   double radius = 0.0;
   double noise = 0.0;  ///< relative to the amplitude
   StepConstants<double> constants;
-  /// By how much the covariance bounds are moved out beyond what is needed, in units of the steady state: room
-  /// for a proof.
+  /// By how much the covariance bounds are moved out beyond what is needed, in units of the steady state:
+  /// room for a proof.
   double covariance_margin = 0.02;
+  std::optional<CovarianceRange> start_covariance;  ///< to be held by the bounds as well
 };
 
 /// Finds covariance bounds by iteration from the steady state and samples the inequality.

@@ -45,7 +45,8 @@ template <std::size_t Size, typename Scalar>
 }
 
 /// True only when every symmetric matrix in `a` is positive definite: each real matrix in `a` has its own
-/// pivots in the enclosures, and positive pivots mean definiteness. False says nothing. Needs the upward mode.
+/// pivots in the enclosures, and positive pivots mean definiteness. False says nothing. Needs the upward
+/// mode.
 template <std::size_t Size>
 [[nodiscard]] bool certainly_positive_definite(LowerTriangle<Size> a) {
   return eliminate(a, Size);

@@ -13,8 +13,8 @@ using rigor::Interval;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The smallest k with k q >= offset + P' W^-1 P on the axis, in (x, nu), W the Schur block; infinity when W is
-/// not definite.
+/// The smallest k with k q >= offset + P' W^-1 P on the axis, in (x, nu), W the Schur block; infinity when W
+/// is not definite.
 double rate_squared_with(const PolarStepForm<double, double>& f, const BlockMetric<double>& metric,
                          const ReducedForm<double, double>& reduced) {
   const Gram<double>& w = reduced.schur;
@@ -61,7 +61,8 @@ double rate_squared_with(const PolarStepForm<double, double>& f, const BlockMetr
 struct Range {
   double low, high;
 };
-Range range_of_multipliers(const PolarStepForm<double, double>& form, const StepConstants<double>& constants) {
+Range range_of_multipliers(const PolarStepForm<double, double>& form,
+                           const StepConstants<double>& constants) {
   const double trace = std::log(form.gram.g11 + form.gram.g22 + form.gram.g33);
   Range range{trace - 0.7, trace + 5.0};
   if (constants.noisy) {
@@ -211,9 +212,9 @@ CellVerdict check_cell(const CellForms& forms, const BlockMetric<Interval>& metr
   if (!certainly_positive(lambda)) {
     return verdict;
   }
-  LowerTriangle<6, double> proposed = remaining_matrix(
-      forms.proposal, proposed_metric, proposed_constants,
-      reduced_form(forms.proposal, proposed_metric, proposed_constants, multiplier));
+  LowerTriangle<6, double> proposed =
+      remaining_matrix(forms.proposal, proposed_metric, proposed_constants,
+                       reduced_form(forms.proposal, proposed_metric, proposed_constants, multiplier));
   const double tau = propose_angle_multiplier(proposed, forms.tangent_squared);
   if (tau > 0.0) {
     add_angle(proposed, tau, forms.tangent_squared);
@@ -239,8 +240,9 @@ CellVerdict check_cell(const CellForms& forms, const BlockMetric<Interval>& metr
   for (int variable = 0; variable < kCellVariables; ++variable) {
     const auto index = static_cast<std::size_t>(variable);
     const Interval away = rigor::symmetric(forms.half_widths[index]);
-    const LowerTriangle<6> slope = congruent(
-        c, [&](std::size_t i, std::size_t j) -> const Interval& { return slopes[i][j].derivative(variable); });
+    const LowerTriangle<6> slope = congruent(c, [&](std::size_t i, std::size_t j) -> const Interval& {
+      return slopes[i][j].derivative(variable);
+    });
     for (std::size_t i = 0; i < 6; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         const Interval moved = slope[i][j] * away;

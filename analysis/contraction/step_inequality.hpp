@@ -8,9 +8,9 @@
 //     [[L_v^2 I - lambda Delta, -lambda Delta i,                                              G'],
 //      [  .  , rate^2 q - lambda i' Delta i + tau diag(-tangent^2, 1, 0),                     P'],
 //      [  .  ,    .   ,                                       I - Gamma/lambda - t t'/L_w^2]]
-// is positive definite: its rows belong to v, to (x, y, nu), and to the three components of T e+. Here Delta =
-// diag(Delta11, Delta22), i = (i_x, i_y, 0), G = T J K_mean, P = (T c_x, T c_y, t), t = T (0, 0, 1)', and q,
-// Gamma are the form's. The rows of v are eliminated by hand: their block is diagonal.
+// is positive definite: its rows belong to v, to (x, y, nu), and to the three components of T e+. Here Delta
+// = diag(Delta11, Delta22), i = (i_x, i_y, 0), G = T J K_mean, P = (T c_x, T c_y, t), t = T (0, 0, 1)', and
+// q, Gamma are the form's. The rows of v are eliminated by hand: their block is diagonal.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@
 
 namespace veritrack::contraction {
 
-/// The constants of the inequality, and whether there is noise or slew at all: if not, their rows are left out
-/// and their gains are not read.
+/// The constants of the inequality, and whether there is noise or slew at all: if not, their rows are left
+/// out and their gains are not read.
 template <typename Constant>
 struct StepConstants {
   Constant rate_squared, noise_gain_squared, slew_gain_squared;
@@ -54,22 +54,21 @@ void subtract_outer(Gram<Target>& g, const std::array<Scalar, 3>& c, const Scala
 /// Eliminates noise and slew for a multiplier lambda.
 template <typename Constant, typename Scalar>
 [[nodiscard]] ReducedForm<Constant, Scalar> reduced_form(const PolarStepForm<Constant, Scalar>& form,
-                                               const BlockMetric<Constant>& metric,
-                                               const StepConstants<Constant>& constants,
-                                               const Constant& multiplier) {
+                                                         const BlockMetric<Constant>& metric,
+                                                         const StepConstants<Constant>& constants,
+                                                         const Constant& multiplier) {
   using trackers::detail::square;
   const Constant one(1.0);
   const Constant over = one / multiplier;
   const Gram<Scalar>& g = form.gram;
   const Scalar none(0.0);
-  ReducedForm<Constant, Scalar> reduced{
-      {one - g.g11 * over, -(g.g12 * over), -(g.g13 * over), one - g.g22 * over, -(g.g23 * over),
-       one - g.g33 * over},
-      form.centre,
-      none,
-      none,
-      none,
-      {one, one}};
+  ReducedForm<Constant, Scalar> reduced{{one - g.g11 * over, -(g.g12 * over), -(g.g13 * over),
+                                         one - g.g22 * over, -(g.g23 * over), one - g.g33 * over},
+                                        form.centre,
+                                        none,
+                                        none,
+                                        none,
+                                        {one, one}};
   if (constants.slewing) {
     detail::subtract_outer(reduced.schur,
                            std::array<Constant, 3>{Constant(0.0), metric.coupling, metric.frequency},
@@ -108,19 +107,19 @@ struct RayRate {
 
 /// Proposal only; the rate in `constants` is not read. A rate of infinity when no multiplier works.
 [[nodiscard]] RayRate propose_rate(const PolarStepForm<double, double>& form,
-                                   const BlockMetric<double>& metric,
-                                   const StepConstants<double>& constants);
+                                   const BlockMetric<double>& metric, const StepConstants<double>& constants);
 
-/// The matrix of the inequality over a cell is that in its middle plus, for each of s, beta, along and across,
-/// an enclosure of the derivative times the way from the middle.
+/// The matrix of the inequality over a cell is that in its middle plus, for each of s, beta, along and
+/// across, an enclosure of the derivative times the way from the middle.
 constexpr int kCellVariables = 4;
 using Derivatives = rigor::Dual<rigor::Interval, kCellVariables>;
 struct CellForms {
-  PolarStepForm<double, double> proposal;                    ///< in the middle, by and large
-  PolarStepForm<rigor::Interval, rigor::Interval> middle;    ///< there, enclosed
-  PolarStepForm<rigor::Interval, Derivatives> over;          ///< over the cell
-  std::array<double, kCellVariables> half_widths;            ///< upper bounds
-  double tangent_squared;  ///< of the largest angle to the axis, an upper bound; infinite when it is not acute
+  PolarStepForm<double, double> proposal;                  ///< in the middle, by and large
+  PolarStepForm<rigor::Interval, rigor::Interval> middle;  ///< there, enclosed
+  PolarStepForm<rigor::Interval, Derivatives> over;        ///< over the cell
+  std::array<double, kCellVariables> half_widths;          ///< upper bounds
+  double
+      tangent_squared;  ///< of the largest angle to the axis, an upper bound; infinite when it is not acute
 };
 
 /// What the look at a cell found.

@@ -36,8 +36,8 @@ std::vector<TurnBound> bound_turns(const StepSetting<Interval>& setting) {
     const Interval chi_end = largest_chi(setting, a);
     double tangent = 0.0;
     for (int j = 0; j < kPhases; ++j) {
-      const Interval chi = rigor::hull(node(j, kPhases, Interval(0.0), chi_end),
-                                       node(j + 1, kPhases, Interval(0.0), chi_end));
+      const Interval chi =
+          rigor::hull(node(j, kPhases, Interval(0.0), chi_end), node(j + 1, kPhases, Interval(0.0), chi_end));
       const Correction<Interval, Interval> correction = correction_at<Interval, Interval>(setting, a, chi);
       if (!certainly_positive(correction.least_along) || !is_finite(correction.turn_tangent)) {
         return {};

@@ -54,6 +54,44 @@ TEST_CASE("the ratios over intervals hold those of long double, and are narrow o
   }
 }
 
+TEST_CASE("the slopes of the ratios hold those of long double, and are narrow over points") {
+  // -s'(x)/x = int u^2 sin(xu)/(xu) du and -t'(x)/x = int 2 u^2/(1 + x^2 u^2)^2 du over [0, 1], by Simpson's
+  // rule.
+  const auto integral = [](const auto& f) {
+    constexpr int kParts = 200;
+    long double sum = 0.0L;
+    for (int i = 0; i <= kParts; ++i) {
+      const long double weight = i == 0 || i == kParts ? 1.0L : i % 2 == 0 ? 2.0L : 4.0L;
+      sum += weight * f(static_cast<long double>(i) / kParts);
+    }
+    return sum / (3.0L * kParts);
+  };
+  test::Random random(63);
+  for (int k = 0; k < 2000; ++k) {
+    const double scale = std::pow(10.0, random.uniform(-6.0, 0.0));
+    const double a = 2.9 * scale * random.uniform(-1.0, 1.0);
+    const double b = k % 2 == 0 ? a : 2.9 * scale * random.uniform(-1.0, 1.0);
+    const double low = std::min(a, b);
+    const double high = std::max(a, b);
+    const long double x = low + (high - low) * random.uniform();
+    const long double s = integral([&](long double u) { return u * u * sine_over(x * u); });
+    const long double t = integral(
+        [&](long double u) { return 2.0L * u * u / ((1.0L + x * x * u * u) * (1.0L + x * x * u * u)); });
+    const rigor::UpwardRounding upward;
+    const Interval sine = sine_ratio_slope(Interval::from_bounds(low, high));
+    const Interval tangent = arctangent_ratio_slope(Interval::from_bounds(low, high));
+    constexpr long double kQuadrature = 1e-7L;
+    CHECK(static_cast<long double>(sine.lower()) <= s + kQuadrature);
+    CHECK(static_cast<long double>(sine.upper()) >= s - kQuadrature);
+    CHECK(static_cast<long double>(tangent.lower()) <= t + kQuadrature);
+    CHECK(static_cast<long double>(tangent.upper()) >= t - kQuadrature);
+    if (low == high) {
+      CHECK(width(sine) <= 1e-3);
+      CHECK(width(tangent) <= 1e-4);
+    }
+  }
+}
+
 TEST_CASE("the ratios over doubles") {
   test::Random random(62);
   for (int k = 0; k < 10000; ++k) {
@@ -69,6 +107,9 @@ TEST_CASE("beyond their range, and of nothing, the ratios say nothing") {
   CHECK(is_empty(sine_ratio(Interval(3.1))));
   CHECK(is_empty(sine_ratio(Interval::entire())));
   CHECK(is_empty(sine_ratio(Interval::empty())));
+  CHECK(is_empty(sine_ratio_slope(Interval(3.1))));
+  CHECK(is_empty(sine_ratio_slope(Interval::empty())));
+  CHECK(is_empty(arctangent_ratio_slope(Interval::entire())));
   CHECK(is_empty(arctangent_ratio(Interval::empty())));
   CHECK(is_empty(arctangent_ratio(Interval::entire())));
 }

@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/contraction/polar_step_form.hpp"
 #include "analysis/contraction/small_definiteness.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trackers/random_tracker.hpp"
-#include "trackers/quadrature_polar_frame.hpp"
 
 namespace veritrack::contraction {
 namespace {
@@ -148,35 +146,6 @@ TEST_CASE("definiteness by pivots agrees with eigenvalues and refuses what is no
     CHECK_FALSE(certainly_positive_definite<4>(lower));
   }
   CHECK(definite > 100);
-}
-
-TEST_CASE("the form of a ray is the polar map along that ray") {
-  test::Random random(75);
-  const trackers::QuadratureEkfDesign<double> design{0.0013, 0.002, 0.01, 0.0};
-  for (int k = 0; k < 5000; ++k) {
-    const auto low = random_block(random);
-    StepSetting<double> setting{
-        design, {2.0, 3.0, -1.0, 4.0}, low, low, random.uniform(0.1, 0.5), random.uniform(0.1, 1.0), 0.0};
-    const double s = random.uniform(0.05, 1.0);
-    const double beta = random.uniform(0.0, 3.14);
-    const double m = random.uniform(-2.0, 2.0);
-    const auto form = polar_step_form(setting, {s, std::cos(beta), std::sin(beta), 0.0, 0.0});
-    const double nu = s * m;
-    const double a = s * setting.largest_amplitude * std::cos(beta);
-    const double psi = s * setting.largest_chi * std::sin(beta) - nu;
-    const trackers::PolarFrameState<double> state{{a, psi, nu},
-                                                  {low.p11, 0.0, 0.0, low.p22, low.p23, low.p33}};
-    const auto next = trackers::polar_frame_map(state, {0.0, 0.0, 0.0, 0.7}, design);
-    // T e and T e+, with equal bounds of the covariance nothing is left to chance.
-    const Eigen::Vector3d te(2.0 * a, 3.0 * psi - nu, 4.0 * nu);
-    const Eigen::Vector3d image(2.0 * next.error.amplitude, 3.0 * next.error.phase - next.error.frequency,
-                                4.0 * next.error.frequency);
-    const Eigen::Vector3d predicted(s * form.centre[0], s * form.centre[1] - nu,
-                                    s * form.centre[2] + 4.0 * nu);
-    CHECK((image - predicted).norm() <= 1e-11);
-    CHECK(std::fabs(te.squaredNorm() - s * s * (form.q11 + 2.0 * form.q12 * m + form.q22 * m * m)) <= 1e-11);
-    CHECK(std::fabs(form.eta_squared) <= 1e-12);
-  }
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ QuantityText describe(const std::string& name) {
   using markdown::at_least;
   using markdown::at_most;
   using markdown::enclosure;
-  static constexpr std::array<Entry, 15> kEntries{{
+  static constexpr std::array<Entry, 19> kEntries{{
       {"contraction_rate", "factor by which the error shrinks, per sample", at_most},
       {"radius", "radius of the certified set, in its metric", enclosure},
       {"frequency_error_radius", "frequency error to which the set reaches, rad/sample", at_least},
@@ -38,6 +38,14 @@ QuantityText describe(const std::string& name) {
       {"largest_noise", "largest certified noise (at constant frequency), relative to the amplitude",
        at_least},
       {"largest_slew", "largest certified slew (without noise), rad/sample per sample", at_least},
+      {"frequency_error_radius_sampled_limit",
+       "frequency error at which a search finds a step out of the set, rad/sample", enclosure},
+      {"frequency_error_radius_share_of_limit", "certified radius over that at which the search succeeds",
+       enclosure},
+      {"frequency_error_bound_tightness",
+       "largest frequency error found from the rim of its set, over the bound", enclosure},
+      {"ultimate_frequency_error_tightness", "largest frequency error found from zero error, over the bound",
+       enclosure},
       {"bias_frequency", "steady-state frequency error of the leak, rad/sample", enclosure},
       {"capture_samples", "samples until every assumed start is in the certified set", at_most},
       {"wrong_lock_frequency_error", "frequency error that a start ends with, rad/sample", at_least},

@@ -40,8 +40,9 @@ std::string quantities_table(const theorems::Derivation& derivation,
     const QuantityText text = describe(quantity.name);
     rows.push_back({text.description, quantity.symbol.empty() ? "—" : math(quantity.symbol),
                     quantity.formula.empty() ? "—" : math(quantity.formula),
-                    quantity.not_applicable ? "not applicable: " + *quantity.not_applicable
-                                            : text.value(quantity.value, 4)});
+                    quantity.not_applicable
+                        ? "not applicable: " + *quantity.not_applicable
+                        : text.value(quantity.value, 4) + (quantity.proved ? "" : " (sampled, not proved)")});
   }
   return table({"Quantity", "Symbol", "Formula", "Value"}, rows);
 }

@@ -138,8 +138,8 @@ void add_quantities(theorems::Derivation& derivation, const CertifiedSet& set, c
   add("frequency_error_bound", "\\sup_k |\\nu(k)|",
       "\\max(\\max_{k \\le k_c} |\\nu(k)|,\\ |T e(k_c)|\\,|e_3' T^{-1}|,\\ \\nu_\\infty)", bound, kNotAll);
   add("ultimate_frequency_error", "\\nu_\\infty", "u\\,|e_3' T^{-1}|", ultimate, kNotAll);
-  add("settling_samples", "k_s", "k_c + \\min \\{k : \\kappa^k |T e(k_c)| + (1 - \\kappa^k) u \\le 2 u\\}",
-      settling,
+  add("settling_samples", "k_s",
+      "k_c + \\min \\{k : \\kappa^{2k} |T e(k_c)|^2 + (1 - \\kappa^{2k}) u^2 \\le 4 u^2\\}", settling,
       proved ? "Without noise and slew the ultimate bound is zero, which is approached but not reached."
              : kNotAll);
   if (const std::optional<Interval> wrong = wrong_lock(set, region)) {

@@ -9,10 +9,7 @@ using rigor::Interval;
 
 CertifiedLevel::CertifiedLevel(const CertifiedSet& set, const Interval& level, const Interval& noise,
                                const Interval& slew)
-    : set_(set),
-      level_(level),
-      ultimate_((Interval(set.noise_gain) * noise + Interval(set.slew_gain) * slew) /
-                (Interval(1.0) - Interval(set.rate))) {}
+    : set_(set), level_(level), ultimate_(ultimate_level(set, noise, slew)) {}
 
 double CertifiedLevel::largest_frequency_error() const {
   return frequency_error_at(max(level_, Interval(ultimate_.upper())));
@@ -24,9 +21,10 @@ double CertifiedLevel::frequency_error_at(const Interval& level) const {
 }
 
 void CertifiedLevel::step() {
-  // At most kappa level + (1 - kappa) u, u from above.
-  const Interval above(ultimate_.upper());
-  level_ = Interval((above + Interval(set_.rate) * (level_ - above)).upper());
+  // The square is at most kappa^2 level^2 + (1 - kappa^2) u^2, u from above.
+  const Interval above = rigor::square(Interval(ultimate_.upper()));
+  const Interval next = above + rigor::square(Interval(set_.rate)) * (rigor::square(level_) - above);
+  level_ = Interval(rigor::sqrt(next).upper());
 }
 
 bool CertifiedLevel::settled() const {

@@ -6,7 +6,7 @@
 namespace veritrack::contraction {
 
 /// An upper bound on |T e(k)|, sample by sample, of every start in the set with |T e(0)| <= level:
-/// |T e(k)| <= kappa^k level + (1 - kappa^k) u, u = (L_v V + L_w W) / (1 - kappa). Every function needs the
+/// |T e(k)|^2 <= kappa^(2k) level^2 + (1 - kappa^(2k)) u^2, u the ultimate level. Every function needs the
 /// upward mode.
 class CertifiedLevel {
  public:

@@ -21,6 +21,7 @@ struct ContractionQuestion {
   /// P(0|0) in the frame of the estimated phase; none: the filter's steady state.
   std::optional<rigor::IntervalMatrix<3>> initial_covariance;
   int search_evaluations = 40;  ///< per set
+  bool with_samples = true;     ///< also what a search finds, which proves nothing
 };
 
 }  // namespace veritrack::contraction

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/contraction/falsifier.hpp"
+#include "analysis/contraction/sampled_limit.hpp"
 #include "analysis/contraction/set_search.hpp"
 #include "analysis/contraction/start_bounds.hpp"
 #include "analysis/rigor/decimal.hpp"
@@ -214,6 +216,35 @@ bool is_sensible(const ContractionQuestion& question) {
          certainly_less_equal(Interval(0.0), question.initial_frequency_error);
 }
 
+/// What a search found, for a reader to judge the certificate by. None of it is proved.
+void add_samples(const ContractionQuestion& question, const ContractionCertificate& certificate,
+                 std::vector<Quantity>& quantities) {
+  const auto& intervals = question.design;
+  const trackers::QuadratureEkfDesign<double> design{midpoint(intervals.q1), midpoint(intervals.q2),
+                                                     midpoint(intervals.r), 0.0};
+  const auto add = [&](const char* name, const char* symbol, const char* formula, double value) {
+    quantities.push_back(quantity(name, symbol, formula, Interval(value)));
+    quantities.back().proved = false;
+  };
+  const CertifiedSet& set = certificate.set->set;
+  const double limit = sampled_radius_limit(set, design);
+  add("frequency_error_radius_sampled_limit", "\\hat\\nu_R", "\\hat R\\,|e_3' T^{-1}|",
+      error_bounds(set, Interval(limit))[2].upper());
+  add("frequency_error_radius_share_of_limit", "R / \\hat R", "", set.radius / limit);
+  FalsifierOptions effort;
+  effort.search_evaluations = 10;
+  if (certificate.bound_set) {
+    const Falsification found = try_to_break(certificate.bound_set->set, design, effort);
+    add("frequency_error_bound_tightness", "", "\\sup_{\\text{found}} |\\nu| / (R\\,|e_3' T^{-1}|)",
+        found.from_rim.tightness());
+  }
+  if (certificate.ultimate_set) {
+    const Falsification found = try_to_break(certificate.ultimate_set->set, design, effort);
+    add("ultimate_frequency_error_tightness", "", "\\sup_{\\text{found}} |\\nu| / \\nu_\\infty",
+        found.from_zero.tightness());
+  }
+}
+
 void find_sets(const ContractionQuestion& question, ContractionCertificate& certificate) {
   certificate.noise_set = find_set(question, Objective::noise);
   certificate.slew_set = find_set(question, Objective::slew);
@@ -272,6 +303,9 @@ ContractionCertificate certify_contraction(const ContractionQuestion& question) 
   quantities.push_back(certificate.slew_set
                            ? quantity("largest_slew", "W_{max}", "", Interval(certificate.slew_set->set.slew))
                            : missing("largest_slew", "W_{max}", "", none));
+  if (certificate.set && question.with_samples) {
+    add_samples(question, certificate, quantities);
+  }
   std::vector<Verdict> verdicts;
   for (const Condition& condition : derivation.conditions) {
     verdicts.push_back(condition.verdict);

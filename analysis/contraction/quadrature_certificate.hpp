@@ -15,8 +15,10 @@ namespace veritrack::contraction {
 struct ContractionCertificate {
   /// id "contraction"; quantities contraction_rate, radius, frequency_error_radius, phase_error_radius,
   /// amplitude_error_radius (all of `set`), frequency_error_bound, ultimate_frequency_error, settling_samples
-  /// (each from the set that promises most for the assumed starts), largest_noise, largest_slew; conditions
-  /// leak, controllable-amplitude, invariant-set, start-in-set.
+  /// (each from the set that promises most for the assumed starts), largest_noise, largest_slew; not proved:
+  /// frequency_error_radius_sampled_limit, frequency_error_radius_share_of_limit,
+  /// frequency_error_bound_tightness, ultimate_frequency_error_tightness; conditions leak,
+  /// controllable-amplitude, invariant-set, start-in-set.
   theorems::Derivation derivation;
   std::optional<Verification> set;        ///< the largest start error under the assumed noise and slew
   std::optional<Verification> noise_set;  ///< the largest noise, without slew

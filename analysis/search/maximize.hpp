@@ -34,4 +34,10 @@ struct BestPoint {
 [[nodiscard]] BestPoint maximize(const std::function<double(const Eigen::VectorXd&)>& objective,
                                  const SearchSpace& space);
 
+/// The same for a smooth objective, uphill along its gradient (NLopt's method of moving asymptotes, K.
+/// Svanberg); the gradient is that of central differences of a ten thousandth of `step`. All evaluations
+/// count.
+[[nodiscard]] BestPoint climb(const std::function<double(const Eigen::VectorXd&)>& objective,
+                              const SearchSpace& space);
+
 }  // namespace veritrack::search

@@ -30,6 +30,25 @@ TEST_CASE("finds the top of a concave function with a kink") {
   CHECK(best.value == with_a_kink(best.point));
 }
 
+TEST_CASE("climbs a smooth hill to its top, in five variables") {
+  const auto hill = [](const Eigen::VectorXd& x) {
+    const double ridge = x[1] - x[0] * x[0];
+    return -ridge * ridge - 0.1 * (x[0] - 1.0) * (x[0] - 1.0) - x.tail(3).squaredNorm();
+  };
+  SearchSpace space;
+  space.start = Eigen::VectorXd::Constant(5, -1.0);
+  space.step = Eigen::VectorXd::Constant(5, 0.2);
+  space.lower = Eigen::VectorXd::Constant(5, -5.0);
+  space.upper = Eigen::VectorXd::Constant(5, 5.0);
+  space.evaluations = 4000;
+  const BestPoint best = climb(hill, space);
+  CHECK(best.value > -0.02);
+  CHECK(best.value == hill(best.point));
+  CHECK(climb(hill, space).point == best.point);
+  space.evaluations = 3;
+  CHECK(climb(hill, space).value >= hill(space.start));
+}
+
 TEST_CASE("the same calls give the same result") {
   const BestPoint first = maximize(with_a_kink, plane());
   const BestPoint second = maximize(with_a_kink, plane());

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "analysis/contraction/falsifier_run.hpp"
+#include "analysis/contraction/falsifier_gradient.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/search/maximize.hpp"
 #include "trackers/signals/random.hpp"
@@ -17,19 +17,7 @@ namespace veritrack::contraction {
 
 namespace {
 
-using Vector9 = Eigen::Matrix<double, 9, 1>;
-using Vector12 = Eigen::Matrix<double, 12, 1>;
 constexpr double kPi = std::numbers::pi;
-
-PolarState state_of(const Vector9& x) {
-  return {{x[0], x[1], x[2]}, {x[3], x[4], x[5], x[6], x[7], x[8]}};
-}
-Vector9 vector_of(const PolarState& s) {
-  Vector9 x;
-  x << s.error.amplitude, s.error.phase, s.error.frequency, s.covariance.p11, s.covariance.p12,
-      s.covariance.p13, s.covariance.p22, s.covariance.p23, s.covariance.p33;
-  return x;
-}
 
 /// A periodic disturbance: noise of full size that flips (or turns), slew of full size that flips.
 struct Periodic {
@@ -103,32 +91,6 @@ class Search {
             gradient[2] >= 0.0 ? claim_.set().slew : -claim_.set().slew};
   }
 
-  [[nodiscard]] Vector9 next(const Vector12& x) const {
-    const trackers::PolarInput<double> input{x[9], x[10], x[11], 0.0};
-    return vector_of(trackers::polar_frame_map<double>(state_of(x.head<9>()), input, claim_.design()));
-  }
-
-  /// The gradient of weight' X(k+1) with respect to (X(k), input), by central differences.
-  [[nodiscard]] Vector12 pulled_back(const Vector9& weight, const PolarState& state,
-                                     const Eigen::Vector3d& input) const {
-    Vector12 x;
-    x << vector_of(state), input;
-    const auto& p = state.covariance;
-    Vector12 step;
-    step << 1e-5, 1e-5, 1e-5, p.p11, std::sqrt(p.p11 * p.p22), std::sqrt(p.p11 * p.p33), p.p22,
-        std::sqrt(p.p22 * p.p33), p.p33, 1e-5, 1e-5, 1e-5;
-    step.segment<6>(3) *= 1e-5;
-    Vector12 gradient;
-    for (int i = 0; i < 12; ++i) {
-      Vector12 above = x;
-      Vector12 below = x;
-      above[i] += step[i];
-      below[i] -= step[i];
-      gradient[i] = weight.dot(next(above) - next(below)) / (2.0 * step[i]);
-    }
-    return gradient;
-  }
-
   /// Steps as far as possible in |T e| or the frequency error, one step at a time.
   void greedy(bool from_zero) {
     for (const bool level : {true, false}) {
@@ -138,14 +100,14 @@ class Search {
           Vector9 weight = Vector9::Zero();
           Vector12 x = Vector12::Zero();
           x.head<9>() = vector_of(state);
-          const Vector9 free = next(x);
+          const Vector9 free = next_state(claim_, x);
           if (level) {
             weight.head<3>() = claim_.set().metric.transpose() * (claim_.set().metric * free.head<3>());
           }
           if (weight.isZero(0.0)) {
             weight[2] = free[2] >= 0.0 ? 1.0 : -1.0;
           }
-          return push(pulled_back(weight, state, Eigen::Vector3d::Zero()).tail<3>());
+          return push(pulled_back(claim_, weight, state, Eigen::Vector3d::Zero()).tail<3>());
         };
         attempt(start_at("greedy", start, j), policy, options_.steps, from_zero);
       }
@@ -184,7 +146,7 @@ class Search {
       weight.head<3>() = t.transpose() * (t * as_vector(outcome.states.back().error));
     }
     for (std::size_t k = inputs.size(); k-- > 0;) {
-      const Vector12 gradient = pulled_back(weight, outcome.states[k], inputs[k]);
+      const Vector12 gradient = pulled_back(claim_, weight, outcome.states[k], inputs[k]);
       inputs[k] = push(gradient.tail<3>());
       weight = gradient.head<9>() / std::max(gradient.head<9>().norm(), 1e-300);
     }
@@ -207,27 +169,6 @@ class Search {
     start.start_covariance = claim_.covariance_at(share);
   }
 
-  /// rad/sample: of the slowest oscillation of the loop about zero error, in its steady state.
-  [[nodiscard]] double own_frequency() const {
-    Vector12 x = Vector12::Zero();
-    x.head<9>() = vector_of({{0.0, 0.0, 0.0},
-                             trackers::PolarCovariance<double>::from_matrix(
-                                 claim_.covariance_at(0.5 * Eigen::Matrix3d::Identity()))});
-    for (int k = 0; k < options_.steps; ++k) {
-      x.head<9>() = next(x);
-    }
-    Eigen::Matrix3d loop;
-    for (int i = 0; i < 3; ++i) {
-      loop.row(i) =
-          pulled_back(Vector9::Unit(i), state_of(x.head<9>()), Eigen::Vector3d::Zero()).head<3>().transpose();
-    }
-    double frequency = 0.0;
-    for (const auto& eigenvalue : Eigen::EigenSolver<Eigen::Matrix3d>(loop, false).eigenvalues()) {
-      frequency = std::max(frequency, std::abs(std::arg(eigenvalue)));
-    }
-    return frequency;
-  }
-
   double periodic_run(const Periodic& shape, const Attack& start, bool from_zero) {
     const double noise = claim_.set().noise;
     const double slew = claim_.set().slew;
@@ -243,7 +184,7 @@ class Search {
   }
 
   void periodic(bool from_zero) {
-    const double own = own_frequency();
+    const double own = own_frequency(claim_, options_.steps);
     struct Family {
       const char* name;
       double angular_frequency;

@@ -1,16 +1,14 @@
 #include "analysis/contraction/quadrature_certificate.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "analysis/contraction/falsifier.hpp"
-#include "analysis/contraction/sampled_limit.hpp"
+#include "analysis/contraction/promises.hpp"
+#include "analysis/contraction/sampled_quantities.hpp"
 #include "analysis/contraction/set_search.hpp"
-#include "analysis/contraction/start_bounds.hpp"
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/theorems/derivation_builder.hpp"
 
 namespace veritrack::contraction {
 
@@ -21,9 +19,8 @@ using rigor::Interval;
 using rigor::IntervalVector;
 using rigor::Verdict;
 using theorems::Condition;
-using theorems::Quantity;
 
-constexpr const char* kSource = "docs/contraction.md";
+constexpr const char* kNone = "No set could be certified.";
 
 std::string at_most(const Interval& x) {
   return rigor::to_decimal(x.upper(), 4, Direction::up);
@@ -31,95 +28,6 @@ std::string at_most(const Interval& x) {
 std::string at_least(const Interval& x) {
   return rigor::to_decimal(x.lower(), 4, Direction::down);
 }
-
-Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value) {
-  return {std::move(name), std::move(symbol), std::move(formula), kSource, value, std::nullopt};
-}
-Quantity missing(std::string name, std::string symbol, std::string formula, std::string why) {
-  return {std::move(name), std::move(symbol), std::move(formula), kSource, Interval(), std::move(why)};
-}
-
-/// The sets that say something of the assumed starts, noise and slew.
-class Promises {
- public:
-  Promises(const ContractionQuestion& question, const ContractionCertificate& certificate) {
-    std::vector<StartBounds> others;
-    for (const auto* set :
-         {&certificate.set, &certificate.bound_set, &certificate.ultimate_set, &certificate.settling_set}) {
-      if (*set) {
-        const StartBounds bounds(question, (*set)->set);
-        (bounds.contains_starts() ? bases_ : others).push_back(bounds);
-      }
-    }
-    starts_inside_ = !bases_.empty();
-    if (!starts_inside_ && certificate.set) {
-      bases_ = {StartBounds(question, certificate.set->set)};
-    }
-    ultimate_ = least([](const StartBounds& bounds) { return bounds.ultimate_frequency_error(); });
-    for (const StartBounds& inner : others) {
-      const bool led_into = std::any_of(bases_.begin(), bases_.end(), [&](const StartBounds& base) {
-        return certainly_leads_into(base.set(), inner.set(), question.noise, question.slew);
-      });
-      if (led_into) {
-        ultimate_ = Interval(std::min(ultimate_.upper(), inner.ultimate_frequency_error().upper()));
-      }
-    }
-  }
-
-  [[nodiscard]] bool starts_inside() const { return starts_inside_; }
-  [[nodiscard]] const Interval& ultimate() const { return ultimate_; }
-
-  void add_to(std::vector<Quantity>& quantities) const {
-    quantities.push_back(quantity("ultimate_frequency_error", "\\nu_\\infty",
-                                  "u\\,|e_3' T^{-1}|,\\ u^2 = \\tfrac{L_v^2 V^2 + L_w^2 W^2}{1 - \\kappa^2}",
-                                  ultimate_));
-    const std::string symbol = "\\sup_k |\\nu(k)|";
-    const std::string formula = "\\max(|T e(0)|, u)\\,|e_3' T^{-1}|";
-    quantities.push_back(starts_inside_ ? quantity("frequency_error_bound", symbol, formula,
-                                                   least([](const StartBounds& bounds) {
-                                                     return bounds.frequency_error_bound();
-                                                   }))
-                                        : missing("frequency_error_bound", symbol, formula,
-                                                  "The assumed starts are not in a certified set."));
-    add_settling(quantities);
-  }
-
- private:
-  template <typename Promise>
-  [[nodiscard]] Interval least(Promise promise) const {
-    double result = std::numeric_limits<double>::infinity();
-    for (const StartBounds& bounds : bases_) {
-      const Interval value = promise(bounds);
-      if (rigor::is_finite(value)) {
-        result = std::min(result, value.upper());
-      }
-    }
-    return Interval(result);
-  }
-
-  void add_settling(std::vector<Quantity>& quantities) const {
-    const std::string name = "settling_samples";
-    const std::string symbol = "k_s";
-    const std::string formula = "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s";
-    std::optional<Interval> samples;
-    for (const StartBounds& bounds : bases_) {
-      const auto found =
-          certainly_positive(ultimate_) ? bounds.samples_until(Interval(2.0) * ultimate_) : std::nullopt;
-      samples = found && samples ? rigor::min(*samples, *found) : found ? found : samples;
-    }
-    quantities.push_back(samples
-                             ? quantity(name, symbol, formula, *samples)
-                             : missing(name, symbol, formula,
-                                       certainly_positive(ultimate_)
-                                           ? "No set promises from when on it holds."
-                                           : "Without noise and slew the ultimate bound is zero, which is "
-                                             "approached but not reached."));
-  }
-
-  std::vector<StartBounds> bases_;  ///< those that hold the starts; the largest when none does
-  bool starts_inside_ = false;
-  Interval ultimate_;
-};
 
 Condition start_in_set(const ContractionQuestion& question, const CertifiedSet& set, bool starts_inside) {
   const Interval radius(set.radius);
@@ -139,14 +47,44 @@ Condition start_in_set(const ContractionQuestion& question, const CertifiedSet& 
   return condition;
 }
 
-void add_size(const CertifiedSet& set, std::vector<Quantity>& quantities) {
-  const Interval radius(set.radius);
-  const IntervalVector<3> bounds = error_bounds(set, radius);
-  quantities.push_back(quantity("contraction_rate", "\\kappa", "\\sup |T e^+| / |T e|", Interval(set.rate)));
-  quantities.push_back(quantity("radius", "R", "", radius));
-  quantities.push_back(quantity("frequency_error_radius", "\\nu_R", "R\\,|e_3' T^{-1}|", bounds[2]));
-  quantities.push_back(quantity("phase_error_radius", "\\psi_R", "R\\,|e_2' T^{-1}|", bounds[1]));
-  quantities.push_back(quantity("amplitude_error_radius", "a_R", "R\\,|e_1' T^{-1}|", bounds[0]));
+void add_quantity(theorems::Derivation& derivation, const char* name, const char* symbol, const char* formula,
+                  const Interval& value, std::string why_not = {}) {
+  theorems::add_quantity(derivation, {name, symbol, formula, "docs/contraction.md"}, value,
+                         std::move(why_not));
+}
+
+/// The size of the set; without one the quantities are there but not applicable.
+void add_size(const std::optional<Verification>& found, theorems::Derivation& derivation) {
+  Interval rate;
+  Interval radius;
+  IntervalVector<3> bounds;
+  bounds.setConstant(Interval::empty());
+  if (found) {
+    rate = Interval(found->set.rate);
+    radius = Interval(found->set.radius);
+    bounds = error_bounds(found->set, radius);
+  }
+  add_quantity(derivation, "contraction_rate", "\\kappa", "\\sup |T e^+| / |T e|", rate, kNone);
+  add_quantity(derivation, "radius", "R", "", radius, kNone);
+  add_quantity(derivation, "frequency_error_radius", "\\nu_R", "R\\,|e_3' T^{-1}|", bounds[2], kNone);
+  add_quantity(derivation, "phase_error_radius", "\\psi_R", "R\\,|e_2' T^{-1}|", bounds[1], kNone);
+  add_quantity(derivation, "amplitude_error_radius", "a_R", "R\\,|e_1' T^{-1}|", bounds[0], kNone);
+}
+
+/// What the sets say of the assumed starts.
+void add_promises(const Promises& promises, theorems::Derivation& derivation) {
+  add_quantity(derivation, "ultimate_frequency_error", "\\nu_\\infty",
+               "u\\,|e_3' T^{-1}|,\\ u^2 = \\tfrac{L_v^2 V^2 + L_w^2 W^2}{1 - \\kappa^2}",
+               promises.ultimate_frequency_error(), kNone);
+  add_quantity(derivation, "frequency_error_bound", "\\sup_k |\\nu(k)|", "\\max(|T e(0)|, u)\\,|e_3' T^{-1}|",
+               promises.starts_inside() ? promises.frequency_error_bound() : Interval(),
+               "The assumed starts are not in a certified set.");
+  const bool settles = certainly_positive(promises.ultimate_frequency_error());
+  add_quantity(derivation, "settling_samples", "k_s", "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
+               promises.settling_samples(),
+               settles ? "No set promises from when on it holds."
+                       : "Without noise and slew the ultimate bound is zero, which is approached but not "
+                         "reached.");
 }
 
 Condition leak(const Interval& epsilon) {
@@ -216,33 +154,16 @@ bool is_sensible(const ContractionQuestion& question) {
          certainly_less_equal(Interval(0.0), question.initial_frequency_error);
 }
 
-/// What a search found, for a reader to judge the certificate by. None of it is proved.
-void add_samples(const ContractionQuestion& question, const ContractionCertificate& certificate,
-                 std::vector<Quantity>& quantities) {
-  const auto& intervals = question.design;
-  const trackers::QuadratureEkfDesign<double> design{midpoint(intervals.q1), midpoint(intervals.q2),
-                                                     midpoint(intervals.r), 0.0};
-  const auto add = [&](const char* name, const char* symbol, const char* formula, double value) {
-    quantities.push_back(quantity(name, symbol, formula, Interval(value)));
-    quantities.back().proved = false;
-  };
-  const CertifiedSet& set = certificate.set->set;
-  const double limit = sampled_radius_limit(set, design);
-  add("frequency_error_radius_sampled_limit", "\\hat\\nu_R", "\\hat R\\,|e_3' T^{-1}|",
-      error_bounds(set, Interval(limit))[2].upper());
-  add("frequency_error_radius_share_of_limit", "R / \\hat R", "", set.radius / limit);
-  FalsifierOptions effort;
-  effort.search_evaluations = 10;
-  if (certificate.bound_set) {
-    const Falsification found = try_to_break(certificate.bound_set->set, design, effort);
-    add("frequency_error_bound_tightness", "", "\\sup_{\\text{found}} |\\nu| / (R\\,|e_3' T^{-1}|)",
-        found.from_rim.tightness());
+/// Those that bear the assumed noise and slew, the largest first.
+std::vector<CertifiedSet> sets_of(const ContractionCertificate& certificate) {
+  std::vector<CertifiedSet> sets;
+  for (const auto* found :
+       {&certificate.set, &certificate.bound_set, &certificate.ultimate_set, &certificate.settling_set}) {
+    if (*found) {
+      sets.push_back((*found)->set);
+    }
   }
-  if (certificate.ultimate_set) {
-    const Falsification found = try_to_break(certificate.ultimate_set->set, design, effort);
-    add("ultimate_frequency_error_tightness", "", "\\sup_{\\text{found}} |\\nu| / \\nu_\\infty",
-        found.from_zero.tightness());
-  }
+  return sets;
 }
 
 void find_sets(const ContractionQuestion& question, ContractionCertificate& certificate) {
@@ -261,7 +182,7 @@ void find_sets(const ContractionQuestion& question, ContractionCertificate& cert
   if (!certificate.ultimate_set) {
     certificate.ultimate_set = find_inner_set(question, certificate.set->set);
   }
-  const Interval ultimate = Promises(question, certificate).ultimate();
+  const Interval ultimate = Promises(question, sets_of(certificate)).ultimate_frequency_error();
   certificate.settling_set = find_set(question, Objective::settling, 2.0 * ultimate.upper());
 }
 
@@ -283,34 +204,22 @@ ContractionCertificate certify_contraction(const ContractionQuestion& question) 
   }
   derivation.conditions = {leak(question.design.epsilon), controllable_amplitude(question.design.q1),
                            invariant_set(question, certificate)};
-  auto& quantities = derivation.quantities;
+  const Promises promises(question, sets_of(certificate));
   if (certificate.set) {
-    const Promises promises(question, certificate);
     derivation.conditions.push_back(start_in_set(question, certificate.set->set, promises.starts_inside()));
-    add_size(certificate.set->set, quantities);
-    promises.add_to(quantities);
-  } else {
-    for (const char* name : {"contraction_rate", "radius", "frequency_error_radius", "phase_error_radius",
-                             "amplitude_error_radius", "ultimate_frequency_error", "frequency_error_bound",
-                             "settling_samples"}) {
-      quantities.push_back(missing(name, "", "", "No set could be certified."));
-    }
   }
-  const std::string none = "No set could be certified.";
-  quantities.push_back(certificate.noise_set ? quantity("largest_noise", "V_{max}", "",
-                                                        Interval(certificate.noise_set->set.noise))
-                                             : missing("largest_noise", "V_{max}", "", none));
-  quantities.push_back(certificate.slew_set
-                           ? quantity("largest_slew", "W_{max}", "", Interval(certificate.slew_set->set.slew))
-                           : missing("largest_slew", "W_{max}", "", none));
+  add_size(certificate.set, derivation);
+  add_promises(promises, derivation);
+  const auto& noisy = certificate.noise_set;
+  const auto& slewing = certificate.slew_set;
+  add_quantity(derivation, "largest_noise", "V_{max}", "", noisy ? Interval(noisy->set.noise) : Interval(),
+               kNone);
+  add_quantity(derivation, "largest_slew", "W_{max}", "", slewing ? Interval(slewing->set.slew) : Interval(),
+               kNone);
   if (certificate.set && question.with_samples) {
-    add_samples(question, certificate, quantities);
+    add_sampled_quantities(question, certificate, derivation);
   }
-  std::vector<Verdict> verdicts;
-  for (const Condition& condition : derivation.conditions) {
-    verdicts.push_back(condition.verdict);
-  }
-  derivation.verdict = rigor::conjunction(verdicts);
+  theorems::conclude(derivation);
   return certificate;
 }
 

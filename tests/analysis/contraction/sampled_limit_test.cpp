@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
 #include <cmath>
 
 #include "analysis/contraction/quadrature_certificate.hpp"

@@ -172,7 +172,7 @@ TEST_CASE("what is false breaks, for most designs") {
       {"radius times 4", [](CertifiedSet& s) { s.radius *= 4.0; }, Objective::start_error, 0},
       {"noise as large as the signal", [](CertifiedSet& s) { s.noise = 1.0; }, Objective::start_error, 0},
       {"slew times 30", [](CertifiedSet& s) { s.slew *= 30.0; }, Objective::ultimate_error, 0},
-      {"frequency bound divided by 3", [](CertifiedSet& s) { s.metric(2, 2) *= 3.0; }, Objective::start_error,
+      {"frequency bound divided by 4", [](CertifiedSet& s) { s.metric(2, 2) *= 4.0; }, Objective::start_error,
        0},
       {"gains divided by 3",
        [](CertifiedSet& s) {

@@ -78,7 +78,7 @@ BestPoint run(nlopt::algorithm algorithm, const std::function<double(const Eigen
     optimizer.set_lower_bounds(to_std(space.lower));
     optimizer.set_upper_bounds(to_std(space.upper));
     optimizer.set_initial_step(to_std(space.step));
-    optimizer.set_xtol_rel(1e-4);
+    optimizer.set_xtol_rel(space.tolerance);
     optimizer.set_maxeval(space.evaluations);
     std::vector<double> x = to_std(space.start.cwiseMax(space.lower).cwiseMin(space.upper));
     double value = 0.0;
@@ -95,7 +95,7 @@ BestPoint run(nlopt::algorithm algorithm, const std::function<double(const Eigen
 }  // namespace
 
 BestPoint maximize(const std::function<double(const Eigen::VectorXd&)>& objective, const SearchSpace& space) {
-  return run(nlopt::LN_SBPLX, objective, space);
+  return run(space.method == SearchMethod::direct ? nlopt::GN_DIRECT_L : nlopt::LN_SBPLX, objective, space);
 }
 
 BestPoint climb(const std::function<double(const Eigen::VectorXd&)>& objective, const SearchSpace& space) {

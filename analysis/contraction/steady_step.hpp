@@ -17,7 +17,7 @@
 #include <array>
 #include <cstddef>
 
-#include "analysis/contraction/secant_ratios.hpp"
+#include "analysis/contraction/elementary_ratios.hpp"
 #include "analysis/contraction/steady_gain.hpp"
 
 namespace veritrack::contraction {

@@ -5,6 +5,7 @@
 
 #include "analysis/rigor/dual.hpp"
 #include "analysis/rigor/interval.hpp"
+#include "trackers/scalar_functions.hpp"
 
 namespace veritrack::contraction::detail {
 
@@ -47,6 +48,12 @@ inline double size(double x) {
 }
 inline rigor::Interval size(const rigor::Interval& x) {
   return rigor::abs(x);
+}
+/// The larger eigenvalue of [[a, b], [b, c]].
+template <typename Scalar>
+[[nodiscard]] Scalar larger_eigenvalue(const Scalar& a, const Scalar& b, const Scalar& c) {
+  using trackers::detail::square;
+  return Scalar(0.5) * (a + c) + root(Scalar(square(Scalar(0.5) * (a - c)) + square(b)));
 }
 
 }  // namespace veritrack::contraction::detail

@@ -86,8 +86,8 @@ TEST_CASE("the verdicts for the designs of Table 3.2") {
     CAPTURE(row.figure);
     found.erase("s/errata");  // depends on how sharp the sound bound is
     CHECK(found.size() == expected.size());
-    for (const auto& [id, verdict] : expected) {
-      CHECK_MESSAGE(found.at(id) == verdict, id);
+    for (const auto& place : expected) {
+      CHECK_MESSAGE(found.at(place.first) == place.second, place.first);
     }
   }
 }
@@ -156,7 +156,9 @@ TEST_CASE("sampled estimates never break a proved b_1 or b_2, and the witness br
 
 TEST_CASE("inputs that are no numbers decide nothing about the design") {
   theorems::Theorem29Input input;  // everything empty
-  for (const auto& [id, verdict] : verdicts(input)) {
+  for (const auto& decided : verdicts(input)) {
+    const std::string& id = decided.first;
+    const Verdict verdict = decided.second;
     const bool speaks_of_design = !(id.ends_with("general") || id == "lemma-3.1" || id == "final-bound-sum" ||
                                     id == "decomposition/printed" || id.starts_with("remainder-sign"));
     CHECK_MESSAGE((!speaks_of_design || verdict == Verdict::undecided), id);

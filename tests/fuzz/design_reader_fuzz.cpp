@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -74,10 +75,29 @@ void check(const KklObserverTables& tables) {
   }
 }
 
+void check(const SingleChannelEkfTables& tables) {
+  const SingleChannelEkfDesign& design = tables.design;
+  require(design.lambda.has_value() != (design.q && design.r), "neither lambda nor q and r, or both");
+  for (const std::optional<Number>& number : {design.q, design.r, design.lambda}) {
+    if (number) {
+      check(*number);
+      require(number->value.lower() >= 0.0, "a negative number");
+    }
+  }
+  check(design.epsilon);
+  require(design.epsilon.value.lower() >= 0.0 && design.epsilon.value.upper() < 1.0, "epsilon out of range");
+  check(tables.assume.frequency[0]);
+  check(tables.assume.frequency[1]);
+  require(tables.assume.frequency[0].value.lower() <= tables.assume.frequency[1].value.upper(),
+          "a reversed frequency band");
+}
+
 void check(const Design& design) {
   std::visit([](const auto& tables) { check(tables); }, design.tables);
   require(!design.name.empty() && design.name.size() <= 200, "a name out of range");
-  require(design.tracker == "quadrature-ekf" || design.tracker == "kkl-observer", "an unknown tracker");
+  require(design.tracker == "quadrature-ekf" || design.tracker == "kkl-observer" ||
+              design.tracker == "single-channel-ekf",
+          "an unknown tracker");
 }
 
 void check(const InputError& error) {

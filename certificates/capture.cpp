@@ -25,7 +25,7 @@ constexpr std::size_t kMostCellsWithoutNoise = 2000;
 constexpr std::size_t kMostCellsAtReducedNoise = 600;
 
 bool starts_are_outside(const Certificate& certificate) {
-  const theorems::Derivation& contraction = deciding_derivation(certificate);
+  const theorems::Derivation& contraction = *find_derivation(certificate, "contraction");
   return std::any_of(contraction.conditions.begin(), contraction.conditions.end(),
                      [](const theorems::Condition& condition) {
                        return condition.id == "start-in-set" && condition.verdict != Verdict::proved;

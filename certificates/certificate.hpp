@@ -83,6 +83,10 @@ struct Certificate {
 [[nodiscard]] std::vector<theorems::Derivation> derivations_of(const Certificate& certificate,
                                                                std::string_view prefix);
 
+/// The derivation of that id; null when there is none.
+[[nodiscard]] const theorems::Derivation* find_derivation(const Certificate& certificate,
+                                                          std::string_view id);
+
 /// "proved", "refuted", "undecided", or "nothing-required".
 [[nodiscard]] std::string verdict_text(const Certificate& certificate);
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <variant>
@@ -16,6 +17,7 @@
 #include "certificates/guarantee.hpp"
 #include "certificates/guarantee_sentence.hpp"
 #include "certificates/kkl_observer.hpp"
+#include "certificates/required_claims.hpp"
 #include "certificates/simulation.hpp"
 #include "certificates/single_channel.hpp"
 #include "certificates/theorem_claims.hpp"
@@ -130,7 +132,7 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
   add_contraction(certificate);
   add_capture(certificate, progress);
   add_comparison(certificate);
-  add_required_claims(certificate);
+  add_required_claims(certificate, tables.require, tables.assume);
   certificate.claims.push_back(guarantee_claim(certificate));
 }
 
@@ -155,6 +157,12 @@ std::vector<theorems::Derivation> derivations_of(const Certificate& certificate,
     }
   }
   return found;
+}
+
+const theorems::Derivation* find_derivation(const Certificate& certificate, std::string_view id) {
+  const auto found = std::find_if(certificate.derivations.begin(), certificate.derivations.end(),
+                                  [&](const theorems::Derivation& each) { return each.id == id; });
+  return found == certificate.derivations.end() ? nullptr : &*found;
 }
 
 std::string verdict_text(const Certificate& certificate) {

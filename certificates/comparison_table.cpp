@@ -20,10 +20,9 @@ using rigor::Interval;
 std::optional<Interval> value_of(const theorems::Derivation& derivation,
                                  std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
-    for (const theorems::Quantity& quantity : derivation.quantities) {
-      if (quantity.name == name && !quantity.not_applicable && rigor::certainly_positive(quantity.value)) {
-        return quantity.value;
-      }
+    const theorems::Quantity* quantity = theorems::applicable_quantity(derivation, name);
+    if (quantity != nullptr && rigor::certainly_positive(quantity->value)) {
+      return quantity->value;
     }
   }
   return std::nullopt;

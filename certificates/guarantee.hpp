@@ -12,15 +12,9 @@ namespace veritrack::certificates {
 /// Adds the derivation "contraction" and its certified sets.
 void add_contraction(Certificate& certificate);
 
-/// Adds the claims that stand in [require], decided, and the certificate's verdict. Call after
-/// add_contraction.
-void add_required_claims(Certificate& certificate);
-
-/// What decides about the assumed starts: "capture" when they had to be followed, else "contraction".
-[[nodiscard]] const theorems::Derivation& deciding_derivation(const Certificate& certificate);
-
-/// Sets the certificate's verdict: all required claims together, none when nothing is required.
-void conclude_requirements(Certificate& certificate);
+/// What decides about the assumed starts: "capture" when they had to be followed, else "contraction"; null
+/// when there is neither.
+[[nodiscard]] const theorems::Derivation* deciding_derivation(const Certificate& certificate);
 
 /// The proved bound on |frequency error|, rad/sample, at every sample from the start on; none when the
 /// contraction certificate does not cover the assumed start, noise and slew.

@@ -14,6 +14,7 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
+using theorems::applicable_quantity;
 
 constexpr const char* kGuarantee = "ekf/guarantee";
 
@@ -23,21 +24,10 @@ const Claim* find_claim(const Certificate& certificate, const std::string& id) {
   return found == certificate.claims.end() ? nullptr : &*found;
 }
 
-const theorems::Quantity* find(const theorems::Derivation& derivation, const std::string& name) {
-  const auto found =
-      std::find_if(derivation.quantities.begin(), derivation.quantities.end(),
-                   [&](const auto& quantity) { return quantity.name == name && !quantity.not_applicable; });
-  return found == derivation.quantities.end() ? nullptr : &*found;
-}
-
-/// The same of the derivation "contraction", which describes the certified set.
+/// Of the derivation "contraction", which describes the certified set.
 const theorems::Quantity* find_of_set(const Certificate& certificate, const std::string& name) {
-  for (const theorems::Derivation& derivation : certificate.derivations) {
-    if (derivation.id == "contraction") {
-      return find(derivation, name);
-    }
-  }
-  return nullptr;
+  const theorems::Derivation* derivation = find_derivation(certificate, "contraction");
+  return derivation == nullptr ? nullptr : applicable_quantity(*derivation, name);
 }
 
 std::string up(const Interval& value) {
@@ -72,9 +62,9 @@ std::string assumptions(const QuadratureEkfTables& tables) {
 
 /// Why the bound holds, and what it comes to in the long run.
 std::string ground(const Certificate& certificate) {
-  const theorems::Derivation& derivation = deciding_derivation(certificate);
+  const theorems::Derivation& derivation = *deciding_derivation(certificate);
   std::string text;
-  if (const auto* samples = find(derivation, "capture_samples")) {
+  if (const auto* samples = applicable_quantity(derivation, "capture_samples")) {
     text = fmt::format(
         "Every such start is followed, by verified propagation, into a set that the tracker never leaves: it "
         "is there after at most {} samples. ",
@@ -82,9 +72,9 @@ std::string ground(const Certificate& certificate) {
   } else {
     text = "All these starts lie in a set that the tracker never leaves. ";
   }
-  if (const auto* ultimate = find(derivation, "ultimate_frequency_error")) {
+  if (const auto* ultimate = applicable_quantity(derivation, "ultimate_frequency_error")) {
     text += fmt::format("In the long run the frequency error is at most {} rad/sample", up(ultimate->value));
-    const auto* samples = find(derivation, "settling_samples");
+    const auto* samples = applicable_quantity(derivation, "settling_samples");
     const bool takes_time = samples != nullptr && samples->value.upper() > 0.0;
     text += takes_time ? fmt::format(", and at most twice that after {} samples.", up(samples->value)) : ".";
   }
@@ -93,7 +83,7 @@ std::string ground(const Certificate& certificate) {
 
 /// Which hypothesis fails, by how much, and what would repair it.
 std::string objection(const Certificate& certificate) {
-  const theorems::Derivation& derivation = deciding_derivation(certificate);
+  const theorems::Derivation& derivation = *deciding_derivation(certificate);
   for (const Verdict verdict : {Verdict::refuted, Verdict::undecided}) {
     for (const theorems::Condition& condition : derivation.conditions) {
       if (condition.verdict == verdict) {
@@ -131,7 +121,7 @@ Claim guarantee_claim(const Certificate& certificate) {
                                       required->text, up(*bound))
                                 : fmt::format("the frequency error never exceeds {} rad/sample.", up(*bound));
     claim.reason = ground(certificate);
-    claim.evidence = {*find(deciding_derivation(certificate), "frequency_error_bound")};
+    claim.evidence = {*applicable_quantity(*deciding_derivation(certificate), "frequency_error_bound")};
     return claim;
   }
   claim.statement +=

@@ -43,14 +43,19 @@ Json initial_covariance(const std::optional<CovarianceArray>& covariance) {
   return rows;
 }
 
+void add(Json& json, const char* name, const std::optional<Number>& value) {
+  if (value) {
+    json[name] = number(*value);
+  }
+}
+
 Json require_json(const Requirements& require) {
   Json json = Json::object();
-  if (require.frequency_error_below) {
-    json["frequency_error_below"] = number(*require.frequency_error_below);
-  }
-  if (require.settles_within) {
-    json["settles_within"] = number(*require.settles_within);
-  }
+  add(json, "frequency_error_below", require.frequency_error_below);
+  add(json, "settles_within", require.settles_within);
+  add(json, "largest_noise_at_least", require.largest_noise_at_least);
+  add(json, "largest_slew_at_least", require.largest_slew_at_least);
+  add(json, "frequency_error_radius_at_least", require.frequency_error_radius_at_least);
   return json;
 }
 
@@ -94,11 +99,6 @@ Json tables_json(const KklObserverTables& tables) {
     rates.push_back(number(rate));
   }
   Json chosen{{"lambda", rates}};
-  const auto add = [](Json& json, const char* name, const std::optional<Number>& value) {
-    if (value) {
-      json[name] = number(*value);
-    }
-  };
   add(chosen, "ell", design.ell);
   Json assumed{{"frequency", {number(assume.frequency[0]), number(assume.frequency[1])}},
                {"amplitude", {number(assume.amplitude[0]), number(assume.amplitude[1])}}};
@@ -119,14 +119,9 @@ Json tables_json(const KklObserverTables& tables) {
 Json tables_json(const SingleChannelEkfTables& tables) {
   const auto& [design, assume, require, simulate] = tables;
   Json chosen = Json::object();
-  const auto add = [&](const char* name, const std::optional<Number>& value) {
-    if (value) {
-      chosen[name] = number(*value);
-    }
-  };
-  add("q", design.q);
-  add("r", design.r);
-  add("lambda", design.lambda);
+  add(chosen, "q", design.q);
+  add(chosen, "r", design.r);
+  add(chosen, "lambda", design.lambda);
   chosen["epsilon"] = number(design.epsilon);
   if (design.variances) {
     chosen["process_noise"] = {{"q1", number((*design.variances)[0])},

@@ -32,6 +32,7 @@ inline bool not_negative(const Interval& x) {
 }
 
 inline constexpr std::string_view kPositive = "a number above 0";
+inline constexpr std::string_view kNotNegative = "a number, 0 or more";
 
 // ---- how a key is read
 // ------------------------------------------------------------------------------------------------

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 
 #include "analysis/observers/kkl_claims.hpp"
 #include "analysis/observers/kkl_ell.hpp"
 #include "analysis/observers/kkl_section_v.hpp"
 #include "analysis/rigor/decimal.hpp"
+#include "certificates/required_claims.hpp"
 
 namespace veritrack::certificates {
 
@@ -22,12 +22,6 @@ constexpr std::size_t kFilters = 4;
 
 Interval hull_of(const std::array<Number, 2>& range) {
   return rigor::hull(range[0].value, range[1].value);
-}
-
-const theorems::Derivation* find_derivation(const Certificate& certificate, const std::string& id) {
-  const auto found = std::find_if(certificate.derivations.begin(), certificate.derivations.end(),
-                                  [&](const theorems::Derivation& each) { return each.id == id; });
-  return found == certificate.derivations.end() ? nullptr : &*found;
 }
 
 observers::Disturbance disturbance_of(const KklAssumptions& assume) {
@@ -95,15 +89,7 @@ void add_required_claims(Certificate& certificate, const KklRequirements& requir
         certificate, "kkl/settling-time", "settling_time",
         fmt::format("the proved bounds hold within {} s of the start", required.text), "s", required));
   }
-  std::vector<Verdict> verdicts;
-  for (const Claim& claim : certificate.claims) {
-    if (claim.required) {
-      verdicts.push_back(claim.verdict);
-    }
-  }
-  if (!verdicts.empty()) {
-    certificate.verdict = rigor::conjunction(verdicts);
-  }
+  conclude_requirements(certificate);
 }
 
 }  // namespace

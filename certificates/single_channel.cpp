@@ -11,7 +11,7 @@
 #include "analysis/single_channel/invariant_curve.hpp"
 #include "analysis/single_channel/propositions.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
-#include "certificates/guarantee.hpp"
+#include "certificates/required_claims.hpp"
 #include "certificates/theorem_claims.hpp"
 #include "trackers/quadrature_rotating_frame.hpp"
 
@@ -104,36 +104,6 @@ Claim stability_claim(const Interval& r) {
   return claim;
 }
 
-Claim undecided_requirement(std::string id, std::string statement, const Position& position) {
-  Claim claim;
-  claim.id = std::move(id);
-  claim.statement = std::move(statement);
-  claim.required = true;
-  claim.position = position;
-  claim.reason =
-      "This version certifies the single-channel tracker's steady state without noise, but no set of starts "
-      "under noise.";
-  return claim;
-}
-
-void add_requirements(Certificate& certificate, const Requirements& require) {
-  if (require.frequency_error_below) {
-    certificate.claims.push_back(
-        undecided_requirement("ekf/frequency-error-bound",
-                              fmt::format("the frequency error stays below {} rad/sample for ever",
-                                          require.frequency_error_below->text),
-                              require.frequency_error_below->position));
-  }
-  if (require.settles_within) {
-    certificate.claims.push_back(undecided_requirement(
-        "ekf/settling-time",
-        fmt::format("within {} samples the frequency error comes within twice its ultimate bound",
-                    require.settles_within->text),
-        require.settles_within->position));
-  }
-  conclude_requirements(certificate);
-}
-
 }  // namespace
 
 trackers::QuadratureEkfDesign<Interval> enclosed_values(const SingleChannelEkfDesign& design) {
@@ -203,7 +173,7 @@ void certify_single_channel(Certificate& certificate, const SingleChannelEkfTabl
   add_all(single_channel::proposition_1_formulas());
   add_all(single_channel::proposition_1_conclusion(at_middle, exact, design.epsilon));
   add_all(single_channel::proposition_2());
-  add_requirements(certificate, tables.require);
+  add_required_claims(certificate, tables.require, tables.assume);
 }
 
 }  // namespace veritrack::certificates

@@ -14,4 +14,11 @@ const Quantity& find_quantity(const Derivation& derivation, const std::string& n
   return *found;
 }
 
+const Quantity* applicable_quantity(const Derivation& derivation, std::string_view name) {
+  const auto found = std::find_if(
+      derivation.quantities.begin(), derivation.quantities.end(),
+      [&](const Quantity& quantity) { return quantity.name == name && !quantity.not_applicable; });
+  return found == derivation.quantities.end() ? nullptr : &*found;
+}
+
 }  // namespace veritrack::theorems

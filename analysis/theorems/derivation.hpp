@@ -62,4 +62,7 @@ struct Derivation {
 /// The quantity of that name. Throws std::out_of_range when there is none.
 [[nodiscard]] const Quantity& find_quantity(const Derivation& derivation, const std::string& name);
 
+/// The quantity of that name when there is one and it applies; else null.
+[[nodiscard]] const Quantity* applicable_quantity(const Derivation& derivation, std::string_view name);
+
 }  // namespace veritrack::theorems

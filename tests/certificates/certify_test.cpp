@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "certificates/guarantee.hpp"
 #include "tests/certificates/test_design.hpp"
 
@@ -69,6 +71,37 @@ TEST_CASE("what contraction does not cover is undecided, with the reason") {
       CHECK(claim.position.line > 0);
     }
   }
+}
+
+TEST_CASE("the sizes of certified sets can be required, with the largest certified one in the answer") {
+  struct Case {
+    const char* claim;
+    const char* key;
+    const char* quantity;
+    double amplitude;  // noise is required in signal units and certified relative to the amplitude
+  };
+  for (const Case& each : {Case{"ekf/largest-noise", "largest_noise_at_least", "largest_noise", 2.0},
+                           Case{"ekf/largest-slew", "largest_slew_at_least", "largest_slew", 1.0},
+                           Case{"ekf/frequency-error-radius", "frequency_error_radius_at_least",
+                                "frequency_error_radius", 1.0}}) {
+    CAPTURE(each.key);
+    const auto required = [&](double value) {
+      return test::certificate({{"amplitude = 1.0", fmt::format("amplitude = {}", each.amplitude)},
+                                {"[require]", fmt::format("[require]\n{} = {}", each.key, value)}});
+    };
+    const auto generous = required(1.0);
+    CHECK(generous.verdict == Verdict::undecided);
+    CHECK(find_claim(generous, each.claim).reason.find("; 1 was required") != std::string::npos);
+    const double certified =
+        each.amplitude *
+        theorems::find_quantity(*certificates::find_derivation(generous, "contraction"), each.quantity)
+            .value.lower();
+    CHECK(required(0.999 * certified).verdict == Verdict::proved);
+    CHECK(required(1.001 * certified).verdict == Verdict::undecided);
+  }
+  const auto uncontrollable = test::certificate(
+      {{"q1 = 0.0023", "q1 = 0"}, {"[require]", "[require]\nlargest_noise_at_least = 1e-9"}});
+  CHECK(uncontrollable.verdict == Verdict::undecided);
 }
 
 TEST_CASE("starts beyond the certified set are followed into it") {

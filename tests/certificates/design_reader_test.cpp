@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/design_keys.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -101,8 +103,11 @@ std::vector<Number> numbers_of(const Design& design) {
       numbers.insert(numbers.end(), row.begin(), row.end());
     }
   }
-  for (const auto& number : {design.quadrature_ekf().require.frequency_error_below,
-                             design.quadrature_ekf().require.settles_within}) {
+  for (const auto& number :
+       {design.quadrature_ekf().require.frequency_error_below, design.quadrature_ekf().require.settles_within,
+        design.quadrature_ekf().require.largest_noise_at_least,
+        design.quadrature_ekf().require.largest_slew_at_least,
+        design.quadrature_ekf().require.frequency_error_radius_at_least}) {
     if (number) {
       numbers.push_back(*number);
     }
@@ -196,6 +201,25 @@ TEST_CASE("the designs of Table 3.2 hold the numbers of Table 3.2") {
   }
 }
 
+/// Checks that docs/design-file.md names every key of these tables.
+template <typename Tables>
+void check_documented(const std::string& page) {
+  for_each_table<Tables>([&](std::string_view table, const auto& keys, auto /*member*/) {
+    CAPTURE(table);
+    CHECK(page.find(fmt::format("`[{}]`", table)) != std::string::npos);
+    for (const auto& key : keys) {
+      CHECK_MESSAGE(page.find(fmt::format("`{}`", key.name)) != std::string::npos, key.name);
+    }
+  });
+}
+
+TEST_CASE("docs/design-file.md names every key") {
+  const std::string page = contents(kSource / "docs" / "design-file.md");
+  check_documented<QuadratureEkfTables>(page);
+  check_documented<SingleChannelEkfTables>(page);
+  check_documented<KklObserverTables>(page);
+}
+
 TEST_CASE("everything is read to its place") {
   const Design design = read_design_file(kDesigns / "accepted" / "everything.toml");
   CHECK(design.name == "a design");
@@ -214,6 +238,12 @@ TEST_CASE("everything is read to its place") {
   CHECK(design.quadrature_ekf().require.frequency_error_below->nearest == 0.05);
   REQUIRE(design.quadrature_ekf().require.settles_within);
   CHECK(design.quadrature_ekf().require.settles_within->nearest == 200.0);
+  REQUIRE(design.quadrature_ekf().require.largest_noise_at_least);
+  CHECK(design.quadrature_ekf().require.largest_noise_at_least->nearest == 0.01);
+  REQUIRE(design.quadrature_ekf().require.largest_slew_at_least);
+  CHECK(design.quadrature_ekf().require.largest_slew_at_least->nearest == 0.002);
+  REQUIRE(design.quadrature_ekf().require.frequency_error_radius_at_least);
+  CHECK(design.quadrature_ekf().require.frequency_error_radius_at_least->nearest == 0.1);
   CHECK(design.quadrature_ekf().simulate.samples == 10'000'000);
   CHECK(design.quadrature_ekf().simulate.seed == 9'223'372'036'854'775'807U);
   CHECK(design.quadrature_ekf().simulate.signal == "la-scala-1994");
@@ -226,7 +256,7 @@ TEST_CASE("everything is read to its place") {
   CHECK(design.positions.at("design.q1").line == 5);
   CHECK(design.positions.at("design.q1").column == 6);
   CHECK(design.positions.at("assume.initial_covariance").line == 18);
-  CHECK(design.positions.at("simulate.seed").line == 24);
+  CHECK(design.positions.at("simulate.seed").line == 27);
   CHECK_FALSE(design.positions.contains("source"));
 }
 

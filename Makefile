@@ -6,7 +6,8 @@
 MAKEFLAGS += --no-print-directory
 
 BUILD_PACKAGES := g++ cmake make pkg-config libeigen3-dev libboost-dev coinor-libipopt-dev libnlopt-cxx-dev \
-  libmpfr-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox
+  libmpfr-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox \
+  libflint-arb-dev libflint-dev
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
 TEST_PACKAGES  := doctest-dev python3-jsonschema clang git
 LINT_PACKAGES  := clang-format clang-tidy git
@@ -17,13 +18,20 @@ DESIGN       ?= designs/la-scala-1994-figure-3.5.toml
 JOBS         ?= $(shell nproc)
 FUZZ_SECONDS ?= 60
 
-.PHONY: certificate test lint format sanitize fuzz bench clean
+.PHONY: certificate verify test lint format sanitize fuzz bench clean
 
 certificate:
 	@scripts/install-packages $(BUILD_PACKAGES)
 	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
 	@cmake --build --preset release --parallel $(JOBS) --target veritrack >&2
 	@build/release/veritrack certify $(DESIGN)
+
+# All designs certified, and every certificate checked by a program that shares no code with the one that made it.
+verify:
+	@scripts/install-packages $(BUILD_PACKAGES)
+	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify >&2
+	@scripts/verify build/release designs/*.toml
 
 test:
 	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES)

@@ -1,0 +1,174 @@
+// Real numbers as balls: Arb's arb_t with C++ operators. Every result contains the exact result for all
+// points of its operands; what is undefined somewhere on its operands is a ball of everything, about which no
+// comparison holds.
+#pragma once
+
+#include <arb.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace veritrack::checker {
+
+/// The precision of all arithmetic, in bits. Set once, before anything is computed.
+slong precision();
+void set_precision(slong bits);
+
+/// A set of reals, midpoint +- radius. Not a number is possible, and is certain of nothing.
+class Ball {
+ public:
+  Ball() { arb_init(x_); }
+  /// Exactly this double.
+  Ball(double value) : Ball() { arb_set_d(x_, value); }  // NOLINT(google-explicit-constructor)
+  Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
+  Ball(Ball&& other) noexcept : Ball() { arb_swap(x_, other.x_); }
+  ~Ball() { arb_clear(x_); }
+  Ball& operator=(const Ball& other) {
+    arb_set(x_, other.x_);
+    return *this;
+  }
+  Ball& operator=(Ball&& other) noexcept {
+    arb_swap(x_, other.x_);
+    return *this;
+  }
+
+  /// About which nothing holds.
+  static Ball everything();
+  /// All reals from the least of `low` to the greatest of `high`.
+  static Ball hull(const Ball& low, const Ball& high);
+  /// All reals between -|x| and |x|.
+  static Ball within(const Ball& x);
+
+  /// Certainly finite: neither infinities nor "not a number" among the points.
+  [[nodiscard]] bool finite() const { return arb_is_finite(x_) != 0; }
+  /// The ends of the ball, rounded outward to `precision()` bits, as exact balls.
+  [[nodiscard]] Ball lower() const;
+  [[nodiscard]] Ball upper() const;
+  /// The nearest double to the midpoint: a proposal, never evidence.
+  [[nodiscard]] double near() const { return arf_get_d(arb_midref(x_), ARF_RND_NEAR); }
+  /// A double that is certainly not below any point; infinity or "not a number" when there is none.
+  [[nodiscard]] double upper_double() const;
+  /// At most `digits` digits, for people.
+  [[nodiscard]] std::string text(slong digits = 12) const;
+
+  [[nodiscard]] arb_ptr raw() { return x_; }
+  [[nodiscard]] arb_srcptr raw() const { return x_; }
+
+  Ball& operator+=(const Ball& y) {
+    arb_add(x_, x_, y.x_, precision());
+    return *this;
+  }
+  Ball& operator-=(const Ball& y) {
+    arb_sub(x_, x_, y.x_, precision());
+    return *this;
+  }
+
+ private:
+  arb_t x_;
+};
+
+inline Ball operator+(const Ball& x, const Ball& y) {
+  Ball z;
+  arb_add(z.raw(), x.raw(), y.raw(), precision());
+  return z;
+}
+inline Ball operator-(const Ball& x, const Ball& y) {
+  Ball z;
+  arb_sub(z.raw(), x.raw(), y.raw(), precision());
+  return z;
+}
+inline Ball operator*(const Ball& x, const Ball& y) {
+  Ball z;
+  arb_mul(z.raw(), x.raw(), y.raw(), precision());
+  return z;
+}
+inline Ball operator/(const Ball& x, const Ball& y) {
+  Ball z;
+  arb_div(z.raw(), x.raw(), y.raw(), precision());
+  return z;
+}
+inline Ball operator-(const Ball& x) {
+  Ball z;
+  arb_neg(z.raw(), x.raw());
+  return z;
+}
+
+// Comparisons hold only when they hold for all points; the negation of one says nothing.
+inline bool certainly_less(const Ball& x, const Ball& y) {
+  return x.finite() && y.finite() && arb_lt(x.raw(), y.raw()) != 0;
+}
+inline bool certainly_at_most(const Ball& x, const Ball& y) {
+  return x.finite() && y.finite() && arb_le(x.raw(), y.raw()) != 0;
+}
+inline bool certainly_positive(const Ball& x) {
+  return x.finite() && arb_is_positive(x.raw()) != 0;
+}
+/// Both are exact and the same number.
+inline bool certainly_equal(const Ball& x, const Ball& y) {
+  return x.finite() && y.finite() && arb_eq(x.raw(), y.raw()) != 0;
+}
+
+inline Ball square(const Ball& x) {
+  Ball z;
+  arb_sqr(z.raw(), x.raw(), precision());
+  return z;
+}
+inline Ball sqrt(const Ball& x) {
+  Ball z;
+  arb_sqrt(z.raw(), x.raw(), precision());
+  return z;
+}
+inline Ball abs(const Ball& x) {
+  Ball z;
+  arb_abs(z.raw(), x.raw());
+  return z;
+}
+/// The root of a quantity that is certainly not negative although its ball may reach below zero.
+inline Ball root_of_non_negative(const Ball& x) {
+  Ball z;
+  arb_sqrtpos(z.raw(), x.raw(), precision());
+  return z;
+}
+inline Ball log(const Ball& x) {
+  Ball z;
+  arb_log(z.raw(), x.raw(), precision());
+  return z;
+}
+inline Ball sin(const Ball& x) {
+  Ball z;
+  arb_sin(z.raw(), x.raw(), precision());
+  return z;
+}
+inline Ball cos(const Ball& x) {
+  Ball z;
+  arb_cos(z.raw(), x.raw(), precision());
+  return z;
+}
+inline Ball max(const Ball& x, const Ball& y) {
+  Ball z;
+  arb_max(z.raw(), x.raw(), y.raw(), precision());
+  return z;
+}
+inline Ball min(const Ball& x, const Ball& y) {
+  Ball z;
+  arb_min(z.raw(), x.raw(), y.raw(), precision());
+  return z;
+}
+Ball pi();
+
+/// sin(x)/x for |x| <= 3, and the g with (sin(x)/x)' = x g(x); atan(t)/t, and the g with (atan(t)/t)' = t
+/// g(t). Continued to zero; balls of everything beyond the range.
+struct Ratio {
+  Ball value, slope;
+};
+Ratio sine_ratio(const Ball& x);
+Ratio arctangent_ratio(const Ball& t);
+
+/// A decimal as a design file writes it: sign, digits, point, exponent; underscores between digits. Throws
+/// std::invalid_argument for anything else.
+Ball from_decimal(std::string_view text);
+/// A hexadecimal floating-point number of at most 53 bits, exactly: -0x1.8p-3. Throws std::invalid_argument.
+Ball from_hexadecimal(std::string_view text);
+
+}  // namespace veritrack::checker

@@ -1,0 +1,194 @@
+#include "checker/verification.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "checker/contraction.hpp"
+#include "checker/guarantee.hpp"
+#include "checker/theorem_2_9.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+constexpr const char* kUnknown = "no check for this kind";
+constexpr const char* kUnverified = "its derivation is not verified";
+
+/// Walks through a certificate of the quadrature tracker.
+class QuadratureVerifier {
+ public:
+  QuadratureVerifier(const Tree& certificate, Verification& result)
+      : certificate_(certificate), result_(result) {}
+
+  void run() {
+    Objections objections;
+    design_ = read_design(certificate_.at("design"), objections);
+    add("design", objections);
+    for (const Tree& set : certificate_.at("certified_sets").elements()) {
+      objections.clear();
+      sets_.push_back(check_set(set, design_, result_.cells, objections));
+      add("certified set " + set.at("purpose").text(), objections);
+    }
+    for (const Tree& derivation : certificate_.at("derivations").elements()) {
+      check_one(derivation);
+    }
+    for (const Tree& row : certificate_.at("comparison").elements()) {
+      check_comparison(row);
+    }
+    check_claims();
+  }
+
+ private:
+  struct Known {
+    const Tree* derivation = nullptr;
+    bool verified = false;
+  };
+
+  void add(const std::string& name, const Objections& objections) {
+    result_.parts.push_back({name, objections});
+  }
+
+  void check_one(const Tree& derivation) {
+    const std::string& id = derivation.at("id").text();
+    Objections objections;
+    if (derivations_.count(id) != 0) {
+      objections.emplace_back("a second derivation of this id");
+    }
+    if (id == "theorem-2.9/printed") {
+      check_theorem_2_9(derivation, design_, Reading::printed, objections);
+    } else if (id == "theorem-2.9/errata") {
+      check_theorem_2_9(derivation, design_, Reading::errata, objections);
+    } else if (id == "contraction" && certainly_equal(design_.epsilon, Ball(0.0))) {
+      promises_ = check_contraction(derivation, design_, sets_, objections);
+    } else {
+      objections.emplace_back(kUnknown);
+    }
+    derivations_[id] = {&derivation, objections.empty()};
+    add(id, objections);
+  }
+
+  /// A row repeats what its derivation says.
+  void check_comparison(const Tree& row) {
+    const std::string& result = row.at("result").text();
+    if (!row.at("proved").truth()) {
+      return;
+    }
+    Objections objections;
+    const auto known = derivations_.find(result);
+    if (known == derivations_.end()) {
+      objections.emplace_back("a row of the comparison without its derivation");
+      add("comparison " + result, objections);
+      return;
+    }
+    const Tree& derivation = *known->second.derivation;
+    if (!known->second.verified) {
+      objections.emplace_back(kUnverified);
+    }
+    if (row.at("verdict").text() != derivation.at("verdict").text()) {
+      objections.emplace_back("not the verdict of the derivation");
+    }
+    const auto repeats = [&](const char* name, const char* first, const char* second) {
+      if (const Tree* value = row.find(name)) {
+        const Tree* quantity = derivation.at("quantities").find(first);
+        quantity = quantity != nullptr ? quantity : derivation.at("quantities").find(second);
+        const bool same = quantity != nullptr && value->at("lo").text() == quantity->at("lo").text() &&
+                          value->at("hi").text() == quantity->at("hi").text() &&
+                          value->at("decimal").text() == quantity->at("decimal").text();
+        if (!same) {
+          objections.push_back(std::string(name) + " is not that of the derivation");
+        }
+      }
+    };
+    repeats("initial_frequency_error", "initial_frequency_error_bound", "frequency_error_radius");
+    repeats("noise", "noise_bound", "largest_noise");
+    repeats("rate", "rate", "contraction_rate");
+    add("comparison " + result, objections);
+  }
+
+  /// "All conditions of ... hold": as the derivation says, whose conditions were checked.
+  void check_conditions_claim(const Tree& claim, const std::string& id, Objections& objections) {
+    const auto known = derivations_.find(id.substr(0, id.rfind("/conditions")));
+    if (known == derivations_.end() || !known->second.verified) {
+      objections.emplace_back(kUnverified);
+      return;
+    }
+    const Tree& derivation = *known->second.derivation;
+    check_claim(
+        claim,
+        {"All conditions of " + derivation.at("title").text() + " hold for the design and the assumed start.",
+         verdict_from(derivation.at("verdict").text()),
+         {}},
+        objections);
+  }
+
+  void check_claims() {
+    std::vector<std::string> required;
+    std::vector<Verdict> verdicts;
+    Objections unverified;
+    // Where starts had to be followed, the claims rest on that.
+    const bool captured = derivations_.count("capture") != 0;
+    for (const Tree& claim : certificate_.at("claims").elements()) {
+      const std::string& id = claim.at("id").text();
+      Objections objections;
+      if (claim.at("required").truth()) {
+        required.push_back(id);
+        verdicts.push_back(verdict_from(claim.at("verdict").text()));
+      }
+      if (id.ends_with("/conditions")) {
+        check_conditions_claim(claim, id, objections);
+      } else if (is_guarantee(id)) {
+        check_guarantee(claim, certificate_, design_, captured ? Promises{} : promises_, objections);
+      } else {
+        objections.emplace_back(kUnknown);
+      }
+      if (claim.at("required").truth() && !objections.empty()) {
+        unverified.push_back(id + " is required and not verified");
+      }
+      add("claim " + id, objections);
+    }
+    Objections objections = unverified;
+    if (required != requirements(certificate_.at("design"))) {
+      objections.emplace_back("the required claims are not those of the design's [require]");
+    }
+    const std::string& verdict = certificate_.at("verdict").text();
+    const bool nothing_required = required.empty() && verdict == "nothing-required";
+    if (!nothing_required) {
+      check_verdict(verdict, all_of(verdicts), "the certificate", objections);
+    }
+    add("verdict " + verdict, objections);
+  }
+
+  const Tree& certificate_;
+  Verification& result_;
+  Design design_;
+  std::vector<CertifiedSet> sets_;
+  std::map<std::string, Known> derivations_;
+  Promises promises_;
+};
+
+}  // namespace
+
+bool Verification::verified() const {
+  return !parts.empty() &&
+         std::all_of(parts.begin(), parts.end(), [](const Part& part) { return part.objections.empty(); });
+}
+
+Verification verify(const Tree& certificate) {
+  if (certificate.at("schema").text() != "veritrack/certificate/1") {
+    throw Malformed("not a certificate of format 1");
+  }
+  Verification result;
+  const std::string& tracker = certificate.at("design").at("tracker").text();
+  try {
+    if (tracker == "quadrature-ekf") {
+      QuadratureVerifier(certificate, result).run();
+    } else {
+      result.parts.push_back({"tracker " + tracker, {kUnknown}});
+    }
+  } catch (const std::invalid_argument& error) {
+    throw Malformed(error.what());
+  }
+  return result;
+}
+
+}  // namespace veritrack::checker

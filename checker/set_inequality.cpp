@@ -173,10 +173,20 @@ bool eliminate(Matrix<double>& m, std::size_t rows) {
   return true;
 }
 
-/// What is left along the axis when nothing is across it.
+/// The largest k for which k |T e|^2 could be taken away, rate^2 = 1, with nothing across the axis: the
+/// smaller root of det(left - k size) = 0 over (nu, along).
 double room(const Form<double>& form, double lambda) {
-  Matrix<double> m = with_lambda(form, lambda);
-  return eliminate(m, kAcross) ? m[kAlong][kAlong] : -HUGE_VAL;
+  Matrix<double> left = with_lambda(form, lambda);
+  if (!eliminate(left, kNu)) {
+    return -HUGE_VAL;
+  }
+  const Matrix<double>& size = form.fixed;
+  const auto det = [](const Matrix<double>& x, const Matrix<double>& y) {
+    return x[kNu][kNu] * y[kAlong][kAlong] - x[kAlong][kNu] * y[kAlong][kNu];
+  };
+  const double half = 0.5 * (det(left, size) + det(size, left));
+  const double square = std::fmax(0.0, half * half - det(size, size) * det(left, left));
+  return (half - std::sqrt(square)) / det(size, size);
 }
 
 /// The multiplier with the most room, among powers of 2^(1/16).

@@ -93,18 +93,22 @@ SteadyState find_steady_state(const Design& design, double frequency) {
   return state;
 }
 
+std::vector<trackers::Sample> simulated_signal(const Assumptions& assume,
+                                               const SimulationSettings& settings) {
+  return trackers::make_signal(settings.signal, {.samples = settings.samples,
+                                                 .seed = settings.seed,
+                                                 .amplitude = assume.amplitude.nearest,
+                                                 .frequency_low = assume.frequency[0].nearest,
+                                                 .frequency_high = assume.frequency[1].nearest,
+                                                 .noise_bound = assume.noise.nearest,
+                                                 .slew_bound = assume.slew.nearest});
+}
+
 Simulation simulate(const Design& design) {
   const rigor::NearestRounding nearest;
   const Assumptions& assume = design.quadrature_ekf().assume;
   const SimulationSettings& settings = design.quadrature_ekf().simulate;
-  const std::vector<trackers::Sample> samples =
-      trackers::make_signal(settings.signal, {.samples = settings.samples,
-                                              .seed = settings.seed,
-                                              .amplitude = assume.amplitude.nearest,
-                                              .frequency_low = assume.frequency[0].nearest,
-                                              .frequency_high = assume.frequency[1].nearest,
-                                              .noise_bound = assume.noise.nearest,
-                                              .slew_bound = assume.slew.nearest});
+  const std::vector<trackers::Sample> samples = simulated_signal(assume, settings);
   Simulation simulation;
   const trackers::Sample& first = samples.front();
   Eigen::Matrix3d start_covariance;

@@ -7,6 +7,7 @@
 
 #include "analysis/theorems/trajectory.hpp"
 #include "certificates/design.hpp"
+#include "trackers/signals/test_signals.hpp"
 
 namespace veritrack::certificates {
 
@@ -14,6 +15,10 @@ struct Simulation {
   theorems::Trajectory trajectory;  ///< in the units of the design file; record 0 is the start
   std::vector<std::string> notes;   ///< sentences: what the reader of the run must know of it
 };
+
+/// The test signal that [simulate] names, within [assume]. Needs round-to-nearest.
+[[nodiscard]] std::vector<trackers::Sample> simulated_signal(const Assumptions& assume,
+                                                             const SimulationSettings& settings);
 
 /// Runs the tracker from the edge of the assumed start errors (amplitude, phase and frequency each wrong by
 /// the most that is allowed) along the signal that [simulate] names. Holds round-to-nearest: this is the

@@ -48,14 +48,7 @@ Simulation simulate_single_channel(const SingleChannelEkfTables& tables) {
   const rigor::NearestRounding nearest;
   const Assumptions& assume = tables.assume;
   const SimulationSettings& settings = tables.simulate;
-  const std::vector<trackers::Sample> samples =
-      trackers::make_signal(settings.signal, {.samples = settings.samples,
-                                              .seed = settings.seed,
-                                              .amplitude = assume.amplitude.nearest,
-                                              .frequency_low = assume.frequency[0].nearest,
-                                              .frequency_high = assume.frequency[1].nearest,
-                                              .noise_bound = assume.noise.nearest,
-                                              .slew_bound = assume.slew.nearest});
+  const std::vector<trackers::Sample> samples = simulated_signal(assume, settings);
   Simulation simulation;
   if (!trackers::find_signal(settings.signal).honours_bounds) {
     simulation.notes.push_back(

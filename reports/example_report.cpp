@@ -48,11 +48,7 @@ std::string data_of(const std::string& name, const ExampleRun& run) {
 }
 
 std::string preamble(std::size_t panels) {
-  return fmt::format(
-      "set terminal svg size 820,{} font 'sans-serif,13' background '#ffffff' rounded\n"
-      "set border 3 lw 1 lc rgb '#444444'\nset tics nomirror\nset grid ytics lw 0.5 lc rgb '#cccccc'\n"
-      "set xrange [0:1000]\nset key off\n",
-      60 + 220 * panels);
+  return gnuplot_style(60 + 220 * panels) + "set xrange [0:1000]\nset key off\n";
 }
 
 /// Panels one above the other: the true frequency broad and grey, the estimate thin and black.

@@ -47,21 +47,13 @@ std::string data_block(const Certificate& certificate, Values values) {
   return block + "END\n";
 }
 
-std::string preamble(int height) {
-  return fmt::format(
-      "set terminal svg size 820,{} font 'sans-serif,13' background '#ffffff' rounded\n"
-      "set datafile missing 'NaN'\n"
-      "set border 3 lw 1 lc rgb '#444444'\n"
-      "set xtics nomirror\n"
-      "set ytics nomirror\n"
-      "set grid ytics lw 0.5 lc rgb '#cccccc'\n"
-      "set key outside top center horizontal samplen 4\n"
-      "set xlabel 'sample k'\n",
-      height);
+/// The style of a figure over the samples.
+std::string over_samples(std::size_t height) {
+  return gnuplot_style(height) + "set xlabel 'sample k'\n";
 }
 
 Figure frequency_figure(const Certificate& certificate) {
-  std::string script = preamble(340);
+  std::string script = over_samples(340);
   script += data_block(certificate, [](const TrajectoryRecord& record) {
     return std::array{record.true_state[2], record.filtered_state[2]};
   });
@@ -76,6 +68,9 @@ Figure frequency_figure(const Certificate& certificate) {
               stride_remark(certificate),
           run_gnuplot(script)};
 }
+
+/// Dash patterns that can be told apart in grey.
+constexpr std::array kDashes{"'-'", "'_'", "'.'", "'-.'", "'-..'"};
 
 /// A horizontal line: what it stands for, and where.
 struct Level {
@@ -108,7 +103,7 @@ std::vector<Level> error_levels(const Certificate& certificate) {
 
 Figure error_figure(const Certificate& certificate) {
   const double amplitude = certificate.design.quadrature_ekf().assume.amplitude.nearest;
-  std::string script = preamble(420);
+  std::string script = over_samples(420);
   script += data_block(certificate, [amplitude](const TrajectoryRecord& record) {
     const auto positive = [](double value) { return value > 0.0 ? value : std::nan(""); };
     Eigen::Vector3d error = record.true_state - record.filtered_state;
@@ -126,7 +121,7 @@ Figure error_figure(const Certificate& certificate) {
   const std::vector<Level> levels = error_levels(certificate);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     script += fmt::format(", {:.9g} with lines lw 1.8 dt {} lc rgb '#000000' title '{}'", levels[i].value,
-                          i + 2, levels[i].title);
+                          kDashes.at(i % kDashes.size()), levels[i].title);
   }
   script += "\n";
   std::string caption =
@@ -141,7 +136,7 @@ Figure error_figure(const Certificate& certificate) {
 
 /// The runs in grey, thin, under the bound, black and broad.
 Figure tube_figure(const Certificate& certificate, const certificates::Tube& tube) {
-  std::string script = preamble(380);
+  std::string script = over_samples(380);
   script += "$tube << END\n";
   for (std::size_t k = 0; k < tube.bound.size(); ++k) {
     script += fmt::format("{} {:.9g}", k, tube.bound[k]);

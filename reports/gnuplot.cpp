@@ -115,6 +115,16 @@ std::string run_gnuplot(const std::string& script) {
   return picture;
 }
 
+std::string gnuplot_style(std::size_t height) {
+  return "set terminal svg size 820," + std::to_string(height) +
+         " font 'sans-serif,13' background '#ffffff' rounded\n"
+         "set datafile missing 'NaN'\n"
+         "set border 3 lw 1 lc rgb '#444444'\n"
+         "set tics nomirror\n"
+         "set grid ytics lw 0.5 lc rgb '#cccccc'\n"
+         "set key outside top center horizontal samplen 4\n";
+}
+
 std::string gnuplot_version() {
   std::string version = run_gnuplot(
       "set print '-'\nprint sprintf('gnuplot %s patchlevel %s', gprintf('%.1f', GPVAL_VERSION), "

@@ -40,15 +40,8 @@ std::string blocks(const std::vector<SectionVRun>& runs, double EstimateSample::
 }
 
 std::string draw(const std::vector<SectionVRun>& runs, const std::vector<Panel>& panels, double end) {
-  std::string script = fmt::format(
-      "set terminal svg size 820,{} font 'sans-serif,13' background '#ffffff' rounded\n"
-      "set datafile missing 'NaN'\n"
-      "set border 3 lw 1 lc rgb '#444444'\n"
-      "set xtics nomirror\nset ytics nomirror\n"
-      "set grid ytics lw 0.5 lc rgb '#cccccc'\n"
-      "set key outside top center horizontal samplen 4\n"
-      "set xlabel 'time, s'\nset xrange [0:{:.4g}]\n",
-      300 * panels.size(), end);
+  std::string script =
+      gnuplot_style(300 * panels.size()) + fmt::format("set xlabel 'time, s'\nset xrange [0:{:.4g}]\n", end);
   for (std::size_t p = 0; p < panels.size(); ++p) {
     script += blocks(runs, panels[p].estimate, fmt::format("p{}r", p));
   }

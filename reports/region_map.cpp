@@ -142,14 +142,11 @@ std::vector<MapRectangle> joined(std::vector<MapRectangle> rectangles) {
 }
 
 Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
-  std::string script =
-      "set terminal svg size 820,560 font 'sans-serif,13' background '#ffffff' rounded\n"
-      "set datafile missing 'NaN'\n"
-      "set border 3 lw 1 lc rgb '#444444'\n"
-      "set tics nomirror out\n"
-      "set key outside top center horizontal samplen 3\n"
-      "set xlabel 'frequency error at the start, rad/sample'\n"
-      "set ylabel 'phase error at the start, rad'\n";
+  std::string script = gnuplot_style(560) +
+                       "set tics out\n"
+                       "unset grid\n"
+                       "set xlabel 'frequency error at the start, rad/sample'\n"
+                       "set ylabel 'phase error at the start, rad'\n";
   script +=
       fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n", basin.frequency_error.lower(),
                   basin.frequency_error.upper(), basin.phase_error.lower(), basin.phase_error.upper());

@@ -18,18 +18,8 @@ using certificates::Certificate;
 using rigor::Interval;
 using theorems::Derivation;
 
-std::string preamble(int height, const char* x_label, const char* y_label) {
-  return fmt::format(
-      "set terminal svg size 820,{} font 'sans-serif,13' background '#ffffff' rounded\n"
-      "set datafile missing 'NaN'\n"
-      "set border 3 lw 1 lc rgb '#444444'\n"
-      "set xtics nomirror\n"
-      "set ytics nomirror\n"
-      "set grid ytics lw 0.5 lc rgb '#cccccc'\n"
-      "set key outside top center horizontal samplen 3\n"
-      "set xlabel '{}'\n"
-      "set ylabel '{}'\n",
-      height, x_label, y_label);
+std::string preamble(std::size_t height, const char* x_label, const char* y_label) {
+  return fmt::format("{}set xlabel '{}'\nset ylabel '{}'\n", gnuplot_style(height), x_label, y_label);
 }
 
 Interval value_of(const Derivation& derivation, const char* name) {

@@ -224,14 +224,6 @@ std::optional<RegionCell> wrong_lock_witness(const CaptureProblem& problem, cons
   return std::nullopt;
 }
 
-bool is_sensible(const ContractionQuestion& question) {
-  const Interval none(0.0);
-  return question.design.epsilon == none && is_finite(question.noise) && is_finite(question.slew) &&
-         certainly_less_equal(none, question.initial_amplitude_error) &&
-         certainly_less_equal(none, question.initial_phase_error) &&
-         certainly_less_equal(none, question.initial_frequency_error);
-}
-
 }  // namespace
 
 StartBox assumed_starts(const ContractionQuestion& question) {
@@ -269,7 +261,8 @@ StartCapture capture_starts(const ContractionQuestion& question, const Certified
   derivation.id = id;
   derivation.title = "Capture of every assumed start by the certified set";
   derivation.conditions = {certified_set(question, set)};
-  const bool can_begin = derivation.conditions[0].verdict == Verdict::proved && is_sensible(question);
+  const bool can_begin = derivation.conditions[0].verdict == Verdict::proved &&
+                         question.design.epsilon == Interval(0.0) && is_well_posed(question);
   const std::optional<CaptureProblem> problem = can_begin ? capture_problem(question) : std::nullopt;
   if (problem) {
     RegionOptions options;

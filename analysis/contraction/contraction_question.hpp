@@ -24,4 +24,16 @@ struct ContractionQuestion {
   bool with_samples = true;     ///< also what a search finds, which proves nothing
 };
 
+/// True only when r, q2 are certainly positive and every bound is a number certainly not negative: other
+/// questions have no answer. Needs the upward mode.
+[[nodiscard]] inline bool is_well_posed(const ContractionQuestion& question) {
+  const auto not_negative = [](const rigor::Interval& bound) {
+    return is_finite(bound) && certainly_less_equal(rigor::Interval(0.0), bound);
+  };
+  return certainly_positive(question.design.r) && certainly_positive(question.design.q2) &&
+         not_negative(question.noise) && not_negative(question.slew) &&
+         not_negative(question.initial_amplitude_error) && not_negative(question.initial_phase_error) &&
+         not_negative(question.initial_frequency_error);
+}
+
 }  // namespace veritrack::contraction

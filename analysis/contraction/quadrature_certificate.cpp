@@ -144,16 +144,6 @@ Condition invariant_set(const ContractionQuestion& question, const ContractionCe
   return condition;
 }
 
-bool is_sensible(const ContractionQuestion& question) {
-  const auto& d = question.design;
-  return certainly_positive(d.r) && certainly_positive(d.q2) && certainly_positive(d.q1) &&
-         d.epsilon == Interval(0.0) && certainly_less_equal(Interval(0.0), question.noise) &&
-         certainly_less_equal(Interval(0.0), question.slew) &&
-         certainly_less_equal(Interval(0.0), question.initial_amplitude_error) &&
-         certainly_less_equal(Interval(0.0), question.initial_phase_error) &&
-         certainly_less_equal(Interval(0.0), question.initial_frequency_error);
-}
-
 /// Those that bear the assumed noise and slew, the largest first.
 std::vector<CertifiedSet> sets_of(const ContractionCertificate& certificate) {
   std::vector<CertifiedSet> sets;
@@ -199,7 +189,8 @@ ContractionCertificate certify_contraction(const ContractionQuestion& question) 
       "Amplitude error and noise are relative to the true amplitude; the set is described in the frame of "
       "the "
       "estimated phase."};
-  if (is_sensible(question)) {
+  const bool without_leak = question.design.epsilon == Interval(0.0);
+  if (without_leak && certainly_positive(question.design.q1) && is_well_posed(question)) {
     find_sets(question, certificate);
   }
   derivation.conditions = {leak(question.design.epsilon), controllable_amplitude(question.design.q1),

@@ -19,6 +19,7 @@
 #include "reports/certificate_files.hpp"
 #include "reports/check_reports.hpp"
 #include "reports/example_report.hpp"
+#include "reports/limit_report.hpp"
 #include "reports/region_files.hpp"
 
 namespace {
@@ -154,13 +155,25 @@ ExitStatus run_tune(const TuneOptions& options) {
   return status_of(certificate);
 }
 
+constexpr const char* kExampleReport = "bittanti-savaresi-2000";
+constexpr const char* kLimitReport = "tracking-limits";
+
 struct ReproduceOptions {
-  std::string directory = "reports-out/bittanti-savaresi-2000";
-  int seeds = 200;
+  std::string report = kExampleReport;
+  std::string directory;
+  int seeds = 0;  ///< 0: as many as the report in docs/reports was made with
 };
 
 ExitStatus run_reproduce(const ReproduceOptions& options) {
-  fmt::print("{}\n", reports::write_example_report(options.seeds, options.directory).string());
+  const std::filesystem::path directory = options.directory.empty()
+                                              ? std::filesystem::path("reports-out") / options.report
+                                              : std::filesystem::path(options.directory);
+  const bool limits = options.report == kLimitReport;
+  const int published_seeds = limits ? 1000 : 200;
+  const int seeds = options.seeds > 0 ? options.seeds : published_seeds;
+  const std::filesystem::path document = limits ? reports::write_limit_report(seeds, directory)
+                                                : reports::write_example_report(seeds, directory);
+  fmt::print("{}\n", document.string());
   return all_proved;
 }
 
@@ -213,12 +226,17 @@ int run(int argc, char** argv) {
                    "design file to write (default: <name of the design file>-tuned.toml)");
 
   ReproduceOptions reproduce_options;
-  CLI::App* reproduce = app.add_subcommand(
-      "reproduce", "simulate the published examples of the single-channel tracker and report what comes out");
-  reproduce->add_option("--out", reproduce_options.directory, "folder for the report")->capture_default_str();
-  reproduce->add_option("--seeds", reproduce_options.seeds, "noise seeds")
-      ->check(CLI::Range(1, 100000))
+  CLI::App* reproduce = app.add_subcommand("reproduce",
+                                           "make a report of docs/reports anew: the published examples of "
+                                           "the single-channel tracker, or how close "
+                                           "the trackers come to the Cramer-Rao bounds");
+  reproduce->add_option("REPORT", reproduce_options.report, "which report")
+      ->check(CLI::IsMember({kExampleReport, kLimitReport}))
       ->capture_default_str();
+  reproduce->add_option("--out", reproduce_options.directory,
+                        "folder for the report (default: reports-out/<name of the report>)");
+  reproduce->add_option("--seeds", reproduce_options.seeds, "noise seeds (default: those of docs/reports)")
+      ->check(CLI::Range(1, 100000));
 
   try {
     app.parse(argc, argv);

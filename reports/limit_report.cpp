@@ -1,0 +1,272 @@
+#include "reports/limit_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/limits/tone_bounds.hpp"
+#include "certificates/markdown_text.hpp"
+#include "certificates/output_files.hpp"
+#include "reports/limit_figures.hpp"
+
+namespace veritrack::reports {
+
+namespace {
+
+using limits::Channels;
+using limits::LimitPoint;
+
+std::string tracker_name(Channels channels) {
+  return channels == Channels::quadrature ? "quadrature" : "single channel";
+}
+
+std::string approximately(double value) {
+  return fmt::format("≈ {:.2e}", value);
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.1f} %", 100.0 * share);
+}
+
+/// "0.31 ± 0.05 dB", the standard error of the mean carried over.
+std::string above_bound(const LimitPoint& point) {
+  const double spread = 10.0 / std::log(10.0) * point.standard_error / point.error;
+  return fmt::format("{:+.2f} ± {:.2f} dB", limits::decibels_above_bound(point), spread);
+}
+
+std::string threshold_words(const std::vector<LimitPoint>& points) {
+  const auto threshold = limits::threshold_of(points);
+  if (!threshold) {
+    return fmt::format("above {:.0f} dB", points.back().decibels);
+  }
+  return *threshold == points.front().decibels ? fmt::format("at or below {:.0f} dB", *threshold)
+                                               : fmt::format("{:.0f} dB", *threshold);
+}
+
+const limits::RandomWalkSeries& series_of(const LimitStudy& study, Channels channels, double walk_variance,
+                                          double q1_share) {
+  return *std::find_if(study.random_walks.begin(), study.random_walks.end(), [&](const auto& series) {
+    return series.channels == channels && series.walk_variance == walk_variance &&
+           series.q1_share == q1_share;
+  });
+}
+
+/// The largest excess over the bound among all points from their series' thresholds on, dB.
+double worst_above_threshold(const LimitStudy& study) {
+  double worst = 0.0;
+  for (const limits::RandomWalkSeries& series : study.random_walks) {
+    const auto threshold = limits::threshold_of(series.points);
+    for (const LimitPoint& point : series.points) {
+      if (threshold && point.decibels >= *threshold) {
+        worst = std::max(worst, limits::decibels_above_bound(point));
+      }
+    }
+  }
+  return worst;
+}
+
+std::string q1_words(double q1_share) {
+  return q1_share > 0.0 ? fmt::format("{} q2", q1_share) : "0";
+}
+
+std::string threshold_table(const LimitStudy& study) {
+  std::vector<std::vector<std::string>> rows;
+  rows.reserve(study.random_walks.size());
+  for (const limits::RandomWalkSeries& series : study.random_walks) {
+    const LimitPoint& noisy = series.points.front();
+    const LimitPoint& clean = series.points.back();
+    rows.push_back({tracker_name(series.channels), fmt::format("{:.1g}", series.walk_variance),
+                    q1_words(series.q1_share), threshold_words(series.points), above_bound(noisy),
+                    percent(noisy.lost), above_bound(clean), percent(clean.lost)});
+  }
+  return certificates::markdown::table(
+      {"Tracker", "Walk variance, (rad/sample)²", "q1", "Threshold", "Above the bound at 0 dB",
+       "Lost at 0 dB", "Above the bound at 30 dB", "Lost at 30 dB"},
+      rows);
+}
+
+std::string random_walk_table(const LimitStudy& study, Channels channels, double walk_variance) {
+  const limits::RandomWalkSeries& matched = series_of(study, channels, walk_variance, 0.0);
+  const limits::RandomWalkSeries& looser = series_of(study, channels, walk_variance, limits::kSomeQ1);
+  std::vector<std::vector<std::string>> rows;
+  rows.reserve(matched.points.size());
+  for (std::size_t i = 0; i < matched.points.size(); ++i) {
+    std::vector<std::string> row{fmt::format("{:.0f}", matched.points[i].decibels),
+                                 approximately(matched.points[i].bound)};
+    for (const LimitPoint* point : {&matched.points[i], &looser.points[i]}) {
+      row.insert(row.end(), {approximately(point->error), above_bound(*point), percent(point->lost)});
+    }
+    rows.push_back(std::move(row));
+  }
+  const std::string with_q1 = ", q1 = " + q1_words(limits::kSomeQ1);
+  return certificates::markdown::table({"SNR, dB", "Bound", "Error, q1 = 0", "above the bound", "lost",
+                                        "Error" + with_q1, "above the bound", "lost"},
+                                       rows);
+}
+
+std::string constant_table(const LimitStudy& study) {
+  std::vector<std::vector<std::string>> rows;
+  const std::vector<double> decibels = limits::studied_decibels();
+  for (std::size_t i = 0; i < decibels.size(); ++i) {
+    std::vector<std::string> row{fmt::format("{:.0f}", decibels[i])};
+    for (const limits::ConstantSeries& series : study.constant) {
+      for (const LimitPoint* point : {&series.early[i], &series.late[i]}) {
+        row.insert(row.end(), {approximately(point->bound), above_bound(*point)});
+      }
+    }
+    rows.push_back(std::move(row));
+  }
+  return certificates::markdown::table(
+      {"SNR, dB", "Quadrature, 100 samples: bound", "tracker above it", "1000 samples: bound",
+       "tracker above it", "Single channel, 100 samples: bound", "tracker above it", "1000 samples: bound",
+       "tracker above it"},
+      rows);
+}
+
+/// Noise variance over A^2 that counts for a tracker: a real sample is worth half a complex one.
+double effective_noise(Channels channels, double decibels) {
+  return (channels == Channels::single ? 2.0 : 1.0) * limits::noise_variance_of(decibels);
+}
+
+std::string floor_table(const LimitStudy& study) {
+  std::vector<std::vector<std::string>> rows;
+  for (const limits::ErrorOverTime& series : study.over_time) {
+    const double noise = effective_noise(series.channels, limits::kOverTimeDecibels);
+    const double samples = limits::samples_until_mistuned(noise, series.tracker_q2);
+    const bool reached = 2.0 * samples < limits::kLateSample;
+    rows.push_back({tracker_name(series.channels), fmt::format("{:.1g}", series.tracker_q2),
+                    fmt::format("≈ {:.0f}", samples),
+                    approximately(limits::mistuned_variance(noise, series.tracker_q2)),
+                    approximately(series.mean_square.back()) + (reached ? "" : " (still falling)")});
+  }
+  return certificates::markdown::table(
+      {"Tracker", "q2, (rad/sample)²", "Samples until the floor", "Floor by formula, (rad/sample)²",
+       "Simulated after 1000 samples, (rad/sample)²"},
+      rows);
+}
+
+/// What stands at the top: every number in it is from the study.
+std::string summary(const LimitStudy& study) {
+  constexpr double kFast = limits::kWalkVariances.back();
+  const auto words = [&](Channels channels, double q1_share) {
+    return threshold_words(series_of(study, channels, kFast, q1_share).points);
+  };
+  constexpr int kAverage = 1000;
+  const double noise = limits::noise_variance_of(limits::kOverTimeDecibels);
+  return fmt::format(
+      "**What an engineer learns.** (1) With $`q_2`$ and $`r`$ set to what the signal really does, a "
+      "cleverer "
+      "filter has little left to gain: from its threshold on, each tracker has a mean square frequency error "
+      "at most ≈ {:.1f} dB above the least that any estimator can have. For a frequency that wanders by "
+      "{:.3f} rad/sample a sample the threshold is {} for the quadrature tracker and {} for the "
+      "single-channel one. (2) $`q_1`$ is not a detail when one channel is measured: the signal has no such "
+      "noise, but with $`q_1`$ = {} the same threshold of the single-channel tracker is {}. With $`q_1 = 0`$ "
+      "and little measurement noise that filter is too sure of a linearisation that the frequency's own "
+      "steps "
+      "outrun. (3) Measuring one channel in place of two costs what twice the noise would cost. (4) For a "
+      "constant frequency all depends on $`q_2`$: the error stops falling after about "
+      "$`3.2\\,(\\rho/q_2)^{{1/4}}`$ samples, $`\\rho`$ the noise variance over the squared amplitude, so "
+      "that averaging over $`N`$ samples takes $`q_2 \\approx \\rho\\,(3.2/N)^4`$ (at {:.0f} dB and $`N`$ = "
+      "{}: ≈ {:.0e} (rad/sample)²).\n\n",
+      worst_above_threshold(study), std::sqrt(kFast), words(Channels::quadrature, 0.0),
+      words(Channels::single, 0.0), q1_words(limits::kSomeQ1), words(Channels::single, limits::kSomeQ1),
+      limits::kOverTimeDecibels, kAverage, noise * std::pow(3.24 / kAverage, 4));
+}
+
+std::string setting_text(const LimitStudy& study) {
+  return fmt::format(
+      "Everything on this page is floating point and simulation. It proves nothing; ≈ stands before what is "
+      "simulated or rounded.\n\n"
+      "## What is compared\n\n"
+      "A sinusoid of amplitude 1 whose frequency is $`\\omega(k+1) = \\omega(k) + w(k)`$, $`w`$ normal with "
+      "the walk variance "
+      "(zero: constant), in normal noise. The signal-to-noise ratio (SNR) is half the squared amplitude over "
+      "the noise variance "
+      "of a channel, which is also the ratio of the complex signal. The trackers are those of `trackers/`, "
+      "without leak, "
+      "$`r`$ the noise variance; they start with deviations of 0.1 in amplitude, 0.1 rad in phase and 0.05 "
+      "rad/sample in "
+      "frequency (mean 1.5 rad/sample), known to them as P(0). Errors are mean squares over {} runs (noise "
+      "seeds 1 to {}, the same for every "
+      "entry), lost runs included; ± is their standard error. A run is lost when its root mean square "
+      "frequency error over the last {} samples is above {} rad/sample. "
+      "The threshold is the lowest SNR of the grid from which on the error stays within {:.0f} dB of the "
+      "bound.\n\n",
+      study.runs, study.runs, limits::kLockWindow, limits::kLockThreshold, limits::kNearBound);
+}
+
+}  // namespace
+
+LimitStudy simulate_limits(int runs) {
+  return {runs, limits::study_random_walks(runs), limits::study_constant_frequency(runs),
+          limits::study_errors_over_time(runs)};
+}
+
+std::string limit_document(const LimitStudy& study) {
+  std::string text = "# Where the trackers stand against the Cramér–Rao bound\n\n" + summary(study);
+  text += setting_text(study);
+  text +=
+      "## A frequency that is a random walk\n\n"
+      "The trackers' $`q_2`$ is the walk variance, their $`q_1`$ zero as in the signal, or a tenth of "
+      "$`q_2`$. Runs of 200 samples; error and bound are means over the last 100. "
+      "The bound is the posterior Cramér–Rao bound of Tichavský, Muravchik and Nehorai (IEEE Trans. Signal "
+      "Processing 46(5), 1998), "
+      "$`J(k+1) = D^{22} - D^{21}(J(k) + D^{11})^{-1}D^{12}`$. In the coordinates amplitude, phase, "
+      "frequency the dynamics is "
+      "linear, and the recursion is $`J(k+1) = (F J(k)^{-1} F' + Q)^{-1} + \\mathrm{E}[h_x' R^{-1} h_x]`$, "
+      "the expectation in closed form "
+      "(`analysis/limits/posterior_bound.hpp`). It bounds the mean square error of every estimator, biased "
+      "or not; an entry slightly below it is chance.\n\n" +
+      threshold_table(study) +
+      "\n![Error of the two trackers and the bound over the signal-to-noise "
+      "ratio](figures/random-walk.svg)\n\n"
+      "*Mean square frequency error of the trackers (points) and posterior Cramér–Rao bound (lines), for "
+      "three variances of the walk, "
+      "(rad/sample)²; open points q1 = 0, crosses q1 = 0.1 q2.*\n\nBounds and errors in the following tables "
+      "are in (rad/sample)².\n\n";
+  for (const Channels channels : {Channels::quadrature, Channels::single}) {
+    for (const double walk_variance : limits::kWalkVariances) {
+      text += fmt::format("### {} tracker, walk variance {:.1g} (rad/sample)²\n\n",
+                          channels == Channels::quadrature ? "Quadrature" : "Single-channel", walk_variance) +
+              random_walk_table(study, channels, walk_variance) + "\n";
+    }
+  }
+  text +=
+      "## A constant frequency\n\n"
+      "The bound for $`N`$ samples and nothing known beforehand is $`12\\rho/(N(N^2 - 1))`$ for complex "
+      "samples (Rife and Boorstyn, IEEE Trans. "
+      "Information Theory 20(5), 1974), and about twice that for real ones (exactly: the inverse of the "
+      "Fisher "
+      "information of amplitude, phase and frequency). The trackers know a little beforehand; with that as "
+      "one more measurement the bound is the "
+      "recursion above with $`Q = 0`$. It holds for unbiased estimators.\n\n"
+      "![Error of the two trackers and the bound over the number of samples](figures/constant.svg)\n\n"
+      "*Mean square frequency error at 20 dB over the number of samples, both logarithmic: bound (broad "
+      "grey), bound without knowledge of the start (dotted grey), "
+      "trackers (black) by their q2 in (rad/sample)².*\n\n"
+      "A tracker whose $`q_2`$ is not zero settles: at $`\\rho^{1/4} q_2^{3/4}/(2\\sqrt 2)`$, a quarter of "
+      "the variance that it believes, and from about "
+      "$`3.2\\,(\\rho/q_2)^{1/4}`$ samples on ($`2\\rho`$ in place of $`\\rho`$ for one channel). At 20 "
+      "dB:\n\n" +
+      floor_table(study) +
+      "\nWith $`q_1 = 0`$ and $`q_2`$ = " + fmt::format("{:.0e}", limits::kNearlyZeroQ2) +
+      " (rad/sample)², nearly zero, over the SNR (bounds in (rad/sample)²):\n\n" + constant_table(study) +
+      "\nAn extended Kalman filter that assumes a constant frequency never forgets: what its first, "
+      "linearised steps got wrong at a low SNR stays in "
+      "the estimate, and is the more above the bound the longer one averages.\n";
+  return text;
+}
+
+std::filesystem::path write_limit_report(int runs, const std::filesystem::path& directory) {
+  const LimitStudy study = simulate_limits(runs);
+  certificates::OutputFiles files;
+  files.stage(directory / "figures/random-walk.svg", draw_random_walks(study.random_walks));
+  files.stage(directory / "figures/constant.svg", draw_errors_over_time(study.over_time));
+  std::filesystem::path path = directory / "report.md";
+  files.stage(path, limit_document(study));
+  files.commit();
+  return path;
+}
+
+}  // namespace veritrack::reports

@@ -231,6 +231,9 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
   };
   if (whole != nullptr) {
     const std::array<Ball, 3> rows = inverse_rows(whole->metric);
+    if (bears(*whole, design)) {
+      promises.reach = whole->radius * rows[2];
+    }
     add("contraction_rate", whole->rate, Sense::encloses);
     add("radius", whole->radius, Sense::encloses);
     add("frequency_error_radius", whole->radius * rows[2], Sense::encloses);
@@ -241,8 +244,10 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
   add("frequency_error_bound", promises.bound.value_or(nothing), Sense::bounds_above);
   const Setting* noisy = first_of(sets, "largest-noise");
   const Setting* slewing = first_of(sets, "largest-slew");
-  add("largest_noise", noisy != nullptr ? noisy->noise : nothing, Sense::bounds_below);
-  add("largest_slew", slewing != nullptr ? slewing->slew : nothing, Sense::bounds_below);
+  promises.noise = noisy != nullptr ? std::optional(noisy->noise) : std::nullopt;
+  promises.slew = slewing != nullptr ? std::optional(slewing->slew) : std::nullopt;
+  add("largest_noise", promises.noise.value_or(nothing), Sense::bounds_below);
+  add("largest_slew", promises.slew.value_or(nothing), Sense::bounds_below);
   const Tree& quantities = claimed.at("quantities");
   const Tree* samples = quantities.find("settling_samples");
   const Tree* ultimate = quantities.find("ultimate_frequency_error");

@@ -29,6 +29,9 @@ struct Promises {
   std::optional<Ball> ultimate;  ///< limsup of |frequency error|, rad/sample: an upper bound
   std::optional<Ball> bound;     ///< of |frequency error| at every sample, rad/sample
   std::optional<Ball> settling;  ///< samples until it is within twice the ultimate bound that is claimed
+  // Of sets that are never left, whatever the start: noise without slew, slew without noise, and how far the
+  // set for the assumed noise and slew reaches in frequency, rad/sample. Lower bounds.
+  std::optional<Ball> noise, slew, reach;
 };
 
 /// Objects to what of the derivation "contraction" the verified sets do not prove.

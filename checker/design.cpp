@@ -11,6 +11,7 @@ Design read_design(const Tree& tree, Objections& objections) {
   const Tree& theorem = tree.at("theorem_2_9");
   const Ball amplitude = number(assume, "amplitude");
   Design design;
+  design.amplitude = amplitude;
   design.q1 = number(chosen, "q1") / square(amplitude);
   design.q2 = number(chosen, "q2");
   design.r = number(chosen, "r") / square(amplitude);

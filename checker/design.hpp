@@ -11,6 +11,7 @@
 namespace veritrack::checker {
 
 struct Design {
+  Ball amplitude;  ///< the true one, signal units
   Ball q1, q2, r, epsilon;
   Ball largest_frequency;  ///< rad/sample
   Ball noise, slew;

@@ -1,5 +1,7 @@
 #include "checker/guarantee.hpp"
 
+#include <algorithm>
+
 namespace veritrack::checker {
 
 namespace {
@@ -7,6 +9,23 @@ namespace {
 const std::string kBound = "ekf/frequency-error-bound";
 const std::string kSettling = "ekf/settling-time";
 const std::string kSentence = "ekf/guarantee";
+
+/// A key of [require] that asks for a set of at least some size.
+struct LeastSize {
+  std::string claim, key, quantity, before, after;
+  std::optional<Ball> Promises::*size;
+};
+const std::vector<LeastSize>& least_sizes() {
+  static const std::vector<LeastSize> sizes{
+      {"ekf/largest-noise", "largest_noise_at_least", "largest_noise", "noise of at most ",
+       " at a constant frequency is borne: a set of errors is never left", &Promises::noise},
+      {"ekf/largest-slew", "largest_slew_at_least", "largest_slew", "a slew of at most ",
+       " rad/sample per sample without noise is borne: a set of errors is never left", &Promises::slew},
+      {"ekf/frequency-error-radius", "frequency_error_radius_at_least", "frequency_error_radius",
+       "under the assumed noise and slew a set of errors is never left that reaches to a frequency error of ",
+       " rad/sample", &Promises::reach}};
+  return sizes;
+}
 
 bool is_zero(const Tree& number) {
   return certainly_equal(from_decimal(number.at("text").text()), Ball(0.0));
@@ -39,13 +58,19 @@ std::optional<Ball> decimal_between(const std::string& text, const std::string& 
 }  // namespace
 
 bool is_guarantee(const std::string& id) {
-  return id == kBound || id == kSettling || id == kSentence;
+  const auto& sizes = least_sizes();
+  return id == kBound || id == kSettling || id == kSentence ||
+         std::any_of(sizes.begin(), sizes.end(), [&](const LeastSize& size) { return size.claim == id; });
 }
 
 std::vector<std::string> requirements(const Tree& design) {
   std::vector<std::string> ids;
   for (const auto& [name, value] : design.at("require").members()) {
-    ids.push_back(name == "frequency_error_below" ? kBound : name == "settles_within" ? kSettling : name);
+    std::string id = name == "frequency_error_below" ? kBound : name == "settles_within" ? kSettling : name;
+    for (const LeastSize& size : least_sizes()) {
+      id = size.key == name ? size.claim : id;
+    }
+    ids.push_back(id);
   }
   return ids;
 }
@@ -75,6 +100,18 @@ void check_guarantee(const Tree& claim, const Tree& certificate, const Design& d
                       " samples the frequency error comes within twice its ultimate bound";
     found.verdict = proved_if(certainly_at_most(samples, read_number(asked, objections)));
     found.evidence = {{"settling_samples", samples, Sense::bounds_above}};
+  } else if (const auto size = std::find_if(least_sizes().begin(), least_sizes().end(),
+                                            [&](const LeastSize& known) { return known.claim == id; });
+             size != least_sizes().end()) {
+    const Tree& asked = require.at(size->key);
+    const Ball certified = (promises.*(size->size)).value_or(Ball::everything());
+    // Noise is certified relative to the amplitude.
+    const Ball unit = size->quantity == "largest_noise" ? design.amplitude : Ball(1.0);
+    found.statement = size->before + asked.at("text").text() + size->after;
+    found.verdict = proved_if(certainly_at_most(read_number(asked, objections), certified * unit));
+    // The reach is an enclosure; the other two are the numbers that a set gives.
+    found.evidence = {{size->quantity, certified,
+                       size->quantity == "frequency_error_radius" ? Sense::encloses : Sense::bounds_below}};
   } else if (id == kBound) {
     found.statement = "the frequency error stays below " + limit + " rad/sample for ever";
     found.verdict = below;

@@ -434,11 +434,44 @@ bool keeps_order(const Setting& setting, double rho_low, double rho_high, double
          keeps_order(setting, rho_middle, rho_high, tan_low, tan_high, depth - 1);
 }
 
+/// Bounds the turns for `ranges` of the amplitude, looking at `phases` parts of each.
+bool keeps_order_over(const Setting& setting, int ranges, int phases) {
+  constexpr int kDepth = 14;
+  const double end = setting.largest_amplitude.upper_double();
+  for (int i = 0; i < ranges; ++i) {
+    const double low = end * (2.0 * i / ranges - 1.0);
+    const double high = end * (2.0 * (i + 1) / ranges - 1.0);
+    const Ball a = Ball::hull(Ball(low), Ball(high));
+    // The largest |chi| of the ellipse there.
+    const Ball share(std::fmin(std::fabs(low), std::fabs(high)) * (low * high > 0.0 ? 1.0 : 0.0));
+    const Ball chi_end = setting.largest_chi *
+                         sqrt(max(Ball(1.0) - square(share / setting.largest_amplitude), Ball(0.0))).upper();
+    double tangent = 0.0;
+    for (int j = 0; j < phases; ++j) {
+      const Ball chi = chi_end * Ball::hull(Ball(j / static_cast<double>(phases)),
+                                            Ball((j + 1) / static_cast<double>(phases)));
+      const Correction<Ball> c = correction(setting, a, chi);
+      const Ball along = c.mean[0] - c.reach[0];
+      const Ball turned = (abs(c.mean[1]) + c.reach[1]) / along;
+      if (!certainly_positive(along) || !turned.finite()) {
+        return false;
+      }
+      tangent = std::fmax(tangent, turned.upper_double());
+    }
+    // 1 + low and 1 + high in double need not be exact: one step outward each.
+    if (!keeps_order(setting, std::nextafter(1.0 + low, -1.0), std::nextafter(1.0 + high, 3.0), 0.0, tangent,
+                     kDepth)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 bool contracts(const Setting& setting, std::int64_t& cells) {
-  constexpr int kScales = 8;
-  constexpr int kAngles = 16;
+  constexpr int kScales = 4;
+  constexpr int kAngles = 8;
   constexpr int kDepth = 24;
   const double half_turn = pi().upper_double();
   Cover cover(setting, cells);
@@ -458,37 +491,7 @@ bool contracts(const Setting& setting, std::int64_t& cells) {
 }
 
 bool keeps_covariance(const Setting& setting) {
-  constexpr int kRanges = 64;
-  constexpr int kPhases = 24;
-  constexpr int kDepth = 14;
-  const double end = setting.largest_amplitude.upper_double();
-  for (int i = 0; i < kRanges; ++i) {
-    const double low = end * (2.0 * i / kRanges - 1.0);
-    const double high = end * (2.0 * (i + 1) / kRanges - 1.0);
-    const Ball a = Ball::hull(Ball(low), Ball(high));
-    // The largest |chi| of the ellipse there.
-    const Ball share(std::fmin(std::fabs(low), std::fabs(high)) * (low * high > 0.0 ? 1.0 : 0.0));
-    const Ball chi_end = setting.largest_chi *
-                         sqrt(max(Ball(1.0) - square(share / setting.largest_amplitude), Ball(0.0))).upper();
-    double tangent = 0.0;
-    for (int j = 0; j < kPhases; ++j) {
-      const Ball chi = chi_end * Ball::hull(Ball(j / static_cast<double>(kPhases)),
-                                            Ball((j + 1) / static_cast<double>(kPhases)));
-      const Correction<Ball> c = correction(setting, a, chi);
-      const Ball along = c.mean[0] - c.reach[0];
-      const Ball turned = (abs(c.mean[1]) + c.reach[1]) / along;
-      if (!certainly_positive(along) || !turned.finite()) {
-        return false;
-      }
-      tangent = std::fmax(tangent, turned.upper_double());
-    }
-    // 1 + low and 1 + high in double need not be exact: one step outward each.
-    if (!keeps_order(setting, std::nextafter(1.0 + low, -1.0), std::nextafter(1.0 + high, 3.0), 0.0, tangent,
-                     kDepth)) {
-      return false;
-    }
-  }
-  return true;
+  return keeps_order_over(setting, 8, 6) || keeps_order_over(setting, 64, 24);
 }
 
 }  // namespace veritrack::checker

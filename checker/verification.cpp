@@ -125,8 +125,11 @@ class QuadratureVerifier {
     std::vector<std::string> required;
     std::vector<Verdict> verdicts;
     Objections unverified;
-    // Where starts had to be followed, the claims rest on that.
-    const bool captured = derivations_.count("capture") != 0;
+    if (derivations_.count("capture") != 0) {
+      // The starts had to be followed, and what is claimed of them rests on that.
+      promises_.bound.reset();
+      promises_.settling.reset();
+    }
     for (const Tree& claim : certificate_.at("claims").elements()) {
       const std::string& id = claim.at("id").text();
       Objections objections;
@@ -137,7 +140,7 @@ class QuadratureVerifier {
       if (id.ends_with("/conditions")) {
         check_conditions_claim(claim, id, objections);
       } else if (is_guarantee(id)) {
-        check_guarantee(claim, certificate_, design_, captured ? Promises{} : promises_, objections);
+        check_guarantee(claim, certificate_, design_, promises_, objections);
       } else {
         objections.emplace_back(kUnknown);
       }
@@ -147,7 +150,10 @@ class QuadratureVerifier {
       add("claim " + id, objections);
     }
     Objections objections = unverified;
-    if (required != requirements(certificate_.at("design"))) {
+    std::vector<std::string> asked = requirements(certificate_.at("design"));
+    std::sort(asked.begin(), asked.end());
+    std::sort(required.begin(), required.end());
+    if (required != asked) {
       objections.emplace_back("the required claims are not those of the design's [require]");
     }
     const std::string& verdict = certificate_.at("verdict").text();

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""Makes the certificates of accepted/ from a whole one: a certificate that states less is a certificate.
+
+usage: trim.py CERTIFICATE.json theorem-2.9|contraction|one-set > accepted/NAME.json
+
+theorem-2.9   the two readings of Theorem 2.9 and their claims; no certified set
+contraction   all certified sets, the derivation "contraction" and the claims that rest on it
+one-set       the same from the set that is checked fastest, for tests that check it hundreds of times
+"""
+import json
+import sys
+
+
+def keep(certificate, derivations, claims):
+    certificate["derivations"] = [d for d in certificate["derivations"] if d["id"] in derivations]
+    certificate["comparison"] = [row for row in certificate["comparison"] if row["result"] in derivations]
+    certificate["claims"] = [claim for claim in certificate["claims"] if claim["id"] in claims]
+    certificate["audits"] = []
+
+
+def main():
+    certificate = json.load(open(sys.argv[1], encoding="utf-8"))
+    kind = sys.argv[2]
+    if kind == "theorem-2.9":
+        readings = ["theorem-2.9/printed", "theorem-2.9/errata"]
+        keep(certificate, readings, [reading + "/conditions" for reading in readings])
+        certificate["certified_sets"] = []
+        certificate["design"]["require"] = {}
+        certificate["verdict"] = "nothing-required"
+    else:
+        keep(certificate, ["contraction"],
+             ["ekf/frequency-error-bound", "ekf/settling-time", "ekf/guarantee"])
+        derivation = certificate["derivations"][0]
+        derivation["quantities"] = {name: quantity for name, quantity in derivation["quantities"].items()
+                                    if quantity.get("proved", True)}
+        if kind == "one-set":
+            one_set(certificate, derivation)
+    json.dump(certificate, sys.stdout, indent=2, ensure_ascii=False)
+    sys.stdout.write("\n")
+
+
+def one_set(certificate, derivation):
+    """The set that bounds the frequency error, and nothing that rests on another."""
+    sets = {found["purpose"]: found for found in certificate["certified_sets"]}
+    certificate["certified_sets"] = [sets["frequency-error-bound"]]
+    quantities = derivation["quantities"]
+    derivation["quantities"] = {"frequency_error_bound": quantities["frequency_error_bound"]}
+    derivation["conditions"] = derivation["conditions"][:3]
+    invariant = derivation["conditions"][2]
+    invariant["verdict"] = "undecided"
+    del invariant["lhs"], invariant["rhs"]
+    derivation["verdict"] = "undecided"
+    certificate["claims"] = [claim for claim in certificate["claims"] if claim["id"] != "ekf/settling-time"]
+    del certificate["design"]["require"]["settles_within"]
+    certificate["comparison"] = []
+
+
+main()

@@ -1,0 +1,293 @@
+// Every number and word of an accepted certificate that means something, changed one at a time: what is then
+// not proved must not be verified.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "checker/verification.hpp"
+#include "tests/support/golden.hpp"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Pointer = Json::json_pointer;
+using namespace veritrack;
+
+Json accepted(const std::string& name) {
+  return Json::parse(test::read_file(VERITRACK_SOURCE_DIR "/tests/certificates/accepted/" + name + ".json"));
+}
+
+bool verified(const std::string& text) {
+  try {
+    return checker::verify(checker::read_json(text)).verified();
+  } catch (const checker::Malformed&) {
+    return false;
+  }
+}
+bool verified(const Json& certificate) {
+  return verified(certificate.dump());
+}
+
+/// All values with the keys and indices that lead to them, outermost first.
+void collect(const Json& value, const Pointer& at, std::vector<Pointer>& found) {
+  found.push_back(at);
+  if (value.is_object()) {
+    for (const auto& [key, member] : value.items()) {
+      collect(member, at / key, found);
+    }
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      collect(value[i], at / i, found);
+    }
+  }
+}
+std::vector<Pointer> places(const Json& certificate) {
+  std::vector<Pointer> found;
+  collect(certificate, Pointer(), found);
+  return found;
+}
+
+std::string hexadecimal(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%a", value);
+  return text;
+}
+bool is_hexadecimal(const Json& value) {
+  return value.is_string() && value.get<std::string>().find("0x") < 2;
+}
+
+/// What words, not numbers, say: the grounds, for people. The checker does not read them, and says so.
+bool is_prose(const Pointer& at) {
+  static const std::set<std::string> prose{"reason",   "symbol", "formula", "source", "notes",
+                                           "argument", "name",   "file",    "line",   "default"};
+  const std::string text = at.to_string();
+  return prose.count(at.back()) != 0 || text.find("/notes/") != std::string::npos ||
+         text.starts_with("/design/simulate") || text.find("/not_applicable/") != std::string::npos;
+}
+
+/// A change in one place, and whether it leaves a certificate that claims no more than was proved.
+struct Count {
+  int refused = 0, harmless = 0;
+};
+
+void expect_refused(const Json& changed, const std::string& what, Count& count) {
+  const bool accepted = verified(changed);
+  CHECK_MESSAGE(!accepted, what << " is verified");
+  count.refused += accepted ? 0 : 1;
+}
+
+}  // namespace
+
+TEST_CASE("numbers one part in a thousand away") {
+  for (const char* name : {"theorem-2.9", "one-set"}) {
+    const Json certificate = accepted(name);
+    REQUIRE(verified(certificate));
+    Count count;
+    std::map<std::string, int> reproved;
+    for (const Pointer& at : places(certificate)) {
+      const Json& value = certificate[at];
+      if (!is_hexadecimal(value)) {
+        continue;
+      }
+      const double number = std::strtod(value.get<std::string>().c_str(), nullptr);
+      for (const double factor : {1.001, 0.999}) {
+        Json changed = certificate;
+        changed[at] = hexadecimal(number == 0.0 ? factor - 1.0 : number * factor);
+        const std::string text = at.to_string();
+        if (!verified(changed)) {
+          ++count.refused;
+          continue;
+        }
+        ++count.harmless;
+        // Harmless: an end of an enclosure moved outward, which the decimals beside it do not allow; or
+        // another set, of which everything that the certificate says was proved anew.
+        const bool another_set = text.starts_with("/certified_sets/");
+        CHECK_MESSAGE(another_set, text << " times " << factor << " is verified");
+        if (another_set) {
+          ++reproved[text.substr(0, text.find('/', 18))];
+        }
+      }
+    }
+    MESSAGE(std::string(name) << ": " << count.refused << " changed numbers refused, " << count.harmless
+                              << " proved anew as another set");
+    CHECK(count.refused > 40);
+  }
+}
+
+TEST_CASE("a set made larger, faster or tougher step by step is refused before it is twice as good") {
+  const Json certificate = accepted("one-set");
+  const std::map<std::string, double> flattering{
+      {"radius", 1.1}, {"noise", 2.0}, {"rate", 0.99}, {"noise_gain", 0.9}};
+  for (const auto& [key, factor] : flattering) {
+    const Pointer at("/certified_sets/0/" + key);
+    double number = std::strtod(certificate[at].get<std::string>().c_str(), nullptr);
+    bool refused = false;
+    for (int i = 0; i < 60 && !refused; ++i) {
+      number *= factor;
+      Json changed = certificate;
+      changed[at] = hexadecimal(number);
+      refused = !verified(changed);
+      if (refused) {
+        MESSAGE(key << " is refused after " << i + 1 << " steps of " << factor);
+      }
+    }
+    CHECK_MESSAGE(refused, key);
+  }
+}
+
+TEST_CASE("decimals, texts and statements that say more") {
+  for (const char* name : {"theorem-2.9", "one-set"}) {
+    const Json certificate = accepted(name);
+    Count count;
+    for (const Pointer& at : places(certificate)) {
+      const Json& value = certificate[at];
+      if (at.empty() || is_prose(at) || !value.is_string() || is_hexadecimal(value)) {
+        continue;
+      }
+      const std::string text = value.get<std::string>();
+      Json changed = certificate;
+      if (at.back() == "decimal") {
+        changed[at] = "[0.1234, 0.1235]";
+      } else if (at.back() == "text" && text != "0.0") {
+        changed[at] = "1.001" + text;  // another number
+      } else if (at.back() == "verdict") {
+        for (const char* verdict : {"proved", "refuted"}) {
+          if (text != verdict) {
+            changed[at] = verdict;
+            expect_refused(changed, at.to_string() + " said to be " + verdict, count);
+          }
+        }
+        continue;
+      } else {
+        // Of an undecided claim the words claim nothing, nor does what a set was made for.
+        const Json& parent = certificate[at.parent_pointer()];
+        const bool claims_nothing = parent.contains("verdict") && parent["verdict"] == "undecided" &&
+                                    at.to_string().starts_with("/claims/") && at.back() == "statement";
+        if (claims_nothing || at.back() == "purpose") {
+          continue;
+        }
+        changed[at] = text + "!";
+      }
+      expect_refused(changed, at.to_string(), count);
+    }
+    MESSAGE(std::string(name) << ": " << count.refused << " changed words refused");
+    CHECK(count.refused > 20);
+  }
+}
+
+TEST_CASE("whole enclosures moved, and whole design values, consistently") {
+  for (const char* name : {"theorem-2.9", "one-set"}) {
+    const Json certificate = accepted(name);
+    Count count;
+    for (const Pointer& at : places(certificate)) {
+      const Json& value = certificate[at];
+      if (!value.is_object() || !value.contains("lo") || at.to_string().starts_with("/design/simulate")) {
+        continue;
+      }
+      const auto end = [&](const char* key) {
+        return std::strtod(value[key].get<std::string>().c_str(), nullptr);
+      };
+      for (const double factor : {1.001, 0.999}) {
+        Json changed = certificate;
+        Json& moved = changed[at];
+        const bool zero = end("lo") == 0.0 && end("hi") == 0.0;
+        moved["lo"] = hexadecimal(zero ? 1e-3 : std::nextafter(end("lo") * factor, -HUGE_VAL));
+        moved["hi"] = hexadecimal(zero ? 1e-3 : std::nextafter(end("hi") * factor, HUGE_VAL));
+        moved["decimal"] = "[-1e300, 1e300]";
+        if (value.contains("text")) {
+          char text[40];
+          const double number =
+              zero ? 1e-3 : std::strtod(value["text"].get<std::string>().c_str(), nullptr) * factor;
+          std::snprintf(text, sizeof text, "%.17g", number);
+          moved["text"] = text;
+          moved["lo"] = hexadecimal(std::nextafter(number, -HUGE_VAL));
+          moved["hi"] = hexadecimal(std::nextafter(number, HUGE_VAL));
+        }
+        if (!verified(changed)) {
+          ++count.refused;
+          continue;
+        }
+        ++count.harmless;
+        // A bound made weaker; another design, of which everything that is said was proved anew; or another
+        // point of the search, at which the value is the same to as many digits as the enclosure has.
+        const bool weaker = factor > 1.0 && (at.back() == "frequency_error_bound");
+        const bool another_design = value.contains("text");
+        const bool another_point = at.to_string().find("/best_found/") != std::string::npos;
+        CHECK_MESSAGE((weaker || another_design || another_point),
+                      at.to_string() << " times " << factor << " is verified");
+      }
+    }
+    MESSAGE(std::string(name) << ": " << count.refused << " moves refused, " << count.harmless
+                              << " weaker bounds or other designs proved anew");
+  }
+}
+
+TEST_CASE("what is dropped") {
+  // What may go: a statement nobody else needs, and what is only for people.
+  const auto may_go = [](const std::string& text) {
+    const auto inside = [&](const char* start, std::ptrdiff_t depth) {
+      return text.starts_with(start) && std::count(text.begin(), text.end(), '/') == depth;
+    };
+    return inside("/claims/", 2) || inside("/comparison/", 2) || inside("/derivations/", 2) ||
+           text.find("/quantities/") != std::string::npos || text.ends_with("/lhs") ||
+           text.ends_with("/rhs") || text.find("/feasibility") != std::string::npos ||
+           text.find("/evidence/") != std::string::npos;
+  };
+  for (const char* name : {"theorem-2.9", "one-set"}) {
+    const Json certificate = accepted(name);
+    Count count;
+    for (const Pointer& at : places(certificate)) {
+      if (at.empty() || is_prose(at) || at.to_string().starts_with("/audits") ||
+          at.to_string() == "/design/source") {
+        continue;
+      }
+      Json changed = certificate;
+      Json& parent = changed[at.parent_pointer()];
+      if (parent.is_object()) {
+        parent.erase(at.back());
+      } else {
+        parent.erase(std::stoul(at.back()));
+      }
+      const bool required = at.to_string().starts_with("/claims/") && certificate[at].is_object() &&
+                            certificate[at].value("required", false);
+      if (verified(changed)) {
+        ++count.harmless;
+        CHECK_MESSAGE((may_go(at.to_string()) && !required), at.to_string() << " dropped is verified");
+      } else {
+        ++count.refused;
+      }
+    }
+    MESSAGE(std::string(name) << ": " << count.refused << " omissions refused, " << count.harmless
+                              << " leave less claimed");
+  }
+}
+
+TEST_CASE("duplicate keys are malformed, the order of keys means nothing, that of conditions does") {
+  const Json certificate = accepted("theorem-2.9");
+  const std::string text = certificate.dump();
+  int duplicates = 0;
+  for (std::size_t at = text.find("{\""); at != std::string::npos; at = text.find("{\"", at + 1)) {
+    // The first key of the object once more, before it, with the harmless value null.
+    const std::size_t end = text.find('"', at + 2);
+    const std::string doubled =
+        text.substr(0, at + 1) + text.substr(at + 1, end - at) + ":null," + text.substr(at + 1);
+    CHECK_THROWS_AS((void)checker::read_json(doubled), checker::Malformed);
+    ++duplicates;
+  }
+  MESSAGE(duplicates << " duplicate keys malformed");
+  const nlohmann::json sorted = nlohmann::json::parse(text);
+  CHECK(verified(sorted.dump()));
+  Json swapped = certificate;
+  std::swap(swapped["derivations"][0]["conditions"][0], swapped["derivations"][0]["conditions"][1]);
+  CHECK(!verified(swapped));
+  Json twice = certificate;
+  twice["derivations"].push_back(twice["derivations"][0]);
+  CHECK(!verified(twice));
+}

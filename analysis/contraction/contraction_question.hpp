@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/matrix.hpp"
@@ -26,14 +27,12 @@ struct ContractionQuestion {
 
 /// True only when r, q2 are certainly positive and every bound is a number certainly not negative: other
 /// questions have no answer. Needs the upward mode.
-[[nodiscard]] inline bool is_well_posed(const ContractionQuestion& question) {
-  const auto not_negative = [](const rigor::Interval& bound) {
-    return is_finite(bound) && certainly_less_equal(rigor::Interval(0.0), bound);
-  };
-  return certainly_positive(question.design.r) && certainly_positive(question.design.q2) &&
-         not_negative(question.noise) && not_negative(question.slew) &&
-         not_negative(question.initial_amplitude_error) && not_negative(question.initial_phase_error) &&
-         not_negative(question.initial_frequency_error);
-}
+[[nodiscard]] bool is_well_posed(const ContractionQuestion& question);
+
+/// Why no set bears the assumed noise and slew: which of the two is beyond the largest that was certified
+/// without the other, and by how much; a clause. Needs the upward mode.
+[[nodiscard]] std::string beyond_the_limits(const ContractionQuestion& question,
+                                            const std::optional<double>& largest_noise,
+                                            const std::optional<double>& largest_slew);
 
 }  // namespace veritrack::contraction

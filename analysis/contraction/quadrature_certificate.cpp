@@ -129,18 +129,12 @@ Condition invariant_set(const ContractionQuestion& question, const ContractionCe
     condition.reason = certificate.set->reason;
     return condition;
   }
-  condition.reason = "no set could be certified for this noise and slew";
-  if (certificate.noise_set) {
-    condition.reason += "; the largest certified noise (without slew) is " +
-                        rigor::to_decimal(certificate.noise_set->set.noise, 4, Direction::down) + ", " +
-                        at_most(question.noise) + " was assumed";
-  }
-  if (certificate.slew_set) {
-    condition.reason += "; the largest certified slew (without noise) is " +
-                        rigor::to_decimal(certificate.slew_set->set.slew, 4, Direction::down) + ", " +
-                        at_most(question.slew) + " was assumed";
-  }
-  condition.reason += ".";
+  const auto& noisy = certificate.noise_set;
+  const auto& slewing = certificate.slew_set;
+  condition.reason = "no set could be certified for this noise and slew: " +
+                     beyond_the_limits(question, noisy ? std::optional(noisy->set.noise) : std::nullopt,
+                                       slewing ? std::optional(slewing->set.slew) : std::nullopt) +
+                     ".";
   return condition;
 }
 

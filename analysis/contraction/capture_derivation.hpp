@@ -1,0 +1,40 @@
+// What the cells of starts that were followed add up to: bounds over time, quantities and conditions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/contraction/capture_region.hpp"
+#include "analysis/contraction/certified_set.hpp"
+#include "analysis/contraction/contraction_question.hpp"
+#include "analysis/theorems/derivation.hpp"
+
+namespace veritrack::contraction {
+
+/// The bounds of all cells while they are followed, and those of the set from each cell's capture on.
+struct CaptureTube {
+  /// On |frequency error|, rad/sample, after 0, 1, ... samples; the last one holds for ever after.
+  std::vector<double> frequency_errors;
+  double ultimate_frequency_error = 0.0;  ///< of the set that captures
+  std::optional<int> settling_samples;
+};
+
+/// The tube of a region of which every cell is PROVED. Needs the upward mode.
+[[nodiscard]] CaptureTube capture_tube(const ContractionQuestion& question, const CertifiedSet& set,
+                                       const Region& region);
+
+/// Adds capture_samples, frequency_error_bound, ultimate_frequency_error, settling_samples, cells,
+/// cells_captured, and wrong_lock_frequency_error where a cell is REFUTED, to a derivation that has its
+/// verdict. Needs the upward mode.
+void add_capture_quantities(theorems::Derivation& derivation, const CertifiedSet& set, const Region& region,
+                            const CaptureTube& tube);
+
+/// The condition certified-set: the set bears the assumed noise and slew. Needs the upward mode.
+[[nodiscard]] theorems::Condition set_bears_assumptions(const ContractionQuestion& question,
+                                                        const CertifiedSet& set);
+
+/// The condition starts-captured, with the reason for its verdict; the first cells that failed go to `notes`.
+[[nodiscard]] theorems::Condition starts_captured(const Region& region, std::vector<std::string>& notes);
+
+}  // namespace veritrack::contraction

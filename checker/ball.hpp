@@ -135,6 +135,11 @@ inline Ball log(const Ball& x) {
   arb_log(z.raw(), x.raw(), precision());
   return z;
 }
+inline Ball exp(const Ball& x) {
+  Ball z;
+  arb_exp(z.raw(), x.raw(), precision());
+  return z;
+}
 inline Ball sin(const Ball& x) {
   Ball z;
   arb_sin(z.raw(), x.raw(), precision());

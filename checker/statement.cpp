@@ -97,9 +97,9 @@ void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections
     objections.push_back("ALARM: " + name + " and its enclosure have nothing in common" + found);
   } else if (sense == Sense::encloses && !(above && below)) {
     objections.push_back(name + " is not certainly in its enclosure" + found);
-  } else if (sense == Sense::bounds_above && !certainly_at_most(value, low)) {
+  } else if (sense == Sense::bounds_above && !below) {
     objections.push_back(name + " is not certainly a bound from above" + found);
-  } else if (sense == Sense::bounds_below && !certainly_at_most(high, value)) {
+  } else if (sense == Sense::bounds_below && !above) {
     objections.push_back(name + " is not certainly a bound from below" + found);
   }
 }

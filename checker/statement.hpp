@@ -28,7 +28,7 @@ inline Verdict proved_if(bool certain) {
 /// What is wrong with a part of a certificate; nothing when it is verified.
 using Objections = std::vector<std::string>;
 
-/// Which ends of [lo, hi] say something: that the value is between them, or at most, or at least both.
+/// What [lo, hi] says of a value: that it is in it, at most hi, or at least lo.
 enum class Sense { encloses, bounds_above, bounds_below };
 
 struct Quantity {

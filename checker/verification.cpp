@@ -5,6 +5,7 @@
 
 #include "checker/contraction.hpp"
 #include "checker/guarantee.hpp"
+#include "checker/proof_gaps.hpp"
 #include "checker/theorem_2_9.hpp"
 
 namespace veritrack::checker {
@@ -122,6 +123,7 @@ class QuadratureVerifier {
   }
 
   void check_claims() {
+    const std::map<std::string, Claim> gaps = proof_gaps(design_);
     std::vector<std::string> required;
     std::vector<Verdict> verdicts;
     Objections unverified;
@@ -141,6 +143,8 @@ class QuadratureVerifier {
         check_conditions_claim(claim, id, objections);
       } else if (is_guarantee(id)) {
         check_guarantee(claim, certificate_, design_, promises_, objections);
+      } else if (const auto gap = gaps.find(id); gap != gaps.end()) {
+        check_claim(claim, gap->second, objections);
       } else {
         objections.emplace_back(kUnknown);
       }

@@ -1,0 +1,50 @@
+"""Certificates as they are made, held against a program that shares no code with the one that made them."""
+
+import os
+import subprocess
+import unittest
+
+from support import ROOT, CliTestCase
+
+CHECKER = os.environ["VERITRACK_VERIFY"]
+
+
+def verify(*arguments):
+    return subprocess.run([CHECKER, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+class Verify(CliTestCase):
+    def certified_and_checked(self, name):
+        """The checker's lines for a shipped design."""
+        design = ROOT / "designs" / (name + ".toml")
+        self.run_here("certify", design, "--out", name)
+        result = verify(self.folder / name / "certificate.json")
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        self.assertNotIn("ALARM", result.stdout)
+        lines = result.stdout.splitlines()
+        return lines, {line.split(maxsplit=1)[1] for line in lines if line.startswith("verified")}
+
+    def test_what_is_proved_by_contraction(self):
+        _, verified = self.certified_and_checked("la-scala-1994-figure-3.5-without-leak")
+        for part in ("theorem-2.9/printed", "theorem-2.9/errata", "contraction", "claim ekf/frequency-error-bound",
+                     "claim ekf/settling-time", "claim ekf/guarantee", "verdict proved"):
+            self.assertIn(part, verified)
+
+    def test_theorem_with_a_leak(self):
+        _, verified = self.certified_and_checked("frequency-noise-only")
+        for part in ("theorem-2.9/printed", "theorem-2.9/errata", "claim theorem-2.9/past-errors"):
+            self.assertIn(part, verified)
+
+    def test_exit_status(self):
+        certificates = ROOT / "tests" / "certificates"
+        accepted = str(certificates / "accepted" / "one-set.json")
+        self.assertEqual(verify(accepted).returncode, 0)
+        self.assertEqual(verify("--precision", "64", accepted).returncode, 0)
+        self.assertEqual(verify(certificates / "rejected" / "unknown-claim.json").returncode, 1)
+        malformed = certificates / "malformed" / "duplicate-key.json"
+        for arguments in ([malformed], ["no-such-file.json"], [], ["--precision", "3", accepted], [accepted, accepted]):
+            self.assertEqual(verify(*arguments).returncode, 2, arguments)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,45 @@
+// Whatever the bytes: a certificate that is looked at to the end, or Malformed. Nothing that arbitrary bytes
+// say may be VERIFIED but what claims nothing.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "checker/ball.hpp"
+#include "checker/verification.hpp"
+
+namespace {
+
+using namespace veritrack::checker;
+
+/// Numbers are finite, or refused.
+void read_as_number(std::string_view text) {
+  for (auto* read : {from_decimal, from_hexadecimal}) {
+    try {
+      if (!read(text).finite()) {
+        std::abort();
+      }
+    } catch (const std::invalid_argument&) {
+      continue;
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  read_as_number(text);
+  try {
+    const Tree tree = read_json(text);
+    const Tree* sets = tree.find("certified_sets");
+    if (sets == nullptr || sets->elements().empty()) {  // sets take seconds
+      (void)verify(tree);
+    }
+  } catch (const Malformed&) {
+    return 0;
+  }
+  return 0;
+}

@@ -1,6 +1,7 @@
 #include "analysis/contraction/elementary_ratios.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "analysis/rigor/elementary.hpp"
 
@@ -25,6 +26,27 @@ Interval alternating_sum(double x, const std::array<double, Size>& divisors, std
 constexpr std::array<double, 7> kFactorials = {1.0, 6.0, 120.0, 5040.0, 362880.0, 39916800.0, 6227020800.0};
 constexpr std::array<double, 7> kOddNumbers = {1.0, 3.0, 5.0, 7.0, 9.0, 11.0, 13.0};
 
+/// atan at a double >= 0. atan(x) = atan(c) + atan(u), u = (x - c)/(1 + c x), with c the multiple of 1/4
+/// nearest to x: |u| <= 1/8, where the partial sums of the series lie above and below atan(u)/u in turn.
+Interval arctangent(double x) {
+  constexpr std::size_t kMultiples = 9;
+  static const std::array<Interval, kMultiples> at_multiples = [] {
+    std::array<Interval, kMultiples> values;
+    for (std::size_t i = 0; i < kMultiples; ++i) {
+      values.at(i) = rigor::atan(Interval(0.25 * static_cast<double>(i)));
+    }
+    return values;
+  }();
+  const double nearest = std::floor(4.0 * x + 0.5);
+  const bool is_near = nearest < static_cast<double>(kMultiples);
+  if (!is_near) {
+    return rigor::atan(Interval(x));
+  }
+  const Interval multiple(0.25 * nearest);
+  const Interval rest = (Interval(x) - multiple) / (Interval(1.0) + multiple * Interval(x));
+  return at_multiples.at(static_cast<std::size_t>(nearest)) + rest * arctangent_ratio(rest);
+}
+
 }  // namespace
 
 // sin(x)/x falls on [0, pi], and the partial sums of its series, whatever x >= 0, lie above and below it in
@@ -48,7 +70,7 @@ Interval arctangent_ratio(const Interval& t) {
   }
   const auto at = [](double point, std::size_t terms) {
     const Interval value(point);
-    return point <= kSeriesEnd ? alternating_sum(point, kOddNumbers, terms) : rigor::atan(value) / value;
+    return point <= kSeriesEnd ? alternating_sum(point, kOddNumbers, terms) : arctangent(point) / value;
   };
   return Interval::from_bounds(at(size.upper(), 6).lower(), at(size.lower(), 7).upper());
 }
@@ -88,7 +110,7 @@ Interval arctangent_ratio_slope(const Interval& t) {
       return sum;
     }
     const Interval squared = rigor::square(value);
-    return (rigor::atan(value) / value - Interval(1.0) / (Interval(1.0) + squared)) / squared;
+    return (arctangent(point) / value - Interval(1.0) / (Interval(1.0) + squared)) / squared;
   };
   return Interval::from_bounds(at(size.upper(), 6).lower(), at(size.lower(), 7).upper());
 }

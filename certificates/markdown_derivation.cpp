@@ -1,5 +1,7 @@
 #include "certificates/markdown_derivation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -38,11 +40,12 @@ std::string quantities_table(const theorems::Derivation& derivation,
   rows.reserve(derivation.quantities.size());
   for (const theorems::Quantity& quantity : derivation.quantities) {
     const QuantityText text = describe(quantity.name);
+    const std::string value =
+        quantity.proved ? text.value(quantity.value, 4)
+                        : fmt::format("≈ {:.3g} (sampled, not proved)", rigor::midpoint(quantity.value));
     rows.push_back({text.description, quantity.symbol.empty() ? "—" : math(quantity.symbol),
                     quantity.formula.empty() ? "—" : math(quantity.formula),
-                    quantity.not_applicable
-                        ? "not applicable: " + *quantity.not_applicable
-                        : text.value(quantity.value, 4) + (quantity.proved ? "" : " (sampled, not proved)")});
+                    quantity.not_applicable ? "not applicable: " + *quantity.not_applicable : value});
   }
   return table({"Quantity", "Symbol", "Formula", "Value"}, rows);
 }

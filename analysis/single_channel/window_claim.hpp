@@ -1,0 +1,56 @@
+// What is claimed of the covariance and of the steps of the single-channel tracker in a window of samples, at
+// every phase and every frequency of a band; and its verification.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/rigor/interval.hpp"
+#include "analysis/single_channel/covariance_window.hpp"
+
+namespace veritrack::single_channel {
+
+/// A proposal: exact doubles, which are evidence of nothing. `window` is shares.size().
+struct WindowClaim {
+  WindowAssumption assumption;
+  int settling = 0;    ///< samples of the window before the lower bound starts
+  double slew = 0.0;   ///< |omega(k+1) - omega(k)|, rad/sample
+  /// shares[m - 1]: of any covariance P at least this part is due to the last m samples alone.
+  std::vector<double> shares;
+  /// |nu| |delta + i nu / 2| <= curvature e' P^-1 e; the weight is a free parameter of the proof.
+  double curvature = 0.0;
+  double curvature_weight = 1.0;
+  /// A lower bound on the predicted covariance of (delta_1, delta_2) for given nu.
+  double signal_uncertainty = 0.0;
+};
+
+/// What holds besides when a claim is verified: lower bounds on P11, P22 and P33 over phases and band.
+struct WindowFloor {
+  double p11 = 0.0;
+  double p22 = 0.0;
+  double p33 = 0.0;
+};
+
+/// An error of the start, as a box: |delta| <= signal, |nu| <= frequency.
+struct StartBox {
+  double signal = 0.0;
+  double frequency = 0.0;  ///< rad/sample
+};
+
+/// The floor when the claim holds for every design in `design` (amplitude 1, epsilon = 0), every phase and
+/// every frequency of `band` (rad/sample), nothing otherwise:
+///   (a) every covariance that keeps to the assumption for a window keeps to its two variances afterwards;
+///   (b) shares, curvature and signal_uncertainty are as they say.
+/// Cells of phase and frequency, in parallel; the result does not depend on the number of threads. Opens its
+/// own rounding modes.
+[[nodiscard]] std::optional<WindowFloor> verify_window(
+    const trackers::QuadratureEkfDesign<rigor::Interval>& design, const rigor::Interval& band,
+    const WindowClaim& claim);
+
+/// True only when every e in `box` has e' P^-1 e <= level^2 for every lower bound on P that the window gives,
+/// at every phase and frequency; `weight` in (0, 1) is a free parameter. Needs the same claim to be verified.
+[[nodiscard]] bool certainly_holds_start(const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+                                         const rigor::Interval& band, const WindowClaim& claim,
+                                         const StartBox& box, double level, double weight);
+
+}  // namespace veritrack::single_channel

@@ -133,7 +133,8 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
   add_capture(certificate, progress);
   add_comparison(certificate);
   add_required_claims(certificate, tables.require, tables.assume);
-  certificate.claims.push_back(guarantee_claim(certificate));
+  certificate.claims.push_back(guarantee_claim(
+      certificate, {tables.assume, tables.require, !(tables.design.epsilon.value == Interval(0.0))}));
 }
 
 void certify_tables(Certificate& certificate, const KklObserverTables& /*tables*/,

@@ -21,10 +21,14 @@ trackers::QuadratureEkfDesign<Interval> design_at_unit_amplitude(const Design& d
 }  // namespace
 
 contraction::ContractionQuestion contraction_question(const Design& design) {
-  const Assumptions& assume = design.quadrature_ekf().assume;
+  return contraction_question(design_at_unit_amplitude(design), design.quadrature_ekf().assume);
+}
+
+contraction::ContractionQuestion contraction_question(const trackers::QuadratureEkfDesign<Interval>& design,
+                                                      const Assumptions& assume) {
   const Interval& amplitude = assume.amplitude.value;
   contraction::ContractionQuestion question;
-  question.design = design_at_unit_amplitude(design);
+  question.design = design;
   question.noise = assume.noise.value / amplitude;
   question.slew = assume.slew.value;
   question.initial_amplitude_error = assume.initial_amplitude_error.value / amplitude;

@@ -6,8 +6,12 @@
 
 namespace veritrack::certificates {
 
-/// What is asked of contraction for a design, at amplitude 1. Needs the upward mode.
+/// What is asked of contraction for the quadrature tracker, at amplitude 1. Needs the upward mode.
 [[nodiscard]] contraction::ContractionQuestion contraction_question(const Design& design);
+
+/// The same for design values at amplitude 1 and what is assumed.
+[[nodiscard]] contraction::ContractionQuestion contraction_question(
+    const trackers::QuadratureEkfDesign<rigor::Interval>& design, const Assumptions& assume);
 
 /// Adds the derivation "contraction" and its certified sets.
 void add_contraction(Certificate& certificate);

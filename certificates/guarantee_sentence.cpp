@@ -42,15 +42,15 @@ bool is_zero(const Number& number) {
 }
 
 /// "With measurement noise of at most 0.001 and a constant frequency, started within ..., "
-std::string assumptions(const QuadratureEkfTables& tables) {
-  const Assumptions& assume = tables.assume;
+std::string assumptions(const GuaranteeTerms& terms) {
+  const Assumptions& assume = terms.assume;
   std::string text = is_zero(assume.noise) ? "Without measurement noise"
                                            : "With measurement noise of at most " + assume.noise.text;
   text += is_zero(assume.slew)
               ? " and at a constant frequency"
               : fmt::format(" and a frequency that changes by at most {} rad/sample per sample",
                             assume.slew.text);
-  if (!is_zero(tables.design.epsilon)) {
+  if (terms.in_band) {
     text += fmt::format(" between {} and {} rad/sample", assume.frequency[0].text, assume.frequency[1].text);
   }
   return text + fmt::format(
@@ -103,16 +103,15 @@ std::string objection(const Certificate& certificate) {
 
 }  // namespace
 
-Claim guarantee_claim(const Certificate& certificate) {
-  const QuadratureEkfTables& tables = certificate.design.quadrature_ekf();
-  const std::optional<Number>& required = tables.require.frequency_error_below;
+Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& terms) {
+  const std::optional<Number>& required = terms.require.frequency_error_below;
   const Claim* requirement = find_claim(certificate, "ekf/frequency-error-bound");
   const Claim* capture = find_claim(certificate, "ekf/capture");
   const std::optional<Interval> bound = proved_frequency_bound(certificate);
   const bool meets = requirement == nullptr || requirement->verdict == Verdict::proved;
   Claim claim;
   claim.id = kGuarantee;
-  claim.statement = assumptions(tables);
+  claim.statement = assumptions(terms);
   if (bound && meets) {
     claim.verdict = Verdict::proved;
     claim.statement += required ? fmt::format(

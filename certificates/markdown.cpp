@@ -211,9 +211,10 @@ std::string document(const Certificate& certificate, const MarkdownOptions& opti
 /// The document of a single-channel tracker.
 std::string document(const Certificate& certificate, const MarkdownOptions& options,
                      const SingleChannelEkfTables& tables) {
-  return "# " + headline(certificate) + "\n\n" + single_channel_summary(certificate) +
-         requirement_section(certificate) + single_channel_design_section(certificate) +
-         assumptions_section(tables.assume) + bias_section(certificate) +
+  return "# " + headline(certificate) + "\n\n" + guarantee_section(certificate) +
+         single_channel_summary(certificate) + requirement_section(certificate) +
+         single_channel_design_section(certificate) + assumptions_section(tables.assume) +
+         contraction_section(certificate) + bias_section(certificate) +
          figures_section(certificate, tables.simulate, options) + transfer_function_section(certificate) +
          proposition_section(certificate) + single_channel_coverage_section() +
          reproduction_section(certificate, options);
@@ -226,10 +227,10 @@ std::string headline(const Certificate& certificate) {
     return kkl_observer_headline(certificate);
   }
   if (!certificate.verdict) {
-    if (std::holds_alternative<SingleChannelEkfTables>(certificate.design.tables)) {
+    const std::optional<rigor::Interval> bound = proved_frequency_bound(certificate);
+    if (!bound && std::holds_alternative<SingleChannelEkfTables>(certificate.design.tables)) {
       return single_channel_headline(certificate);
     }
-    const std::optional<rigor::Interval> bound = proved_frequency_bound(certificate);
     if (bound) {
       return fmt::format(
           "Nothing is required of this design; PROVED of it: the frequency error stays at or below {} "

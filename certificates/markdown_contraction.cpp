@@ -70,9 +70,8 @@ std::string contraction_section(const Certificate& certificate) {
   for (const theorems::Derivation& derivation : derivations_of(certificate, "contraction")) {
     text +=
         fmt::format("## What is certified of it: contraction, {}\n\n", markdown::verdict(derivation.verdict));
-    const bool leaks = certificate.design.quadrature_ekf().design.epsilon.nearest > 0.0;
     text += fmt::format("{}. The proof is in `{}` of the program's sources.\n\n", derivation.title,
-                        leaks ? "docs/leak.md" : "docs/contraction.md");
+                        derivation.quantities.front().source);
     text += derivation_tables(derivation);
   }
   for (const theorems::Derivation& derivation : derivations_of(certificate, "capture")) {

@@ -9,8 +9,11 @@
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/single_channel/frozen_observer.hpp"
 #include "analysis/single_channel/invariant_curve.hpp"
+#include "analysis/single_channel/phase_certificate.hpp"
 #include "analysis/single_channel/propositions.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
+#include "certificates/guarantee.hpp"
+#include "certificates/guarantee_sentence.hpp"
 #include "certificates/required_claims.hpp"
 #include "certificates/theorem_claims.hpp"
 #include "trackers/quadrature_rotating_frame.hpp"
@@ -139,8 +142,8 @@ void certify_single_channel(Certificate& certificate, const SingleChannelEkfTabl
   if (!has_steady_state) {
     certificate.claims.push_back(stability_claim(design.r));
   }
-  const contraction::LockBranch quadrature = contraction::verify_lock_branch(
-      design, rigor::hull(frequencies.front().value, frequencies.back().value));
+  const Interval band = rigor::hull(tables.assume.frequency[0].value, tables.assume.frequency[1].value);
+  const contraction::LockBranch quadrature = contraction::verify_lock_branch(design, band);
   SteadyStateBias at_middle;
   for (std::size_t i = 0; i < frequencies.size(); ++i) {
     SteadyStateBias bias;
@@ -157,6 +160,8 @@ void certify_single_channel(Certificate& certificate, const SingleChannelEkfTabl
                         i == middle ? "single-channel-bias" : "single-channel-bias/" + frequencies[i].text,
                         quadrature_bias(quadrature, frequencies[i].value)));
   }
+  certificate.derivations.push_back(
+      single_channel::certify_over_phases({contraction_question(design, tables.assume), band}).derivation);
   certificate.derivations.push_back(single_channel::transfer_function(single_channel::mean_gain(
       trackers::at_unit_amplitude(nearest_values(tables.design), tables.assume.amplitude.nearest),
       midpoint(frequencies[middle].value))));
@@ -174,6 +179,7 @@ void certify_single_channel(Certificate& certificate, const SingleChannelEkfTabl
   add_all(single_channel::proposition_1_conclusion(at_middle, exact, design.epsilon));
   add_all(single_channel::proposition_2());
   add_required_claims(certificate, tables.require, tables.assume);
+  certificate.claims.push_back(guarantee_claim(certificate, {tables.assume, tables.require, true}));
 }
 
 }  // namespace veritrack::certificates

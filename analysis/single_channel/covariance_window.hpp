@@ -77,14 +77,13 @@ struct WindowAssumption {
   double radius = 0.0;
   double frequency_variance = 0.0;  ///< (rad/sample)^2
   double signal_variance = 0.0;     ///< relative to the amplitude, squared
-  double loosening = 0.0;           ///< eta in (0, 1): (F + E) P (F + E)' <= (1 + eta) F P F' + (1 + 1/eta) E P E'
+  double loosening = 0.0;  ///< eta in (0, 1): (F + E) P (F + E)' <= (1 + eta) F P F' + (1 + 1/eta) E P E'
 };
 
 /// A bound t with E P E' <= t diag(1, 1, 0), E = U(nu) F(z) - F, for every covariance P that is at most
 /// `bound` and keeps to the assumption. |E x| <= |nu| |x_z| + (|delta| + |nu|) |x_3|. Needs the upward mode.
 [[nodiscard]] rigor::Interval disturbance(const WindowAssumption& assumption,
                                           const PhaseCovariance<rigor::Interval>& bound);
-
 
 /// How long the windows are, and how fast the frequency changes in them.
 struct WindowLength {
@@ -107,24 +106,30 @@ inline rigor::Interval range_of(const OverPhaseAndFrequency& x) {
 
 template <typename Scalar>
 [[nodiscard]] PhaseCovariance<rigor::Interval> ranges_of(const PhaseCovariance<Scalar>& p) {
-  return {range_of(p.p11), range_of(p.p12), range_of(p.p13), range_of(p.p22), range_of(p.p23), range_of(p.p33)};
+  return {range_of(p.p11), range_of(p.p12), range_of(p.p13),
+          range_of(p.p22), range_of(p.p23), range_of(p.p33)};
 }
+
+/// How far the phase may be off so many samples after (before, when negative) one where it and the frequency
+/// are known, when the frequency changes by at most `slew` a sample. Needs the upward mode.
+[[nodiscard]] double phase_drift(int samples, double slew);
 
 /// Matrices without remainder, all of them at least (sign = 1) or at most (sign = -1) those in `p`: a
 /// symmetric matrix whose entries are at most those of `remainders` lies between -D and D, D the diagonal of
 /// the sums of rows. So remainders do not grow from step to step as interval arithmetic would have it, but
 /// decay with the covariance. Nothing is known where a remainder is not.
 [[nodiscard]] PhaseCovariance<OverPhaseAndFrequency> without_remainder(
-    const PhaseCovariance<OverPhaseAndFrequency>& p, double sign);
-inline PhaseCovariance<double> without_remainder(const PhaseCovariance<double>& p, double /*sign*/) {
-  return p;
-}
+    const PhaseCovariance<OverPhaseAndFrequency>& p, double sign, double drift);
+/// For a proposal: about as much more or less as the verification will need.
+[[nodiscard]] PhaseCovariance<double> without_remainder(const PhaseCovariance<double>& p, double sign,
+                                                        double drift);
 
-/// The phase so many samples after `phase` (before it, when negative), when the frequency is `frequency` there
-/// and changes by at most `slew` a sample.
+/// The phase so many samples after `phase` (before it, when negative), when the frequency is `frequency`
+/// there, give or take the drift.
 [[nodiscard]] OverPhaseAndFrequency advanced(const OverPhaseAndFrequency& phase,
-                                             const OverPhaseAndFrequency& frequency, int samples, double slew);
-inline double advanced(double phase, double frequency, int samples, double /*slew*/) {
+                                             const OverPhaseAndFrequency& frequency, int samples,
+                                             double drift);
+inline double advanced(double phase, double frequency, int samples, double /*drift*/) {
   return phase + samples * frequency;
 }
 
@@ -157,12 +162,14 @@ void follow_window(const trackers::QuadratureEkfDesign<Scalar>& design, const Wi
   PhaseCovariance<Scalar> lower = diagonal(Scalar(0.0), Scalar(0.0));
   PhaseCovariance<Scalar> predicted_lower = beneath(lower);
   for (int step = 1; step <= length.settling + length.window; ++step) {
-    const Scalar here = detail::advanced(phase, frequency, step - length.settling, length.slew);
-    upper = detail::without_remainder(updated(above(upper), here, design.r), 1.0);
+    const int samples = step - length.settling;
+    const double drift = detail::phase_drift(samples, length.slew);
+    const Scalar here = detail::advanced(phase, frequency, samples, drift);
+    upper = detail::without_remainder(updated(above(upper), here, design.r), 1.0, drift);
     if (step <= length.settling) {
       continue;
     }
-    lower = detail::without_remainder(updated(predicted_lower, here, design.r), -1.0);
+    lower = detail::without_remainder(updated(predicted_lower, here, design.r), -1.0, drift);
     predicted_lower = beneath(lower);
     if (!visit(step - length.settling, upper, lower, predicted_lower)) {
       return;

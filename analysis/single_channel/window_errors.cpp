@@ -35,9 +35,12 @@ Interval WindowErrors::factor(const Interval& level) const {
   return shrinkage_.back() + curvature_ * sum * level;
 }
 
+Interval WindowErrors::after_window(const Interval& level) const {
+  return factor(level) * level + sqrt(Interval(window())) * input_;
+}
+
 bool WindowErrors::keeps(double level) const {
-  const Interval x(level);
-  return certainly_less_equal(factor(x) * x + sqrt(Interval(window())) * input_, x);
+  return certainly_less_equal(after_window(Interval(level)), Interval(level));
 }
 
 bool WindowErrors::keeps_radius() const {

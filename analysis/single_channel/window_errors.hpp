@@ -1,8 +1,8 @@
 // How the error of the single-channel tracker moves from sample to sample, as a recursion of numbers: what a
 // verified window (window_claim.hpp) comes to. docs/single-channel.md, section 4.
 //
-// With x_k = |e_k| in the metric P_k^-1, kappa_m = sqrt(1 - shares_m), c = curvature / sqrt(signal_uncertainty)
-// and u^2 = V^2/r + W^2/q2, as long as x_k <= R,
+// With x_k = |e_k| in the metric P_k^-1, kappa_m = sqrt(1 - shares_m), c = curvature /
+// sqrt(signal_uncertainty) and u^2 = V^2/r + W^2/q2, as long as x_k <= R,
 //     x_{k+m} <= kappa_m x_k + c sum_{j<m} kappa_{m-1-j} x_{k+j}^2 + sqrt(m) u,   m = 1, ..., n.
 #pragma once
 
@@ -24,6 +24,8 @@ class WindowErrors {
 
   /// True only when errors of at most R for a window are followed by errors of at most R for ever.
   [[nodiscard]] bool keeps_radius() const;
+  /// What a window makes of errors of at most `level` throughout it.
+  [[nodiscard]] rigor::Interval after_window(const rigor::Interval& level) const;
   /// kappa_n + c R sum kappa, to the power 1/n: by which errors shrink a sample, in the mean over a window.
   [[nodiscard]] rigor::Interval rate() const;
   /// An upper bound on u for which keeps_radius would hold; below zero or not finite when there is none.

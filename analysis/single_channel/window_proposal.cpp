@@ -54,7 +54,7 @@ void follow_grid(const WindowRequest& request, const WindowAssumption& assumptio
         request.lowest_frequency + share * (request.highest_frequency - request.lowest_frequency);
     for (int i = 0; i < kPhases; ++i) {
       const double phase = std::numbers::pi * i / kPhases;
-      follow_window<double>(request.design, assumption, {kSettling, window, 0.0}, phase, frequency,
+      follow_window<double>(request.design, assumption, {kSettling, window, request.slew}, phase, frequency,
                             [&](int m, const auto& upper, const auto& lower, const auto& predicted) {
                               visit(m, upper, lower, predicted);
                               return true;
@@ -70,8 +70,8 @@ WindowAssumption variances_of(const WindowRequest& request, WindowAssumption ass
   follow_grid(request, assumption, 1,
               [&](int /*m*/, const Covariance& upper, const Covariance& /*lower*/, const Covariance&) {
                 const double half_difference = 0.5 * (upper.p11 - upper.p22);
-                signal = std::max(
-                    signal, 0.5 * (upper.p11 + upper.p22) + std::hypot(half_difference, upper.p12));
+                signal =
+                    std::max(signal, 0.5 * (upper.p11 + upper.p22) + std::hypot(half_difference, upper.p12));
                 frequency = std::max(frequency, upper.p33);
               });
   assumption.signal_variance = signal;
@@ -150,19 +150,22 @@ double room_of(const WindowClaim& claim) {
 }
 
 /// The claim with this assumption whose length leaves most room; nothing when there is none.
-std::optional<WindowClaim> best_length(const WindowAssumption& assumption, const Seen& seen) {
+std::optional<WindowClaim> best_length(const WindowRequest& request, const WindowAssumption& assumption,
+                                       const Seen& seen) {
   std::optional<WindowClaim> best;
   for (std::size_t n = 1; n <= seen.shares.size(); ++n) {
-    if (!(seen.shares[n - 1] > 0.0 && seen.shares[n - 1] < 1.0) || !(seen.signal_uncertainties[n - 1] > 0.0)) {
+    if (!(seen.shares[n - 1] > 0.0 && seen.shares[n - 1] < 1.0) ||
+        !(seen.signal_uncertainties[n - 1] > 0.0)) {
       break;
     }
-    const WindowClaim claim{assumption,
-                            kSettling,
-                            0.0,
-                            std::vector<double>(seen.shares.begin(), seen.shares.begin() + static_cast<long>(n)),
-                            seen.curvature,
-                            seen.curvature_weight,
-                            seen.signal_uncertainties[n - 1]};
+    const WindowClaim claim{
+        assumption,
+        kSettling,
+        request.slew,
+        std::vector<double>(seen.shares.begin(), seen.shares.begin() + static_cast<long>(n)),
+        seen.curvature,
+        seen.curvature_weight,
+        seen.signal_uncertainties[n - 1]};
     if (room_of(claim) > (best ? room_of(*best) : 0.0)) {
       best = claim;
     }
@@ -184,7 +187,7 @@ std::optional<WindowClaim> propose_window(const WindowRequest& request, WindowAs
       return std::nullopt;
     }
   }
-  return best_length(assumption, look(request, assumption));
+  return best_length(request, assumption, look(request, assumption));
 }
 
 }  // namespace
@@ -203,16 +206,16 @@ std::vector<WindowClaim> propose_windows(const WindowRequest& request) {
   if (!(still.signal_variance > 0.0 && still.signal_variance < kInfinity)) {
     return {};
   }
-  constexpr std::array<double, 7> kLoosenings = {0.005, 0.012, 0.025, 0.045, 0.07, 0.11, 0.16};
-  constexpr std::size_t kRadii = 22;
+  constexpr std::array<double, 5> kLoosenings = {0.012, 0.025, 0.045, 0.08, 0.13};
+  constexpr std::size_t kRadii = 24;
   std::array<std::optional<WindowClaim>, kRadii> found;
   tbb::parallel_for(std::size_t{0}, kRadii, [&](std::size_t i) {
     const rigor::UpwardRounding upward;
     for (const double loosening : kLoosenings) {
       WindowAssumption assumption = still;
-      // Radii that reach to frequency errors from 0.001 to 0.16 rad/sample.
+      // Radii that reach to frequency errors from 0.001 to 0.17 rad/sample.
       assumption.radius =
-          0.001 * std::pow(1.275, static_cast<double>(i)) / std::sqrt(still.frequency_variance);
+          0.001 * std::pow(1.25, static_cast<double>(i)) / std::sqrt(still.frequency_variance);
       assumption.loosening = loosening;
       const auto claim = propose_window(request, assumption);
       if (claim && room_of(*claim) > (found[i] ? room_of(*found[i]) : 0.0)) {

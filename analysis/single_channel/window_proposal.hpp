@@ -13,6 +13,7 @@ struct WindowRequest {
   trackers::QuadratureEkfDesign<double> design;
   double lowest_frequency = 0.0;   ///< rad/sample
   double highest_frequency = 0.0;  ///< rad/sample
+  double slew = 0.0;               ///< rad/sample per sample
 };
 
 /// Claims for radii from small to large, each with the loosening and the length that leave most room: what is

@@ -1,0 +1,238 @@
+#include "analysis/single_channel/phase_certificate.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "analysis/contraction/controllability.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/elementary.hpp"
+#include "analysis/theorems/derivation_builder.hpp"
+
+namespace veritrack::single_channel {
+
+namespace {
+
+using rigor::Direction;
+using rigor::Interval;
+using rigor::Verdict;
+using theorems::Condition;
+
+constexpr const char* kNone = "No set of errors could be certified under the assumed noise and slew.";
+
+std::string at_most(const Interval& x) {
+  return rigor::to_decimal(x.upper(), 4, Direction::up);
+}
+std::string at_least(const Interval& x) {
+  return rigor::to_decimal(x.lower(), 4, Direction::down);
+}
+
+Condition leak(const Interval& epsilon) {
+  const bool none = epsilon == Interval(0.0);
+  return {"leak",
+          "\\epsilon = 0",
+          none ? Verdict::proved : Verdict::undecided,
+          epsilon,
+          Interval(0.0),
+          none ? "there is no leak, so the errors settle at zero."
+               : "with a leak the errors settle on a function of the phase, not at zero; this certificate "
+                 "does not cover that: without the leak it may."};
+}
+
+Condition controllable_amplitude(const trackers::QuadratureEkfDesign<Interval>& design) {
+  const contraction::UncontrollableMode mode = contraction::find_uncontrollable_mode(design);
+  const bool driven = certainly_positive(design.q1);
+  return {"controllable-amplitude",
+          "q_1 > 0",
+          mode.verdict == Verdict::proved ? Verdict::refuted
+          : driven                        ? Verdict::proved
+                                          : Verdict::undecided,
+          design.q1,
+          Interval(0.0),
+          driven ? "process noise reaches the amplitude."
+                 : mode.reason + ". Witness: w = (1, 0, 0), w F = w, w Q = 0, at every phase."};
+}
+
+Condition invariant_set(const PhaseQuestion& question, const PhaseCertificate& certificate) {
+  Condition condition{"invariant-set",
+                      "(\\kappa_n + c R \\sum_m \\kappa_m) R + \\sqrt n\\,u \\le R",
+                      Verdict::undecided,
+                      {},
+                      {},
+                      {}};
+  if (certificate.set) {
+    const WindowErrors errors = errors_of(question, *certificate.set);
+    const auto n = static_cast<double>(errors.window());
+    condition.verdict = Verdict::proved;
+    condition.rhs = Interval(certificate.set->claim.assumption.radius);
+    condition.lhs = errors.after_window(condition.rhs);
+    condition.reason = "verified over all phases and the band, for windows of " +
+                       rigor::to_decimal(n, 2, Direction::up) + " samples.";
+    return condition;
+  }
+  condition.reason = "no set could be certified for this noise, slew and band";
+  if (certificate.noise_set) {
+    condition.reason += "; the largest certified noise (without slew) is " +
+                        at_least(certificate.noise_set->noise) + ", " + at_most(question.tracker.noise) +
+                        " was assumed";
+  }
+  if (certificate.slew_set) {
+    condition.reason += "; the largest certified slew (without noise) is " +
+                        at_least(certificate.slew_set->slew) + ", " + at_most(question.tracker.slew) +
+                        " was assumed";
+  }
+  condition.reason += ".";
+  return condition;
+}
+
+Condition start_in_set(const PhaseQuestion& question, const PhaseCertificate& certificate,
+                       double level_seen) {
+  Condition condition{"start-in-set",
+                      "e(0)' P(0)^{-1} e(0) \\le R_0^2",
+                      certificate.bound_set ? Verdict::proved : Verdict::undecided,
+                      {},
+                      Interval(certificate.set->start_level),
+                      {}};
+  if (certificate.bound_set) {
+    condition.lhs = Interval(*certificate.bound_set->assumed_level);
+    condition.rhs = Interval(certificate.bound_set->start_level);
+    condition.reason = "every assumed start lies in a certified set.";
+  } else if (question.tracker.initial_covariance) {
+    condition.reason =
+        "a given P(0) is not covered; leave initial_covariance away to start with the steady state.";
+  } else {
+    condition.reason =
+        "the assumed start errors reach about " + rigor::to_decimal(level_seen, 3, Direction::up) +
+        " in a metric where the set of "
+        "starts ends at " +
+        at_least(condition.rhs) + ": smaller start errors or a narrower [assume] frequency would do.";
+  }
+  return condition;
+}
+
+void add_quantity(theorems::Derivation& derivation, const char* name, const char* symbol, const char* formula,
+                  const Interval& value, std::string why_not = kNone) {
+  theorems::add_quantity(derivation, {name, symbol, formula, "docs/single-channel.md"}, value,
+                         std::move(why_not));
+}
+
+/// How far the set of starts reaches, whatever phase and frequency (lower end), and what it never exceeds.
+struct Reach {
+  Interval frequency;  ///< rad/sample
+  Interval phase;      ///< rad
+  Interval amplitude;  ///< relative
+};
+
+Reach reach_of(const PhaseSet& set) {
+  const Interval level(set.start_level);
+  const Interval signal = level * sqrt(Interval(set.claim.assumption.signal_variance));
+  const Interval frequency = level * sqrt(Interval(set.claim.assumption.frequency_variance));
+  const Interval one(1.0);
+  // |z| >= 1 + delta_1, and tan(arg z) = delta_2 / (1 + delta_1).
+  const Interval least_phase = atan(level * sqrt(Interval(set.floor.p22)) / (one + signal));
+  const Interval largest_phase = atan(signal / sqrt(one - square(signal)));
+  return {hull(level * sqrt(Interval(set.floor.p33)), frequency), hull(least_phase, largest_phase),
+          hull(level * sqrt(Interval(set.floor.p11)), signal)};
+}
+
+/// The first sample from which on |nu| is at most twice the ultimate bound.
+Interval settling_samples(const PhaseQuestion& question, const PhaseSet& set, double start) {
+  const WindowErrors errors = errors_of(question, set);
+  constexpr int kFollowed = 4000;  // samples
+  const double target = (Interval(2.0) * Interval(errors.ultimate())).lower();
+  const auto levels = errors.levels(start, kFollowed);
+  if (!levels || !(target > 0.0) || !errors.keeps(target)) {
+    return Interval::empty();
+  }
+  int below = 0;
+  for (int k = 0; k <= kFollowed; ++k) {
+    below = (*levels)[static_cast<std::size_t>(k)] <= target ? below + 1 : 0;
+    if (below == errors.window()) {
+      return Interval(k + 1 - below);
+    }
+  }
+  return Interval::empty();
+}
+
+void add_size(const PhaseQuestion& question, const std::optional<PhaseSet>& set,
+              theorems::Derivation& derivation) {
+  const Reach reach = set ? reach_of(*set) : Reach{};
+  add_quantity(derivation, "contraction_rate", "\\kappa",
+               "(\\kappa_n + c R \\textstyle\\sum_m \\kappa_m)^{1/n}",
+               set ? errors_of(question, *set).rate() : Interval());
+  add_quantity(derivation, "radius", "R_0", "e' P^{-1} e \\le R_0^2",
+               set ? Interval(set->start_level) : Interval());
+  add_quantity(derivation, "frequency_error_radius", "\\nu_R", "R_0 \\sqrt{P_{33}}", reach.frequency);
+  add_quantity(derivation, "phase_error_radius", "\\psi_R", "", reach.phase);
+  add_quantity(derivation, "amplitude_error_radius", "a_R", "", reach.amplitude);
+}
+
+/// What is promised for the assumed starts, or else for the starts of the set.
+void add_promises(const PhaseQuestion& question, const PhaseCertificate& certificate,
+                  theorems::Derivation& derivation) {
+  const std::optional<PhaseSet>& set = certificate.bound_set ? certificate.bound_set : certificate.set;
+  const Interval ultimate = set ? ultimate_frequency_error(question, *set) : Interval();
+  const double start = set ? set->assumed_level.value_or(set->start_level) : 0.0;
+  add_quantity(derivation, "ultimate_frequency_error", "\\nu_\\infty", "\\limsup x_k\\,\\sqrt{P_{33}}",
+               ultimate);
+  add_quantity(
+      derivation, "frequency_error_bound", "\\sup_k |\\nu(k)|", "\\sup_k x_k\\,\\sqrt{P_{33}}",
+      certificate.bound_set ? frequency_error_bound(question, *certificate.bound_set, start) : Interval(),
+      certificate.set ? "The assumed starts are not in a certified set." : kNone);
+  const bool disturbed =
+      certainly_positive(question.tracker.noise) || certainly_positive(question.tracker.slew);
+  add_quantity(derivation, "settling_samples", "k_s", "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
+               set && disturbed ? settling_samples(question, *set, start) : Interval(),
+               !set        ? kNone
+               : disturbed ? "No set promises from when on it holds."
+                           : "Without noise and slew the ultimate bound is zero, which is approached but not "
+                             "reached.");
+  add_quantity(derivation, "largest_noise", "V_{max}", "",
+               certificate.noise_set ? certificate.noise_set->noise : Interval(),
+               "No noise could be certified.");
+  add_quantity(derivation, "largest_slew", "W_{max}", "",
+               certificate.slew_set ? certificate.slew_set->slew : Interval(), "No slew could be certified.");
+  add_quantity(derivation, "bias_frequency", "\\nu_*", "0",
+               question.tracker.design.epsilon == Interval(0.0) && set ? Interval(0.0) : Interval());
+}
+
+}  // namespace
+
+PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
+  const rigor::UpwardRounding upward;
+  PhaseCertificate certificate;
+  theorems::Derivation& derivation = certificate.derivation;
+  derivation.id = "contraction";
+  derivation.title = "Contraction of the errors over all phases and the band of frequencies";
+  derivation.notes = {
+      "Covers the tracker in exact arithmetic, at every phase, for every frequency that stays in the band, "
+      "signal amplitude constant.",
+      "The metric is the inverse of the tracker's own covariance, in which errors shrink over a window of "
+      "samples. Amplitude error and noise are relative to the true amplitude."};
+  const bool sensible = contraction::is_well_posed(question.tracker) && is_finite(question.band);
+  derivation.conditions = {leak(question.tracker.design.epsilon),
+                           controllable_amplitude(question.tracker.design)};
+  const bool covered = std::all_of(derivation.conditions.begin(), derivation.conditions.end(),
+                                   [](const Condition& one) { return one.verdict == Verdict::proved; });
+  double level_seen = 0.0;
+  if (sensible && covered) {
+    const PhaseSearch search(question);
+    certificate.set = search.largest_set();
+    if (certificate.set && !question.tracker.initial_covariance) {
+      certificate.bound_set = search.least_bound();
+      level_seen = search.start_level_seen(*certificate.set);
+    }
+    certificate.noise_set = search.largest_noise();
+    certificate.slew_set = search.largest_slew();
+  }
+  derivation.conditions.push_back(invariant_set(question, certificate));
+  if (certificate.set) {
+    derivation.conditions.push_back(start_in_set(question, certificate, level_seen));
+  }
+  add_size(question, certificate.set, derivation);
+  add_promises(question, certificate, derivation);
+  theorems::conclude(derivation);
+  return certificate;
+}
+
+}  // namespace veritrack::single_channel

@@ -1,0 +1,26 @@
+// The contraction certificate of the single-channel tracker without a leak: over all phases and a band of
+// frequencies. docs/single-channel.md, section 4.
+#pragma once
+
+#include <optional>
+
+#include "analysis/single_channel/phase_sets.hpp"
+#include "analysis/theorems/derivation.hpp"
+
+namespace veritrack::single_channel {
+
+struct PhaseCertificate {
+  /// id "contraction"; the quantities of contraction::ContractionCertificate that are proved, and
+  /// bias_frequency; conditions leak, controllable-amplitude, invariant-set, start-in-set.
+  theorems::Derivation derivation;
+  std::optional<PhaseSet> set;        ///< the largest start error under the assumed noise and slew
+  std::optional<PhaseSet> bound_set;  ///< the least bound from the assumed starts on
+  std::optional<PhaseSet> noise_set;  ///< the largest noise, without slew
+  std::optional<PhaseSet> slew_set;   ///< the largest slew, without noise
+};
+
+/// Proposes, verifies and reports. Never throws for odd numbers: what is not finite proves nothing. Opens its
+/// own UpwardRounding scope.
+[[nodiscard]] PhaseCertificate certify_over_phases(const PhaseQuestion& question);
+
+}  // namespace veritrack::single_channel

@@ -1,0 +1,232 @@
+#include "analysis/single_channel/phase_sets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace veritrack::single_channel {
+
+namespace {
+
+using rigor::Interval;
+
+constexpr double kUsualSlack = 0.025;
+constexpr std::size_t kTries = 8;
+
+/// The largest level of starts that keep to the radius; 0 when none was found.
+double largest_start(const WindowErrors& errors, double radius) {
+  if (!errors.keeps_radius()) {
+    return 0.0;
+  }
+  constexpr double kStep = 0.97;
+  constexpr int kSteps = 120;
+  double level = radius;
+  for (int i = 0; i < kSteps; ++i) {
+    if (errors.levels(level, errors.window())) {
+      return level;
+    }
+    level *= kStep;
+  }
+  return 0.0;
+}
+
+/// A bound on all levels of `levels` and on all that follow them.
+double supremum(const WindowErrors& errors, const std::vector<double>& levels, double radius) {
+  const double all = *std::max_element(levels.begin(), levels.end());
+  const double late = *std::max_element(levels.end() - errors.window(), levels.end());
+  const double kept = std::max(late, errors.ultimate());
+  return errors.keeps(kept) ? std::max(all, kept) : radius;
+}
+
+/// An upper bound on |nu| for errors of that level.
+Interval frequency_error(const PhaseSet& set, double level) {
+  return Interval((Interval(level) * sqrt(Interval(set.claim.assumption.frequency_variance))).upper());
+}
+
+constexpr int kFollowed = 4000;  // samples
+
+}  // namespace
+
+WindowErrors errors_of(const PhaseQuestion& question, const PhaseSet& set) {
+  return {question.tracker.design, set.claim, set.noise, set.slew};
+}
+
+Interval frequency_error_bound(const PhaseQuestion& question, const PhaseSet& set, double level) {
+  const WindowErrors errors = errors_of(question, set);
+  const auto levels = errors.levels(level, kFollowed);
+  return levels ? frequency_error(set, supremum(errors, *levels, set.claim.assumption.radius))
+                : Interval::empty();
+}
+
+Interval ultimate_frequency_error(const PhaseQuestion& question, const PhaseSet& set) {
+  return frequency_error(set, errors_of(question, set).ultimate());
+}
+
+PhaseSearch::PhaseSearch(const PhaseQuestion& question) : question_(question) {
+  const rigor::UpwardRounding upward;
+  const contraction::ContractionQuestion& tracker = question.tracker;
+  const Interval signal = tracker.initial_amplitude_error + tracker.initial_phase_error;
+  box_ = {signal.upper(), tracker.initial_frequency_error.upper()};
+  request_ = {{midpoint(tracker.design.q1), midpoint(tracker.design.q2), midpoint(tracker.design.r), 0.0},
+              question.band.lower(),
+              question.band.upper(),
+              tracker.slew.upper()};
+  proposals_ = propose_windows(request_);
+}
+
+std::optional<PhaseSet> PhaseSearch::verified(const WindowClaim& proposal, const Interval& noise,
+                                              const Interval& slew) const {
+  for (const double slack : {0.012, kUsualSlack, 0.05, 0.1}) {
+    PhaseSet set{with_slack(proposal, slack), {}, noise, slew, 0.0, std::nullopt};
+    set.claim.slew = slew.upper();
+    set.start_level = largest_start(errors_of(question_, set), set.claim.assumption.radius);
+    if (!(set.start_level > 0.0)) {
+      return std::nullopt;
+    }
+    if (const auto floor = verify_window(question_.tracker.design, question_.band, set.claim)) {
+      set.floor = *floor;
+      return set;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The proposals of positive value, with the usual slack, the most valuable ones first, a few of them.
+template <typename Value>
+std::vector<WindowClaim> PhaseSearch::best_first(const std::vector<WindowClaim>& proposals,
+                                                 const Value& value) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < proposals.size(); ++i) {
+    const double found = value(with_slack(proposals[i], kUsualSlack));
+    if (found > 0.0) {
+      order.emplace_back(found, i);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  order.resize(std::min(order.size(), kTries));
+  std::vector<WindowClaim> best;
+  best.reserve(order.size());
+  for (const auto& [unused, i] : order) {
+    best.push_back(proposals[i]);
+  }
+  return best;
+}
+
+std::optional<PhaseSet> PhaseSearch::largest_set() const {
+  const rigor::UpwardRounding upward;
+  const contraction::ContractionQuestion& tracker = question_.tracker;
+  const auto start_of = [&](const WindowClaim& claim) {
+    return largest_start({tracker.design, claim, tracker.noise, tracker.slew}, claim.assumption.radius);
+  };
+  for (const WindowClaim& proposal : best_first(proposals_, start_of)) {
+    if (auto set = verified(proposal, tracker.noise, tracker.slew)) {
+      return set;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<PhaseSet> PhaseSearch::least_bound() const {
+  const rigor::UpwardRounding upward;
+  const contraction::ContractionQuestion& tracker = question_.tracker;
+  // Sets the level that holds the assumed starts, give or take what the grid does not see.
+  const auto within = [&](PhaseSet& set, double margin) {
+    const StartProposal start = propose_start(request_, set.claim, box_);
+    set.assumed_level = margin * start.level;
+    // The steady state of a start that is turned by the phase error: z is off by at most that all along.
+    const Interval reach =
+        Interval(set.claim.assumption.radius) * sqrt(Interval(set.claim.assumption.signal_variance));
+    const bool turns_little = certainly_less_equal(tracker.initial_phase_error, reach);
+    const bool inside = errors_of(question_, set).levels(*set.assumed_level, kFollowed).has_value();
+    return std::make_pair(turns_little && inside, start.weight);
+  };
+  const auto promise = [&](const WindowClaim& claim) {
+    PhaseSet set{claim, {}, tracker.noise, tracker.slew, 0.0, std::nullopt};
+    if (!errors_of(question_, set).keeps_radius() || !within(set, 1.0).first) {
+      return 0.0;
+    }
+    return 1.0 / frequency_error_bound(question_, set, *set.assumed_level).upper();
+  };
+  std::vector<WindowClaim> candidates = best_first(proposals_, promise);
+  // Small sets promise more, but large ones are easier to verify.
+  std::vector<WindowClaim> large(proposals_.rbegin(), proposals_.rend());
+  large.resize(std::min(large.size(), kTries));
+  candidates.insert(candidates.end(), large.begin(), large.end());
+  for (const WindowClaim& proposal : candidates) {
+    auto set = verified(proposal, tracker.noise, tracker.slew);
+    if (!set) {
+      continue;
+    }
+    for (const double margin : {1.02, 1.1, 1.3}) {
+      const auto [inside, weight] = within(*set, margin);
+      const bool at_rest = box_.signal == 0.0 && box_.frequency == 0.0;
+      if (inside && (at_rest || certainly_holds_start(tracker.design, question_.band, set->claim, box_,
+                                                      *set->assumed_level, weight))) {
+        return set;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<PhaseSet> PhaseSearch::largest_noise() const {
+  const rigor::UpwardRounding upward;
+  const auto& design = question_.tracker.design;
+  const Interval zero(0.0);
+  constexpr double kBelow = 1.0 - 1e-9;  // room for the start
+  const auto noise_of = [&](const WindowClaim& claim) {
+    const Interval input = WindowErrors(design, claim, zero, zero).largest_input();
+    return kBelow * (input * sqrt(design.r)).lower();
+  };
+  WindowRequest request = request_;
+  request.slew = 0.0;
+  for (const WindowClaim& proposal : best_first(propose_windows(request), noise_of)) {
+    for (const double slack : {0.012, kUsualSlack, 0.05}) {
+      const double noise = noise_of(with_slack(proposal, slack));
+      if (!(noise > 0.0)) {
+        continue;
+      }
+      if (auto set = verified(proposal, Interval(noise), zero)) {
+        return set;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<PhaseSet> PhaseSearch::largest_slew() const {
+  const rigor::UpwardRounding upward;
+  const auto& design = question_.tracker.design;
+  const Interval zero(0.0);
+  const auto room_for = [&](const WindowClaim& claim) {
+    const Interval input = WindowErrors(design, claim, zero, zero).largest_input();
+    return (input * sqrt(design.q2)).lower();
+  };
+  // The slew that the recursion would bear if it did not blur the phases in the window, and parts of it.
+  WindowRequest request = request_;
+  request.slew = 0.0;
+  const std::vector<WindowClaim> still = best_first(propose_windows(request), room_for);
+  if (still.empty()) {
+    return std::nullopt;
+  }
+  const double most = room_for(still.front());
+  for (const double part : {0.6, 0.35, 0.2, 0.1}) {
+    request.slew = part * most;
+    const auto spare = [&](const WindowClaim& claim) { return room_for(claim) - request.slew; };
+    for (const WindowClaim& proposal : best_first(propose_windows(request), spare)) {
+      if (auto set = verified(proposal, zero, Interval(request.slew))) {
+        return set;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+double PhaseSearch::start_level_seen(const PhaseSet& set) const {
+  return propose_start(request_, set.claim, box_).level;
+}
+
+}  // namespace veritrack::single_channel

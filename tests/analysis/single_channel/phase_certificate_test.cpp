@@ -1,0 +1,144 @@
+#include "analysis/single_channel/phase_certificate.hpp"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "tests/analysis/single_channel/phase_attack.hpp"
+#include "tests/support/random.hpp"
+
+namespace veritrack::single_channel {
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+struct Case {
+  double q, r, low, high, noise, slew, error;
+};
+
+PhaseQuestion question_of(const Case& one) {
+  PhaseQuestion question;
+  question.tracker.design = {Interval(one.q), Interval(one.q), Interval(one.r), Interval(0.0)};
+  question.tracker.noise = Interval(one.noise);
+  question.tracker.slew = Interval(one.slew);
+  question.tracker.initial_amplitude_error = Interval(one.error);
+  question.tracker.initial_phase_error = Interval(one.error);
+  question.tracker.initial_frequency_error = Interval(one.error);
+  question.band = Interval::from_bounds(one.low, one.high);
+  return question;
+}
+
+PhaseCertificate certificate_of(const Case& one) {
+  const rigor::UpwardRounding upward;
+  return certify_over_phases(question_of(one));
+}
+
+double upper_end(const PhaseCertificate& certificate, const char* name) {
+  return theorems::find_quantity(certificate.derivation, name).value.upper();
+}
+
+TEST_CASE("no attack breaks what is proved") {
+  test::Random random;
+  for (const Case& one :
+       {Case{0.005, 0.01, 1.4, 1.5, 0.0008, 0.0001, 0.0005}, Case{1.0, 1.0, 0.7, 0.75, 0.0004, 0.0, 0.0005},
+        Case{1.0, 10.0, 2.3, 2.36, 0.0004, 0.00002, 0.0002}}) {
+    const PhaseCertificate certificate = certificate_of(one);
+    REQUIRE(certificate.derivation.verdict == Verdict::proved);
+    const double bound = upper_end(certificate, "frequency_error_bound");
+    const double ultimate = upper_end(certificate, "ultimate_frequency_error");
+    const double settling = upper_end(certificate, "settling_samples");
+    const auto runs = test::effort(30);
+    double largest = 0.0;
+    for (std::int64_t run = 0; run < runs; ++run) {
+      const auto edge = [&] { return random.uniform() > 0.5 ? one.error : -one.error; };
+      CAPTURE(run);
+      const auto errors = test::attacked_errors({one.q, one.r, random.uniform(0.0, std::numbers::pi),
+                                                 random.uniform(one.low, one.high), one.low, one.high,
+                                                 one.noise, one.slew, edge(), edge(), edge(), 300});
+      for (std::size_t k = 0; k < errors.size(); ++k) {
+        const double error = std::fabs(errors[k]);
+        CHECK(error <= bound);
+        if (static_cast<double>(k) >= settling) {
+          CHECK(error <= 2.0 * ultimate);
+        }
+        largest = std::max(largest, error);
+      }
+    }
+    CHECK(largest > 0.02 * bound);  // the attack is one
+  }
+}
+
+TEST_CASE("the designs of the paper's examples with Q = q I have a certified set over [0.4, 2.7]") {
+  const rigor::UpwardRounding upward;
+  for (const auto& [q, r] : {std::pair{0.005, 0.01}, std::pair{1.0, 1.0}, std::pair{1.0, 10.0}}) {
+    const PhaseQuestion question = question_of({q, r, 0.4, 2.7, 0.0001, 0.00001, 0.0});
+    const auto set = PhaseSearch(question).largest_set();
+    REQUIRE(set);
+    CHECK(set->start_level * std::sqrt(set->floor.p33) > 0.003);  // rad/sample
+    CHECK(errors_of(question, *set).rate().upper() < 1.0);
+  }
+}
+
+TEST_CASE("without process noise on the amplitude no steady state is exponentially stable") {
+  PhaseQuestion question = question_of({0.005, 0.01, 0.9, 1.0, 0.0, 0.0, 0.0});
+  question.tracker.design.q1 = Interval(0.0);
+  const PhaseCertificate certificate = certify_over_phases(question);
+  CHECK(certificate.derivation.verdict == Verdict::refuted);
+  CHECK(!certificate.set);
+  const auto& conditions = certificate.derivation.conditions;
+  const auto refuted = std::find_if(conditions.begin(), conditions.end(), [](const auto& condition) {
+    return condition.verdict == Verdict::refuted;
+  });
+  REQUIRE(refuted != conditions.end());
+  CHECK(refuted->id == "controllable-amplitude");
+  CHECK(refuted->reason.find("Witness") != std::string::npos);
+}
+
+TEST_CASE("what is not covered is undecided, and says why") {
+  const auto check = [](const PhaseQuestion& question) {
+    const PhaseCertificate certificate = certify_over_phases(question);
+    CHECK(certificate.derivation.verdict == Verdict::undecided);
+    for (const auto& condition : certificate.derivation.conditions) {
+      CHECK(!condition.reason.empty());
+    }
+    CHECK(theorems::find_quantity(certificate.derivation, "frequency_error_bound").not_applicable);
+  };
+  const Case usual{0.005, 0.01, 1.2, 1.3, 0.0005, 0.0, 0.0005};
+  PhaseQuestion question = question_of(usual);
+  question.tracker.design.epsilon = Interval(0.05);
+  check(question);
+  check(question_of({0.005, 0.01, 1.2, 1.3, 0.5, 0.0, 0.0}));   // noise of half the amplitude
+  check(question_of({0.005, 0.01, 1.2, 1.3, 0.0, 0.0, 0.3}));   // a start far off
+  check(question_of({0.005, 0.01, 0.0, 0.01, 0.0, 0.0, 0.0}));  // almost a constant
+  question = question_of(usual);
+  question.tracker.noise = Interval::empty();
+  check(question);
+  question = question_of(usual);
+  question.tracker.design.r = Interval::entire();
+  check(question);
+  question = question_of(usual);
+  question.band = Interval::entire();
+  check(question);
+  question = question_of(usual);
+  question.tracker.initial_covariance = rigor::to_interval(rigor::Matrix<3>(rigor::Matrix<3>::Identity()));
+  check(question);
+}
+
+TEST_CASE("the certificate does not depend on the number of threads") {
+  const Case one{0.005, 0.01, 1.2, 1.3, 0.0005, 0.00005, 0.0005};
+  const PhaseCertificate many = certificate_of(one);
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const PhaseCertificate alone = certificate_of(one);
+  REQUIRE(many.derivation.quantities.size() == alone.derivation.quantities.size());
+  for (std::size_t i = 0; i < many.derivation.quantities.size(); ++i) {
+    CHECK(rigor::identical(many.derivation.quantities[i].value, alone.derivation.quantities[i].value));
+  }
+}
+
+}  // namespace
+}  // namespace veritrack::single_channel

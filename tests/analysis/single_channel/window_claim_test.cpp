@@ -1,0 +1,141 @@
+#include "analysis/single_channel/window_claim.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analysis/rigor/matrix.hpp"
+#include "analysis/single_channel/window_errors.hpp"
+#include "analysis/single_channel/window_proposal.hpp"
+#include "tests/analysis/single_channel/phase_attack.hpp"
+
+namespace veritrack::single_channel {
+namespace {
+
+using rigor::Interval;
+using trackers::QuadratureEkfDesign;
+using Matrix3 = rigor::Matrix<3>;
+
+constexpr double kQ = 0.005;
+constexpr double kR = 0.01;
+const Interval kBand = Interval::from_bounds(1.1, 1.12);
+
+QuadratureEkfDesign<Interval> design() {
+  return {Interval(kQ), Interval(kQ), Interval(kR), Interval(0.0)};
+}
+
+/// A claim that verifies, with the largest radius that leaves room.
+WindowClaim good_claim() {
+  const auto claims = propose_windows({{kQ, kQ, kR, 0.0}, 1.1, 1.12});
+  REQUIRE(claims.size() > 5);
+  return with_slack(claims[claims.size() - 3], 0.02);
+}
+
+Matrix3 matrix_of(const PhaseCovariance<double>& p) {
+  Matrix3 matrix;
+  matrix << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
+  return matrix;
+}
+
+double smallest_eigenvalue(const Matrix3& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Matrix3>(matrix).eigenvalues()(0);
+}
+
+/// The paper's covariance on the truth, turned into the frame of the true phase.
+Matrix3 steady_covariance(double frequency, double phase) {
+  Matrix3 turn = Matrix3::Identity();
+  turn.topLeftCorner<2, 2>() << std::cos(phase), std::sin(phase), -std::sin(phase), std::cos(phase);
+  return turn * test::steady_covariance(kQ, kR, frequency, phase).cast<double>() * turn.transpose();
+}
+
+TEST_CASE("a claim verifies, and its bounds hold the steady state of the paper's filter") {
+  const rigor::UpwardRounding upward;
+  const WindowClaim claim = good_claim();
+  const auto floor = verify_window(design(), kBand, claim);
+  REQUIRE(floor);
+  const auto window = static_cast<int>(claim.shares.size());
+  for (int i = 0; i < 12; ++i) {
+    const double phase = std::numbers::pi * i / 12;
+    const double frequency = 1.1 + 0.02 * i / 12;
+    follow_window<double>({kQ, kQ, kR, 0.0}, claim.assumption, {claim.settling, window, 0.0}, phase,
+                          frequency,
+                          [&](int m, const auto& upper, const auto& lower, const auto& /*predicted*/) {
+                            const rigor::NearestRounding nearest;
+                            const Matrix3 p = steady_covariance(frequency, phase + m * frequency);
+                            CHECK(smallest_eigenvalue(matrix_of(upper) - p) > 0.0);
+                            CHECK(smallest_eigenvalue(p - matrix_of(lower)) > 0.0);
+                            CHECK(p(2, 2) < claim.assumption.frequency_variance);
+                            return true;
+                          });
+    const Matrix3 p = steady_covariance(frequency, phase);
+    CHECK(p(0, 0) > floor->p11);
+    CHECK(p(1, 1) > floor->p22);
+    CHECK(p(2, 2) > floor->p33);
+  }
+}
+
+TEST_CASE("claims that say a little too much do not verify") {
+  const rigor::UpwardRounding upward;
+  const WindowClaim good = good_claim();
+  const auto refused = [&](const auto& change) {
+    WindowClaim claim = good;
+    change(claim);
+    CHECK(!verify_window(design(), kBand, claim));
+  };
+  for (std::size_t m = 0; m < good.shares.size(); ++m) {
+    refused([m](WindowClaim& claim) { claim.shares[m] *= 1.15; });
+  }
+  refused([](WindowClaim& claim) { claim.curvature *= 0.85; });
+  refused([](WindowClaim& claim) { claim.signal_uncertainty *= 1.25; });
+  refused([](WindowClaim& claim) { claim.assumption.frequency_variance *= 0.9; });
+  refused([](WindowClaim& claim) { claim.assumption.signal_variance *= 0.9; });
+  refused([](WindowClaim& claim) { claim.assumption.radius *= 1.5; });
+  refused([](WindowClaim& claim) { claim.slew = 0.05; });
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double odd : {nan, infinity, -1.0, 0.0}) {
+    refused([odd](WindowClaim& claim) { claim.assumption.radius = odd; });
+    refused([odd](WindowClaim& claim) { claim.assumption.signal_variance = odd; });
+    refused([odd](WindowClaim& claim) { claim.assumption.loosening = odd; });
+    refused([odd](WindowClaim& claim) { claim.curvature = odd; });
+    refused([odd](WindowClaim& claim) { claim.curvature_weight = odd; });
+    refused([odd](WindowClaim& claim) { claim.signal_uncertainty = odd; });
+  }
+  refused([nan](WindowClaim& claim) { claim.shares.back() = nan; });
+  refused([nan](WindowClaim& claim) { claim.slew = nan; });
+  refused([](WindowClaim& claim) { claim.shares.clear(); });
+  CHECK(!verify_window(design(), Interval::empty(), good));
+  CHECK(!verify_window(design(), Interval::from_bounds(0.0, 0.02), good));
+  CHECK(!certainly_holds_start(design(), kBand, good, {0.001, 0.001}, 1.0, 1.5));
+  CHECK(!certainly_holds_start(design(), kBand, good, {0.1, 0.1}, 0.01, 0.5));
+}
+
+TEST_CASE("the recursion of the errors") {
+  const rigor::UpwardRounding upward;
+  const WindowClaim claim = good_claim();
+  const Interval zero(0.0);
+  const WindowErrors quiet(design(), claim, zero, zero);
+  CHECK(quiet.keeps_radius());
+  const Interval input = quiet.largest_input();
+  const Interval noise = Interval(input.lower()) * sqrt(Interval(kR));
+  CHECK(WindowErrors(design(), claim, Interval(0.999 * noise.lower()), zero).keeps_radius());
+  CHECK(!WindowErrors(design(), claim, Interval(1.001 * noise.upper()), zero).keeps_radius());
+  CHECK(!WindowErrors(design(), claim, Interval::empty(), zero).keeps_radius());
+  CHECK(!WindowErrors(design(), claim, zero, Interval::entire()).keeps_radius());
+  // Without noise errors die out, with it they do not.
+  CHECK(quiet.ultimate() < 1e-12);
+  const WindowErrors noisy(design(), claim, Interval(0.5 * noise.lower()), zero);
+  CHECK(noisy.ultimate() > 0.0);
+  CHECK(noisy.ultimate() < claim.assumption.radius);
+  CHECK(noisy.keeps(noisy.ultimate() * (1.0 + 1e-9)));
+  CHECK(!quiet.levels(1.01 * claim.assumption.radius, 1));
+  const auto levels = quiet.levels(0.5 * claim.assumption.radius, 200);
+  REQUIRE(levels);
+  CHECK(levels->back() < 1e-6 * levels->front());
+}
+
+}  // namespace
+}  // namespace veritrack::single_channel

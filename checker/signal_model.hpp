@@ -30,14 +30,19 @@ inline GramianEigenvalues gramian_eigenvalues(const Ball& w3) {
   return {w3 / largest, largest};
 }
 
-/// sup over all priors of the largest eigenvalue of P(k|k), k >= 1, for |z(k-1|k-1)| = m: that of [[r, r/mu],
-/// [r/mu, (2r + q1)/mu^2 + q2]], or the amplitude's r/2 + q1/4 (docs/riccati-bounds.md).
-inline Ball largest_covariance(const Ball& q1, const Ball& q2, const Ball& r, const Ball& epsilon,
-                               const Ball& m) {
+/// sup over all priors of the largest eigenvalue of the (phase, frequency) block of P(k|k), k >= 1, for
+/// |z(k-1|k-1)| = m: that of [[r, r/mu], [r/mu, (2r + q1)/mu^2 + q2]] (docs/riccati-bounds.md). Falls with m.
+inline Ball phase_frequency_covariance(const Ball& q1, const Ball& q2, const Ball& r, const Ball& epsilon,
+                                       const Ball& m) {
   const Ball mu = m / (Ball(1.0) - epsilon);
   const Ball frequency = (Ball(2.0) * r + q1) / square(mu) + q2;
   const Ball mean = Ball(0.5) * (r + frequency);
-  return max(mean + sqrt(square(mean - r) + square(r / mu)), Ball(0.5) * r + Ball(0.25) * q1);
+  return mean + sqrt(square(mean - r) + square(r / mu));
+}
+/// A bound on ||P(k|k)||: that, or the amplitude's r/2 + q1/4.
+inline Ball largest_covariance(const Ball& q1, const Ball& q2, const Ball& r, const Ball& epsilon,
+                               const Ball& m) {
+  return max(phase_frequency_covariance(q1, q2, r, epsilon, m), Ball(0.5) * r + Ball(0.25) * q1);
 }
 
 }  // namespace veritrack::checker

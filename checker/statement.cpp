@@ -90,10 +90,10 @@ void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections
   read_enclosure(enclosure, name, objections);
   const Ball low = from_hexadecimal(enclosure.at("lo").text());
   const Ball high = from_hexadecimal(enclosure.at("hi").text());
-  const bool above = certainly_at_most(low, value);
-  const bool below = certainly_at_most(value, high);
-  const std::string found = ", found " + value.text();
-  if (sense == Sense::encloses && (certainly_less(value, low) || certainly_less(high, value))) {
+  const bool above = certainly_at_most(low, value.low);
+  const bool below = certainly_at_most(value.high, high);
+  const std::string found = ", found " + value.low.text();
+  if (sense == Sense::encloses && (certainly_less(value.high, low) || certainly_less(high, value.low))) {
     objections.push_back("ALARM: " + name + " and its enclosure have nothing in common" + found);
   } else if (sense == Sense::encloses && !(above && below)) {
     objections.push_back(name + " is not certainly in its enclosure" + found);
@@ -161,7 +161,7 @@ void check_derivation(const Tree& claimed, const Derivation& found, Objections& 
     }
     check_verdict(condition.at("verdict").text(), known.verdict, "condition " + known.id, objections);
     verdicts.push_back(verdict_from(condition.at("verdict").text()));
-    const auto check_side = [&](const char* side, const std::optional<Ball>& value, Sense sense) {
+    const auto check_side = [&](const char* side, const std::optional<Range>& value, Sense sense) {
       if (const Tree* enclosure = condition.find(side)) {
         check_enclosure(*enclosure, {known.id + " " + side, value.value_or(Ball::everything()), sense},
                         objections);

@@ -31,16 +31,23 @@ using Objections = std::vector<std::string>;
 /// What [lo, hi] says of a value: that it is in it, at most hi, or at least lo.
 enum class Sense { encloses, bounds_above, bounds_below };
 
+/// What is known of a value: that it is in `low`, or anywhere from `low` to `high`.
+struct Range {
+  Ball low, high;
+  Range(const Ball& value) : low(value), high(value) {}  // NOLINT(google-explicit-constructor)
+  Range(Ball least, Ball most) : low(std::move(least)), high(std::move(most)) {}
+};
+
 struct Quantity {
   std::string name;
-  Ball value;
+  Range value;
   Sense sense = Sense::encloses;
 };
 
 struct Condition {
   std::string id, statement;
   Verdict verdict = Verdict::undecided;
-  std::optional<Ball> lhs = std::nullopt, rhs = std::nullopt;
+  std::optional<Range> lhs = std::nullopt, rhs = std::nullopt;
   Sense lhs_sense = Sense::encloses;
 };
 

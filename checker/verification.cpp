@@ -6,6 +6,7 @@
 #include "checker/contraction.hpp"
 #include "checker/guarantee.hpp"
 #include "checker/proof_gaps.hpp"
+#include "checker/published_results.hpp"
 #include "checker/theorem_2_9.hpp"
 
 namespace veritrack::checker {
@@ -61,6 +62,8 @@ class QuadratureVerifier {
       check_theorem_2_9(derivation, design_, Reading::errata, objections);
     } else if (id == "contraction" && certainly_equal(design_.epsilon, Ball(0.0))) {
       promises_ = check_contraction(derivation, design_, sets_, objections);
+    } else if (is_published_result(id)) {
+      check_published_result(id, derivation, design_, objections);
     } else {
       objections.emplace_back(kUnknown);
     }

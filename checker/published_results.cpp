@@ -103,10 +103,10 @@ Derivation song_grizzle(const Design& d, const Tree& /*claimed*/) {
       {less("gramian",
             R"(0 < \beta_1, \quad \beta_1 I \le \mathcal{O} \text{ for every sequence of estimates})", zero,
             zero),
-       less(
+       not_below_far(
            "bounded-F",
            R"(\sup_x \lVert F(x) \rVert < \infty \text{, so } \lVert F(x) \rVert < |z| \text{ for large } |z|)",
-           first_derivative_norm(far, d.epsilon), far)}};
+           first_derivative_norm(far, d.epsilon))}};
 }
 
 Derivation baras_bensoussan_james(const Design& d, const Tree& /*claimed*/) {

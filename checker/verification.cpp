@@ -7,6 +7,7 @@
 #include "checker/guarantee.hpp"
 #include "checker/proof_gaps.hpp"
 #include "checker/published_results.hpp"
+#include "checker/table_3_1.hpp"
 #include "checker/theorem_2_9.hpp"
 
 namespace veritrack::checker {
@@ -62,6 +63,8 @@ class QuadratureVerifier {
       check_theorem_2_9(derivation, design_, Reading::errata, objections);
     } else if (id == "contraction" && certainly_equal(design_.epsilon, Ball(0.0))) {
       promises_ = check_contraction(derivation, design_, sets_, objections);
+    } else if (id == "table-3.1/printed" || id == "table-3.1/errata") {
+      check_table_3_1(derivation, design_, id == "table-3.1/printed", objections);
     } else if (is_published_result(id)) {
       check_published_result(id, derivation, design_, objections);
     } else {

@@ -64,6 +64,31 @@ Json feasibility_json(const theorems::Feasibility& feasibility) {
   return json;
 }
 
+/// A matrix of exact doubles, row by row.
+template <typename Matrix>
+Json matrix_json(const Matrix& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+      row.push_back(rigor::to_hexadecimal(matrix(i, j)));
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json evidence_json(const theorems::Evidence& evidence) {
+  Json json{{"name", evidence.name}, {"numbers", Json::object()}, {"matrices", Json::object()}};
+  for (const auto& [name, number] : evidence.numbers) {
+    json["numbers"][name] = rigor::to_hexadecimal(number);
+  }
+  for (const auto& [name, matrix] : evidence.matrices) {
+    json["matrices"][name] = matrix_json(matrix);
+  }
+  return json;
+}
+
 Json derivation_json(const theorems::Derivation& derivation) {
   Json not_applicable = Json::object();
   Json json{{"id", derivation.id}, {"title", derivation.title}};
@@ -78,6 +103,9 @@ Json derivation_json(const theorems::Derivation& derivation) {
   json["verdict"] = std::string(rigor::to_string(derivation.verdict));
   if (derivation.feasibility) {
     json["feasibility"] = feasibility_json(*derivation.feasibility);
+  }
+  for (const theorems::Evidence& evidence : derivation.evidence) {
+    json["evidence"].push_back(evidence_json(evidence));
   }
   json["notes"] = derivation.notes;
   return json;
@@ -145,20 +173,6 @@ Json compared_json(const ComparedResult& row) {
     json["rate"] = enclosure_json(*row.rate);
   }
   return json;
-}
-
-/// A matrix of exact doubles, row by row.
-template <typename Matrix>
-Json matrix_json(const Matrix& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      row.push_back(rigor::to_hexadecimal(matrix(i, j)));
-    }
-    rows.push_back(row);
-  }
-  return rows;
 }
 
 Json certified_set_json(const NamedSet& named) {

@@ -1,5 +1,6 @@
 #include "checker/contraction.hpp"
 
+#include "checker/matrix3.hpp"
 #include "checker/set_inequality.hpp"
 
 namespace veritrack::checker {
@@ -30,21 +31,14 @@ Covariance<Ball> operator-(const Covariance<Ball>& x, const Covariance<Ball>& y)
   return {x.p11 - y.p11, x.p22 - y.p22, x.p23 - y.p23, x.p33 - y.p33};
 }
 
-/// P - lower > 0 and upper - P > 0, by the leading minors.
-bool between(const std::array<std::array<Ball, 3>, 3>& p, const Covariance<Ball>& lower,
-             const Covariance<Ball>& upper) {
-  const auto positive = [&](const Ball& sign, const Covariance<Ball>& b) {
-    const Ball m11 = sign * (p[0][0] - b.p11);
-    const Ball m12 = sign * p[0][1];
-    const Ball m13 = sign * p[0][2];
-    const Ball m22 = sign * (p[1][1] - b.p22);
-    const Ball m23 = sign * (p[1][2] - b.p23);
-    const Ball m33 = sign * (p[2][2] - b.p33);
-    const Ball minor = m11 * m22 - square(m12);
-    const Ball whole = m33 * minor - m23 * (m11 * m23 - m12 * m13) + m13 * (m12 * m23 - m22 * m13);
-    return certainly_positive(m11) && certainly_positive(minor) && certainly_positive(whole);
+/// P - lower > 0 and upper - P > 0.
+bool between(const Matrix3& p, const Covariance<Ball>& lower, const Covariance<Ball>& upper) {
+  const auto whole = [](const Covariance<Ball>& c) {
+    Matrix3 result = diagonal(c.p11, c.p22, c.p33);
+    result[2][1] = result[1][2] = c.p23;
+    return result;
   };
-  return positive(one, lower) && positive(-one, upper);
+  return definite(p - whole(lower)) && definite(whole(upper) - p);
 }
 
 /// What |T e| tends to at most under the noise and slew of the design.

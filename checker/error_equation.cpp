@@ -1,5 +1,6 @@
 #include "checker/error_equation.hpp"
 
+#include "checker/matrix3.hpp"
 #include "checker/signal_model.hpp"
 
 namespace veritrack::checker {
@@ -8,22 +9,6 @@ namespace {
 
 const Ball half(0.5);
 const Ball one(1.0);
-
-/// The smallest and the largest eigenvalue of a symmetric matrix, by the roots of its characteristic
-/// polynomial.
-Range extreme_eigenvalues(const std::array<std::array<Ball, 3>, 3>& a) {
-  const Ball mean = (a[0][0] + a[1][1] + a[2][2]) / Ball(3.0);
-  const Ball d0 = a[0][0] - mean;
-  const Ball d1 = a[1][1] - mean;
-  const Ball d2 = a[2][2] - mean;
-  const Ball off = square(a[0][1]) + square(a[0][2]) + square(a[1][2]);
-  const Ball p = sqrt((square(d0) + square(d1) + square(d2) + Ball(2.0) * off) / Ball(6.0));
-  const Ball determinant = d0 * (d1 * d2 - square(a[1][2])) - a[0][1] * (a[0][1] * d2 - a[1][2] * a[0][2]) +
-                           a[0][2] * (a[0][1] * a[1][2] - d1 * a[0][2]);
-  const Ball angle = acos(half * determinant / (p * square(p))) / Ball(3.0);
-  const Ball third = Ball(2.0) * pi() / Ball(3.0);
-  return {mean + Ball(2.0) * p * cos(angle + third), mean + Ball(2.0) * p * cos(angle)};
-}
 
 }  // namespace
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checker/matrix3.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -53,9 +55,9 @@ Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, cons
   const std::array<std::array<Ball, 2>, 2> errors{
       {{-(setting.largest_amplitude * axis[1]), setting.largest_chi * axis[0]},
        {setting.largest_amplitude * axis[0], setting.largest_chi * axis[1]}}};
-  const std::array<std::array<Ball, 3>, 3> before{{{zero, t.coupling - t.phase, t.frequency},
-                                                   image(t, errors[0][0], errors[0][1], zero),
-                                                   image(t, errors[1][0], errors[1][1], zero)}};
+  const Matrix3 before{{{zero, t.coupling - t.phase, t.frequency},
+                        image(t, errors[0][0], errors[0][1], zero),
+                        image(t, errors[1][0], errors[1][1], zero)}};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       m[kNu + i][kNu + j] = square(setting.rate) * dot(before[i], before[j]);
@@ -257,24 +259,6 @@ Matrix<Ball> congruent(const Matrix<Ball>& c, const Matrix<Ball>& m) {
   return result;
 }
 
-/// True only when every symmetric matrix in the balls is positive definite: each has its pivots in those
-/// found.
-template <std::size_t Size>
-bool definite(std::array<std::array<Ball, Size>, Size> m) {
-  for (std::size_t k = 0; k < Size; ++k) {
-    if (!certainly_positive(m[k][k])) {
-      return false;
-    }
-    for (std::size_t i = k + 1; i < Size; ++i) {
-      const Ball factor = m[i][k] / m[k][k];
-      for (std::size_t j = k + 1; j <= i; ++j) {
-        m[i][j] -= factor * m[j][k];
-      }
-    }
-  }
-  return true;
-}
-
 class Cover {
  public:
   Cover(const Setting& setting, std::int64_t& cells) : setting_(setting), cells_(cells) {}
@@ -395,13 +379,13 @@ class Cover {
 };
 
 /// sign (P - U Phi U'), U = diag(Rot(angle), 1), tan(angle) = tangent, cos(angle) > 0.
-std::array<std::array<Ball, 3>, 3> difference(const Covariance<Ball>& p, const Covariance<Ball>& phi,
-                                              const Ball& tangent, const Ball& sign) {
+Matrix3 difference(const Covariance<Ball>& p, const Covariance<Ball>& phi, const Ball& tangent,
+                   const Ball& sign) {
   const Ball cosine2 = Ball(1.0) / (Ball(1.0) + square(tangent));
   const Ball sine2 = Ball(1.0) - cosine2;
   const Ball cosine = sqrt(cosine2);
   const Ball gap = phi.p11 - phi.p22;
-  std::array<std::array<Ball, 3>, 3> d;
+  Matrix3 d;
   d[0][0] = sign * (p.p11 - phi.p11 + sine2 * gap);
   d[1][0] = sign * -(tangent * cosine2 * gap);
   d[1][1] = sign * (p.p22 - phi.p22 - sine2 * gap);

@@ -5,8 +5,10 @@
 
 #include "checker/contraction.hpp"
 #include "checker/guarantee.hpp"
+#include "checker/kkl_observer.hpp"
 #include "checker/proof_gaps.hpp"
 #include "checker/published_results.hpp"
+#include "checker/repaired_theorem.hpp"
 #include "checker/table_3_1.hpp"
 #include "checker/theorem_2_9.hpp"
 
@@ -63,6 +65,8 @@ class QuadratureVerifier {
       check_theorem_2_9(derivation, design_, Reading::errata, objections);
     } else if (id == "contraction" && certainly_equal(design_.epsilon, Ball(0.0))) {
       promises_ = check_contraction(derivation, design_, sets_, objections);
+    } else if (id == "theorem-2.9/repaired") {
+      check_repaired_theorem(derivation, design_, objections);
     } else if (id == "table-3.1/printed" || id == "table-3.1/errata") {
       check_table_3_1(derivation, design_, id == "table-3.1/printed", objections);
     } else if (is_published_result(id)) {
@@ -182,6 +186,29 @@ class QuadratureVerifier {
   Promises promises_;
 };
 
+/// A certificate of the KKL observer: ell, and whatever claims nothing.
+void verify_kkl_observer(const Tree& certificate, Verification& result) {
+  Objections objections;
+  const KklDesign design = read_kkl_design(certificate.at("design"), objections);
+  result.parts.push_back({"design", objections});
+  for (const Tree& derivation : certificate.at("derivations").elements()) {
+    const std::string& id = derivation.at("id").text();
+    objections.clear();
+    if (id == "kkl-ell") {
+      check_kkl_ell(derivation, design, objections);
+    } else if (id == "kkl-section-v") {
+      check_derivation(derivation, {derivation.at("title").text(), {}, {}}, objections);
+    } else {
+      objections.emplace_back(kUnknown);
+    }
+    result.parts.push_back({id, objections});
+  }
+  for (const Tree& claim : certificate.at("claims").elements()) {
+    result.parts.push_back({"claim " + claim.at("id").text(), {kUnknown}});
+  }
+  result.parts.push_back({"verdict " + certificate.at("verdict").text(), {kUnknown}});
+}
+
 }  // namespace
 
 bool Verification::verified() const {
@@ -198,6 +225,8 @@ Verification verify(const Tree& certificate) {
   try {
     if (tracker == "quadrature-ekf") {
       QuadratureVerifier(certificate, result).run();
+    } else if (tracker == "kkl-observer") {
+      verify_kkl_observer(certificate, result);
     } else {
       result.parts.push_back({"tracker " + tracker, {kUnknown}});
     }

@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/matrix.hpp"
 #include "analysis/rigor/verdict.hpp"
 
 namespace veritrack::theorems {
@@ -46,6 +48,14 @@ struct Feasibility {
   std::vector<Quantity> best_found;  ///< the least left-hand side that a search found, and its point
 };
 
+/// Exact numbers from which a part of a derivation can be established again without the search that found it:
+/// the names are explained in docs/certificate-format.md.
+struct Evidence {
+  std::string name;  ///< what it is evidence of, e.g. "start"
+  std::vector<std::pair<std::string, double>> numbers;
+  std::vector<std::pair<std::string, rigor::Matrix<3>>> matrices;
+};
+
 /// A theorem, in one reading of its text, evaluated for a design.
 struct Derivation {
   std::string id;     ///< e.g. "theorem-2.9/printed"
@@ -57,6 +67,7 @@ struct Derivation {
   rigor::Verdict verdict = rigor::Verdict::undecided;
   /// Only where a theorem has parameters that are free to choose.
   std::optional<Feasibility> feasibility;
+  std::vector<Evidence> evidence;
 };
 
 /// The quantity of that name. Throws std::out_of_range when there is none.

@@ -202,6 +202,42 @@ void add_assured(Derivation& derivation, const Repaired& found) {
       kWhyNot);
 }
 
+/// The ends of the constants that the bounds rest on, and the matrices they come from.
+Evidence evidence_of(const char* name, const ErrorRecursion& recursion, const Interval& radius) {
+  const auto point = [](const rigor::IntervalMatrix<3>& matrix) {
+    return rigor::Matrix<3>(matrix.unaryExpr([](const Interval& entry) { return entry.upper(); }));
+  };
+  return {name,
+          {{"window", static_cast<double>(recursion.window)},
+           {"plane_error", recursion.tube.plane_error.upper()},
+           {"frequency_error", recursion.tube.frequency_error.upper()},
+           {"one_minus_alpha", recursion.one_minus_alpha.lower()},
+           {"curvature", recursion.curvature.upper()},
+           {"process_gain", recursion.process_gain.upper()},
+           {"measurement_gain", recursion.measurement_gain.upper()},
+           {"s", recursion.s.upper()},
+           {"radius", radius.lower()}},
+          {{"covariance_upper", point(recursion.range.upper)},
+           {"information_upper", point(recursion.range.information)}}};
+}
+
+std::vector<Evidence> evidence_of(const Repaired& found) {
+  std::vector<Evidence> evidence;
+  if (found.start) {
+    evidence.push_back(evidence_of("start", *found.start, found.start_radius));
+  }
+  if (found.noise) {
+    evidence.push_back(evidence_of("noise", *found.noise, found.noise->toughest_radius()));
+  }
+  if (found.process) {
+    evidence.push_back(evidence_of("process-noise", *found.process, found.process->toughest_radius()));
+  }
+  if (found.assumed) {
+    evidence.push_back(evidence_of("assumed", *found.assumed, found.assumed_radius));
+  }
+  return evidence;
+}
+
 /// A point with positive noise bounds and a positive start error, or why there is none.
 Feasibility feasibility_of(const Repaired& found) {
   Feasibility feasibility;
@@ -252,6 +288,7 @@ Derivation derive_repaired_theorem(const TrackerInput& question) {
   conclude(derivation);
   add_assured(derivation, found);
   derivation.feasibility = feasibility_of(found);
+  derivation.evidence = evidence_of(found);
   derivation.notes = {
       "W(k)^2 = e(k)' P(k|k)^-1 e(k) with the filter's own P(k|k), whatever its past: nothing depends on how "
       "P "

@@ -11,10 +11,13 @@ namespace veritrack::contraction {
 /// Bounds over everything that covariance and noise may do at a step.
 template <typename Scalar>
 struct SteadyBounds {
-  Symmetric<Scalar> gram;  ///< upper bound, in the Loewner order, on T J spread J' T' / r^2 for every J
-  Scalar noise_gain;       ///< upper bound on |T (e+ with noise v - e+ without)| / |v|
-  Scalar least_along;      ///< lower bound on the component of z along the steady one
-  Scalar tangent_reach;    ///< how far the tangent of the turn, over s, may be from that of the mean gain
+  /// Upper bound, in the Loewner order, on T J spread J' T' / r^2 for every J: gram_factor times that of the
+  /// step plus gram_rest on the diagonal.
+  Symmetric<Scalar> gram;
+  Scalar gram_factor, gram_rest;
+  Scalar noise_gain;     ///< upper bound on |T (e+ with noise v - e+ without)| / |v|
+  Scalar least_along;    ///< lower bound on the component of z along the steady one
+  Scalar tangent_reach;  ///< how far the tangent of the turn, over s, may be from that of the mean gain
 };
 
 namespace detail {
@@ -64,8 +67,10 @@ template <typename Scalar>
   const Scalar rest = square(Scalar(bent * over_r)) * spread;
   const auto& g = step.gram;
   const Scalar theta = detail::balance(rest, Scalar(g.p11 + g.p22 + g.p33));
-  const Scalar more = one + theta;
-  const Scalar diagonal = (one + one / theta) * rest;
+  bounds.gram_factor = one + theta;
+  bounds.gram_rest = (one + one / theta) * rest;
+  const Scalar& more = bounds.gram_factor;
+  const Scalar& diagonal = bounds.gram_rest;
   bounds.gram = {more * g.p11 + diagonal, more * g.p12, more * g.p13,
                  more * g.p22 + diagonal, more * g.p23, more * g.p33 + diagonal};
 

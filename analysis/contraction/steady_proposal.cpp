@@ -162,31 +162,21 @@ std::optional<SteadySet> propose_steady_set(const SteadyRequest& request, const 
   }
   set.below = settings.front().band.below.matrix();
   set.above = settings.front().band.above.matrix();
+  set.levels = {1.0};
   if (invariance_only) {
     constexpr double kRoom = 0.96;
-    set.levels = {{1.0, 1.0, 1.0}};
     return at_high < kRoom ? std::optional<SteadySet>(set) : std::nullopt;
   }
-  // Ranges of levels, each half of the one before, down to where the noise holds the state.
+  // Down to where the noise holds the state, each step leaving a share of what samples gain to the proof.
   constexpr double kLowest = 0.01;
   constexpr double kSlowest = 0.96;
-  double high = 1.0;
-  while (high > kLowest && at_high < kSlowest) {
-    double low = 0.5 * high;
-    double at_low = sampler.rate(settings, low, set.noise, kFine);
-    for (int i = 0; i < 2 && !(at_low < kSlowest); ++i) {
-      low = 0.5 * (low + high);
-      at_low = sampler.rate(settings, low, set.noise, kFine);
-    }
-    if (!(at_low < kSlowest)) {
-      break;
-    }
-    const double worst = std::max(at_low, at_high);
-    set.levels.push_back({low, high, worst + 0.4 * (1.0 - worst)});
-    high = low;
-    at_high = at_low;
+  constexpr double kRoom = 0.4;
+  double rate = at_high;
+  while (set.levels.back() > kLowest && rate < kSlowest) {
+    set.levels.push_back(set.levels.back() * (rate + kRoom * (1.0 - rate)));
+    rate = sampler.rate(settings, set.levels.back(), set.noise, kFine);
   }
-  return set.levels.empty() ? std::nullopt : std::optional<SteadySet>(set);
+  return set.levels.size() < 2 ? std::nullopt : std::optional<SteadySet>(set);
 }
 
 }  // namespace veritrack::contraction

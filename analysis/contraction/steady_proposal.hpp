@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/contraction/steady_gain.hpp"
 #include "analysis/contraction/steady_set.hpp"
 
 namespace veritrack::contraction {
@@ -33,8 +34,8 @@ struct SteadyShape {
 [[nodiscard]] std::optional<SteadyShape> propose_steady_shape(const SteadyRequest& request);
 
 /// A set of this shape, smaller by `fraction`, with covariance bounds and rates that leave room for the
-/// verification; nothing when sampling finds that none is there. With `invariance_only` there is one level
-/// and no rate below 1.
+/// verification; nothing when sampling finds that none is there. With `invariance_only` there is one
+/// level.
 [[nodiscard]] std::optional<SteadySet> propose_steady_set(const SteadyRequest& request,
                                                           const SteadyShape& shape, double fraction,
                                                           bool invariance_only);

@@ -108,32 +108,38 @@ SteadyRate propose_rate(const SteadyStep<double>& step, const SteadyBounds<doubl
   return rate;
 }
 
-bool certainly_contracts(const SteadyStep<Interval>& step, const SteadyBounds<Interval>& bounds,
+bool certainly_contracts(const SteadyStep<SteadySecant>& step, const SteadyBounds<Interval>& bounds,
+                         const Interval& eta_squared, const std::vector<SteadyOffset>& corners,
                          const Interval& rate_squared, const SteadyRate& multipliers) {
   const Interval one(1.0);
   const Interval lambda(multipliers.spread_multiplier);
   const Interval mu(multipliers.error_multiplier);
-  const Interval head = rate_squared - mu - lambda * rigor::max(step.eta_squared, Interval(0.0));
-  if (!certainly_positive(lambda) || !certainly_positive(mu) || !certainly_positive(head)) {
+  const Interval head_over_cell = rate_squared - mu - lambda * rigor::max(eta_squared, Interval(0.0));
+  if (!certainly_positive(lambda) || !certainly_positive(mu) || !certainly_positive(head_over_cell)) {
     return false;
   }
-  const Interval over_lambda = one / lambda;
-  const Interval over_mu = one / mu;
-  const Interval over_head = one / head;
-  const Symmetric<Interval> products = row_products(step.slope);
-  const auto& g = bounds.gram;
+  const SteadySecant head =
+      (SteadySecant(rate_squared - mu) - SteadySecant(lambda) * step.eta_squared).within(head_over_cell);
+  const SteadySecant over_head = SteadySecant(1.0) / head;
+  const SteadySecant over_mu(one / mu);
+  const SteadySecant over_lambda(bounds.gram_factor / lambda);
+  const SteadySecant diagonal(one - bounds.gram_rest / lambda);
+  const Symmetric<SteadySecant> products = row_products(step.slope);
+  const auto& g = step.gram;
   const auto& c = step.constant;
-  const auto sum = [&](const Interval& product, const Interval& spread, const Interval& constant) {
-    return over_mu * product + over_lambda * spread + over_head * constant;
+  const auto sum = [&](const SteadySecant& product, const SteadySecant& spread,
+                       const SteadySecant& constants) {
+    return over_mu * product + over_lambda * spread + over_head * constants;
   };
-  LowerTriangle<3> a;
-  a[0][0] = one - sum(products.p11, g.p11, square(c[0]));
-  a[1][0] = -sum(products.p12, g.p12, c[0] * c[1]);
-  a[1][1] = one - sum(products.p22, g.p22, square(c[1]));
-  a[2][0] = -sum(products.p13, g.p13, c[0] * c[2]);
-  a[2][1] = -sum(products.p23, g.p23, c[1] * c[2]);
-  a[2][2] = one - sum(products.p33, g.p33, square(c[2]));
-  return certainly_positive_definite<3>(a);
+  const Symmetric<SteadySecant> gap{diagonal - sum(products.p11, g.p11, square(c[0])),
+                                    -sum(products.p12, g.p12, c[0] * c[1]),
+                                    -sum(products.p13, g.p13, c[0] * c[2]),
+                                    diagonal - sum(products.p22, g.p22, square(c[1])),
+                                    -sum(products.p23, g.p23, c[1] * c[2]),
+                                    diagonal - sum(products.p33, g.p33, square(c[2]))};
+  return std::all_of(corners.begin(), corners.end(), [&](const SteadyOffset& corner) {
+    return certainly_positive_definite(moved_by(gap, corner));
+  });
 }
 
 bool certainly_positive_definite(const Symmetric<Interval>& p) {

@@ -26,7 +26,8 @@ Symmetric<double> symmetric(const Matrix<3>& m) {
 double smallest_share(const Eigen::LLT<Matrix<3>>& a, const Matrix<3>& b) {
   const Matrix<3> half = a.matrixL().solve(b);
   const Matrix<3> whole = a.matrixL().solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Matrix<3>> eigen(whole, Eigen::EigenvaluesOnly);
+  Eigen::SelfAdjointEigenSolver<Matrix<3>> eigen;
+  eigen.computeDirect(whole, Eigen::EigenvaluesOnly);
   return -eigen.eigenvalues()[0];
 }
 
@@ -49,12 +50,15 @@ Sample sample_at(const SteadySetting<double>& setting, double level, double nois
   return {step, steady_bounds(step, setting, level, noise)};
 }
 
-/// Calls `use` with (P+ - P*)/s of both bounds for the samples on the rim, at both ends of the turn.
+/// Calls `use` with (P+ - P*)/s of both bounds for samples on the rim, a few inside and the middle, at both
+/// ends of the turn.
 template <typename Use>
 bool for_each_image(const SteadySetting<double>& setting, double level, double noise, int angles,
                     const Use& use) {
-  for (int j = 0; j < angles; ++j) {
-    const Sample sample = sample_at(setting, level, noise, 1.0, j, angles);
+  const int inside = angles / 4;
+  for (int j = 0; j <= angles + inside; ++j) {
+    const double share = j < angles ? 1.0 : j < angles + inside ? 0.5 : 0.0;
+    const Sample sample = sample_at(setting, level, noise, share, j, j < angles ? angles : inside);
     if (!usable(sample)) {
       return false;
     }
@@ -70,7 +74,8 @@ bool for_each_image(const SteadySetting<double>& setting, double level, double n
 
 /// bound + the positive part of (x - bound).
 void grow(Matrix<3>& bound, const Matrix<3>& x) {
-  const Eigen::SelfAdjointEigenSolver<Matrix<3>> eigen(x - bound);
+  Eigen::SelfAdjointEigenSolver<Matrix<3>> eigen;
+  eigen.computeDirect(x - bound);
   for (int i = 0; i < 3; ++i) {
     if (eigen.eigenvalues()[i] > 0.0) {
       bound += eigen.eigenvalues()[i] * eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();

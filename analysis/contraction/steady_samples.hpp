@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/contraction/steady_proposal.hpp"
+#include "analysis/contraction/steady_step.hpp"
 
 namespace veritrack::contraction {
 

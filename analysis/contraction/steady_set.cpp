@@ -21,4 +21,9 @@ IntervalVector<3> error_bounds(const SteadySet& set, const Interval& level) {
   return bounds;
 }
 
+Symmetric<Interval> to_symmetric(const rigor::Matrix<3>& p) {
+  return {Interval(p(0, 0)), Interval(p(0, 1)), Interval(p(0, 2)),
+          Interval(p(1, 1)), Interval(p(1, 2)), Interval(p(2, 2))};
+}
+
 }  // namespace veritrack::contraction

@@ -1,10 +1,29 @@
-// The same setting of a step over different scalars.
+// What the steps of a set around the steady state have in common, over different scalars.
 #pragma once
 
-#include "analysis/contraction/steady_step.hpp"
-#include "analysis/rigor/dual.hpp"
+#include "analysis/contraction/secant.hpp"
+#include "analysis/contraction/steady_gain.hpp"
 
 namespace veritrack::contraction {
+
+/// T = [[t11, t12, t13], [0, t22, t23], [0, 0, t33]], scaled such that level 1 is |T b| <= 1.
+template <typename Scalar>
+struct TriangularMetric {
+  Scalar t11, t12, t13, t22, t23, t33;
+};
+
+/// What the steps of a whole set have in common.
+template <typename Scalar>
+struct SteadySetting {
+  trackers::QuadratureEkfDesign<Scalar> design;
+  SteadyState<Scalar> steady;
+  TriangularMetric<Scalar> metric;
+  CovarianceBand<Scalar> band;
+  /// |T b| <= 1 implies alpha = a11 x, c = a21 x + a22 y with x^2 + y^2 <= 1.
+  Scalar a11, a21, a22;
+  // Functions of the steady state: sines and cosines of psi* and of nu*.
+  Scalar sine_phase, cosine_phase, sine_turn, cosine_turn;
+};
 
 namespace detail {
 
@@ -19,10 +38,8 @@ struct ScalarOf<rigor::Interval> {
   static rigor::Interval of(const rigor::Interval& x) { return x; }
 };
 template <int N>
-struct ScalarOf<rigor::Dual<rigor::Interval, N>> {
-  static rigor::Dual<rigor::Interval, N> of(const rigor::Interval& x) {
-    return rigor::Dual<rigor::Interval, N>(x);
-  }
+struct ScalarOf<Secant<N>> {
+  static Secant<N> of(const rigor::Interval& x) { return Secant<N>(x); }
 };
 
 }  // namespace detail
@@ -35,7 +52,7 @@ template <typename To>
           Scalar::of(p.p22), Scalar::of(p.p23), Scalar::of(p.p33)};
 }
 
-/// A setting over another scalar: the midpoints over double, constants over dual numbers.
+/// A setting over another scalar: the midpoints over double, constants over secants.
 template <typename To>
 [[nodiscard]] SteadySetting<To> convert(const SteadySetting<rigor::Interval>& s) {
   using Scalar = detail::ScalarOf<To>;

@@ -1,21 +1,43 @@
-// Where the assumed starts lie in a set around the steady state.
+// Do the assumed starts come into a set around the steady state? With a leak.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "analysis/contraction/fixed_point_bias.hpp"
-#include "analysis/contraction/quadrature_certificate.hpp"
+#include "analysis/contraction/contraction_question.hpp"
+#include "analysis/contraction/fixed_point_quadrature.hpp"
 #include "analysis/contraction/steady_set.hpp"
 
 namespace veritrack::contraction {
 
-/// An upper bound on the level s for which every assumed start lies in Omega_s(omega), for every frequency of
-/// the cells. The errors are about the truth; the covariance P(0) is in the frame of the estimated phase, and
-/// P*(omega) itself where none is given. Nothing when no level holds the given covariance. Needs the upward
-/// mode.
-[[nodiscard]] std::optional<rigor::Interval> start_level(
+/// What is known of the starts at the frequencies of a cell.
+struct SteadyStart {
+  /// An upper bound on the least level s such that Omega_s holds the starts, possibly above 1; nothing when
+  /// the covariance is not certainly between the bounds of level 1.
+  std::optional<double> level;
+  bool reached = false;             ///< all starts come into Omega_1
+  int samples = 0;                  ///< after at most so many samples
+  double level_when_reached = 0.0;  ///< an upper bound
+  double frequency_error = 0.0;     ///< upper bound on |frequency error| until then, rad/sample
+  std::string failure;              ///< where they are not known to, as a part of a sentence
+};
+
+/// What holds for all of them. Throws std::invalid_argument when there are none.
+[[nodiscard]] SteadyStart joined(const std::vector<SteadyStart>& starts);
+
+/// Starts are about the truth: the errors of the question around it, with the question's initial covariance,
+/// or the steady one of the frequency. Where Omega_1 does not hold them they are followed, at a constant
+/// frequency (slew zero) and with the noise of the set, until Omega_s with s <= 1/2 does (capture.hpp). One
+/// for each cell, in their order, up to the first few that are not reached. Opens its own rounding scope;
+/// deterministic.
+[[nodiscard]] std::vector<SteadyStart> follow_to_steady_set(
     const ContractionQuestion& question,
     const std::vector<FixedPointTube<QuadraturePolarLoop::kStates>>& cells, const SteadySet& set);
+
+/// A level up to 1 of a ladder at which the deviation of the covariance from P* lies between the bounds of
+/// the set; nothing when there is none. Needs the upward mode.
+[[nodiscard]] std::optional<double> covariance_level(const rigor::IntervalMatrix<3>& deviation,
+                                                     const SteadySet& set);
 
 }  // namespace veritrack::contraction

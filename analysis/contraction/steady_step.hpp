@@ -10,36 +10,16 @@
 // i the innovation, J the Jacobian of (|z|, arg z, x3) averaged between the two corrected estimates.
 // docs/leak.md, sections 3 and 4.
 //
-// The template runs on double, to propose, on Interval, and on dual numbers over Interval, for enclosures by
-// the mean value theorem.
+// The template runs on double, to propose, and on secants over intervals (secant.hpp), to prove.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
 #include "analysis/contraction/elementary_ratios.hpp"
-#include "analysis/contraction/steady_gain.hpp"
+#include "analysis/contraction/steady_setting.hpp"
 
 namespace veritrack::contraction {
-
-/// T = [[t11, t12, t13], [0, t22, t23], [0, 0, t33]], scaled such that level 1 is |T b| <= 1.
-template <typename Scalar>
-struct TriangularMetric {
-  Scalar t11, t12, t13, t22, t23, t33;
-};
-
-/// What the steps of a whole set have in common.
-template <typename Scalar>
-struct SteadySetting {
-  trackers::QuadratureEkfDesign<Scalar> design;
-  SteadyState<Scalar> steady;
-  TriangularMetric<Scalar> metric;
-  CovarianceBand<Scalar> band;
-  /// |T b| <= 1 implies alpha = a11 x, c = a21 x + a22 y with x^2 + y^2 <= 1.
-  Scalar a11, a21, a22;
-  // Functions of the steady state: sines and cosines of psi* and of nu*.
-  Scalar sine_phase, cosine_phase, sine_turn, cosine_turn;
-};
 
 /// Where in the set: errors of level s with this (alpha, c).
 template <typename Scalar>

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "analysis/contraction/small_definiteness.hpp"
+#include "analysis/contraction/steady_contraction.hpp"
+#include "analysis/contraction/steady_motion.hpp"
 #include "analysis/contraction/steady_rate.hpp"
 #include "analysis/contraction/steady_setting.hpp"
 #include "analysis/rigor/decimal.hpp"
@@ -19,11 +21,6 @@ using rigor::Interval;
 using rigor::Verdict;
 using Tube = FixedPointTube<QuadraturePolarLoop::kStates>;
 using Design = trackers::QuadratureEkfDesign<Interval>;
-
-Symmetric<Interval> symmetric(const rigor::Matrix<3>& p) {
-  return {Interval(p(0, 0)), Interval(p(0, 1)), Interval(p(0, 2)),
-          Interval(p(1, 1)), Interval(p(1, 2)), Interval(p(2, 2))};
-}
 
 bool is_symmetric(const rigor::Matrix<3>& p) {
   return p(0, 1) == p(1, 0) && p(0, 2) == p(2, 0) && p(1, 2) == p(2, 1) && rigor::is_finite(p);
@@ -50,18 +47,18 @@ std::string objection(const Design& design, const SteadySet& set) {
     return "noise or slew are no bounds.";
   }
   if (!is_symmetric(set.below) || !is_symmetric(set.above) ||
-      !certainly_positive_definite(symmetric(set.below)) ||
-      !certainly_positive_definite(symmetric(set.above))) {
+      !certainly_positive_definite(to_symmetric(set.below)) ||
+      !certainly_positive_definite(to_symmetric(set.above))) {
     return "the covariance bounds are not certainly positive definite.";
   }
-  double end = 1.0;
-  for (const LevelRange& range : set.levels) {
-    const bool adjoins = range.high == end && range.low > 0.0 && range.low <= range.high &&
-                         range.rate >= 0.0 && range.rate <= 1.0;
-    if (!adjoins) {
-      return "the levels are not a chain of ranges from 1 down.";
+  double last = 1.0;
+  for (std::size_t j = 0; j < set.levels.size(); ++j) {
+    const double level = set.levels[j];
+    const bool falls = level > 0.0 && (j == 0 ? level == 1.0 : level < last);
+    if (!falls) {
+      return "the levels do not fall from 1.";
     }
-    end = range.low;
+    last = level;
   }
   return set.levels.empty() ? "there are no levels." : std::string();
 }
@@ -100,77 +97,19 @@ bool cover_directions(SteadySetting<Interval>& setting) {
   return contraction::certainly_positive_definite<2>(gap) && a11 > 0.0;
 }
 
-/// How far a slew of W moves a state in units of the level: the errors and the covariance.
-struct Motion {
-  Interval errors = Interval(0.0);
-  Interval covariance = Interval(0.0);
-};
-
-/// The share l of `bound` with l bound - x > 0 and l bound + x > 0; nothing when none is found.
-std::optional<Interval> covering_share(const Symmetric<Interval>& bound, const Symmetric<Interval>& x) {
-  double share = 1e-6;
-  constexpr int kDoublings = 60;
-  const auto covers = [&](double l) {
-    const Interval factor(l);
-    const Symmetric<Interval> scaled{factor * bound.p11, factor * bound.p12, factor * bound.p13,
-                                     factor * bound.p22, factor * bound.p23, factor * bound.p33};
-    return certainly_positive_definite(plus(scaled, x, Interval(-1.0))) &&
-           certainly_positive_definite(plus(scaled, x, Interval(1.0)));
-  };
-  int doublings = 0;
-  while (!covers(share)) {
-    share *= 1.5;
-    if (++doublings > kDoublings) {
-      return std::nullopt;
-    }
-  }
-  return Interval(share);
-}
-
-/// Uniform over the branch, since a step may lead from one cell to another.
-std::optional<Motion> motion_of(const Design& design, const std::vector<Tube>& branch, const SteadySet& set) {
-  Motion motion;
-  if (set.slew == 0.0) {
-    return motion;
-  }
-  const QuadraturePolarLoop loop{design};
-  const Interval slew(set.slew);
-  for (const Tube& tube : branch) {
-    const auto slope = enclose_slope(loop, tube);
-    if (!slope) {
-      return std::nullopt;
-    }
-    // nu = x3 - omega, and x3 is not moved by a change of omega itself.
-    rigor::IntervalVector<3> error = slope->head<3>();
-    error[2] += Interval(1.0);
-    const Symmetric<Interval> covariance{(*slope)[3], (*slope)[4], (*slope)[5],
-                                         (*slope)[6], (*slope)[7], (*slope)[8]};
-    const auto above = covering_share(symmetric(set.above), covariance);
-    const auto below = covering_share(symmetric(set.below), covariance);
-    if (!above || !below) {
-      return std::nullopt;
-    }
-    motion.errors = max(motion.errors, slew * Interval(metric_norm(set, error).upper()));
-    motion.covariance = max(motion.covariance, slew * max(*above, *below));
-  }
-  return motion;
-}
-
 struct CellResult {
-  bool proved = false;
-  std::string reason;
+  std::size_t steps = 0;  ///< from level to level that are proved
+  std::string reason;     ///< why no more of them
   double noise_gain = 0.0;
   std::int64_t cells = 0;
 };
 
-/// X* = center + (p - p0) slope + tight: derivatives in the last variable.
-SteadyState<SteadySlope> steady_slopes(const Tube& tube) {
+/// X* = center + (p - p0) slope + tight.
+SteadyState<SteadySecant> steady_secants(const Tube& tube) {
   const rigor::IntervalVector<QuadraturePolarLoop::kStates> box = tube.box();
+  const rigor::IntervalVector<QuadraturePolarLoop::kStates> middle = tube.at(Interval(tube.parameter_center));
   const auto entry = [&](Eigen::Index i, const Interval& shift) {
-    std::array<Interval, 5> derivatives;
-    derivatives.fill(Interval(0.0));
-    derivatives[4] = Interval(tube.slope[i]);
-    return SteadySlope(box[i] + shift, derivatives);
+    return SteadySecant::affine(middle[i] + shift, box[i] + shift, Interval(tube.slope[i]), kFrequency);
   };
   const Interval none(0.0);
   return {entry(0, Interval(1.0)),
@@ -179,7 +118,9 @@ SteadyState<SteadySlope> steady_slopes(const Tube& tube) {
           {entry(3, none), entry(4, none), entry(5, none), entry(6, none), entry(7, none), entry(8, none)}};
 }
 
-CellResult verify_cell(const Design& design, const Tube& tube, const SteadySet& set, const Motion& motion) {
+/// Tries `steps` steps, from level to level.
+CellResult verify_cell(const Design& design, const Tube& tube, const SteadySet& set,
+                       const SteadyMotion& motion, std::size_t steps) {
   const rigor::UpwardRounding upward;
   CellResult result;
   SteadySettings settings;
@@ -187,7 +128,7 @@ CellResult verify_cell(const Design& design, const Tube& tube, const SteadySet& 
   setting.design = design;
   setting.steady = steady_state(tube, tube.parameter);
   setting.metric = metric_of(set);
-  setting.band = {symmetric(set.below), symmetric(set.above)};
+  setting.band = {to_symmetric(set.below), to_symmetric(set.above)};
   fill_turns(setting);
   const Symmetric<Interval> least = plus(setting.steady.covariance, setting.band.below, Interval(-1.0));
   if (!certainly_positive_definite(least) || !certainly_positive_definite(setting.steady.covariance)) {
@@ -199,24 +140,50 @@ CellResult verify_cell(const Design& design, const Tube& tube, const SteadySet& 
     return result;
   }
   settings.frequencies = tube.parameter - Interval(tube.parameter_center);
-  settings.at_middle = setting;
-  settings.at_middle.steady = steady_state(tube, Interval(tube.parameter_center));
-  fill_turns(settings.at_middle);
-  settings.slopes = convert<SteadySlope>(setting);
-  settings.slopes.steady = steady_slopes(tube);
-  fill_turns(settings.slopes);
-  for (const LevelRange& range : set.levels) {
-    const SteadyContraction contraction =
-        prove_contraction(settings, range, {Interval(set.noise), motion.errors, motion.covariance});
+  settings.secants = convert<SteadySecant>(setting);
+  settings.secants.steady = steady_secants(tube);
+  fill_turns(settings.secants);
+  const SteadyDisturbance disturbance{Interval(set.noise), motion.errors, motion.covariance};
+  // A set with many levels must not take for ever.
+  constexpr std::int64_t kMostCells = 150;
+  constexpr std::int64_t kMostCellsOfOne = 600;
+  const std::int64_t most_cells = set.levels.size() == 1 ? kMostCellsOfOne : kMostCells;
+  while (result.steps < steps) {
+    const double level = set.levels[result.steps];
+    const double next = set.levels.size() == 1 ? level : set.levels[result.steps + 1];
+    const SteadyContraction contraction = prove_contraction(settings, level, next, disturbance, most_cells);
     result.cells += contraction.cells;
     result.noise_gain = std::max(result.noise_gain, contraction.noise_gain);
     if (!contraction.proved) {
       result.reason = contraction.reason;
       return result;
     }
+    ++result.steps;
   }
-  result.proved = true;
   return result;
+}
+
+constexpr std::size_t kSpread = 6;
+
+/// 0 to size - 1, beginning with the ends and some between.
+std::vector<std::size_t> spread_first(std::size_t size) {
+  std::vector<std::size_t> order;
+  order.reserve(size);
+  for (const std::size_t sixth : {0U, 6U, 5U, 3U, 1U, 4U}) {
+    const std::size_t i = size * sixth / kSpread;
+    order.push_back(std::min(i, size - 1));
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    order.push_back(i);
+  }
+  std::vector<std::size_t> once;
+  once.reserve(size);
+  for (const std::size_t i : order) {
+    if (std::find(once.begin(), once.end(), i) == once.end()) {
+      once.push_back(i);
+    }
+  }
+  return once;
 }
 
 }  // namespace
@@ -235,29 +202,39 @@ SteadyVerification verify_steady_set(const Design& design, const std::vector<Tub
   if (!result.reason.empty()) {
     return result;
   }
-  const auto motion = motion_of(design, branch, proposal);
+  const auto motion = steady_motion(design, branch, proposal);
   if (branch.empty() || !motion) {
     result.reason = "how the steady state moves with the frequency could not be enclosed.";
     return result;
   }
-  // In blocks, so that a failure is found early, and the same one whatever the number of threads.
+  // In blocks, so that a failure is found early, and the same one whatever the number of threads; cells
+  // spread over the band come first.
+  const std::vector<std::size_t> order = spread_first(branch.size());
+  constexpr std::size_t kFirst = 2;
   constexpr std::size_t kBlock = 8;
   std::vector<CellResult> results(branch.size());
-  for (std::size_t begin = 0; begin < branch.size(); begin += kBlock) {
-    const std::size_t end = std::min(begin + kBlock, branch.size());
-    tbb::parallel_for(begin, end,
-                      [&](std::size_t i) { results[i] = verify_cell(design, branch[i], proposal, *motion); });
+  std::size_t steps = std::max<std::size_t>(proposal.levels.size(), 2) - 1;
+  std::size_t end = 0;
+  for (std::size_t begin = 0; begin < branch.size(); begin = end) {
+    end = std::min(begin + (begin < kSpread ? kFirst : kBlock), branch.size());
+    tbb::parallel_for(begin, end, [&](std::size_t i) {
+      results[i] = verify_cell(design, branch[order[i]], proposal, *motion, steps);
+    });
     for (std::size_t i = begin; i < end; ++i) {
+      steps = std::min(steps, results[i].steps);
       result.cells += results[i].cells;
       result.noise_gain = std::max(result.noise_gain, results[i].noise_gain);
-      if (!results[i].proved) {
-        result.failed_frequency = branch[i].parameter;
+      if (steps == 0) {
+        result.failed_frequency = branch[order[i]].parameter;
         result.reason = "for frequencies near " +
-                        rigor::to_decimal(midpoint(branch[i].parameter), 4, rigor::Direction::down) +
+                        rigor::to_decimal(midpoint(result.failed_frequency), 4, rigor::Direction::down) +
                         " rad/sample: " + results[i].reason;
         return result;
       }
     }
+  }
+  if (proposal.levels.size() > 1) {
+    result.set.levels.resize(steps + 1);
   }
   result.verdict = Verdict::proved;
   result.reason = "every step from the set leads back into it and contracts.";

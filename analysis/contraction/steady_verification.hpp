@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analysis/contraction/fixed_point_bias.hpp"
+#include "analysis/contraction/steady_gain.hpp"
 #include "analysis/contraction/steady_set.hpp"
 
 namespace veritrack::contraction {
@@ -16,7 +17,7 @@ struct SteadyVerification {
   /// certified refutes nothing.
   rigor::Verdict verdict = rigor::Verdict::undecided;
   std::string reason;                ///< one sentence
-  SteadySet set;                     ///< the proposal
+  SteadySet set;                     ///< the proposal, without the last levels if those fail
   rigor::Interval failed_frequency;  ///< the cell where it failed, rad/sample; empty when it did not
   double noise_gain = 0.0;           ///< L_v at level 1, an upper bound, in the metric
   std::int64_t cells = 0;            ///< examined
@@ -24,8 +25,10 @@ struct SteadyVerification {
 
 /// Is the promise of SteadySet true over these neighbouring cells of a lock branch? Proved are
 ///   1. T invertible, below > 0, above > 0, P* - below > 0, and the ranges of all inputs;
-///   2. from level s the errors come to a level of at most kappa s (steady_contraction.hpp), and
-///   3. so does the covariance (steady_order.hpp), for every range of levels and every cell of frequencies.
+///   2. from each level the errors come to the next one (steady_contraction.hpp), and
+///   3. so does the covariance (steady_order.hpp), for every cell of frequencies. From the last but one level
+///      a step leads to the last, and so it does from the last, which is a part of it.
+/// Levels from the first that does not lead to the next one on are dropped, as long as one step remains.
 /// Cells run in parallel; the result does not depend on how many threads there are. Opens its own
 /// UpwardRounding scope; never throws for odd numbers.
 [[nodiscard]] SteadyVerification verify_steady_set(

@@ -96,7 +96,7 @@ void try_to_break(const Example& example, const SteadySet& set, test::Random& ra
   const double high = cells.back().parameter.upper();
   for (int run = 0; run < runs; ++run) {
     Simulation simulation(example.design, Polar::Zero(), random.uniform(low, high));
-    const double start = run % 3 == 0 ? 1.0 : random.uniform(set.levels.back().low, 1.0);
+    const double start = run % 3 == 0 ? 1.0 : random.uniform(set.levels.back(), 1.0);
     simulation =
         Simulation(example.design,
                    Polar(test::steady_state(simulation, cells, example.design) + rim(set, start, random)),
@@ -115,10 +115,11 @@ void try_to_break(const Example& example, const SteadySet& set, test::Random& ra
       simulation.step(set.noise * Eigen::Vector2d(std::cos(angle), std::sin(angle)), used);
       const double next =
           level_of(set, simulation.state() - test::steady_state(simulation, cells, example.design));
-      double allowed = set.levels.back().low;
-      for (const LevelRange& range : set.levels) {
-        if (level >= range.low && level <= range.high * (1.0 + 1e-9)) {
-          allowed = std::max(allowed, range.rate * level);
+      // The step from the last level that holds the state leads to the next one.
+      double allowed = set.levels.back();
+      for (std::size_t j = 0; j + 1 < set.levels.size(); ++j) {
+        if (level <= set.levels[j] * (1.0 + 1e-9)) {
+          allowed = set.levels[j + 1];
         }
       }
       CHECK(next <= allowed * (1.0 + 1e-6) + 1e-9);
@@ -175,8 +176,8 @@ TEST_CASE("sets around the steady state: false proposals are not PROVED") {
   SUBCASE("much more slew") {
     set.slew = 0.1;
   }
-  SUBCASE("a rate faster than the tracker") {
-    set.levels.front().rate = 0.3;
+  SUBCASE("a step faster than the tracker") {
+    set.levels = {1.0, 0.3};
   }
   SUBCASE("a set beyond the half plane") {
     set.metric *= 0.05;
@@ -205,19 +206,34 @@ TEST_CASE("sets around the steady state: false proposals are not PROVED") {
   SUBCASE("negative noise") {
     set.noise = -1e-3;
   }
-  SUBCASE("a gap between the levels") {
-    set.levels.front().low *= 1.01;
-  }
   SUBCASE("levels that do not begin at 1") {
-    set.levels.front().high = 0.9;
+    set.levels.front() = 0.999;
+  }
+  SUBCASE("levels that do not fall") {
+    set.levels[1] = 1.0;
   }
   SUBCASE("level zero") {
-    set.levels.back().low = 0.0;
+    set.levels.back() = 0.0;
+  }
+  SUBCASE("a level that is not a number") {
+    set.levels.back() = kNan;
   }
   SUBCASE("no levels") {
     set.levels.clear();
   }
   CHECK(verdict(set) == Verdict::undecided);
+}
+
+TEST_CASE("sets around the steady state: levels that fail are dropped, the others stay PROVED") {
+  const Example example = example_of(0.0013, 0.01, 0.01, 0.5, 0.55, 0.0005, 0.0, 0.4);
+  REQUIRE(example.proposal.has_value());
+  SteadySet set = *example.proposal;
+  const std::size_t proposed = set.levels.size();
+  set.levels.push_back(0.3 * set.levels.back());  // noise keeps the tracker from there
+  const auto verification = verify_steady_set(example.design, example.branch.cells, set);
+  CHECK(verification.verdict == Verdict::proved);
+  CHECK(verification.set.levels.size() >= 2);
+  CHECK(verification.set.levels.size() <= proposed);
 }
 
 TEST_CASE("a certificate with a leak covers the start, or says why not") {
@@ -236,6 +252,18 @@ TEST_CASE("a certificate with a leak covers the start, or says why not") {
     const Interval bias = theorems::find_quantity(certificate.derivation, "bias_frequency").value;
     CHECK(magnitude(bias) < bound.upper());
     CHECK(bound.upper() < 0.2);
+  }
+  SUBCASE("a start outside the set is followed into it") {
+    question.tracker.initial_frequency_error = rigor::parse_decimal("0.25");
+    const auto certificate = certify_with_leak(question);
+    CHECK(certificate.derivation.verdict == Verdict::proved);
+    CHECK(theorems::find_quantity(certificate.derivation, "capture_samples").value.lower() >= 1.0);
+    CHECK(theorems::find_quantity(certificate.derivation, "frequency_error_bound").value.upper() >= 0.25);
+  }
+  SUBCASE("but not while the frequency moves") {
+    question.tracker.initial_frequency_error = rigor::parse_decimal("0.25");
+    question.tracker.slew = rigor::parse_decimal("1e-6");
+    CHECK(certify_with_leak(question).derivation.verdict == Verdict::undecided);
   }
   SUBCASE("a start far away") {
     question.tracker.initial_frequency_error = Interval(0.9);

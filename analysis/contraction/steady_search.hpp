@@ -1,0 +1,23 @@
+// Sets around the steady state: proposed and verified, the largest first. With a leak.
+#pragma once
+
+#include <optional>
+
+#include "analysis/contraction/contraction_question.hpp"
+#include "analysis/contraction/steady_verification.hpp"
+
+namespace veritrack::contraction {
+
+/// What was found for a question.
+struct SteadySearch {
+  bool shaped = false;                    ///< sampling found a shape to try at all
+  std::optional<SteadyVerification> set;  ///< PROVED for the assumed noise and slew, or the last attempt
+  double largest_noise = 0.0;  ///< certified without slew, relative to the amplitude; zero when none is
+  double largest_slew = 0.0;   ///< certified without noise, rad/sample per sample
+};
+
+/// Tries sets from the largest that sampling can imagine down. The branch must be PROVED. Opens its own
+/// rounding scopes; deterministic.
+[[nodiscard]] SteadySearch search_steady_sets(const ContractionQuestion& question, const LockBranch& branch);
+
+}  // namespace veritrack::contraction

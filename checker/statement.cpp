@@ -114,10 +114,8 @@ void check_verdict(const std::string& claimed, Verdict found, const std::string&
 
 void check_claim(const Tree& claimed, const Claim& found, Objections& objections) {
   const std::string& verdict = claimed.at("verdict").text();
-  if (verdict_from(verdict) == Verdict::undecided) {
-    return;
-  }
-  if (claimed.at("statement").text() != found.statement) {
+  const bool decided = verdict_from(verdict) != Verdict::undecided;
+  if (decided && claimed.at("statement").text() != found.statement) {
     objections.emplace_back("the statement is not the one that was checked");
   }
   check_verdict(verdict, found.verdict, "the claim", objections);

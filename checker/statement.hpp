@@ -80,7 +80,8 @@ void check_verdict(const std::string& claimed, Verdict found, const std::string&
 /// that are said not to be proved, and those that are said not to be applicable, claim nothing.
 void check_derivation(const Tree& claimed, const Derivation& found, Objections& objections);
 
-/// The same for a claim. Evidence that is not known is an objection; an UNDECIDED claim claims nothing.
+/// The same for a claim. Evidence that is not known is an objection; the words of an UNDECIDED claim claim
+/// nothing.
 void check_claim(const Tree& claimed, const Claim& found, Objections& objections);
 
 }  // namespace veritrack::checker

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "checker/contraction.hpp"
 #include "checker/guarantee.hpp"
@@ -219,6 +220,13 @@ bool Verification::verified() const {
 Verification verify(const Tree& certificate) {
   if (certificate.at("schema").text() != "veritrack/certificate/1") {
     throw Malformed("not a certificate of format 1");
+  }
+  static const std::set<std::string> known{"schema", "design",     "derivations", "certified_sets",
+                                           "audits", "comparison", "claims",      "verdict"};
+  for (const auto& [key, value] : certificate.members()) {
+    if (known.count(key) == 0) {
+      throw Malformed("the format has no \"" + key + "\"");
+    }
   }
   Verification result;
   const std::string& tracker = certificate.at("design").at("tracker").text();

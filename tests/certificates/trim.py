@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Makes the certificates of accepted/ from a whole one: a certificate that states less is a certificate.
 
-usage: trim.py CERTIFICATE.json theorem-2.9|contraction|one-set > accepted/NAME.json
+usage: trim.py CERTIFICATE.json theorem-2.9|published|repaired|contraction|one-set > accepted/NAME.json
 
 theorem-2.9   the two readings of Theorem 2.9 and their claims; no certified set
+published     the published results and the places of the proof of Theorem 2.9; no certified set
+repaired      the repaired theorem
 contraction   all certified sets, the derivation "contraction" and the claims that rest on it
 one-set       the same from the set that is checked fastest, for tests that check it hundreds of times
 """
@@ -21,9 +23,17 @@ def keep(certificate, derivations, claims):
 def main():
     certificate = json.load(open(sys.argv[1], encoding="utf-8"))
     kind = sys.argv[2]
-    if kind == "theorem-2.9":
-        readings = ["theorem-2.9/printed", "theorem-2.9/errata"]
-        keep(certificate, readings, [reading + "/conditions" for reading in readings])
+    without_sets = {
+        "theorem-2.9": lambda id: id in ("theorem-2.9/printed", "theorem-2.9/errata"),
+        "published": lambda id: not id.startswith(("theorem-2.9/", "contraction")),
+        "repaired": lambda id: id == "theorem-2.9/repaired",
+    }
+    if kind in without_sets:
+        kept = [d["id"] for d in certificate["derivations"] if without_sets[kind](d["id"])]
+        gaps = [claim["id"] for claim in certificate["claims"]
+                if kind == "published" and claim["id"].startswith("theorem-2.9/")
+                and not claim["id"].endswith("/conditions")]
+        keep(certificate, kept, gaps + [id + "/conditions" for id in kept])
         certificate["certified_sets"] = []
         certificate["design"]["require"] = {}
         certificate["verdict"] = "nothing-required"

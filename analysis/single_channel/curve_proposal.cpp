@@ -9,10 +9,10 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "analysis/rigor/derivatives.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "analysis/single_channel/invariant_curve.hpp"
 
 namespace veritrack::single_channel {
 
@@ -21,8 +21,7 @@ namespace {
 using trackers::QuadratureEkfDesign;
 using State = RotatingFrameState<double>;
 
-constexpr std::size_t kHarmonics = 28;
-constexpr int kSettlingSteps = 4000;
+constexpr int kSettlingSteps = 2000;
 
 /// The image of X at `phase` after one sample without noise.
 template <typename Scalar>
@@ -80,17 +79,15 @@ State weights_of(const PhaseSeries& curve) {
   return weights;
 }
 
-}  // namespace
-
-std::optional<PhaseSeries> propose_invariant_curve(const QuadratureEkfDesign<double>& design,
-                                                   double frequency) {
-  const rigor::NearestRounding outer;
-  constexpr std::size_t kNodes = 4 * kHarmonics;
-  std::vector<State> states(kNodes);
-  const auto phase_of = [](std::size_t node) {
-    return std::numbers::pi * static_cast<double>(node) / static_cast<double>(kNodes);
+/// The settled states as a trigonometric polynomial with so many harmonics.
+PhaseSeries settled_curve(const QuadratureEkfDesign<double>& design, double frequency,
+                          std::size_t harmonics) {
+  const std::size_t nodes = 4 * harmonics;
+  std::vector<State> states(nodes);
+  const auto phase_of = [nodes](std::size_t node) {
+    return std::numbers::pi * static_cast<double>(node) / static_cast<double>(nodes);
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, kNodes), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes), [&](const auto& range) {
     const rigor::NearestRounding nearest;
     for (std::size_t node = range.begin(); node < range.end(); ++node) {
       states[node] = settled_state(design, frequency, phase_of(node));
@@ -99,20 +96,90 @@ std::optional<PhaseSeries> propose_invariant_curve(const QuadratureEkfDesign<dou
       }
     }
   });
-  PhaseSeries curve{State::Zero(), std::vector<State>(kHarmonics, State::Zero()),
-                    std::vector<State>(kHarmonics, State::Zero())};
-  for (std::size_t node = 0; node < kNodes; ++node) {
-    curve.mean += states[node] / static_cast<double>(kNodes);
-    for (std::size_t k = 1; k <= kHarmonics; ++k) {
+  PhaseSeries curve{State::Zero(), std::vector<State>(harmonics, State::Zero()),
+                    std::vector<State>(harmonics, State::Zero())};
+  for (std::size_t node = 0; node < nodes; ++node) {
+    curve.mean += states[node] / static_cast<double>(nodes);
+    for (std::size_t k = 1; k <= harmonics; ++k) {
       const double angle = 2.0 * static_cast<double>(k) * phase_of(node);
-      curve.cosines[k - 1] += states[node] * (2.0 * std::cos(angle) / static_cast<double>(kNodes));
-      curve.sines[k - 1] += states[node] * (2.0 * std::sin(angle) / static_cast<double>(kNodes));
+      curve.cosines[k - 1] += states[node] * (2.0 * std::cos(angle) / static_cast<double>(nodes));
+      curve.sines[k - 1] += states[node] * (2.0 * std::sin(angle) / static_cast<double>(nodes));
     }
+  }
+  return curve;
+}
+
+constexpr std::size_t kManyHarmonics = 72;
+
+/// Whether the last harmonics still matter.
+bool needs_more_harmonics(const PhaseSeries& curve) {
+  constexpr double kSmall = 1e-11;
+  const double last =
+      std::max(curve.cosines.back().cwiseAbs().maxCoeff(), curve.sines.back().cwiseAbs().maxCoeff());
+  return last > kSmall * curve.mean.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+std::optional<PhaseSeries> propose_invariant_curve(const QuadratureEkfDesign<double>& design,
+                                                   double frequency) {
+  const rigor::NearestRounding outer;
+  PhaseSeries curve = settled_curve(design, frequency, kFewHarmonics);
+  if (needs_more_harmonics(curve)) {
+    curve = settled_curve(design, frequency, kManyHarmonics);
   }
   if (!curve.mean.allFinite()) {
     return std::nullopt;
   }
   return curve;
+}
+
+std::optional<PhaseFamily> propose_invariant_curves(const QuadratureEkfDesign<double>& design,
+                                                    const rigor::Interval& frequency) {
+  const rigor::NearestRounding outer;
+  const double center = midpoint(frequency);
+  const auto middle = propose_invariant_curve(design, center);
+  constexpr double kVeryNarrow = 1e-9;  // rad/sample
+  const double half_width = 0.5 * (frequency.upper() - frequency.lower());
+  if (!middle) {
+    return std::nullopt;
+  }
+  if (!(half_width > kVeryNarrow)) {
+    return PhaseFamily{center, 0.0, {*middle}};
+  }
+  // Interpolation at Chebyshev's points: terms[k] = sum_j weights(k, j) curve_j.
+  constexpr int kTerms = 5;
+  rigor::Matrix<kTerms> powers;
+  std::vector<PhaseSeries> curves;
+  curves.reserve(kTerms);
+  for (int j = 0; j < kTerms; ++j) {
+    const double t = std::cos(std::numbers::pi * (j + 0.5) / kTerms);
+    for (int k = 0; k < kTerms; ++k) {
+      powers(j, k) = std::pow(t, k);
+    }
+    curves.push_back(settled_curve(design, center + t * half_width, middle->cosines.size()));
+  }
+  const rigor::Matrix<kTerms> weights = powers.inverse();
+  PhaseFamily family{center, 1.0 / half_width, {}};
+  family.terms.reserve(kTerms);
+  for (int k = 0; k < kTerms; ++k) {
+    const std::size_t harmonics = middle->cosines.size();
+    PhaseSeries term{State::Zero(), std::vector<State>(harmonics, State::Zero()),
+                     std::vector<State>(harmonics, State::Zero())};
+    for (int j = 0; j < kTerms; ++j) {
+      const PhaseSeries& curve = curves[static_cast<std::size_t>(j)];
+      term.mean += weights(k, j) * curve.mean;
+      for (std::size_t i = 0; i < harmonics; ++i) {
+        term.cosines[i] += weights(k, j) * curve.cosines[i];
+        term.sines[i] += weights(k, j) * curve.sines[i];
+      }
+    }
+    if (!term.mean.allFinite()) {
+      return std::nullopt;
+    }
+    family.terms.push_back(std::move(term));
+  }
+  return family;
 }
 
 std::optional<CurveCoordinates> propose_coordinates(const QuadratureEkfDesign<double>& design,

@@ -2,13 +2,27 @@
 // coordinates the map contracts along it.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/single_channel/phase_series.hpp"
 
 namespace veritrack::single_channel {
+
+/// How many harmonics a proposed curve has, unless it needs more.
+inline constexpr std::size_t kFewHarmonics = 28;
+
+/// The steady state that a simulation settles on from the exact estimate, in double: a proposal, no proof.
+/// Nothing when it does not come out finite. `frequency` in rad/sample.
+[[nodiscard]] std::optional<PhaseSeries> propose_invariant_curve(
+    const trackers::QuadratureEkfDesign<double>& design, double frequency);
+
+/// The same for an interval of frequencies, by interpolation; a single curve for a very narrow one.
+[[nodiscard]] std::optional<PhaseFamily> propose_invariant_curves(
+    const trackers::QuadratureEkfDesign<double>& design, const rigor::Interval& frequency);
 
 /// Coordinates along a curve: X = C(phi) + V u, one V for each phase that was asked for.
 struct CurveCoordinates {

@@ -21,17 +21,18 @@
 // a contraction of the functions with values in the tube, complete in the supremum of |u|; it maps continuous
 // functions to continuous ones, and C is one of them; its fixed point is X*. |X* - C| <= kappa |X* - C| +
 // rho. QED
+// For an interval of frequencies C depends on omega too, and (a) to (c) are verified for all of them at once.
 //
 // Without a leak {delta = nu = 0} is mapped into itself (a test holds that), so that with a C of which these
 // components are zero the graph transform keeps them zero: the error part of X* is exactly zero.
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <string>
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/verdict.hpp"
-#include "analysis/single_channel/phase_series.hpp"
+#include "trackers/quadrature_ekf.hpp"
 
 namespace veritrack::single_channel {
 
@@ -52,14 +53,12 @@ struct SteadyStateBias {
   double distance = 0.0;      ///< rho / (1 - kappa), an upper bound
 };
 
-/// The steady state that a simulation settles on from the exact estimate, in double: a proposal, no proof.
-/// Nothing when it does not come out finite. `frequency` in rad/sample.
-[[nodiscard]] std::optional<PhaseSeries> propose_invariant_curve(
-    const trackers::QuadratureEkfDesign<double>& design, double frequency);
-
 /// The bias for every design in `design` (q1, q2, r, epsilon at amplitude 1) and every omega in `frequency`
-/// (rad/sample, in [0, pi]; narrow: a decimal's enclosure). Deterministic. Holds its own rounding modes.
+/// (rad/sample, in [0, pi]): a decimal's enclosure, or an interval of some thousandths, over which the
+/// enclosures hold for each frequency. At most that many cells of phase
+/// are tried. Deterministic. Holds its own rounding modes.
 [[nodiscard]] SteadyStateBias steady_state_bias(const trackers::QuadratureEkfDesign<rigor::Interval>& design,
-                                                const rigor::Interval& frequency);
+                                                const rigor::Interval& frequency,
+                                                std::size_t most_cells = 2048);
 
 }  // namespace veritrack::single_channel

@@ -1,4 +1,5 @@
-// Functions of the phase: trigonometric polynomials with values in the state space of the map over the phase.
+// Functions of the phase, and of the frequency: trigonometric polynomials with values in the state space of
+// the map over the phase.
 #pragma once
 
 #include <cstddef>
@@ -38,6 +39,27 @@ struct PhaseSeries {
       const Scalar next = cosine_k * cosine - sine_k * sine;
       sine_k = sine_k * cosine + cosine_k * sine;
       cosine_k = next;
+    }
+    return value;
+  }
+};
+
+/// A curve for each frequency of an interval: sum_k terms[k](phase) t^k, t = scale (omega - center).
+struct PhaseFamily {
+  double center = 0.0;  ///< rad/sample
+  double scale = 0.0;   ///< samples/rad; 0 when there is one term only
+  std::vector<PhaseSeries> terms;
+
+  /// X(phase; omega), phase in rad, omega in rad/sample.
+  template <typename Scalar>
+  [[nodiscard]] RotatingFrameState<Scalar> at(const Scalar& phase, const Scalar& omega) const {
+    const Scalar t = Scalar(scale) * (omega - Scalar(center));
+    RotatingFrameState<Scalar> value = terms.back().at(phase);
+    for (std::size_t k = terms.size() - 1; k > 0; --k) {
+      const RotatingFrameState<Scalar> term = terms[k - 1].at(phase);
+      for (Eigen::Index i = 0; i < value.size(); ++i) {
+        value(i) = value(i) * t + term(i);
+      }
     }
     return value;
   }

@@ -72,6 +72,34 @@ TEST_CASE("the enclosures of the bias hold what the paper's filter settles on") 
   }
 }
 
+TEST_CASE("over an interval of frequencies the enclosures hold the bias at each of them") {
+  const QuadratureEkfDesign<double> design{0.005, 0.005, 0.01, 0.05};
+  for (const double frequency : {0.9, 1.5}) {
+    const rigor::UpwardRounding upward;
+    const Interval interval = Interval::from_bounds(frequency - 0.003, frequency + 0.003);
+    const SteadyStateBias around = steady_state_bias(
+        {Interval(design.q1), Interval(design.q2), Interval(design.r), Interval(design.epsilon)}, interval);
+    CAPTURE(around.reason);
+    REQUIRE(around.verdict == Verdict::proved);
+    CHECK(rigor::width(around.mean_bias) < 0.002);
+    for (const double part : {-1.0, -0.3, 0.6, 1.0}) {
+      const rigor::NearestRounding nearest;
+      const std::vector<double> errors = settled_errors(design, frequency + 0.003 * part);
+      double sum = 0.0;
+      for (const double error : errors) {
+        sum += error;
+        CHECK(error >= around.min_error.lower());
+        CHECK(error <= around.max_error.upper());
+      }
+      const double mean = sum / static_cast<double>(errors.size());
+      CHECK(mean > around.mean_bias.lower() - 1e-5);  // a finite run has a slightly different mean
+      CHECK(mean < around.mean_bias.upper() + 1e-5);
+      CHECK(*std::min_element(errors.begin(), errors.end()) <= around.min_error.upper() + 1e-5);
+      CHECK(*std::max_element(errors.begin(), errors.end()) >= around.max_error.lower() - 1e-5);
+    }
+  }
+}
+
 TEST_CASE("without a leak the error part of the steady state is exactly zero") {
   for (const double frequency : {0.52, 1.5, 2.6}) {
     const SteadyStateBias bias = bias_of({0.005, 0.005, 0.01, 0.0}, frequency);

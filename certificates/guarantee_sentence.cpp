@@ -64,12 +64,12 @@ std::string assumptions(const GuaranteeTerms& terms) {
 std::string ground(const Certificate& certificate) {
   const theorems::Derivation& derivation = *deciding_derivation(certificate);
   std::string text;
-  const auto* samples = applicable_quantity(derivation, "capture_samples");
-  if (samples != nullptr && samples->value.upper() > 0.0) {
+  const auto* captured = applicable_quantity(derivation, "capture_samples");
+  if (captured != nullptr && captured->value.upper() > 0.0) {
     text = fmt::format(
         "Every such start is followed, by verified propagation, into a set that the tracker never leaves: it "
         "is there after at most {} samples. ",
-        up(samples->value));
+        up(captured->value));
   } else {
     text = "All these starts lie in a set that the tracker never leaves. ";
   }

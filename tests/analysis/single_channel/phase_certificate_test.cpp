@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -70,6 +71,51 @@ TEST_CASE("no attack breaks what is proved") {
       }
     }
     CHECK(largest > 0.02 * bound);  // the attack is one
+  }
+}
+
+/// An error (delta, nu) of that level in the metric of the steady state that the start has.
+rigor::Vector<3> error_of_level(const Case& one, double phase, double frequency, double level,
+                                test::Random& random) {
+  rigor::Vector<3> error(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+  rigor::Matrix<3> turn = rigor::Matrix<3>::Identity();
+  turn.topLeftCorner<2, 2>() << std::cos(phase), std::sin(phase), -std::sin(phase), std::cos(phase);
+  double turned_by = 0.0;
+  for (int round = 0; round < 4; ++round) {  // the covariance depends on the phase that the start has
+    const rigor::Matrix<3> p =
+        turn * test::steady_covariance(one.q, one.r, frequency, phase + turned_by).cast<double>() *
+        turn.transpose();
+    error *= level / std::sqrt(error.dot(p.inverse() * error));
+    turned_by = std::atan2(error(1), 1.0 + error(0));
+  }
+  return error;
+}
+
+TEST_CASE("no attack from the rim of a certified set leaves it") {
+  test::Random random(1);
+  for (const Case& one :
+       {Case{0.005, 0.01, 1.4, 1.5, 0.0008, 0.0001, 0.0}, Case{1.0, 10.0, 0.5, 0.55, 0.0, 0.0, 0.0}}) {
+    const rigor::UpwardRounding upward;
+    const auto set = PhaseSearch(question_of(one)).largest_set();
+    REQUIRE(set);
+    const WindowAssumption& assumption = set->claim.assumption;
+    const double bound = assumption.radius * std::sqrt(assumption.frequency_variance);
+    const rigor::NearestRounding nearest;
+    double largest = 0.0;
+    for (std::int64_t run = 0; run < test::effort(60); ++run) {
+      CAPTURE(run);
+      const double phase = random.uniform(0.0, std::numbers::pi);
+      const double frequency = random.uniform(one.low, one.high);
+      const rigor::Vector<3> e = error_of_level(one, phase, frequency, 0.999 * set->start_level, random);
+      const auto errors = test::attacked_errors({one.q, one.r, phase, frequency, one.low, one.high, one.noise,
+                                                 one.slew, std::hypot(1.0 + e(0), e(1)) - 1.0,
+                                                 std::atan2(e(1), 1.0 + e(0)), e(2), 100});
+      for (const double error : errors) {
+        CHECK(std::fabs(error) <= bound);
+        largest = std::max(largest, std::fabs(error));
+      }
+    }
+    CHECK(largest > 0.4 * bound);
   }
 }
 

@@ -1,0 +1,106 @@
+#include "checker/ball.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "checker/matrix3.hpp"
+#include "tests/support/random.hpp"
+
+namespace {
+
+using namespace veritrack;
+using namespace veritrack::checker;
+
+bool holds(const Ball& ball, const Ball& point) {
+  return arb_contains(ball.raw(), point.raw()) != 0;
+}
+
+}  // namespace
+
+TEST_CASE("what is not a number, or may be infinite, is certain of nothing") {
+  for (const Ball& odd :
+       {Ball::everything(), Ball(1.0) / Ball(0.0), sqrt(Ball(-1.0)), log(Ball(0.0)), Ball(HUGE_VAL)}) {
+    CHECK(!certainly_positive(odd));
+    CHECK(!certainly_less(odd, Ball(1.0)));
+    CHECK(!certainly_less(Ball(1.0), odd));
+    CHECK(!certainly_at_most(odd, odd));
+    CHECK(!certainly_equal(odd, odd));
+    CHECK(decide_less(odd, Ball(0.0)) == Verdict::undecided);
+  }
+}
+
+TEST_CASE("decimals and hexadecimal numbers") {
+  CHECK(certainly_equal(from_decimal("0.5"), Ball(0.5)));
+  CHECK(certainly_equal(from_decimal("-1_000.25e+1"), Ball(-10002.5)));
+  CHECK(holds(from_decimal("0.1") * Ball(10.0), Ball(1.0)));
+  CHECK(!holds(from_decimal("0.1"), Ball(0.1)));  // the double is another number
+  for (const char* text : {"", "-", ".5", "1.", "1e", "1e+", "0x1p+0", "nan", "inf", "1 ", " 1", "1__0", "_1",
+                           "1_", "1e99999", "1,5", "[1 +/- 2]", "1e5.5"}) {
+    CHECK_THROWS_AS_MESSAGE((void)from_decimal(text), std::invalid_argument, text);
+  }
+  CHECK(certainly_equal(from_hexadecimal("-0x1.8p-3"), Ball(-0.1875)));
+  CHECK(certainly_equal(from_hexadecimal("0x0p+0"), Ball(0.0)));
+  for (const char* text :
+       {"", "0x", "0x1", "0x1p", "0x1p+", "1p+0", "0x2p+0", "0x1.p+0", "0x1.8P+0", "0x1.8p0", "inf", "nan",
+        "+0x1p+0", "0x1p+0 ", "0x1.ffffffffffffffp+0", "0x1p+99999"}) {
+    CHECK_THROWS_AS_MESSAGE((void)from_hexadecimal(text), std::invalid_argument, text);
+  }
+}
+
+TEST_CASE("ratios over balls hold their values at points of them") {
+  test::Random random(73);
+  for (std::int64_t i = 0; i < test::effort(2000); ++i) {
+    const double centre = random.uniform(-2.9, 2.9) * std::exp2(-static_cast<double>(random.below(60)));
+    const double radius = std::fmin(0.09, std::exp2(-static_cast<double>(random.below(60))));
+    const Ball x = Ball::hull(Ball(centre - radius), Ball(centre + radius));
+    const Ball at(random.uniform(centre - radius, centre + radius));
+    CAPTURE(centre);
+    CAPTURE(radius);
+    const Ratio sine = sine_ratio(x);
+    const Ratio arctangent = arctangent_ratio(x);
+    if (std::fabs(at.near()) > 1e-6) {
+      Ball angle;
+      arb_atan(angle.raw(), at.raw(), 400);
+      CHECK(arb_overlaps(sine.value.raw(), (sin(at) / at).raw()) != 0);
+      CHECK(arb_overlaps(sine.slope.raw(), ((cos(at) - sin(at) / at) / square(at)).raw()) != 0);
+      CHECK(arb_overlaps(arctangent.value.raw(), (angle / at).raw()) != 0);
+      CHECK(arb_overlaps(arctangent.slope.raw(),
+                         ((Ball(1.0) / (Ball(1.0) + square(at)) - angle / at) / square(at)).raw()) != 0);
+    }
+    CHECK(sine.value.finite());
+    CHECK(arctangent.slope.finite());
+  }
+  CHECK(!sine_ratio(Ball(3.5)).value.finite());
+}
+
+TEST_CASE("matrices: eigenvalues, inverse, definiteness") {
+  test::Random random(74);
+  for (std::int64_t i = 0; i < test::effort(300); ++i) {
+    CAPTURE(i);
+    Matrix3 root;
+    for (auto& row : root) {
+      for (Ball& entry : row) {
+        entry = Ball(random.uniform(-1.0, 1.0));
+      }
+    }
+    const Matrix3 p = congruent(root, diagonal(Ball(1.0), Ball(2.0), Ball(3.0)));
+    const Range eigenvalues = extreme_eigenvalues(p);
+    const Ball shift(1e-9);
+    const auto minus = [&](const Ball& x) { return diagonal(x, x, x); };
+    CHECK(definite(p - minus(eigenvalues.low - shift)));
+    CHECK(!definite(p - minus(eigenvalues.low + shift)));
+    CHECK(definite(minus(eigenvalues.high + shift) - p));
+    CHECK(!definite(minus(eigenvalues.high - shift) - p));
+    const Matrix3 over = inverse(p);
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t column = 0; column < 3; ++column) {
+        const Ball product =
+            p[row][0] * over[0][column] + p[row][1] * over[1][column] + p[row][2] * over[2][column];
+        CHECK(holds(product, Ball(row == column ? 1.0 : 0.0)));
+      }
+    }
+  }
+}

@@ -74,6 +74,12 @@ PhaseSearch::PhaseSearch(const PhaseQuestion& question) : question_(question) {
               question.band.upper(),
               tracker.slew.upper()};
   proposals_ = propose_windows(request_);
+  still_proposals_ = proposals_;
+  if (!(request_.slew == 0.0)) {
+    WindowRequest still = request_;
+    still.slew = 0.0;
+    still_proposals_ = propose_windows(still);
+  }
 }
 
 std::optional<PhaseSet> PhaseSearch::verified(const WindowClaim& proposal, const Interval& noise,
@@ -181,9 +187,7 @@ std::optional<PhaseSet> PhaseSearch::largest_noise() const {
     const Interval input = WindowErrors(design, claim, zero, zero).largest_input();
     return kBelow * (input * sqrt(design.r)).lower();
   };
-  WindowRequest request = request_;
-  request.slew = 0.0;
-  for (const WindowClaim& proposal : best_first(propose_windows(request), noise_of)) {
+  for (const WindowClaim& proposal : best_first(still_proposals_, noise_of)) {
     for (const double slack : {0.012, kUsualSlack, 0.05}) {
       const double noise = noise_of(with_slack(proposal, slack));
       if (!(noise > 0.0)) {
@@ -206,13 +210,12 @@ std::optional<PhaseSet> PhaseSearch::largest_slew() const {
     return (input * sqrt(design.q2)).lower();
   };
   // The slew that the recursion would bear if it did not blur the phases in the window, and parts of it.
-  WindowRequest request = request_;
-  request.slew = 0.0;
-  const std::vector<WindowClaim> still = best_first(propose_windows(request), room_for);
+  const std::vector<WindowClaim> still = best_first(still_proposals_, room_for);
   if (still.empty()) {
     return std::nullopt;
   }
   const double most = room_for(still.front());
+  WindowRequest request = request_;
   for (const double part : {0.6, 0.35, 0.2, 0.1}) {
     request.slew = part * most;
     const auto spare = [&](const WindowClaim& claim) { return room_for(claim) - request.slew; };

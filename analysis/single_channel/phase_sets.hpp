@@ -65,7 +65,8 @@ class PhaseSearch {
   PhaseQuestion question_;
   WindowRequest request_;
   StartBox box_;
-  std::vector<WindowClaim> proposals_;
+  std::vector<WindowClaim> proposals_;        ///< under the assumed slew
+  std::vector<WindowClaim> still_proposals_;  ///< without slew
 };
 
 }  // namespace veritrack::single_channel

@@ -76,10 +76,14 @@ class Search {
   }
 
   [[nodiscard]] Eigen::Vector3d rim(const Eigen::Vector3d& direction) const {
-    return claim_.inverse_metric() * direction.normalized() * claim_.set().radius;
+    return claim_.center() + claim_.inverse_metric() * direction.normalized() * claim_.set().radius;
   }
-  [[nodiscard]] Attack start_at(std::string structure, const Eigen::Vector3d& error, double share) const {
-    return {std::move(structure), error, claim_.covariance_at(share * Eigen::Matrix3d::Identity()), {}};
+  [[nodiscard]] Attack start_at(std::string structure, const Eigen::Vector3d& error, double share,
+                                bool from_zero) const {
+    return {std::move(structure),
+            error,
+            claim_.covariance_at(share * Eigen::Matrix3d::Identity(), from_zero),
+            {}};
   }
   Eigen::Vector3d random_rim() { return rim({random_.normal(), random_.normal(), random_.normal()}); }
 
@@ -95,21 +99,22 @@ class Search {
   void greedy(bool from_zero) {
     for (const bool level : {true, false}) {
       for (int j = 0; j < 2; ++j) {
-        const Eigen::Vector3d start = from_zero ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : random_rim();
+        const Eigen::Vector3d start = from_zero ? claim_.center() : random_rim();
         const InputPolicy policy = [&](int, const PolarState& state) -> Eigen::Vector3d {
           Vector9 weight = Vector9::Zero();
           Vector12 x = Vector12::Zero();
           x.head<9>() = vector_of(state);
           const Vector9 free = next_state(claim_, x);
           if (level) {
-            weight.head<3>() = claim_.set().metric.transpose() * (claim_.set().metric * free.head<3>());
+            weight.head<3>() =
+                claim_.set().metric.transpose() * (claim_.set().metric * (free.head<3>() - claim_.center()));
           }
           if (weight.isZero(0.0)) {
             weight[2] = free[2] >= 0.0 ? 1.0 : -1.0;
           }
           return push(pulled_back(claim_, weight, state, Eigen::Vector3d::Zero()).tail<3>());
         };
-        attempt(start_at("greedy", start, j), policy, options_.steps, from_zero);
+        attempt(start_at("greedy", start, j, from_zero), policy, options_.steps, from_zero);
       }
     }
   }
@@ -122,8 +127,8 @@ class Search {
         break;
       }
       for (const bool level : {true, false}) {
-        Eigen::Vector3d error = from_zero ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : random_rim();
-        Attack start = start_at("gradient", error, 0.5);
+        Eigen::Vector3d error = from_zero ? claim_.center() : random_rim();
+        Attack start = start_at("gradient", error, 0.5, from_zero);
         std::vector<Eigen::Vector3d> inputs(static_cast<std::size_t>(horizon), Eigen::Vector3d::Zero());
         for (int i = 0; i <= options_.gradient_iterations; ++i) {
           const auto policy = [&](int k, const PolarState&) { return inputs[static_cast<std::size_t>(k)]; };
@@ -142,8 +147,9 @@ class Search {
     const Eigen::Matrix3d& t = claim_.set().metric;
     Vector9 weight = Vector9::Zero();
     weight[2] = 1.0;
-    if (level && !as_vector(outcome.states.back().error).isZero(0.0)) {
-      weight.head<3>() = t.transpose() * (t * as_vector(outcome.states.back().error));
+    const Eigen::Vector3d deviation = as_vector(outcome.states.back().error) - claim_.center();
+    if (level && !deviation.isZero(0.0)) {
+      weight.head<3>() = t.transpose() * (t * deviation);
     }
     for (std::size_t k = inputs.size(); k-- > 0;) {
       const Vector12 gradient = pulled_back(claim_, weight, outcome.states[k], inputs[k]);
@@ -166,7 +172,7 @@ class Search {
         share += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
       }
     }
-    start.start_covariance = claim_.covariance_at(share);
+    start.start_covariance = claim_.covariance_at(share, from_zero);
   }
 
   double periodic_run(const Periodic& shape, const Attack& start, bool from_zero) {
@@ -206,12 +212,13 @@ class Search {
         if (result_.alarm) {
           return 0.0;  // enough
         }
-        Eigen::Vector3d error = Eigen::Vector3d::Zero();
+        Eigen::Vector3d error = claim_.center();
         if (!from_zero) {
           const double across = std::sqrt(std::max(0.0, 1.0 - x[6] * x[6]));
           error = rim({across * std::cos(x[5]), across * std::sin(x[5]), x[6]});
         }
-        return periodic_run({x[0], x[1], x[2], x[3], family.turning}, start_at(name, error, x[4]), from_zero);
+        return periodic_run({x[0], x[1], x[2], x[3], family.turning}, start_at(name, error, x[4], from_zero),
+                            from_zero);
       };
       value(first);
       name += " + search";
@@ -240,10 +247,14 @@ class Search {
 Falsification try_to_break(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double>& design,
                            const FalsifierOptions& options) {
   const rigor::NearestRounding nearest;
+  return try_to_break(Claim(set, design), options);
+}
+
+Falsification try_to_break(const Claim& claim, const FalsifierOptions& options) {
+  const rigor::NearestRounding nearest;
   if (options.steps < 1) {
     throw std::invalid_argument("a run has at least one step");
   }
-  const Claim claim(set, design);
   return Search(claim, options).run();
 }
 

@@ -18,7 +18,7 @@ Vector9 vector_of(const PolarState& s) {
 }
 
 Vector9 next_state(const Claim& claim, const Vector12& x) {
-  const trackers::PolarInput<double> input{x[9], x[10], x[11], 0.0};
+  const trackers::PolarInput<double> input{x[9], x[10], x[11], claim.frequency()};
   return vector_of(trackers::polar_frame_map<double>(state_of(x.head<9>()), input, claim.design()));
 }
 
@@ -44,7 +44,7 @@ Vector12 pulled_back(const Claim& claim, const Vector9& weight, const PolarState
 
 double own_frequency(const Claim& claim, int steps) {
   Vector12 x = Vector12::Zero();
-  x.head<9>() = vector_of({{0.0, 0.0, 0.0},
+  x.head<9>() = vector_of({{claim.center()[0], claim.center()[1], claim.center()[2]},
                            trackers::PolarCovariance<double>::from_matrix(
                                claim.covariance_at(0.5 * Eigen::Matrix3d::Identity()))});
   for (int k = 0; k < steps; ++k) {

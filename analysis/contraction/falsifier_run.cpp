@@ -44,35 +44,95 @@ std::string told(const char* what, double found, double certified) {
 }  // namespace
 
 Claim::Claim(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double>& design)
-    : set_(set), design_(design), inverse_metric_(set.metric.inverse()) {
-  const Eigen::LLT<Eigen::Matrix3d> factor(set.covariance_upper - set.covariance_lower);
-  root_ = factor.matrixL();
-  inverse_root_ = root_.inverse();
+    : set_(set), design_(design) {
   {
     const rigor::UpwardRounding upward;
     const Interval ultimate = ultimate_level(set, Interval(set.noise), Interval(set.slew));
     bound_from_rim_ = error_bounds(set, Interval(set.radius))[2].upper();
     bound_from_zero_ = error_bounds(set, ultimate)[2].upper();
   }
-  const bool is_set = factor.info() == Eigen::Success && inverse_metric_.allFinite() &&
-                      inverse_root_.allFinite() && set.covariance_lower.allFinite() && set.radius > 0.0 &&
-                      set.noise >= 0.0 && set.slew >= 0.0 && std::isfinite(bound_from_rim_) &&
-                      std::isfinite(bound_from_zero_) && design.epsilon == 0.0;
+  complete(design.epsilon == 0.0);
+}
+
+Claim::Claim(const SteadySet& set, const trackers::QuadratureEkfDesign<double>& design,
+             const PolarState& steady, double frequency)
+    : design_(design),
+      center_(as_vector(steady.error)),
+      center_covariance_(steady.covariance.matrix()),
+      frequency_(frequency),
+      levels_(set.levels) {
+  set_.metric = set.metric;
+  set_.radius = 1.0;
+  set_.covariance_lower = center_covariance_ - set.below;
+  set_.covariance_upper = center_covariance_ + set.above;
+  set_.noise = set.noise;
+  if (!levels_.empty()) {
+    const rigor::UpwardRounding upward;
+    bound_from_rim_ = error_bounds(set, Interval(1.0))[2].upper();
+    bound_from_zero_ = error_bounds(set, Interval(levels_.back()))[2].upper();
+  }
+  complete(!levels_.empty() && std::isfinite(frequency));
+}
+
+void Claim::complete(bool fits) {
+  const Eigen::LLT<Eigen::Matrix3d> factor(set_.covariance_upper - set_.covariance_lower);
+  inverse_metric_ = set_.metric.inverse();
+  root_ = factor.matrixL();
+  inverse_root_ = root_.inverse();
+  const bool is_set = fits && factor.info() == Eigen::Success && inverse_metric_.allFinite() &&
+                      inverse_root_.allFinite() && set_.covariance_lower.allFinite() && set_.radius > 0.0 &&
+                      set_.noise >= 0.0 && set_.slew >= 0.0 && std::isfinite(bound_from_rim_) &&
+                      std::isfinite(bound_from_zero_) && center_.allFinite();
   if (!is_set) {
-    throw std::invalid_argument("what is to be broken is not a certified set for epsilon = 0");
+    throw std::invalid_argument("what is to be broken is not a certified set for this design");
   }
 }
 
-Eigen::Matrix3d Claim::covariance_at(const Eigen::Matrix3d& share) const {
-  return set_.covariance_lower + root_ * share * root_.transpose();
+Eigen::Matrix3d Claim::covariance_at(const Eigen::Matrix3d& share, bool at_center) const {
+  const Eigen::Matrix3d member = set_.covariance_lower + root_ * share * root_.transpose();
+  const double level = at_center && !levels_.empty() ? levels_.back() : 1.0;
+  return level < 1.0 ? Eigen::Matrix3d(center_covariance_ + level * (member - center_covariance_)) : member;
 }
 
-bool Claim::covariance_is_inside(const Eigen::Matrix3d& covariance) const {
-  const Eigen::Matrix3d share =
-      inverse_root_ * (covariance - set_.covariance_lower) * inverse_root_.transpose();
-  const Eigen::Matrix3d room = kCovarianceRoom * Eigen::Matrix3d::Identity();
-  return is_positive_definite(share + room) &&
-         is_positive_definite(Eigen::Matrix3d::Identity() - share + room);
+bool Claim::covariance_is_inside(const Eigen::Matrix3d& covariance, double share, double room) const {
+  const Eigen::Matrix3d lower = center_covariance_ + share * (set_.covariance_lower - center_covariance_);
+  const Eigen::Matrix3d y = inverse_root_ * (covariance - lower) * inverse_root_.transpose();
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  return is_positive_definite(y + room * identity) && is_positive_definite((share + room) * identity - y);
+}
+
+std::optional<std::string> Claim::broken_by(const PolarState& before, const Eigen::Vector3d& input,
+                                            const PolarState& after) const {
+  const double level_before = level(as_vector(before.error));
+  const double level_after = level(as_vector(after.error));
+  double share = 1.0;  // of the covariance bounds, that is certified after the step
+  // Negated on purpose: NaN is an alarm too.
+  if (levels_.empty()) {
+    const double allowed = std::sqrt(square(set_.rate * level_before) +
+                                     square(set_.noise_gain * std::hypot(input[0], input[1])) +
+                                     square(set_.slew_gain * input[2]));
+    if (!(level_after <= allowed * (1.0 + kRelativeRoom) + kAbsoluteRoom * set_.metric.norm())) {
+      return told("|T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2 w^2", level_after, allowed);
+    }
+  } else {
+    // From the last level that holds the state to the next one.
+    std::size_t next = std::min<std::size_t>(1, levels_.size() - 1);
+    while (next + 1 < levels_.size() && level_before <= levels_[next] * (1.0 - kRelativeRoom) &&
+           covariance_is_inside(before.covariance.matrix(), levels_[next], -kCovarianceRoom)) {
+      ++next;
+    }
+    share = levels_[next];
+    if (!(level_after <= share * (1.0 + kRelativeRoom) + kAbsoluteRoom * set_.metric.norm())) {
+      return told("a step to the next level", level_after, share);
+    }
+  }
+  if (!(level_after <= set_.radius * (1.0 + kRelativeRoom))) {
+    return told("|T e| <= R", level_after, set_.radius);
+  }
+  if (!covariance_is_inside(after.covariance.matrix(), share, kCovarianceRoom)) {
+    return "P_lo <= P <= P_hi: the covariance has left its bounds";
+  }
+  return std::nullopt;
 }
 
 RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolicy& policy, int steps) {
@@ -83,9 +143,8 @@ RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolic
   if (!(rho > 0.0)) {
     return outcome;
   }
-  // Without a leak the frequency does not matter; this one is as good as any.
   double phase = 0.4;
-  double frequency = 0.7;
+  double frequency = claim.frequency();
   const double estimated = phase + start.start_error[1];
   const double sine = std::sin(estimated);
   const double cosine = std::cos(estimated);
@@ -94,12 +153,8 @@ RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolic
       trackers::FactoredCovariance<double>::from_matrix(start.start_covariance)};
   trackers::QuadratureEkf<double> tracker(claim.design(), trackers::turned(own, sine, cosine));
   outcome.states.push_back(trackers::to_polar_frame(tracker.filtered(), 1.0, phase, frequency));
-  const CertifiedSet& set = claim.set();
-  const auto raise = [&](std::string statement, int k) {
-    outcome.alarm = Alarm{outcome.attack, std::move(statement), k};
-  };
   for (int k = 0; k < steps; ++k) {
-    const PolarState& before = outcome.states.back();
+    const PolarState before = outcome.states.back();
     const Eigen::Vector3d input = policy(k, before);
     outcome.attack.inputs.push_back(input);
     const double predicted_phase = phase + before.error.phase + (before.error.frequency + frequency);
@@ -110,25 +165,17 @@ RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolic
     tracker.step(std::cos(phase) + input[0] * c - input[1] * s,
                  std::sin(phase) + input[0] * s + input[1] * c);
     const PolarState after = trackers::to_polar_frame(tracker.filtered(), 1.0, phase, frequency);
-    const double level_before = claim.level(as_vector(before.error));
-    outcome.states.push_back(after);
-    const Eigen::Vector3d error = as_vector(after.error);
-    const double level = claim.level(error);
-    const double allowed =
-        std::sqrt(square(set.rate * level_before) + square(set.noise_gain * std::hypot(input[0], input[1])) +
-                  square(set.slew_gain * input[2]));
-    outcome.largest_level = std::max(outcome.largest_level, level / set.radius);
-    if (!(std::abs(error[2]) <= outcome.frequency_error)) {
-      outcome.frequency_error = std::abs(error[2]);
-      outcome.step = k + 1;
+    const std::optional<std::string> broken = claim.broken_by(before, input, after);
+    if (broken) {
+      outcome.alarm = Alarm{outcome.attack, *broken, k + 1};
     }
-    // Negated on purpose: NaN is an alarm too.
-    if (!(level <= allowed * (1.0 + kRelativeRoom) + kAbsoluteRoom * set.metric.norm())) {
-      raise(told("|T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2 w^2", level, allowed), k + 1);
-    } else if (!(level <= set.radius * (1.0 + kRelativeRoom))) {
-      raise(told("|T e| <= R", level, set.radius), k + 1);
-    } else if (!claim.covariance_is_inside(after.covariance.matrix())) {
-      raise("P_lo <= P <= P_hi: the covariance has left its bounds", k + 1);
+    outcome.states.push_back(after);
+    outcome.largest_level =
+        std::max(outcome.largest_level, claim.level(as_vector(after.error)) / claim.set().radius);
+    const double deviation = std::abs(after.error.frequency - claim.center()[2]);
+    if (!(deviation <= outcome.frequency_error)) {
+      outcome.frequency_error = deviation;
+      outcome.step = k + 1;
     }
     if (outcome.alarm) {
       break;

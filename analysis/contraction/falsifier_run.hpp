@@ -2,36 +2,63 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "analysis/contraction/falsifier.hpp"
+#include "analysis/contraction/steady_set.hpp"
 #include "trackers/quadrature_polar_frame.hpp"
 
 namespace veritrack::contraction {
 
 using PolarState = trackers::PolarFrameState<double>;
 
-/// A claim in floating point: the set with what follows from it.
+/// A claim in floating point: the set with what follows from it. With a leak it is that of a SteadySet at one
+/// constant frequency, which is a set around the steady state there; without, the centre is zero.
 class Claim {
  public:
-  /// Throws std::invalid_argument when the set is not one.
+  /// Without a leak. Throws std::invalid_argument when the set is not one.
   Claim(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double>& design);
+  /// With a leak, at this frequency (rad/sample) and for slew zero; `steady` is the steady state there, to
+  /// rounding. Throws as above.
+  Claim(const SteadySet& set, const trackers::QuadratureEkfDesign<double>& design, const PolarState& steady,
+        double frequency);
 
+  /// With a leak: {|T (e - centre)| <= 1} x {P* - below <= P <= P* + above}, rates and gains without meaning.
   [[nodiscard]] const CertifiedSet& set() const { return set_; }
+  [[nodiscard]] const Eigen::Vector3d& center() const { return center_; }
+  [[nodiscard]] double frequency() const { return frequency_; }
   [[nodiscard]] const trackers::QuadratureEkfDesign<double>& design() const { return design_; }
   [[nodiscard]] const Eigen::Matrix3d& inverse_metric() const { return inverse_metric_; }
-  [[nodiscard]] double level(const Eigen::Vector3d& error) const { return (set_.metric * error).norm(); }
-  /// Bounds on |frequency error|, rad/sample: that of the set, and that of starts at zero.
+  [[nodiscard]] double level(const Eigen::Vector3d& error) const {
+    return (set_.metric * (error - center_)).norm();
+  }
+  /// Bounds on |frequency error - that of the centre|, rad/sample: that of the set, and that of starts at the
+  /// centre.
   [[nodiscard]] double bound_from_rim() const { return bound_from_rim_; }
   [[nodiscard]] double bound_from_zero() const { return bound_from_zero_; }
-  /// P_lo + C Y C', C C' = P_hi - P_lo: a member for every 0 <= Y <= I.
-  [[nodiscard]] Eigen::Matrix3d covariance_at(const Eigen::Matrix3d& share) const;
+  /// P_lo + C Y C', C C' = P_hi - P_lo: a member for every 0 <= Y <= I. Starts at the centre are of the last
+  /// level of a set with a leak.
+  [[nodiscard]] Eigen::Matrix3d covariance_at(const Eigen::Matrix3d& share, bool at_center = false) const;
   [[nodiscard]] const Eigen::Matrix3d& covariance_root() const { return root_; }
-  /// Is 0 <= Y <= I, up to rounding?
-  [[nodiscard]] bool covariance_is_inside(const Eigen::Matrix3d& covariance) const;
+  /// What a step contradicts, with the numbers; nothing when all is as it should be. `input` is (noise along,
+  /// noise across, slew).
+  [[nodiscard]] std::optional<std::string> broken_by(const PolarState& before, const Eigen::Vector3d& input,
+                                                     const PolarState& after) const;
 
  private:
+  /// The members that follow from the set; the bounds apart.
+  void complete(bool fits);
+  /// Is P between the bounds of the level `share`, with this room (relative) beyond them?
+  [[nodiscard]] bool covariance_is_inside(const Eigen::Matrix3d& covariance, double share, double room) const;
+
   CertifiedSet set_;
   trackers::QuadratureEkfDesign<double> design_;
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d center_covariance_ = Eigen::Matrix3d::Zero();
+  double frequency_ = 0.7;      ///< without a leak it does not matter; this one is as good as any
+  std::vector<double> levels_;  ///< with a leak
   Eigen::Matrix3d inverse_metric_;
   Eigen::Matrix3d root_;
   Eigen::Matrix3d inverse_root_;
@@ -61,5 +88,9 @@ struct RunOutcome {
 /// has, gives an empty outcome. Needs round to nearest.
 [[nodiscard]] RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolicy& policy,
                                      int steps);
+
+/// As try_to_break of falsifier.hpp, where the centre takes the place of zero. With a leak the structure of
+/// what is certified is that of SteadySet: each step leads to the next level.
+[[nodiscard]] Falsification try_to_break(const Claim& claim, const FalsifierOptions& options = {});
 
 }  // namespace veritrack::contraction

@@ -20,8 +20,7 @@ constexpr Eigen::Index kAngles = 10;
 
 class Escape {
  public:
-  Escape(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double>& design)
-      : claim_(set, design), random_(20261121) {}
+  explicit Escape(const Claim& claim) : claim_(claim), random_(20261121) {}
 
   /// The largest |T e+| / radius that ascent finds from the best start so far and a few new ones.
   double largest_ratio(double radius) {
@@ -48,7 +47,7 @@ class Escape {
   [[nodiscard]] double ratio(const Eigen::VectorXd& x, double radius) const {
     const Eigen::Vector3d direction(std::sin(x[0]) * std::cos(x[1]), std::sin(x[0]) * std::sin(x[1]),
                                     std::cos(x[0]));
-    const Eigen::Vector3d error = claim_.inverse_metric() * direction * radius;
+    const Eigen::Vector3d error = claim_.center() + claim_.inverse_metric() * direction * radius;
     const Eigen::Matrix3d turn = (Eigen::AngleAxisd(x[2], Eigen::Vector3d::UnitX()) *
                                   Eigen::AngleAxisd(x[3], Eigen::Vector3d::UnitY()) *
                                   Eigen::AngleAxisd(x[4], Eigen::Vector3d::UnitZ()))
@@ -59,12 +58,12 @@ class Escape {
                                claim_.covariance_at(turn * share.asDiagonal() * turn.transpose()))};
     const double noise = claim_.set().noise;
     const trackers::PolarInput<double> input{noise * std::cos(x[8]), noise * std::sin(x[8]),
-                                             claim_.set().slew * std::sin(x[9]), 0.0};
+                                             claim_.set().slew * std::sin(x[9]), claim_.frequency()};
     const PolarState next = trackers::polar_frame_map(state, input, claim_.design());
     return claim_.level(as_vector(next.error)) / radius;
   }
 
-  Claim claim_;
+  const Claim& claim_;
   trackers::RandomStream random_;
   Eigen::VectorXd best_ = Eigen::VectorXd::Constant(kAngles, 1.0);
 };
@@ -72,12 +71,17 @@ class Escape {
 }  // namespace
 
 double sampled_radius_limit(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double>& design) {
+  const rigor::NearestRounding nearest;
+  return sampled_radius_limit(Claim(set, design));
+}
+
+double sampled_radius_limit(const Claim& claim) {
   constexpr double kGrowth = 1.2;
   constexpr int kBisections = 8;
   const rigor::NearestRounding nearest;
-  Escape escape(set, design);
-  const double amplitude_zero = std::fabs(set.metric(0, 0));
-  double inside = set.radius;
+  Escape escape(claim);
+  const double amplitude_zero = (1.0 + claim.center()[0]) / claim.inverse_metric().row(0).norm();
+  double inside = claim.set().radius;
   double outside = inside;
   do {
     inside = outside;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/contraction/certified_set.hpp"
+#include "analysis/contraction/falsifier_run.hpp"
 #include "trackers/quadrature_ekf.hpp"
 
 namespace veritrack::contraction {
@@ -13,5 +14,8 @@ namespace veritrack::contraction {
 /// NearestRounding scope. epsilon must be zero.
 [[nodiscard]] double sampled_radius_limit(const CertifiedSet& set,
                                           const trackers::QuadratureEkfDesign<double>& design);
+
+/// The same for a claim, about its centre.
+[[nodiscard]] double sampled_radius_limit(const Claim& claim);
 
 }  // namespace veritrack::contraction

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/contraction/steady_report.hpp"
+#include "analysis/contraction/steady_sampled_quantities.hpp"
 #include "analysis/contraction/steady_search.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
@@ -136,6 +137,10 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
       quantity("largest_slew", "W_{max}", "",
                largest_slew > 0.0 ? std::optional(Interval(largest_slew)) : std::nullopt, why),
       frequency_bias(branch)};
+  if (report && question.tracker.with_samples) {
+    add_steady_sampled_quantities(claims_of(question.tracker.design, branch, certificate.set->set),
+                                  derivation);
+  }
   std::vector<Verdict> verdicts;
   for (const Condition& condition : derivation.conditions) {
     verdicts.push_back(condition.verdict);

@@ -15,6 +15,7 @@
 #include "analysis/theorems/audit.hpp"
 #include "analysis/theorems/derivation.hpp"
 #include "certificates/design.hpp"
+#include "certificates/formal_proof.hpp"
 #include "certificates/simulation.hpp"
 
 namespace veritrack::certificates {
@@ -76,7 +77,8 @@ struct Certificate {
   std::vector<Claim> claims;
   /// Of all required claims together; none when nothing is required, which is no verdict at all.
   std::optional<rigor::Verdict> verdict;
-  Simulation simulation;  ///< the double-precision run behind the audits and the figures
+  Simulation simulation;                      ///< the double-precision run behind the audits and the figures
+  std::optional<FormalProofs> formal_proofs;  ///< when asked for: see coq_document.hpp
 };
 
 /// The derivations whose id begins with that prefix.

@@ -199,6 +199,14 @@ Json claim_json(const Claim& claim) {
           {"evidence", quantities_json(claim.evidence, not_applicable)}};
 }
 
+Json formal_proofs_json(const FormalProofs& proofs) {
+  Json json{{"file", kFormalProofFile}, {"proofs", Json::array()}};
+  for (const FormalProof& proof : proofs.proofs) {
+    json["proofs"].push_back({{"lemma", proof.lemma}, {"of", proof.of}, {"statement", proof.statement}});
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string to_json(const Certificate& certificate) {
@@ -222,6 +230,9 @@ std::string to_json(const Certificate& certificate) {
   json["claims"] = Json::array();
   for (const Claim& claim : certificate.claims) {
     json["claims"].push_back(claim_json(claim));
+  }
+  if (certificate.formal_proofs) {
+    json["formal_proofs"] = formal_proofs_json(*certificate.formal_proofs);
   }
   json["verdict"] = verdict_text(certificate);
   // A file name need not be UTF-8; JSON must be.

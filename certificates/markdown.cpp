@@ -11,6 +11,7 @@
 #include "certificates/guarantee.hpp"
 #include "certificates/guarantee_sentence.hpp"
 #include "certificates/markdown_contraction.hpp"
+#include "certificates/markdown_formal_proofs.hpp"
 #include "certificates/markdown_kkl_observer.hpp"
 #include "certificates/markdown_other_results.hpp"
 #include "certificates/markdown_single_channel.hpp"
@@ -173,7 +174,8 @@ std::string coverage_section() {
 std::string reproduction_section(const Certificate& certificate, const MarkdownOptions& options) {
   std::string text = "## How to reproduce it\n\n";
   text += fmt::format("Save the design file below as `{}` and run\n\n", certificate.design_file);
-  text += markdown::fenced("veritrack certify " + certificate.design_file, "");
+  text += markdown::fenced(
+      "veritrack certify " + certificate.design_file + (certificate.formal_proofs ? " --coq" : ""), "");
   text +=
       "\nThe same file gives the same bytes. `certificate.json` beside this document holds every number with "
       "all its "
@@ -199,13 +201,14 @@ std::string document(const Certificate& certificate, const MarkdownOptions& opti
          comparison_section(certificate) + figures_section(certificate, tables.simulate, options) +
          conditions_section(certificate) + proof_section(certificate) + other_results_section(certificate) +
          constants_section(certificate) + other_constants_section(certificate) + audit_section(certificate) +
-         coverage_section() + reproduction_section(certificate, options);
+         coverage_section() + formal_proofs_section(certificate) + reproduction_section(certificate, options);
 }
 
 std::string document(const Certificate& certificate, const MarkdownOptions& options,
                      const KklObserverTables& tables) {
   return "# " + headline(certificate) + "\n\n" + requirement_section(certificate) +
-         kkl_observer_sections(certificate, tables, options) + reproduction_section(certificate, options);
+         kkl_observer_sections(certificate, tables, options) + formal_proofs_section(certificate) +
+         reproduction_section(certificate, options);
 }
 
 /// The document of a single-channel tracker.
@@ -217,7 +220,7 @@ std::string document(const Certificate& certificate, const MarkdownOptions& opti
          contraction_section(certificate) + bias_section(certificate) +
          figures_section(certificate, tables.simulate, options) + transfer_function_section(certificate) +
          proposition_section(certificate) + single_channel_coverage_section() +
-         reproduction_section(certificate, options);
+         formal_proofs_section(certificate) + reproduction_section(certificate, options);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "analysis/rigor/self_test.hpp"
 #include "certificates/certificate.hpp"
+#include "certificates/coq_document.hpp"
 #include "certificates/design_reader.hpp"
 #include "certificates/markdown.hpp"
 #include "certificates/output_files.hpp"
@@ -58,11 +59,21 @@ certificates::Certificate certify_with_progress(const std::string& design_path) 
   return certificate;
 }
 
-ExitStatus run_certify(const std::string& design_path, std::string directory) {
-  const certificates::Certificate certificate = certify_with_progress(design_path);
+struct CertifyOptions {
+  std::string design;
+  std::string directory;
+  bool coq = false;
+};
+
+ExitStatus run_certify(const CertifyOptions& options) {
+  certificates::Certificate certificate = certify_with_progress(options.design);
+  if (options.coq) {
+    certificate.formal_proofs = certificates::coq_proofs(certificate);
+  }
+  std::string directory = options.directory;
   if (directory.empty()) {
     directory =
-        (std::filesystem::path("certificates-out") / std::filesystem::path(design_path).stem()).string();
+        (std::filesystem::path("certificates-out") / std::filesystem::path(options.design).stem()).string();
   }
   const std::filesystem::path document = reports::write_certificate_files(certificate, directory);
   fmt::print("{}: {}\n", document.string(), certificates::headline(certificate));
@@ -186,13 +197,14 @@ int run(int argc, char** argv) {
       "UNDECIDED;\n"
       "2 bad input; 3 this machine's arithmetic failed the self-test.");
 
-  std::string design;
-  std::string directory;
+  CertifyOptions certify_options;
   CLI::App* certify =
       app.add_subcommand("certify", "write certificate.md, certificate.json and figures for a design");
-  certify->add_option("DESIGN", design, "design file (TOML)")->required();
-  certify->add_option("--out", directory,
+  certify->add_option("DESIGN", certify_options.design, "design file (TOML)")->required();
+  certify->add_option("--out", certify_options.directory,
                       "folder for the certificate (default: certificates-out/<name of the design file>)");
+  certify->add_flag("--coq", certify_options.coq,
+                    "also write certificate.v, proofs that the proof assistant Coq can check (make proofs)");
 
   CheckOptions check_options;
   CLI::App* check =
@@ -263,7 +275,7 @@ int run(int argc, char** argv) {
   if (reproduce->parsed()) {
     return run_reproduce(reproduce_options);
   }
-  return certify->parsed() ? run_certify(design, directory) : run_check(check_options);
+  return certify->parsed() ? run_certify(certify_options) : run_check(check_options);
 }
 
 }  // namespace

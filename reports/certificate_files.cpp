@@ -23,6 +23,9 @@ std::filesystem::path write_certificate_files(const certificates::Certificate& c
   std::filesystem::path document = directory / "certificate.md";
   files.stage(document, certificates::to_markdown(certificate, options));
   files.stage(directory / "certificate.json", certificates::to_json(certificate));
+  if (certificate.formal_proofs) {
+    files.stage(directory / certificates::kFormalProofFile, certificate.formal_proofs->text);
+  }
   files.commit();
   return document;
 }

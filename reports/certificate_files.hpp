@@ -1,4 +1,4 @@
-// A certificate's folder: the two documents and the figures, written together or not at all.
+// A certificate's folder: its documents and the figures, written together or not at all.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace veritrack::reports {
 
-/// Writes certificate.md, certificate.json and figures/*.svg into `directory` (made when missing) and returns
-/// the path of certificate.md. Every file appears whole or not at all. Throws certificates::OutputError,
-/// FigureError.
+/// Writes certificate.md, certificate.json, figures/*.svg and, if it has formal proofs, certificate.v into
+/// `directory` (made when missing) and returns the path of certificate.md. Every file appears whole or not at
+/// all. Throws certificates::OutputError, FigureError.
 std::filesystem::path write_certificate_files(const certificates::Certificate& certificate,
                                               const std::filesystem::path& directory);
 

@@ -1,0 +1,25 @@
+// Proofs of a certificate's statements in the language of the proof assistant Coq.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace veritrack::certificates {
+
+/// The file beside the certificate that holds them.
+inline constexpr const char* kFormalProofFile = "certificate.v";
+
+/// A statement of the certificate that certificate.v proves.
+struct FormalProof {
+  std::string lemma;      ///< its name in certificate.v
+  std::string of;         ///< what it is a proof of: the id of a claim, or "derivation/condition-or-quantity"
+  std::string statement;  ///< one sentence of Markdown
+};
+
+/// certificate.v and what stands in it. Nothing is proved until coqc has accepted the text.
+struct FormalProofs {
+  std::string text;
+  std::vector<FormalProof> proofs;
+};
+
+}  // namespace veritrack::certificates

@@ -12,13 +12,17 @@ BUILD_PACKAGES := g++ cmake make pkg-config libeigen3-dev libboost-dev coinor-li
 TEST_PACKAGES  := doctest-dev python3-jsonschema clang git
 LINT_PACKAGES  := clang-format clang-tidy git
 FUZZ_PACKAGES  := clang libclang-rt-14-dev doctest-dev
+PROOF_PACKAGES := coq libcoq-interval libcoq-coquelicot
 BENCH_PACKAGES := libbenchmark-dev libmpfi-dev
 
 DESIGN       ?= designs/la-scala-1994-figure-3.5.toml
 JOBS         ?= $(shell nproc)
 FUZZ_SECONDS ?= 60
+# One of each kind; make proofs PROOF_DESIGNS="$$(echo designs/*.toml)" takes all of them.
+PROOF_DESIGNS ?= designs/praly-section-v-proved-ell.toml designs/praly-section-v.toml \
+  designs/la-scala-1994-figure-3.5.toml designs/bittanti-savaresi-2000-example-1.toml
 
-.PHONY: certificate verify test lint format sanitize fuzz bench clean
+.PHONY: certificate verify proofs test lint format sanitize fuzz bench clean
 
 certificate:
 	@scripts/install-packages $(BUILD_PACKAGES)
@@ -32,6 +36,13 @@ verify:
 	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
 	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify >&2
 	@scripts/verify build/release designs/*.toml
+
+# Certificates with formal proofs, checked by the proof assistant Coq.
+proofs:
+	@scripts/install-packages $(BUILD_PACKAGES) $(PROOF_PACKAGES)
+	@cmake --preset release >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack >&2
+	@scripts/proofs "$(CURDIR)/build/release/veritrack" $(PROOF_DESIGNS)
 
 test:
 	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES)

@@ -1,0 +1,150 @@
+"""certificate.v as Coq sees it: accepted as written, with the axioms of the real numbers alone, and refused with any
+number changed to say more than is true. Without coqc there is nothing to test."""
+
+import concurrent.futures
+import json
+import re
+import shutil
+import subprocess
+import unittest
+
+from support import ROOT, CliTestCase
+
+KKL = """\
+name = "an observer"
+tracker = "kkl-observer"
+
+[design]
+lambda = [1, 2, 3, 4]
+
+[assume]
+frequency = [2, 4]
+amplitude = [1, 1]
+"""
+
+REAL_NUMBERS = {
+    "ClassicalDedekindReals.sig_not_dec",
+    "ClassicalDedekindReals.sig_forall_dec",
+    "FunctionalExtensionality.functional_extensionality_dep",
+    "Classical_Prop.classic",
+}
+
+# Of a file that begins as certificates/coq/<name>.v does, that part need be compiled only once.
+PARTS = {name: (ROOT / f"certificates/coq/{name}.v").read_text()
+         for name in ("kkl_observer", "theorem_2_9", "proposition_1")}
+IMPORTS = "From Coq Require Import Reals Lra Psatz.\nFrom Interval Require Import Tactic.\nRequire Import {0}.\n" \
+          "Import {0}.IntegerIntervals.\nLocal Open Scope R_scope.\n"
+
+
+def golden(name):
+    """What stands in certificate.v of a design, after the part for all designs; tests/certificates holds it to that."""
+    return (ROOT / "tests/certificates/golden" / name).read_text()
+
+
+def without_last_word(text):
+    return text[:text.index("(* What certificate.md says")]
+
+
+def lemmas(text, *names):
+    """The text without the lemmas that are not named, and without its last word."""
+    head, *rest = without_last_word(text).split("\nLemma ")
+    return head + "".join("\nLemma " + one for one in rest if one.split(" ", 1)[0] in names)
+
+
+@unittest.skipUnless(shutil.which("coqc"), "coqc is not installed")
+class Proofs(CliTestCase):
+    def coqc(self, name, text):
+        (self.folder / f"{name}.v").write_text(text)
+        return subprocess.run(["coqc", "-w", "-ambiguous-paths", "-R", ".", "", f"{name}.v"], cwd=self.folder,
+                              capture_output=True, text=True, check=False, timeout=300)
+
+    def certify(self, design, name):
+        path = self.write(design, f"{name}.toml")
+        self.run_here("certify", path, "--coq", "--out", name)
+        return (self.folder / name / "certificate.v").read_text()
+
+    def design_part(self, text, part):
+        self.assertTrue(text.startswith(PARTS[part]))
+        return text[len(PARTS[part]):]
+
+    def check_accepted_and_mutations_refused(self, part, accepted, mutations):
+        """`accepted`: what of the design's part is compiled as it stands; `mutations`: (name, changed text)."""
+        compiled = self.coqc(part, PARTS[part])
+        self.assertEqual(compiled.returncode, 0, compiled.stderr)
+        imports = IMPORTS.format(part)
+        if part == "kkl_observer":
+            imports = "From Coquelicot Require Import Coquelicot.\n" + imports
+        result = self.coqc("accepted", imports + accepted)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        if "Print Assumptions" in accepted:
+            self.check_axioms(result.stdout)
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            outcomes = list(pool.map(lambda one: (one, self.coqc(*one)),
+                                     [(name, imports + text) for name, text in mutations]))
+        for (name, text), outcome in outcomes:
+            self.assertNotEqual(text, imports + accepted, name)
+            self.assertNotEqual(outcome.returncode, 0, f"{name} was accepted")
+            self.assertIn("Error", outcome.stderr, name)
+
+    def check_axioms(self, output):
+        axioms = set(re.findall(r"^([^\s:]+)", output.partition("Axioms:\n")[2], re.MULTILINE))
+        self.assertTrue(axioms)
+        self.assertLessEqual(axioms, REAL_NUMBERS)
+
+    def changed(self, text, old, new):
+        self.assertEqual(text.count(old), 1, old)
+        return text.replace(old, new)
+
+    def test_kkl_observer(self):
+        text = self.design_part(self.certify(KKL, "observer"), "kkl_observer")
+        listed = json.loads((self.folder / "observer/certificate.json").read_text())["formal_proofs"]["proofs"]
+        self.assertIn("ell_is_at_least", [proof["lemma"] for proof in listed])
+        bound = re.search(r"ell_lower : R := \((\d+) /", text).group(1)
+        in_use = re.search(r"ell_in_use : R := (.*)\.\n", text).group(1)
+        short = without_last_word(text)
+        self.check_accepted_and_mutations_refused("kkl_observer", text, [
+            ("larger_bound", self.changed(short, f"({bound} /", f"({int(bound) * 1001 // 1000} /")),
+            ("wider_range", self.changed(short, "<= s <= 4 ^ 2", "<= s <= (41 / 10) ^ 2")),
+            ("larger_ell", self.changed(short, f":= {in_use}.", f":= 3 * {in_use}.")),
+        ])
+
+    def test_theorem_2_9(self):
+        text = golden("theorem-2.9.v")
+        # One reading, without what takes longest: make proofs has all of it.
+        slow = ("epsilon_z", "zeta_z", "lhs_2_44", "initial_error", "2_44", "2_45")
+        names = [name for name in re.findall(r"\nLemma (\w+)", text)
+                 if name.startswith("errata") and not any(part in name for part in slow)]
+        mutations = []
+        for name in ("errata_b_1_enclosed", "errata_one_minus_alpha_enclosed"):
+            one = lemmas(text, name)
+            lower, middle, upper = re.search(r"\n  (\S.*) <= (.*) <= (.*)\.\nProof", one).groups()
+            mutations.append((f"{name}_above", self.changed(one, f"  {lower} <= {middle}",
+                                                            f"  {upper} * (1001 / 1000) <= {middle}")))
+        one = lemmas(text, "errata_s_enclosed")
+        mutations.append(("another_design", self.changed(one, "q1 := (23 / 10000)", "q1 := (24 / 10000)")))
+        one = lemmas(text, "errata_lhs_2_43_enclosed", "errata_condition_2_43_fails")
+        mutations.append(("condition_holds", self.changed(one, "1 <= lhs_2_43 errata here.",
+                                                          "lhs_2_43 errata here <= 1.")))
+        self.check_accepted_and_mutations_refused("theorem_2_9", lemmas(text, *names), mutations)
+
+    def test_proposition_1(self):
+        text = without_last_word(golden("proposition-1.v"))
+        gain = re.search(r"gain_1 : R := (.*)\.\n", text).group(1)
+        self.check_accepted_and_mutations_refused("proposition_1", text, [
+            ("large_gain", self.changed(text, f":= {gain}.", f":= 3 * {gain}.")),
+            ("circle_of_half", self.changed(text, "a ^ 2 + b ^ 2 < 1", "a ^ 2 + b ^ 2 < 1 / 10")),
+        ])
+
+    def test_identities_are_not_slack(self):
+        # A sign or a constant changed in what holds for all designs.
+        for part, old, new in [
+                ("proposition_1", "z * (k2 * s + 2 * c - k1 * c) + 1 - k1.", "z * (k2 * s + 2 * c - k1 * c) + 1 + k1."),
+                ("kkl_observer", "(l * x1 + x2) / (l ^ 2 + x3)", "(l * x1 - x2) / (l ^ 2 + x3)"),
+                ("theorem_2_9", "4 * (8 * sqrt 8) * state_bound d <=", "5 * (8 * sqrt 8) * state_bound d <=")]:
+            outcome = self.coqc("changed", self.changed(PARTS[part], old, new))
+            self.assertNotEqual(outcome.returncode, 0, part)
+            self.assertIn("Error", outcome.stderr, part)
+
+
+if __name__ == "__main__":
+    unittest.main()

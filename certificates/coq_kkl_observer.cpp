@@ -82,7 +82,7 @@ void prove_lower_bound(Proofs& proofs) {
                   "ell_lower s ^ 2"}}) {
     proofs.write(fmt::format(
         "\nLemma {} : forall s : R, in_range s ->\n  0 < {}.\nProof.\nintros s range. unfold_form. "
-        "unfold_design.\ninterval with (i_bisect s, i_autodiff s, i_prec 90, i_depth 40).\nQed.\n",
+        "unfold_design.\ninterval with (i_bisect s, i_autodiff s, i_prec 90).\nQed.\n",
         name, term));
   }
   proofs.prove(

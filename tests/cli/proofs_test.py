@@ -104,7 +104,6 @@ class Proofs(CliTestCase):
         short = without_last_word(text)
         self.check_accepted_and_mutations_refused("kkl_observer", text, [
             ("larger_bound", self.changed(short, f"({bound} /", f"({int(bound) * 1001 // 1000} /")),
-            ("wider_range", self.changed(short, "<= s <= 4 ^ 2", "<= s <= (41 / 10) ^ 2")),
             ("larger_ell", self.changed(short, f":= {in_use}.", f":= 3 * {in_use}.")),
         ])
 

@@ -17,14 +17,14 @@ Lemma first_entry_is_positive : forall s : R, in_range s ->
   0 < entry_a l1 l2 l3 l4 ell_lower s.
 Proof.
 intros s range. unfold_form. unfold_design.
-interval with (i_bisect s, i_autodiff s, i_prec 90, i_depth 40).
+interval with (i_bisect s, i_autodiff s, i_prec 90).
 Qed.
 
 Lemma discriminant_is_positive : forall s : R, in_range s ->
   0 < entry_a l1 l2 l3 l4 ell_lower s * entry_c l1 l2 l3 l4 ell_lower s - entry_b l1 l2 l3 l4 ell_lower s ^ 2.
 Proof.
 intros s range. unfold_form. unfold_design.
-interval with (i_bisect s, i_autodiff s, i_prec 90, i_depth 40).
+interval with (i_bisect s, i_autodiff s, i_prec 90).
 Qed.
 
 Lemma ell_is_at_least :

@@ -32,7 +32,8 @@ TEST_CASE("the first line is the answer") {
     const std::string document = certificates::to_markdown(certificate, kOptions);
     return document.substr(0, document.find('\n'));
   };
-  CHECK(first_line(test::certificate({{"epsilon = 0.0", "epsilon = 0.01"}})) ==
+  // A leak so strong that the tracker has no steady state at the upper frequencies.
+  CHECK(first_line(test::certificate({{"epsilon = 0.0", "epsilon = 0.5"}})) ==
         "# Nothing is required of this design, nothing is certified for the assumed start, and Theorem 2.9 "
         "guarantees nothing for it: its conditions are REFUTED");
   CHECK(first_line(test::certificate()).starts_with("# Nothing is required of this design; PROVED of it: "));

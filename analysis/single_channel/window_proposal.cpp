@@ -3,37 +3,26 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <numbers>
 
-#include "analysis/rigor/matrix.hpp"
+#include "analysis/single_channel/window_grid.hpp"
 
 namespace veritrack::single_channel {
 
 namespace {
 
-using Covariance = PhaseCovariance<double>;
-using Matrix3 = rigor::Matrix<3>;
+using detail::Covariance;
+using detail::follow_grid;
+using detail::kInfinity;
+using detail::kSettling;
+using detail::Matrix3;
+using detail::matrix_of;
+using detail::smallest_eigenvalue;
 
-constexpr int kSettling = 16;
 constexpr int kLongestWindow = 12;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Matrix3 matrix_of(const Covariance& p) {
-  Matrix3 matrix;
-  matrix << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
-  return matrix;
-}
-
-template <int Size>
-double smallest_eigenvalue(const rigor::Matrix<Size>& matrix) {
-  return Eigen::SelfAdjointEigenSolver<rigor::Matrix<Size>>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);
-}
 
 /// The largest t with lower >= t upper.
 double share_of(const Covariance& lower, const Covariance& upper) {
@@ -41,26 +30,6 @@ double share_of(const Covariance& lower, const Covariance& upper) {
   const Matrix3 half = factor.matrixL().solve(matrix_of(lower));
   const Matrix3 both = factor.matrixL().solve(half.transpose());
   return smallest_eigenvalue<3>(0.5 * (both + both.transpose()));
-}
-
-/// Calls visit as follow_window does, at phases and frequencies of a grid.
-template <typename Visit>
-void follow_grid(const WindowRequest& request, const WindowAssumption& assumption, int window,
-                 const Visit& visit) {
-  constexpr int kPhases = 24;
-  constexpr std::array<double, 5> kFrequencies = {0.0, 0.1, 0.5, 0.9, 1.0};
-  for (const double share : kFrequencies) {
-    const double frequency =
-        request.lowest_frequency + share * (request.highest_frequency - request.lowest_frequency);
-    for (int i = 0; i < kPhases; ++i) {
-      const double phase = std::numbers::pi * i / kPhases;
-      follow_window<double>(request.design, assumption, {kSettling, window, request.slew}, phase, frequency,
-                            [&](int m, const auto& upper, const auto& lower, const auto& predicted) {
-                              visit(m, upper, lower, predicted);
-                              return true;
-                            });
-    }
-  }
 }
 
 /// The largest two variances of the upper bounds, in the form of an assumption.
@@ -242,31 +211,6 @@ WindowClaim with_slack(WindowClaim claim, double slack) {
     share = std::max(0.0, share * (1.0 - 2.0 * slack) - 0.1 * slack);
   }
   return claim;
-}
-
-StartProposal propose_start(const WindowRequest& request, const WindowClaim& claim, const StartBox& box) {
-  const rigor::UpwardRounding upward;
-  const auto window = static_cast<int>(claim.shares.size());
-  StartProposal best{kInfinity, 0.5};
-  for (const double weight : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
-    const double signal = box.signal * box.signal / weight;
-    const double frequency = box.frequency * box.frequency / (1.0 - weight);
-    double level = 0.0;
-    follow_grid(request, claim.assumption, window,
-                [&](int m, const Covariance& /*upper*/, const Covariance& lower, const Covariance&) {
-                  if (m == window) {
-                    const Eigen::LLT<Matrix3> factor(matrix_of(lower));
-                    const Matrix3 wanted = rigor::Vector<3>(signal, signal, frequency).asDiagonal();
-                    const Matrix3 half = factor.matrixL().solve(wanted);
-                    const Matrix3 both = factor.matrixL().solve(half.transpose());
-                    level = std::max(level, -smallest_eigenvalue<3>(-0.5 * (both + both.transpose())));
-                  }
-                });
-    if (std::sqrt(level) < best.level) {
-      best = {std::sqrt(level), weight};
-    }
-  }
-  return best;
 }
 
 }  // namespace veritrack::single_channel

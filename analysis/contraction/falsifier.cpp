@@ -1,6 +1,5 @@
 #include "analysis/contraction/falsifier.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -159,20 +158,10 @@ class Search {
     if (!from_zero) {
       start.start_error = rim(claim_.inverse_metric().transpose() * weight.head<3>());
     }
-    // <Lambda, P_lo + C Y C'> is largest over 0 <= Y <= I at the projection on the positive eigenvectors of
-    // C' Lambda C.
     Eigen::Matrix3d lambda;
     lambda << weight[3], 0.5 * weight[4], 0.5 * weight[5], 0.5 * weight[4], weight[6], 0.5 * weight[7],
         0.5 * weight[5], 0.5 * weight[7], weight[8];
-    const Eigen::Matrix3d& c = claim_.covariance_root();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(c.transpose() * lambda * c);
-    Eigen::Matrix3d share = Eigen::Matrix3d::Zero();
-    for (int i = 0; i < 3; ++i) {
-      if (eigen.eigenvalues()[i] > 0.0) {
-        share += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
-      }
-    }
-    start.start_covariance = claim_.covariance_at(share, from_zero);
+    start.start_covariance = claim_.covariance_at(claim_.share_along(lambda), from_zero);
   }
 
   double periodic_run(const Periodic& shape, const Attack& start, bool from_zero) {

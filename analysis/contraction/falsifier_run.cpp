@@ -1,6 +1,7 @@
 #include "analysis/contraction/falsifier_run.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -92,6 +93,18 @@ Eigen::Matrix3d Claim::covariance_at(const Eigen::Matrix3d& share, bool at_cente
   const Eigen::Matrix3d member = set_.covariance_lower + root_ * share * root_.transpose();
   const double level = at_center && !levels_.empty() ? levels_.back() : 1.0;
   return level < 1.0 ? Eigen::Matrix3d(center_covariance_ + level * (member - center_covariance_)) : member;
+}
+
+Eigen::Matrix3d Claim::share_along(const Eigen::Matrix3d& lambda) const {
+  // The projection on the eigenvectors of C' Lambda C with positive eigenvalues.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(root_.transpose() * lambda * root_);
+  Eigen::Matrix3d share = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    if (eigen.eigenvalues()[i] > 0.0) {
+      share += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
+    }
+  }
+  return share;
 }
 
 bool Claim::covariance_is_inside(const Eigen::Matrix3d& covariance, double share, double room) const {

@@ -41,7 +41,8 @@ class Claim {
   /// P_lo + C Y C', C C' = P_hi - P_lo: a member for every 0 <= Y <= I. Starts at the centre are of the last
   /// level of a set with a leak.
   [[nodiscard]] Eigen::Matrix3d covariance_at(const Eigen::Matrix3d& share, bool at_center = false) const;
-  [[nodiscard]] const Eigen::Matrix3d& covariance_root() const { return root_; }
+  /// The share Y, 0 <= Y <= I, for which <Lambda, covariance_at(Y)> is largest.
+  [[nodiscard]] Eigen::Matrix3d share_along(const Eigen::Matrix3d& lambda) const;
   /// What a step contradicts, with the numbers; nothing when all is as it should be. `input` is (noise along,
   /// noise across, slew).
   [[nodiscard]] std::optional<std::string> broken_by(const PolarState& before, const Eigen::Vector3d& input,

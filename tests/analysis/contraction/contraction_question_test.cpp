@@ -23,8 +23,9 @@ ContractionQuestion question() {
 TEST_CASE("a question with a bound that is no number, or below zero, is not well posed") {
   const rigor::UpwardRounding upward;
   CHECK(contraction::is_well_posed(question()));
-  for (const Interval& odd : {Interval(-1.0), Interval::from_bounds(1.0, std::numeric_limits<double>::infinity()),
-                              Interval::from_bounds(-1e-300, 1.0), Interval::empty()}) {
+  for (const Interval& odd :
+       {Interval(-1.0), Interval::from_bounds(1.0, std::numeric_limits<double>::infinity()),
+        Interval::from_bounds(-1e-300, 1.0), Interval::empty()}) {
     for (Interval ContractionQuestion::*bound :
          {&ContractionQuestion::noise, &ContractionQuestion::slew,
           &ContractionQuestion::initial_amplitude_error, &ContractionQuestion::initial_phase_error,

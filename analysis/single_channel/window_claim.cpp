@@ -81,8 +81,9 @@ bool certainly_positive(const Bound& a) {
       Model sum(0.0);
       for (std::size_t i = 0; i <= row; ++i) {
         for (std::size_t j = 0; j <= column; ++j) {
-          const Interval factor_ij = Interval(c(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i))) *
-                                     Interval(c(static_cast<Eigen::Index>(column), static_cast<Eigen::Index>(j)));
+          const Interval factor_ij =
+              Interval(c(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i))) *
+              Interval(c(static_cast<Eigen::Index>(column), static_cast<Eigen::Index>(j)));
           sum += Model(factor_ij) * *entries[i][j];
         }
       }
@@ -132,7 +133,8 @@ bool holds_for_all(const std::vector<Cell>& cells, const Check& check) {
   return all;
 }
 
-bool is_sensible(const QuadratureEkfDesign<Interval>& design, const Interval& band, const WindowClaim& claim) {
+bool is_sensible(const QuadratureEkfDesign<Interval>& design, const Interval& band,
+                 const WindowClaim& claim) {
   const auto positive = [](double x) { return x > 0.0 && x < kInfinity; };
   const WindowAssumption& assumption = claim.assumption;
   return rigor::certainly_positive(design.q1) && rigor::certainly_positive(design.q2) &&

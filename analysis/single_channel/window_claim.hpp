@@ -13,8 +13,8 @@ namespace veritrack::single_channel {
 /// A proposal: exact doubles, which are evidence of nothing. `window` is shares.size().
 struct WindowClaim {
   WindowAssumption assumption;
-  int settling = 0;    ///< samples of the window before the lower bound starts
-  double slew = 0.0;   ///< |omega(k+1) - omega(k)|, rad/sample
+  int settling = 0;   ///< samples of the window before the lower bound starts
+  double slew = 0.0;  ///< |omega(k+1) - omega(k)|, rad/sample
   /// shares[m - 1]: of any covariance P at least this part is due to the last m samples alone.
   std::vector<double> shares;
   /// |nu| |delta + i nu / 2| <= curvature e' P^-1 e; the weight is a free parameter of the proof.

@@ -150,10 +150,20 @@ std::vector<CertifiedSet> sets_of(const ContractionCertificate& certificate) {
   return sets;
 }
 
+bool bears(const CertifiedSet& set, const ContractionQuestion& question) {
+  return certainly_less_equal(question.noise, Interval(set.noise)) &&
+         certainly_less_equal(question.slew, Interval(set.slew));
+}
+
 void find_sets(const ContractionQuestion& question, ContractionCertificate& certificate) {
   certificate.noise_set = find_set(question, Objective::noise);
   certificate.slew_set = find_set(question, Objective::slew);
   certificate.set = find_set(question, Objective::start_error);
+  for (const auto* found : {&certificate.noise_set, &certificate.slew_set}) {
+    if (!certificate.set && *found && bears((*found)->set, question)) {
+      certificate.set = *found;
+    }
+  }
   if (!certificate.set) {
     return;
   }

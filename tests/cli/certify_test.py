@@ -160,7 +160,7 @@ class Certify(CliTestCase):
 
     def test_failures_say_what_would_repair_them(self):
         for change, words in {("q1 = 0.0023", "q1 = 0"): ("uncontrollable", "any q1 > 0 repairs this"),
-                              ("noise = 0.001", "noise = 0.05"): ("largest certified noise", "was assumed"),
+                              ("noise = 0.001", "noise = 0.2"): ("largest certified noise", "was assumed"),
                               ("initial_frequency_error = 0.005", "initial_frequency_error = 6"):
                                   ("witness", "1 turns per sample off", "Smaller start errors")}.items():
             with self.subTest(change=change[1]):

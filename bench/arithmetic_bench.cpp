@@ -40,7 +40,6 @@ class Mpfi {
 };
 
 // ---- operands and results of each type
-// ------------------------------------------------------------------------------
 
 template <typename Number>
 Number make(double lower, double upper);
@@ -77,7 +76,6 @@ std::vector<Number> make_operands(std::uint64_t stream) {
 }
 
 // ---- operations
-// -----------------------------------------------------------------------------------------------------
 
 struct Add {
   template <typename Number>
@@ -155,7 +153,6 @@ BENCHMARK(binary<BoostDefault, Divide>);
 BENCHMARK(binary<Mpfi, Divide>);
 
 // ---- sin and cos together; Boost's default policies have neither
-// ------------------------------------------------------
 
 void sin_cos_of_double(benchmark::State& state) {
   const std::vector<double> x = make_operands<double>(3);

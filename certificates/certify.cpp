@@ -124,8 +124,8 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
     for (theorems::Derivation& derivation : certificate.derivations) {
       derivation.notes.push_back(
           fmt::format("The theorem is stated for a signal of amplitude 1. Its constants are those of the "
-                      "filter that does at amplitude 1 "
-                      "what this one does at amplitude {}: q1, r and the noise scaled by the amplitude.",
+                      "filter that does at amplitude 1 what this one does at amplitude {}: q1, r and the "
+                      "noise scaled by the amplitude.",
                       amplitude.text));
     }
   }

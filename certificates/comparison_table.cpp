@@ -82,16 +82,12 @@ std::string comparison_section(const Certificate& certificate) {
       rows);
   return text +
          "\nA start error or a noise up to the value given is certified, the start without noise and the "
-         "noise "
-         "from an exact start where a result has both; \"none\" means that the result certifies none for "
-         "this "
-         "design. The last column is about this design's [assume]: a result may certify something and still "
-         "not reach the assumed start or noise. Where the frequency state leaks the certified start and "
-         "noise are for "
-         "a signal that leaks as the model says; a constant frequency then counts as process noise. For "
-         "contraction the start error is the largest in the "
-         "certified set. The simulation is one frequency, exact phase and amplitude, and a few noise "
-         "patterns.\n\n";
+         "noise from an exact start where a result has both; \"none\" means that the result certifies none "
+         "for this design. The last column is about this design's [assume]: a result may certify something "
+         "and still not reach the assumed start or noise. Where the frequency state leaks the certified "
+         "start and noise are for a signal that leaks as the model says; a constant frequency then counts as "
+         "process noise. For contraction the start error is the largest in the certified set. The simulation "
+         "is one frequency, exact phase and amplitude, and a few noise patterns.\n\n";
 }
 
 }  // namespace veritrack::certificates

@@ -47,8 +47,7 @@ std::string design_term(const QuadratureEkfTables& tables) {
   const Theorem29Parameters& free = tables.theorem_2_9;
   return fmt::format(
       "\n(* The design. *)\nDefinition here : design := {{|\n  q1 := {}; q2 := {}; r := {};\n  state_bound "
-      ":= "
-      "{}; sigma := {}; gamma_fraction := {}; c1 := {}; c2 := {} |}}.\n",
+      ":= {}; sigma := {}; gamma_fraction := {}; c1 := {}; c2 := {} |}}.\n",
       at_unit_amplitude(tables.design.q1), decimal(tables.design.q2.text), at_unit_amplitude(tables.design.r),
       decimal(free.state_bound.text), decimal(free.sigma.text), decimal(free.gamma_fraction.text),
       decimal(free.c1.text), decimal(free.c2.text));

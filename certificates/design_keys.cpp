@@ -22,7 +22,6 @@ namespace {
 using namespace keys;  // NOLINT(google-build-using-namespace): this file is made of them
 
 // ---- limits: true only when certain
-// -----------------------------------------------------------------------------------
 
 bool at_least_zero_below_one(const Interval& x) {
   return not_negative(x) && rigor::certainly_less(x, Interval(1.0));
@@ -35,7 +34,6 @@ bool at_least_one(const Interval& x) {
 }
 
 // ---- how a key is read
-// ------------------------------------------------------------------------------------------------
 
 template <auto member, RealPredicate is_allowed>
 void whole_number(const TomlValue& value, Owner<member>& target) {
@@ -90,7 +88,6 @@ void process_noise(const TomlValue& value, SingleChannelEkfDesign& design) {
 }
 
 // ---- the keys
-// ---------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view kOneLine = "a string on one line, of 1 to 200 bytes";
 

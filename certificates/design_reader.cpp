@@ -24,7 +24,6 @@ namespace veritrack::certificates {
 namespace {
 
 // ---- unknown keys
-// -----------------------------------------------------------------------------------------------------
 
 template <typename Target>
 std::vector<std::string> names_of(std::span<const Key<Target>> keys) {
@@ -105,7 +104,6 @@ void reject_unknown_keys(const TomlSource& source) {
 }
 
 // ---- reading
-// ----------------------------------------------------------------------------------------------------------
 
 template <typename Target>
 void read_default(const Key<Target>& key, const std::string& path, Target& target) {

@@ -10,7 +10,6 @@ namespace veritrack::certificates::keys {
 using rigor::Interval;
 
 // ---- what holds without a key
-// ---------------------------------------------------------------------------------------
 
 inline constexpr Absence kRequired{};
 inline constexpr Absence kOptional{Absence::Rule::is_nothing, {}};
@@ -19,7 +18,6 @@ constexpr Absence defaults_to(std::string_view toml) {
 }
 
 // ---- limits: true only when certain
-// -----------------------------------------------------------------------------------
 
 inline bool any_number(const Interval& x) {
   return rigor::is_finite(x);
@@ -35,7 +33,6 @@ inline constexpr std::string_view kPositive = "a number above 0";
 inline constexpr std::string_view kNotNegative = "a number, 0 or more";
 
 // ---- how a key is read
-// ------------------------------------------------------------------------------------------------
 
 template <typename Member>
 struct OwnerOf;

@@ -59,8 +59,7 @@ std::string requirement_section(const Certificate& certificate) {
   if (!certificate.verdict) {
     return text +
            "Nothing: the design file's `[require]` is empty. What follows is what is certified of the design "
-           "all "
-           "the same, and what the published theorem says of it.\n\n";
+           "all the same, and what the published theorem says of it.\n\n";
   }
   std::vector<std::vector<std::string>> rows;
   for (const Claim& claim : certificate.claims) {
@@ -123,8 +122,7 @@ std::string assumptions_section(const Assumptions& assume) {
        row("covariance at the start", "P(0|0):", covariance_text(assume.initial_covariance), "")});
   return text +
          "\nA decimal in these tables stands for itself: every computation covers both the decimal and the "
-         "double "
-         "nearest to it, which is what the filter runs with.\n\n";
+         "double nearest to it, which is what the filter runs with.\n\n";
 }
 
 std::string figures_section(const Certificate& certificate, const SimulationSettings& run,
@@ -135,8 +133,8 @@ std::string figures_section(const Certificate& certificate, const SimulationSett
   std::string text = "## The simulated run\n\n";
   text += fmt::format(
       "The double-precision tracker on the signal `{}`, {} samples, seed {}, started at the edge of the "
-      "assumed start "
-      "errors. A simulation proves nothing; it shows what the bounds are to be compared with.\n\n",
+      "assumed start errors. A simulation proves nothing; it shows what the bounds are to be compared "
+      "with.\n\n",
       run.signal, run.samples, run.seed);
   for (const std::string& note : certificate.simulation.notes) {
     text += note + "\n\n";
@@ -178,8 +176,7 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
       "veritrack certify " + certificate.design_file + (certificate.formal_proofs ? " --coq" : ""), "");
   text +=
       "\nThe same file gives the same bytes. `certificate.json` beside this document holds every number with "
-      "all its "
-      "digits, as hexadecimal floats.\n\n";
+      "all its digits, as hexadecimal floats.\n\n";
   std::vector<std::vector<std::string>> rows{{"veritrack", VERITRACK_VERSION}};
   for (const auto& [name, version] : rigor::arithmetic_versions()) {
     rows.push_back({escaped(name), escaped(version)});

@@ -166,12 +166,10 @@ std::string bias_section(const Certificate& certificate) {
   text +=
       "On a noise-free tone of constant frequency the tracker settles on a periodic function of the signal's "
       "phase. Its frequency error there (estimate less truth, rad/sample) is enclosed by an invariant curve "
-      "that "
-      "is verified in interval arithmetic; every start near the curve converges to it, by the factor in the "
-      "last "
-      "column a sample. The mean is over the phase, and over time wherever the frequency is no rational "
-      "multiple "
-      "of $`\\pi`$. Beside it: an enclosure of the means at all frequencies within 0.002 rad/sample.\n\n";
+      "that is verified in interval arithmetic; every start near the curve converges to it, by the factor in "
+      "the last column a sample. The mean is over the phase, and over time wherever the frequency is no "
+      "rational multiple of $`\\pi`$. Beside it: an enclosure of the means at all frequencies within 0.002 "
+      "rad/sample.\n\n";
   std::vector<std::vector<std::string>> rows;
   for (const Derivation& bias : biases(certificate)) {
     const bool proved = bias.verdict == Verdict::proved;
@@ -207,8 +205,8 @@ std::string proposition_section(const Certificate& certificate) {
     }
   }
   return "## What was found of the paper\n\nS. Bittanti and S. M. Savaresi, *On the Parameterization and "
-         "Design "
-         "of an Extended Kalman Filter Frequency Tracker*, IEEE Trans. Automatic Control 45(9), 2000.\n\n" +
+         "Design of an Extended Kalman Filter Frequency Tracker*, IEEE Trans. Automatic Control 45(9), "
+         "2000.\n\n" +
          markdown::table({"Claim", "Statement", "Verdict", "Ground"}, rows) + "\n";
 }
 

@@ -117,12 +117,9 @@ std::string audit_section(const Certificate& certificate) {
   std::string text = "## The constants along the simulated run\n\n";
   text +=
       "Each constant that is said to bound something is held against the run, step by step, every inequality "
-      "evaluated "
-      "in interval arithmetic on the run's own numbers. The margin is what is left between value and bound, "
-      "as a share of "
-      "the bound, at the worst step. The run proves nothing; a claim that it violates while every assumption "
-      "holds is "
-      "refuted as a bound for this run.\n\n";
+      "evaluated in interval arithmetic on the run's own numbers. The margin is what is left between value "
+      "and bound, as a share of the bound, at the worst step. The run proves nothing; a claim that it "
+      "violates while every assumption holds is refuted as a bound for this run.\n\n";
   for (const AuditedDerivation& audited : certificate.audits) {
     text += fmt::format("### {}\n\n", reading(audited.derivation));
     std::vector<std::vector<std::string>> rows;
@@ -184,10 +181,9 @@ std::string conditions_section(const Certificate& certificate) {
   std::string text = "## What Theorem 2.9 says of it: the conditions\n\n";
   text +=
       "The theorem (La Scala 1994, section 2.4.5) promises a bounded estimation error when all of its "
-      "conditions hold. "
-      "Its text is read twice: *printed* is the body of the thesis, *errata* has the changes of its errata "
-      "sheet. *repaired* is our own theorem of the same form, with every gap of the proof closed "
-      "(docs/repaired-theorem.md).\n\n";
+      "conditions hold. Its text is read twice: *printed* is the body of the thesis, *errata* has the "
+      "changes of its errata sheet. *repaired* is our own theorem of the same form, with every gap of the "
+      "proof closed (docs/repaired-theorem.md).\n\n";
   for (const auto& derivation : derivations_of(certificate, kTheorem)) {
     text += fmt::format("### {}: {}\n\n", derivation.title, markdown::verdict(derivation.verdict));
     text += markdown::conditions_table(derivation) + "\n";
@@ -233,8 +229,7 @@ std::string constants_section(const Certificate& certificate) {
   text += markdown::table(header, rows);
   return text +
          "\nEach value is enclosed: the true value of the formula lies between the two decimals, which are "
-         "rounded "
-         "outward.\n\n";
+         "rounded outward.\n\n";
 }
 
 }  // namespace veritrack::certificates

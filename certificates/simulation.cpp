@@ -118,11 +118,11 @@ Simulation simulate(const Design& design) {
     const SteadyState steady = find_steady_state(design, first.frequency);
     start_covariance = steady.covariance;
     if (!steady.settled) {
-      simulation.notes.push_back(fmt::format(
-          "The tracker has no steady state that iteration finds at the frequency of the start, {:.6g} "
-          "rad/sample: the run "
-          "starts from the covariance that its recursion reaches after 20000 samples without error.",
-          first.frequency));
+      simulation.notes.push_back(
+          fmt::format("The tracker has no steady state that iteration finds at the frequency of the start, "
+                      "{:.6g} rad/sample: the run starts from the covariance that its recursion reaches "
+                      "after 20000 samples without error.",
+                      first.frequency));
     }
   }
   if (!trackers::find_signal(settings.signal).honours_bounds) {

@@ -128,8 +128,8 @@ Claim stability_claim(const Interval& r) {
   claim.reason =
       "The amplitude is an uncontrollable mode on the unit circle. In the frame of the signal F has the rows "
       "(1, 0, 0), (0, 1, 1), (0, 0, 1), and w = (1, 0, 0) has w F = w and w Q w' = 0. Each sample adds at "
-      "most "
-      "1/r to the information on the amplitude, so that with r > 0 its variance falls no faster than 1/k.";
+      "most 1/r to the information on the amplitude, so that with r > 0 its variance falls no faster than "
+      "1/k.";
   return claim;
 }
 

@@ -91,8 +91,7 @@ std::string proof_section(const Certificate& certificate) {
   text +=
       "Each place where the proof (La Scala 1994, chapter 2 and section 3.5) may break is a sentence with a "
       "verdict. The witness is a point, or a set, where both sides can be evaluated again. Where the "
-      "readings "
-      "differ they stand side by side; *general* means for every system, *repaired* is our own "
+      "readings differ they stand side by side; *general* means for every system, *repaired* is our own "
       "correction.\n\n";
   std::vector<std::vector<std::string>> rows;
   rows.reserve(found.size());

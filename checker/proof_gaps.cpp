@@ -124,15 +124,13 @@ void add_remainders(Claims& claims, const Design& d, const Constants29& printed)
   const Ball bound = square(Ball(0.125)) / two;
   add(claims, "remainder-constant/general",
       "A Lipschitz constant rho_4 of the first derivative gives (2.33), |f'(x1) - f'(x2) - f''(x2)(x1 - x2)| "
-      "<= "
-      "rho_4 |x1 - x2|^2 / 2.",
+      "<= rho_4 |x1 - x2|^2 / 2.",
       decide_at_most(remainder, bound), {{"remainder", remainder}, {"claimed_bound", bound}});
   const Ball difference = one - cos(half);
   const Ball rest = difference - half * sin(half);
   add(claims, "decomposition/printed",
       "F_x(k) = F_zbar(k) + B(k) with B(k) = F_x - F_zbar - (d^2 f/dx^2)(zbar) z (proof of Theorem 2.8), to "
-      "nine "
-      "digits.",
+      "nine digits.",
       decide_at_most(abs(difference - rest), nine_digits),
       {{"difference_entry", difference}, {"remainder_entry", rest}});
   const Ball second = second_derivative_norm(d.state_bound + printed.epsilon_r);
@@ -208,8 +206,7 @@ void add_perturbation(Claims& claims, const Design& d, const Constants29& c, con
   const Ball left = c.epsilon_r - reach;
   add(claims, "zeta/" + reading,
       "Were fbar a function of z(k) alone, the zeta of Lemma 2.5 would be a Lipschitz constant of the "
-      "remainder: "
-      "r_delta = eps_r - beta eps_z is at most 1.",
+      "remainder: r_delta = eps_r - beta eps_z is at most 1.",
       all_of({decide_less(zero, left), decide_at_most(left, one)}), {{"r_delta", left}});
   const Ball size = c.eta_size / left;
   add(claims, "eta-size/" + reading,
@@ -220,8 +217,7 @@ void add_perturbation(Claims& claims, const Design& d, const Constants29& c, con
   const Ball slope = two * c.eta_slope;
   add(claims, "eta-slope/" + reading,
       "The eta of (2.40) meets Theorem 2.7's ||dg/dx|| <= eta/2, ||dg/dx|| bounded by the second entry of "
-      "(2.40). (The "
-      "proof of Theorem 2.7 needs eta in place of eta/2 only.)",
+      "(2.40). (The proof of Theorem 2.7 needs eta in place of eta/2 only.)",
       decide_at_most(slope, c.eta), {{"needed", slope}, {"eta", c.eta}});
   const Ball term = Ball(0.875) * (d.state_bound - c.epsilon_z);
   add(claims, "final-bound/" + reading,
@@ -234,8 +230,7 @@ void add_perturbation(Claims& claims, const Design& d, const Constants29& c, con
   const Ball excess = c.beta * c.zeta_z;
   add(claims, "linearised-rate/" + reading,
       "Lemma 2.3's rate alpha + zeta_z beta of the linearised equation is at most the alpha with which the "
-      "proof of "
-      "Theorem 2.9 meets condition C2.",
+      "proof of Theorem 2.9 meets condition C2.",
       decide_at_most(excess, zero), {{"rate_excess", excess}});
   add(claims, "radius-order/" + reading,
       "beta eps_z < eps_r, which the proof of Theorem 2.9 states without a reason.",
@@ -251,8 +246,7 @@ void add_theorem_2_7(Claims& claims) {
   const Ball sum = start + start + start * (one - start);
   add(claims, "final-bound-sum",
       "beta_1 |x0| + beta_2 |x0| + beta_2 eta (r_x - beta_1 r_z)/(1 - (alpha_2 + zeta beta_2)) <= r_x, as "
-      "Theorem 2.7 "
-      "concludes at k = 0.",
+      "Theorem 2.7 concludes at k = 0.",
       decide_at_most(sum, one), {{"sum", sum}});
 }
 

@@ -260,7 +260,6 @@ Derivation lemma_3_1(const Design& d, const Tree& /*claimed*/) {
 }
 
 // ---- results that rest on the error equation, within a radius that the certificate chooses
-// -----------------------
 
 /// sup of |g(k)| for the noise that is assumed: |w| from what leaks to that and the slew.
 Range perturbation(const ErrorEquation& e, const Design& d) {

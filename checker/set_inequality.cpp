@@ -137,7 +137,6 @@ Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, cons
 }
 
 // ---- proposals in double: any multipliers and any congruence will do
-// ------------------------------------------
 
 Matrix<double> near(const Matrix<Ball>& m) {
   Matrix<double> result{};
@@ -238,7 +237,6 @@ Matrix<double> inverse_factor(const Matrix<double>& m) {
 }
 
 // ---- proofs
-// ----------------------------------------------------------------------------------------------------
 
 /// C m C' for a lower triangular C.
 Matrix<Ball> congruent(const Matrix<Ball>& c, const Matrix<Ball>& m) {

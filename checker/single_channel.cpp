@@ -83,8 +83,7 @@ std::map<std::string, Claim> proposition_claims() {
       at.printed_denominator() / at.w, at.characteristic() / square(at.w));
   claims["proposition-1/denominator-corrected"] = {
       "The characteristic polynomial of (3) is z² − z(K2 sin x3 + 2 cos x3 − K1 cos x3) + 1 − K1: the "
-      "printed one with "
-      "its term K1 cos x3 multiplied by z.",
+      "printed one with its term K1 cos x3 multiplied by z.",
       vanishes([](const Point& x) { return x.corrected_denominator() * x.w - x.characteristic(); }),
       {}};
   for (const int row : {1, 2}) {
@@ -96,21 +95,18 @@ std::map<std::string, Claim> proposition_claims() {
   }
   claims["proposition-1/response-printed"] = printed(
       "G as printed in (6), with the numerator z(z² − 2z cos x3 + 1), is the transfer function from the "
-      "measurement to "
-      "the innovation.",
+      "measurement to the innovation.",
       at.z * at.zeros() / at.printed_denominator(), at.rotation() / at.characteristic());
   claims["proposition-1/response-corrected"] = {
       "That transfer function is (z² − 2z cos x3 + 1) / (z² − z(K2 sin x3 + 2 cos x3 − K1 cos x3) + 1 − K1), "
-      "which is "
-      "proper; its zeros lie on the unit circle, at the angles ±x3.",
+      "which is proper; its zeros lie on the unit circle, at the angles ±x3.",
       all_of({vanishes([](const Point& x) { return x.zeros() * x.w - x.rotation(); }),
               vanishes([](const Point& x) { return x.corrected_denominator() * x.w - x.characteristic(); })}),
       {}};
   // The gain is homogeneous of degree zero in (P, Q, r), the updates of P are of degree one.
   claims["proposition-2/scaled-start"] = {
       "With Q, r and P(0) all multiplied by the same α > 0 the gains and estimates are the same at every "
-      "sample, and P is "
-      "multiplied by α.",
+      "sample, and P is multiplied by α.",
       Verdict::proved,
       {}};
   // Q = q I, q = r = alpha, P(0|0) = I, F = I: K1 = (1 + alpha)/(1 + 2 alpha).
@@ -118,8 +114,7 @@ std::map<std::string, Claim> proposition_claims() {
   const Ball twice = Ball(3.0) / Ball(5.0);
   claims["proposition-2/same-start"] = {
       "With q and r multiplied by α and the same initialization, P(0) included, the estimates are the same "
-      "(as the "
-      "paper's text asks for).",
+      "(as the paper's text asks for).",
       certainly_less(twice, once) ? Verdict::refuted : Verdict::undecided,
       {{"gain", once}, {"gain_scaled", twice}}};
   return claims;

@@ -1,192 +1,18 @@
-// The command line: reads arguments, calls certificates/ and reports/, prints, and chooses the exit status.
+// The command line: reads arguments and leaves the work to commands.hpp.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "analysis/rigor/self_test.hpp"
-#include "certificates/certificate.hpp"
-#include "certificates/coq_document.hpp"
-#include "certificates/design_reader.hpp"
-#include "certificates/markdown.hpp"
-#include "certificates/output_files.hpp"
-#include "certificates/region.hpp"
-#include "certificates/tuning.hpp"
-#include "reports/certificate_files.hpp"
-#include "reports/check_reports.hpp"
-#include "reports/example_report.hpp"
-#include "reports/limit_report.hpp"
-#include "reports/region_files.hpp"
+#include "cli/commands.hpp"
 
 namespace {
 
-namespace certificates = veritrack::certificates;
-namespace reports = veritrack::reports;
+using namespace veritrack::cli;  // NOLINT(google-build-using-namespace): this file is made of it
 namespace rigor = veritrack::rigor;
-
-enum ExitStatus : int { all_proved = 0, not_proved = 1, bad_input = 2, bad_arithmetic = 3 };
-
-/// 0 when everything required is PROVED, or nothing is required; else 1.
-ExitStatus status_of(const certificates::Certificate& certificate) {
-  const bool fine = !certificate.verdict || *certificate.verdict == rigor::Verdict::proved;
-  return fine ? all_proved : not_proved;
-}
-
-/// A line on standard error that follows long work, when a person is watching.
-bool show_progress(const veritrack::contraction::RegionProgress& progress) {
-  if (isatty(STDERR_FILENO) != 0) {
-    fmt::print(stderr, "\rproved {:5.1f} %, refuted {:5.1f} % ({} propagations)",
-               100.0 * progress.proved_share, 100.0 * progress.refuted_share, progress.propagations);
-  }
-  return true;
-}
-
-/// Takes that line away.
-void end_progress() {
-  if (isatty(STDERR_FILENO) != 0) {
-    fmt::print(stderr, "\r\033[K");
-  }
-}
-
-certificates::Certificate certify_with_progress(const std::string& design_path) {
-  certificates::Certificate certificate = certificates::certify_file(design_path, show_progress);
-  end_progress();
-  return certificate;
-}
-
-struct CertifyOptions {
-  std::string design;
-  std::string directory;
-  bool coq = false;
-};
-
-ExitStatus run_certify(const CertifyOptions& options) {
-  certificates::Certificate certificate = certify_with_progress(options.design);
-  if (options.coq) {
-    certificate.formal_proofs = certificates::coq_proofs(certificate);
-  }
-  std::string directory = options.directory;
-  if (directory.empty()) {
-    directory =
-        (std::filesystem::path("certificates-out") / std::filesystem::path(options.design).stem()).string();
-  }
-  const std::filesystem::path document = reports::write_certificate_files(certificate, directory);
-  fmt::print("{}: {}\n", document.string(), certificates::headline(certificate));
-  return status_of(certificate);
-}
-
-struct CheckOptions {
-  std::vector<std::string> designs;
-  std::string junit;
-  std::string sarif;
-};
-
-ExitStatus run_check(const CheckOptions& options) {
-  ExitStatus status = all_proved;
-  std::vector<reports::CheckedDesign> checked;
-  for (const std::string& path : options.designs) {
-    checked.push_back({path, certify_with_progress(path)});
-  }
-  certificates::OutputFiles files;
-  if (!options.junit.empty()) {
-    files.stage(options.junit, reports::to_junit(checked));
-  }
-  if (!options.sarif.empty()) {
-    files.stage(options.sarif, reports::to_sarif(checked));
-  }
-  files.commit();
-  for (const auto& [path, certificate] : checked) {
-    if (!certificate.verdict) {
-      fmt::print("{}: nothing required\n", path);
-    }
-    for (const certificates::Claim& claim : certificate.claims) {
-      if (claim.required) {
-        fmt::print("{}:{}: {}: {} ({})\n", path, claim.position.line, rigor::to_string(claim.verdict),
-                   claim.statement, claim.reason);
-      }
-    }
-    if (status_of(certificate) != all_proved) {
-      status = not_proved;
-    }
-  }
-  return status;
-}
-
-struct MapOptions {
-  std::string design;
-  std::string directory;
-  certificates::RegionRequest request;
-};
-
-ExitStatus run_map(const MapOptions& options) {
-  const certificates::Design design = certificates::read_design_file(options.design);
-  const certificates::RegionResult result =
-      certificates::prove_region_of_attraction(design, options.request, show_progress);
-  end_progress();
-  if (!result.found) {
-    fmt::print("{}: undecided: {}\n", options.design, result.reason);
-    return not_proved;
-  }
-  std::string directory = options.directory;
-  if (directory.empty()) {
-    directory = (std::filesystem::path("maps-out") / std::filesystem::path(options.design).stem()).string();
-  }
-  const std::filesystem::path picture = reports::write_region_files(*result.found, directory);
-  fmt::print("{}: {:.1f} % of the simulated basin is proved to be captured, {} cells\n", picture.string(),
-             100.0 * result.found->shares.proved, result.found->region.cells.size());
-  return all_proved;
-}
-
-struct TuneOptions {
-  std::string design;
-  std::string output;
-};
-
-ExitStatus run_tune(const TuneOptions& options) {
-  const certificates::TuningResult result =
-      certificates::tune(certificates::read_design_file(options.design));
-  if (!result.design_text) {
-    fmt::print("{}: undecided: {}\n", options.design, result.reason);
-    return not_proved;
-  }
-  std::string output = options.output;
-  if (output.empty()) {
-    output = std::filesystem::path(options.design).stem().string() + "-tuned.toml";
-  }
-  certificates::OutputFiles files;
-  files.stage(output, *result.design_text);
-  files.commit();
-  const certificates::Certificate certificate = certificates::certify_file(output);
-  fmt::print("{}: {}\n", output, certificates::headline(certificate));
-  return status_of(certificate);
-}
-
-constexpr const char* kExampleReport = "bittanti-savaresi-2000";
-constexpr const char* kLimitReport = "tracking-limits";
-
-struct ReproduceOptions {
-  std::string report = kExampleReport;
-  std::string directory;
-  int seeds = 0;  ///< 0: as many as the report in docs/reports was made with
-};
-
-ExitStatus run_reproduce(const ReproduceOptions& options) {
-  const std::filesystem::path directory = options.directory.empty()
-                                              ? std::filesystem::path("reports-out") / options.report
-                                              : std::filesystem::path(options.directory);
-  const bool limits = options.report == kLimitReport;
-  const int published_seeds = limits ? 1000 : 200;
-  const int seeds = options.seeds > 0 ? options.seeds : published_seeds;
-  const std::filesystem::path document = limits ? reports::write_limit_report(seeds, directory)
-                                                : reports::write_example_report(seeds, directory);
-  fmt::print("{}\n", document.string());
-  return all_proved;
-}
 
 int run(int argc, char** argv) {
   CLI::App app{"Machine-checked certificates for frequency trackers.", "veritrack"};
@@ -196,6 +22,10 @@ int run(int argc, char** argv) {
       "Exit status: 0 everything required is PROVED (or nothing is required); 1 something is REFUTED or "
       "UNDECIDED;\n"
       "2 bad input; 3 this machine's arithmetic failed the self-test.");
+
+  bool quiet = false;
+  app.add_flag("--quiet", quiet, "no progress on standard error");
+  app.fallthrough();
 
   CertifyOptions certify_options;
   CLI::App* certify =
@@ -238,10 +68,10 @@ int run(int argc, char** argv) {
                    "design file to write (default: <name of the design file>-tuned.toml)");
 
   ReproduceOptions reproduce_options;
-  CLI::App* reproduce = app.add_subcommand("reproduce",
-                                           "make a report of docs/reports anew: the published examples of "
-                                           "the single-channel tracker, or how close "
-                                           "the trackers come to the Cramer-Rao bounds");
+  CLI::App* reproduce =
+      app.add_subcommand("reproduce",
+                         "make a report of docs/reports anew: the published examples of the single-channel "
+                         "tracker, or how close the trackers come to the Cramer-Rao bounds");
   reproduce->add_option("REPORT", reproduce_options.report, "which report")
       ->check(CLI::IsMember({kExampleReport, kLimitReport}))
       ->capture_default_str();
@@ -255,6 +85,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? all_proved : bad_input;
   }
+
+  certify_options.quiet = check_options.quiet = map_options.quiet = quiet;
 
   const rigor::SelfTestReport self_test = rigor::run_self_test();
   if (!self_test.passed()) {

@@ -148,14 +148,11 @@ std::string document(const std::vector<StartRates>& rates, int seeds, std::uint6
   text += fmt::format(
       "The paper prints the process noise covariance as $`q I_3`$ and defines $`I_3`$ as "
       "$`\\mathrm{{diag}}(0, 0, 1)`$. Both readings were simulated over {} noise seeds for each of {} starts "
-      "of "
-      "the tracker, which the paper does not give. A rate is the share of the seeds for which a statement of "
-      "the "
-      "text or of a figure came out. Locked means: over the 100 samples before the frequency first changes, "
-      "or "
-      "the last 100, the mean error is below 0.35 rad/sample and the deviation about the mean below 0.5 "
-      "rad/sample; an estimate that settles on an alias, off by a multiple of $`2\\pi`$, is not locked. "
-      "These are simulations in double precision; they prove nothing.\n\n",
+      "of the tracker, which the paper does not give. A rate is the share of the seeds for which a statement "
+      "of the text or of a figure came out. Locked means: over the 100 samples before the frequency first "
+      "changes, or the last 100, the mean error is below 0.35 rad/sample and the deviation about the mean "
+      "below 0.5 rad/sample; an estimate that settles on an alias, off by a multiple of $`2\\pi`$, is not "
+      "locked. These are simulations in double precision; they prove nothing.\n\n",
       seeds, rates.size());
   text += rate_table(rates) + "\n";
   text +=
@@ -230,8 +227,7 @@ std::string reading_sentence(const std::vector<StartRates>& rates) {
   }
   return fmt::format(
       "Of the two readings the published figures can have come from Q = q diag({}) only{}: the other one "
-      "fails for "
-      "every start tried.",
+      "fails for every start tried.",
       printed.empty() ? "1, 1, 1" : "0, 0, 1", criterion);
 }
 

@@ -126,8 +126,7 @@ Figure error_figure(const Certificate& certificate) {
   script += "\n";
   std::string caption =
       "Error of the tracker along the simulated run, logarithmic: the whole error |e(k|k)| (signal relative "
-      "to its "
-      "amplitude, and rad/sample) and the frequency error alone.";
+      "to its amplitude, and rad/sample) and the frequency error alone.";
   if (!levels.empty()) {
     caption += " The dashed lines are what it is to be compared with.";
   }

@@ -54,8 +54,7 @@ std::string random_walk_panel(const std::vector<limits::RandomWalkSeries>& study
     if (matched) {
       plots += fmt::format(
           "{0} using 1:2 with lines lw 1.4 dt {1} lc rgb '#777777' title 'bound, walk {2:.1g}', {0} using "
-          "1:3 "
-          "with points pt {3} ps 0.8 lw 1.4 lc rgb '#000000' title 'tracker, walk {2:.1g}'",
+          "1:3 with points pt {3} ps 0.8 lw 1.4 lc rgb '#000000' title 'tracker, walk {2:.1g}'",
           name, index + 1, series.walk_variance, kOpenPoints.at(index));
     } else {
       plots +=

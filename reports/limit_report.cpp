@@ -156,16 +156,14 @@ std::string summary(const LimitStudy& study) {
   const double noise = limits::noise_variance_of(limits::kOverTimeDecibels);
   return fmt::format(
       "**What an engineer learns.** (1) With $`q_2`$ and $`r`$ set to what the signal really does, a "
-      "cleverer "
-      "filter has little left to gain: from its threshold on, each tracker has a mean square frequency error "
-      "at most ≈ {:.1f} dB above the least that any estimator can have. For a frequency that wanders by "
-      "{:.3f} rad/sample a sample the threshold is {} for the quadrature tracker and {} for the "
+      "cleverer filter has little left to gain: from its threshold on, each tracker has a mean square "
+      "frequency error at most ≈ {:.1f} dB above the least that any estimator can have. For a frequency that "
+      "wanders by {:.3f} rad/sample a sample the threshold is {} for the quadrature tracker and {} for the "
       "single-channel one. (2) $`q_1`$ is not a detail when one channel is measured: the signal has no such "
       "noise, but with $`q_1`$ = {} the same threshold of the single-channel tracker is {}. With $`q_1 = 0`$ "
       "and little measurement noise that filter is too sure of a linearisation that the frequency's own "
-      "steps "
-      "outrun. (3) Measuring one channel in place of two costs what twice the noise would cost. (4) For a "
-      "constant frequency all depends on $`q_2`$: the error stops falling after about "
+      "steps outrun. (3) Measuring one channel in place of two costs what twice the noise would cost. (4) "
+      "For a constant frequency all depends on $`q_2`$: the error stops falling after about "
       "$`3.2\\,(\\rho/q_2)^{{1/4}}`$ samples, $`\\rho`$ the noise variance over the squared amplitude, so "
       "that averaging over $`N`$ samples takes $`q_2 \\approx \\rho\\,(3.2/N)^4`$ (at {:.0f} dB and $`N`$ = "
       "{}: ≈ {:.0e} (rad/sample)²).\n\n",

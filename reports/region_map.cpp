@@ -120,11 +120,9 @@ std::string caption(const Region& region, const SimulatedBasin& basin) {
   }
   return fmt::format(
       "Region of attraction over the start's frequency error (rad/sample) and phase error (rad): starts "
-      "proved "
-      "to be captured (dark), proved to lock at a wrong frequency (hatched) and undecided (light), with the "
-      "outline of the basin found by simulating {} x {} starts. Proved: {} of the simulated basin; "
-      "undecided: "
-      "{}.",
+      "proved to be captured (dark), proved to lock at a wrong frequency (hatched) and undecided (light), "
+      "with the outline of the basin found by simulating {} x {} starts. Proved: {} of the simulated basin; "
+      "undecided: {}.",
       basin.frequencies, basin.phases, percent(shares.proved), percent(shares.undecided));
 }
 

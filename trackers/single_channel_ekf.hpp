@@ -90,9 +90,8 @@ class ZeroInnovationVariance : public std::domain_error {
   ZeroInnovationVariance()
       : std::domain_error(
             "the innovation variance P11(k|k-1) + r is exactly zero: with r = 0 the tracker needs a "
-            "prediction "
-            "that is not certain of x1; choose r above zero, or a start or process noise with some "
-            "variance") {}
+            "prediction that is not certain of x1; choose r above zero, or a start or process noise with "
+            "some variance") {}
 };
 
 /// From (k|k) to (k+1|k): the prediction and the time update of P in (2).

@@ -119,9 +119,8 @@ LockBranch verify_lock_branch(const trackers::QuadratureEkfDesign<Interval>& des
     branch.reason =
         design.q1 == Interval(0.0)
             ? "with q1 = 0 the amplitude is an uncontrollable mode on the unit circle at frequency 0, from "
-              "where "
-              "the lock branch is continued, so that there is no isolated steady state to start with (a leak "
-              "mends this at other frequencies only); any q1 > 0 repairs it"
+              "where the lock branch is continued, so that there is no isolated steady state to start with "
+              "(a leak mends this at other frequencies only); any q1 > 0 repairs it"
             : "no isolated positive definite steady-state covariance could be verified at frequency 0";
     return branch;
   }

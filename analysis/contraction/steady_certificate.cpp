@@ -8,14 +8,12 @@
 #include "analysis/contraction/steady_report.hpp"
 #include "analysis/contraction/steady_sampled_quantities.hpp"
 #include "analysis/contraction/steady_search.hpp"
-#include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::contraction {
 
 namespace {
 
-using rigor::Direction;
 using rigor::Interval;
 using rigor::IntervalVector;
 using rigor::Verdict;
@@ -24,10 +22,6 @@ using theorems::Quantity;
 using Tube = FixedPointTube<QuadraturePolarLoop::kStates>;
 
 constexpr const char* kSource = "docs/leak.md";
-
-std::string at_most(const Interval& x) {
-  return rigor::to_decimal(x.upper(), 4, Direction::up);
-}
 
 Quantity quantity(std::string name, std::string symbol, std::string formula,
                   const std::optional<Interval>& value, const std::string& why) {
@@ -38,16 +32,6 @@ Quantity quantity(std::string name, std::string symbol, std::string formula,
     result.not_applicable = why;
   }
   return result;
-}
-
-bool is_sensible(const LeakQuestion& question) {
-  const ContractionQuestion& t = question.tracker;
-  const Interval zero(0.0);
-  return certainly_positive(t.design.r) && certainly_positive(t.design.q2) && is_finite(question.band) &&
-         certainly_less_equal(zero, t.noise) && certainly_less_equal(zero, t.slew) &&
-         certainly_less_equal(zero, t.initial_amplitude_error) &&
-         certainly_less_equal(zero, t.initial_phase_error) &&
-         certainly_less_equal(zero, t.initial_frequency_error);
 }
 
 }  // namespace
@@ -70,7 +54,7 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
   double largest_noise = 0.0;
   double largest_slew = 0.0;
   std::string why = branch.reason;
-  if (branch.verdict == Verdict::proved && is_sensible(question)) {
+  if (branch.verdict == Verdict::proved && is_finite(question.band) && is_well_posed(question.tracker)) {
     SteadySearch search = search_steady_sets(question.tracker, branch);
     why = "no set was found in which the steps contract";
     certificate.set = std::move(search.set);
@@ -88,13 +72,8 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
                       Interval(1.0),
                       why};
   if (!proved && branch.verdict == Verdict::proved) {
-    invariant.reason = "no set could be certified for this noise and slew: " + why +
-                       " The largest certified noise (without slew) is " +
-                       rigor::to_decimal(largest_noise, 4, Direction::down) + "; " +
-                       at_most(question.tracker.noise) +
-                       " was assumed. The largest certified slew (without noise) is " +
-                       rigor::to_decimal(largest_slew, 4, Direction::down) + "; " +
-                       at_most(question.tracker.slew) + " was assumed.";
+    invariant.reason = "no set could be certified for this noise and slew: " + why + " Of the limits: " +
+                       beyond_the_limits(question.tracker, largest_noise, largest_slew) + ".";
   }
   std::optional<SteadyReport> report;
   std::optional<Interval> rate;

@@ -46,12 +46,11 @@ std::vector<Condition> claims_of_every_design() {
       "invariance", "\\tfrac{\\partial T}{\\partial x} f = F T + G h", transform_is_invariant(),
       "an identity in all rates and states with x1' = -x2, x2' = x3 x1, the signs of the paper's proof: its "
       "residual is the zero polynomial, by exact evaluation on a grid."));
-  claims.push_back(
-      condition("phase-formula", "\\Phi = \\tan^{-1}(\\sqrt{x_{30}}\\, x_{10} / x_{20})",
-                transform_is_invariant_with_other_sign(),
-                "Witness x(0) = (1, 1, 1): the formula gives y(t) = sqrt(2) sin(t + pi/4), which rises at 0, "
-                "while T of (6) "
-                "solves (3) only with x1' = -x2, which falls. With (6) the phase is atan2(w x1, -x2)."));
+  claims.push_back(condition(
+      "phase-formula", "\\Phi = \\tan^{-1}(\\sqrt{x_{30}}\\, x_{10} / x_{20})",
+      transform_is_invariant_with_other_sign(),
+      "Witness x(0) = (1, 1, 1): the formula gives y(t) = sqrt(2) sin(t + pi/4), which rises at 0, while T "
+      "of (6) solves (3) only with x1' = -x2, which falls. With (6) the phase is atan2(w x1, -x2)."));
   claims.push_back(
       condition("determinant", "\\det(L^T L) = |M\\xi|^2", determinant_is_excitation(),
                 "an identity in all rates and all xi, by exact evaluation on a grid of 6561 points."));
@@ -61,13 +60,13 @@ std::vector<Condition> claims_of_every_design() {
   // L has a column for each component of the state.
   const Interval columns(static_cast<int>(trackers::OscillatorState<double>::RowsAtCompileTime));
   const Interval printed(4.0);
-  claims.push_back(condition(
-      "dimensions", "\\Phi = L^T L + \\mu I,\\ I \\in R^{4 \\times 4}: \\dim I \\le \\dim L^T L",
-      rigor::decide_less_equal(printed, columns),
-      "Witness: L has three columns, so that L'L is 3 x 3 and I must be, where 4 x 4 is printed; for the "
-      "same "
-      "reason gamma_0, \"a real number\" in print, must have three components. Read so, (8) is well formed.",
-      printed, columns));
+  claims.push_back(condition("dimensions",
+                             "\\Phi = L^T L + \\mu I,\\ I \\in R^{4 \\times 4}: \\dim I \\le \\dim L^T L",
+                             rigor::decide_less_equal(printed, columns),
+                             "Witness: L has three columns, so that L'L is 3 x 3 and I must be, where 4 x 4 "
+                             "is printed; for the same reason gamma_0, \"a real number\" in print, must have "
+                             "three components. Read so, (8) is well formed.",
+                             printed, columns));
   return claims;
 }
 

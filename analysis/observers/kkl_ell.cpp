@@ -207,8 +207,7 @@ theorems::Derivation derive_kkl_ell(const KklRange& range) {
   derivation.verdict = rigor::conjunction({tight.verdict, positive.verdict});
   derivation.notes = {
       "The values of Ipopt (on (10) as the paper states it) and of NLopt (on the reduced problem, locally "
-      "and "
-      "globally) are proposals: they are held against the enclosure and enter no proof."};
+      "and globally) are proposals: they are held against the enclosure and enter no proof."};
   return derivation;
 }
 

@@ -100,13 +100,10 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question
       {derivation.conditions[0].verdict, derivation.conditions[1].verdict, derivation.conditions[2].verdict});
   derivation.notes = {
       "The bounds hold from the settling time on, for every signal of the assumed range, when the filters "
-      "start "
-      "at rest with the signal. A sinusoidal disturbance may have any phase and any frequency from the "
-      "assumed "
-      "one up.",
+      "start at rest with the signal. A sinusoidal disturbance may have any phase and any frequency from the "
+      "assumed one up.",
       "The simulated errors are the largest over a grid of signals; they prove nothing and show how tight "
-      "the "
-      "bounds are."};
+      "the bounds are."};
   return derivation;
 }
 

@@ -176,16 +176,14 @@ theorems::Derivation derive_kkl_section_v(const Eigen::Vector4d& lambda, double 
   count("captions_within_one_unit", close);
   derivation.notes = {
       "Printed are, as mean and deviation: amplitude 1.9999 and 0.0947 (10 rad/s), 2.0 and 0.0108 (100 "
-      "rad/s), 2.0 "
-      "and 0.0011 (1000 rad/s); frequency 2.9956 and 0.1164, 3.0 and 0.0142, 3.0 and 0.0014 rad/s.",
+      "rad/s), 2.0 and 0.0011 (1000 rad/s); frequency 2.9956 and 0.1164, 3.0 and 0.0142, 3.0 and 0.0014 "
+      "rad/s.",
       "The captions cannot tell one ell from another: every ell for which mu vanishes along the run gives "
-      "the same "
-      "numbers. They do tell such an ell from a larger one.",
+      "the same numbers. They do tell such an ell from a larger one.",
       "Printed for the adaptive observer (Figures 7 to 9): 2.6677 and 0.8463, 3.7028 and 1.1004, 2.8141 and "
-      "0.5285 "
-      "rad/s. Its parameters here are ours (lambda = 5, alpha = 1, all gains 1, started at 2 rad/s): the "
-      "paper's "
-      "are in a work that was not at hand, and the numbers are not to be compared for agreement."};
+      "0.5285 rad/s. Its parameters here are ours (lambda = 5, alpha = 1, all gains 1, started at 2 rad/s): "
+      "the paper's are in a work that was not at hand, and the numbers are not to be compared for "
+      "agreement."};
   return derivation;
 }
 

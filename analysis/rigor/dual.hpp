@@ -196,7 +196,6 @@ class Dual {
 };
 
 // ---- functions, by the chain rule
-// ---------------------------------------------------------------------------------
 
 template <typename Scalar, int N>
 [[nodiscard]] Dual<Scalar, N> square(const Dual<Scalar, N>& x) {

@@ -135,7 +135,6 @@ class Interval {
 };
 
 // ---- what an interval is
-// ------------------------------------------------------------------------------------------
 
 [[nodiscard]] inline bool is_empty(const Interval& x) noexcept {
   const bool ordered = x.lower() <= x.upper();
@@ -200,8 +199,9 @@ class Interval {
 }
 
 // ---- predicates: true only when certain
-// --------------------------------------------------------------------------- All require finite operands and
-// the held rounding mode (RoundingModeError otherwise). None is the negation of another.
+
+// All require finite operands and the held rounding mode (RoundingModeError otherwise). None is the negation of
+// another.
 
 /// Every point of a is less than every point of b.
 [[nodiscard]] inline bool certainly_less(const Interval& a, const Interval& b) {
@@ -221,7 +221,6 @@ class Interval {
 }
 
 // ---- set operations
-// -----------------------------------------------------------------------------------------------
 
 /// The smallest interval that holds both; empty when either is: what is not known is not known together with
 /// another.
@@ -246,7 +245,6 @@ class Interval {
 }
 
 // ---- algebraic functions
-// ------------------------------------------------------------------------------------------
 
 [[nodiscard]] inline Interval abs(const Interval& x) noexcept {
   if (is_empty(x)) {

@@ -40,7 +40,6 @@ class Examiner {
 };
 
 // ---- the state of the processor
-// ---------------------------------------------------------------------------------
 
 constexpr unsigned int kExceptionMasks = 0x1F80;  // MXCSR: set while floating-point exceptions do not trap
 
@@ -81,7 +80,6 @@ void examine_scopes(Examiner& examiner) {
 }
 
 // ---- what the compiler may have done
-// ----------------------------------------------------------------------------
 
 // Ordinary expressions on literals, as careless code would write them. The empty statement keeps the
 // functions from being taken for pure ones, whose calls might be moved across a change of the rounding mode.
@@ -125,7 +123,6 @@ void examine_reuse_across_modes(Examiner& examiner) {
 }
 
 // ---- operations
-// -------------------------------------------------------------------------------------------------
 
 double evaluate(const Pattern& pattern, Direction direction) {
   const bool down = direction == Direction::down;
@@ -194,7 +191,6 @@ void examine_elementary_functions(Examiner& examiner) {
 }
 
 // ---- operands that must not certify
-// -----------------------------------------------------------------------------
 
 void examine_predicates(Examiner& examiner, const Interval& operand, const std::string& name) {
   const Interval one(1.0);

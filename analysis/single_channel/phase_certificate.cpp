@@ -20,9 +20,6 @@ using theorems::Condition;
 
 constexpr const char* kNone = "No set of errors could be certified under the assumed noise and slew.";
 
-std::string at_most(const Interval& x) {
-  return rigor::to_decimal(x.upper(), 4, Direction::up);
-}
 std::string at_least(const Interval& x) {
   return rigor::to_decimal(x.lower(), 4, Direction::down);
 }
@@ -70,18 +67,13 @@ Condition invariant_set(const PhaseQuestion& question, const PhaseCertificate& c
                        rigor::to_decimal(n, 2, Direction::up) + " samples.";
     return condition;
   }
-  condition.reason = "no set could be certified for this noise, slew and band";
-  if (certificate.noise_set) {
-    condition.reason += "; the largest certified noise (without slew) is " +
-                        at_least(certificate.noise_set->noise) + ", " + at_most(question.tracker.noise) +
-                        " was assumed";
-  }
-  if (certificate.slew_set) {
-    condition.reason += "; the largest certified slew (without noise) is " +
-                        at_least(certificate.slew_set->slew) + ", " + at_most(question.tracker.slew) +
-                        " was assumed";
-  }
-  condition.reason += ".";
+  const auto& noisy = certificate.noise_set;
+  const auto& slewing = certificate.slew_set;
+  condition.reason =
+      "no set could be certified for this noise, slew and band: " +
+      contraction::beyond_the_limits(question.tracker, noisy ? std::optional(noisy->noise.lower()) : std::nullopt,
+                                     slewing ? std::optional(slewing->slew.lower()) : std::nullopt) +
+      ".";
   return condition;
 }
 

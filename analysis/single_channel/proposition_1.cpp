@@ -99,8 +99,7 @@ Statement identity(std::string id, std::string sentence, const Difference& diffe
       vanishes<4>([&](const Point& point) { return difference(Symbols(point)); }, kDegree);
   return theorems::make_statement(std::move(id), std::move(sentence), verdict,
                                   "a polynomial identity, evaluated exactly on 5 values of each of z, K1, K2 "
-                                  "and tan(x3/2); the degree is "
-                                  "at most 4 in each",
+                                  "and tan(x3/2); the degree is at most 4 in each",
                                   {});
 }
 
@@ -131,8 +130,7 @@ std::vector<Statement> proposition_1_formulas() {
   statements.push_back(
       identity("proposition-1/denominator-corrected",
                "The characteristic polynomial of (3) is z² − z(K2 sin x3 + 2 cos x3 − K1 cos x3) + 1 − K1: "
-               "the printed "
-               "one with its term K1 cos x3 multiplied by z.",
+               "the printed one with its term K1 cos x3 multiplied by z.",
                [](const Symbols& x) { return corrected_denominator(x) * x.w - characteristic(x); }));
   for (const int row : {1, 2}) {
     statements.push_back(

@@ -65,8 +65,7 @@ std::vector<Statement> proposition_2() {
       "sample, and P is multiplied by α.",
       rigor::conjunction({gain_is_unchanged(), update_is_scaled(), prediction_is_scaled()}),
       "identities of the maps: the gain, each entry of the measurement update and of the time update, "
-      "exactly "
-      "evaluated as polynomials in the entries, r and α; the rest is induction over the samples",
+      "exactly evaluated as polynomials in the entries, r and α; the rest is induction over the samples",
       {}));
 
   // P(1|0) = F P(0) F' + Q from P(0) = 0 is Q, and then scales; from P(0) = I, x = (0, 0, 0) and F = I it is

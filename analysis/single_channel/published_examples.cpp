@@ -154,8 +154,7 @@ std::vector<StatementRate> statement_rates(ProcessNoiseReading reading, const Ex
       {"Example 2, λ = 10: locks before the jump and is lost after it",
        share(ten, [](const RunSummary& run) { return run.first.locked && !run.last.locked; })},
       {"Example 2: before the jump the estimate fluctuates less for λ = 1 than for 0, and less for 10 than "
-       "for "
-       "1",
+       "for 1",
        static_cast<double>(ordered) / static_cast<double>(seeds)}};
 }
 

@@ -1,10 +1,13 @@
 """veritrack map: the proved region of attraction, as a picture and as cells."""
 
 import csv
+import os
+import pty
+import subprocess
 import unittest
 import xml.etree.ElementTree
 
-from support import DESIGN, CliTestCase
+from support import DESIGN, PROGRAM, CliTestCase
 
 WITHOUT_AMPLITUDE_ERROR = DESIGN.replace("initial_amplitude_error = 0.005", "initial_amplitude_error = 0.0")
 
@@ -28,6 +31,26 @@ class Map(CliTestCase):
         area = sum((float(cell["frequency_error_high"]) - float(cell["frequency_error_low"])) *
                    (float(cell["phase_error_high"]) - float(cell["phase_error_low"])) for cell in cells)
         self.assertAlmostEqual(area, 0.6 * 1.0)
+
+    def on_a_terminal(self, *arguments):
+        """What the program shows on a terminal's standard error."""
+        reader, terminal = pty.openpty()
+        with os.fdopen(reader, "rb", buffering=0) as shown:
+            subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=terminal,
+                           timeout=300, check=True)
+            os.write(terminal, b"|")  # an end to read up to
+            os.close(terminal)
+            text = b""
+            while not text.endswith(b"|"):
+                text += shown.read(4096)
+        return text[:-1]
+
+    def test_progress_is_shown_on_a_terminal_unless_quiet(self):
+        self.write(WITHOUT_AMPLITUDE_ERROR)
+        command = ("map", "design.toml", "--frequency", "0.3", "--phase", "0.5")
+        self.assertIn(b"propagations", self.on_a_terminal(*command))
+        self.assertEqual(self.on_a_terminal(*command, "--quiet"), b"")
+        self.assertEqual(self.on_a_terminal("--quiet", *command), b"")
 
     def test_same_input_same_bytes(self):
         self.write(WITHOUT_AMPLITUDE_ERROR)

@@ -1,0 +1,55 @@
+// What the commands of the program do once their arguments are read. Each prints its results to standard
+// output and gives the exit status; errors are thrown.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "certificates/region.hpp"
+
+namespace veritrack::cli {
+
+enum ExitStatus : int { all_proved = 0, not_proved = 1, bad_input = 2, bad_arithmetic = 3 };
+
+inline constexpr const char* kExampleReport = "bittanti-savaresi-2000";
+inline constexpr const char* kLimitReport = "tracking-limits";
+
+struct CertifyOptions {
+  std::string design;
+  std::string directory;
+  bool coq = false;
+  bool quiet = false;  ///< no progress on standard error
+};
+
+struct CheckOptions {
+  std::vector<std::string> designs;
+  std::string junit;
+  std::string sarif;
+  bool quiet = false;  ///< no progress on standard error
+};
+
+struct MapOptions {
+  std::string design;
+  std::string directory;
+  certificates::RegionRequest request;
+  bool quiet = false;  ///< no progress on standard error
+};
+
+struct TuneOptions {
+  std::string design;
+  std::string output;
+};
+
+struct ReproduceOptions {
+  std::string report = kExampleReport;
+  std::string directory;
+  int seeds = 0;  ///< 0: as many as the report in docs/reports was made with
+};
+
+[[nodiscard]] ExitStatus run_certify(const CertifyOptions& options);
+[[nodiscard]] ExitStatus run_check(const CheckOptions& options);
+[[nodiscard]] ExitStatus run_map(const MapOptions& options);
+[[nodiscard]] ExitStatus run_tune(const TuneOptions& options);
+[[nodiscard]] ExitStatus run_reproduce(const ReproduceOptions& options);
+
+}  // namespace veritrack::cli

@@ -72,8 +72,9 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
                       Interval(1.0),
                       why};
   if (!proved && branch.verdict == Verdict::proved) {
-    invariant.reason = "no set could be certified for this noise and slew: " + why + " Of the limits: " +
-                       beyond_the_limits(question.tracker, largest_noise, largest_slew) + ".";
+    invariant.reason = "no set could be certified for this noise and slew: " + why +
+                       " Of the limits: " + beyond_the_limits(question.tracker, largest_noise, largest_slew) +
+                       ".";
   }
   std::optional<SteadyReport> report;
   std::optional<Interval> rate;

@@ -200,8 +200,8 @@ class Interval {
 
 // ---- predicates: true only when certain
 
-// All require finite operands and the held rounding mode (RoundingModeError otherwise). None is the negation of
-// another.
+// All require finite operands and the held rounding mode (RoundingModeError otherwise). None is the negation
+// of another.
 
 /// Every point of a is less than every point of b.
 [[nodiscard]] inline bool certainly_less(const Interval& a, const Interval& b) {

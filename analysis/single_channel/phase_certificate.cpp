@@ -69,11 +69,11 @@ Condition invariant_set(const PhaseQuestion& question, const PhaseCertificate& c
   }
   const auto& noisy = certificate.noise_set;
   const auto& slewing = certificate.slew_set;
-  condition.reason =
-      "no set could be certified for this noise, slew and band: " +
-      contraction::beyond_the_limits(question.tracker, noisy ? std::optional(noisy->noise.lower()) : std::nullopt,
-                                     slewing ? std::optional(slewing->slew.lower()) : std::nullopt) +
-      ".";
+  condition.reason = "no set could be certified for this noise, slew and band: " +
+                     contraction::beyond_the_limits(
+                         question.tracker, noisy ? std::optional(noisy->noise.lower()) : std::nullopt,
+                         slewing ? std::optional(slewing->slew.lower()) : std::nullopt) +
+                     ".";
   return condition;
 }
 

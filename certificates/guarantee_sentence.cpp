@@ -151,12 +151,16 @@ std::string guarantee_section(const Certificate& certificate) {
   const auto* rate = find_of_set(certificate, "contraction_rate");
   const auto* noise = find_of_set(certificate, "largest_noise");
   const auto* slew = find_of_set(certificate, "largest_slew");
+  const auto* bias = find_of_set(certificate, "bias_frequency");
+  const bool off_the_truth = bias != nullptr && !(bias->value == Interval(0.0));
   if (radius != nullptr && rate != nullptr) {
     text += fmt::format(
         "- The largest certified set, under the assumed noise and slew, reaches to a frequency error of {} "
-        "rad/sample; in it errors shrink to at most {} of themselves each sample, apart from what noise and "
+        "rad/sample{}; in it errors shrink to at most {} of themselves each sample, apart from what noise "
+        "and "
         "slew add.\n",
-        down(radius->value), up(rate->value));
+        down(radius->value),
+        off_the_truth ? " about the steady state, which the leak puts off the truth" : "", up(rate->value));
   }
   if (noise != nullptr && slew != nullptr) {
     text += fmt::format(

@@ -1,38 +1,23 @@
 #include "analysis/contraction/steady_certificate.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include "analysis/contraction/steady_report.hpp"
 #include "analysis/contraction/steady_sampled_quantities.hpp"
 #include "analysis/contraction/steady_search.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/theorems/derivation_builder.hpp"
 
 namespace veritrack::contraction {
 
 namespace {
 
 using rigor::Interval;
-using rigor::IntervalVector;
 using rigor::Verdict;
 using theorems::Condition;
-using theorems::Quantity;
 using Tube = FixedPointTube<QuadraturePolarLoop::kStates>;
 
 constexpr const char* kSource = "docs/leak.md";
-
-Quantity quantity(std::string name, std::string symbol, std::string formula,
-                  const std::optional<Interval>& value, const std::string& why) {
-  Quantity result{std::move(name), std::move(symbol), std::move(formula), kSource, Interval(), std::nullopt};
-  if (value && is_finite(*value)) {
-    result.value = *value;
-  } else {
-    result.not_applicable = why;
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -45,8 +30,7 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
   derivation.notes = {
       "Covers the tracker in exact arithmetic, for every frequency of the band, signal amplitude constant.",
       "With a leak the tracker settles off the truth: radii are about the steady state, error bounds about "
-      "the "
-      "truth. Amplitude error and noise are relative to the true amplitude."};
+      "the truth. Amplitude error and noise are relative to the true amplitude."};
   // Wider cells are fewer, narrower ones give larger sets.
   constexpr double kCellWidth = 0.1;  // rad/sample
   const LockBranch branch =
@@ -97,35 +81,33 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
   };
   const std::string outside =
       report ? "The assumed starts do not certainly come into the certified set." : why;
-  derivation.quantities = {
-      quantity("contraction_rate", "\\kappa", "\\max_j s_{j+1} / s_j", rate, why),
-      quantity("radius", "R", "|T (e - e^*)| \\le 1", report ? std::optional(Interval(1.0)) : std::nullopt,
-               why),
-      quantity("frequency_error_radius", "\\nu_R", "|e_3' T^{-1}|", radius(2), why),
-      quantity("phase_error_radius", "\\psi_R", "|e_2' T^{-1}|", radius(1), why),
-      quantity("amplitude_error_radius", "a_R", "|e_1' T^{-1}|", radius(0), why),
-      quantity("ultimate_frequency_error", "\\nu_\\infty", "\\sup_\\omega |\\nu^*| + s_n |e_3' T^{-1}|",
-               said([](const SteadyReport& r) { return r.ultimate(); }), why),
-      quantity("frequency_error_bound", "\\sup_k |\\nu(k)|",
-               "\\sup_\\omega (|\\nu^*| + \\max(s(k_c), s_{j(k_c)+1}) |e_3' T^{-1}|)",
-               report ? report->bound() : std::nullopt, outside),
-      quantity("capture_samples", "k_c", "", report ? report->capture_samples() : std::nullopt, outside),
-      quantity("settling_samples", "k_s", "k_c + n - j(k_c),\\ s_{j(k_c)} \\ge s(k_c)",
-               said([](const SteadyReport& r) { return r.settling(); }), why),
-      quantity("largest_noise", "V_{max}", "",
-               largest_noise > 0.0 ? std::optional(Interval(largest_noise)) : std::nullopt, why),
-      quantity("largest_slew", "W_{max}", "",
-               largest_slew > 0.0 ? std::optional(Interval(largest_slew)) : std::nullopt, why),
-      frequency_bias(branch)};
+  const auto add = [&](const char* name, const char* symbol, const char* formula,
+                       const std::optional<Interval>& value, const std::string& missing) {
+    theorems::add_quantity(derivation, {name, symbol, formula, kSource}, value.value_or(Interval()), missing);
+  };
+  add("contraction_rate", "\\kappa", "\\max_j s_{j+1} / s_j", rate, why);
+  add("radius", "R", "|T (e - e^*)| \\le 1", report ? std::optional(Interval(1.0)) : std::nullopt, why);
+  add("frequency_error_radius", "\\nu_R", "|e_3' T^{-1}|", radius(2), why);
+  add("phase_error_radius", "\\psi_R", "|e_2' T^{-1}|", radius(1), why);
+  add("amplitude_error_radius", "a_R", "|e_1' T^{-1}|", radius(0), why);
+  add("ultimate_frequency_error", "\\nu_\\infty", "\\sup_\\omega |\\nu^*| + s_n |e_3' T^{-1}|",
+      said([](const SteadyReport& r) { return r.ultimate(); }), why);
+  add("frequency_error_bound", "\\sup_k |\\nu(k)|",
+      "\\sup_\\omega (|\\nu^*| + \\max(s(k_c), s_{j(k_c)+1}) |e_3' T^{-1}|)",
+      report ? report->bound() : std::nullopt, outside);
+  add("capture_samples", "k_c", "", report ? report->capture_samples() : std::nullopt, outside);
+  add("settling_samples", "k_s", "k_c + n - j(k_c),\\ s_{j(k_c)} \\ge s(k_c)",
+      said([](const SteadyReport& r) { return r.settling(); }), why);
+  add("largest_noise", "V_{max}", "",
+      largest_noise > 0.0 ? std::optional(Interval(largest_noise)) : std::nullopt, why);
+  add("largest_slew", "W_{max}", "",
+      largest_slew > 0.0 ? std::optional(Interval(largest_slew)) : std::nullopt, why);
+  derivation.quantities.push_back(frequency_bias(branch));
   if (report && question.tracker.with_samples) {
     add_steady_sampled_quantities(claims_of(question.tracker.design, branch, certificate.set->set),
                                   derivation);
   }
-  std::vector<Verdict> verdicts;
-  for (const Condition& condition : derivation.conditions) {
-    verdicts.push_back(condition.verdict);
-  }
-  derivation.verdict = rigor::conjunction(verdicts);
+  theorems::conclude(derivation);
   return certificate;
 }
 

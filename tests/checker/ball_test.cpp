@@ -1,4 +1,4 @@
-#include "checker/ball.hpp"
+#include "checker/numbers/ball.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "checker/matrix3.hpp"
+#include "checker/numbers/matrix3.hpp"
 #include "tests/support/random.hpp"
 
 namespace {

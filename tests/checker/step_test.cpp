@@ -1,5 +1,5 @@
 // The checker's own step of the tracker against the tracker that runs.
-#include "checker/step.hpp"
+#include "checker/quadrature/step.hpp"
 
 #include <doctest/doctest.h>
 

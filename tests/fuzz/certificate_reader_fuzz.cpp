@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "checker/ball.hpp"
+#include "checker/numbers/ball.hpp"
 #include "checker/verification.hpp"
 
 namespace {

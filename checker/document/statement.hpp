@@ -1,0 +1,87 @@
+// What the checker knows of a derivation, and how it is held against what the certificate says.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "checker/document/json_tree.hpp"
+#include "checker/numbers/ball.hpp"
+
+namespace veritrack::checker {
+
+enum class Verdict { undecided, proved, refuted };
+
+/// Is x < y, or x <= y? PROVED or REFUTED only when it holds, or its negation holds, for all points.
+Verdict decide_less(const Ball& x, const Ball& y);
+Verdict decide_at_most(const Ball& x, const Ball& y);
+/// REFUTED when one is, PROVED when all are, and there is one.
+Verdict all_of(const std::vector<Verdict>& verdicts);
+/// "proved", "refuted" or "undecided". Throws Malformed for anything else.
+Verdict verdict_from(const std::string& text);
+inline Verdict proved_if(bool certain) {
+  return certain ? Verdict::proved : Verdict::undecided;
+}
+
+/// What is wrong with a part of a certificate; nothing when it is verified.
+using Objections = std::vector<std::string>;
+
+/// What [lo, hi] says of a value: that it is in it, at most hi, or at least lo.
+enum class Sense { encloses, bounds_above, bounds_below };
+
+/// What is known of a value: that it is in `low`, or anywhere from `low` to `high`.
+struct Range {
+  Ball low, high;
+  Range(const Ball& value) : low(value), high(value) {}  // NOLINT(google-explicit-constructor)
+  Range(Ball least, Ball most) : low(std::move(least)), high(std::move(most)) {}
+};
+
+struct Quantity {
+  std::string name;
+  Range value;
+  Sense sense = Sense::encloses;
+};
+
+struct Condition {
+  std::string id, statement;
+  Verdict verdict = Verdict::undecided;
+  std::optional<Range> lhs = std::nullopt, rhs = std::nullopt;
+  Sense lhs_sense = Sense::encloses;
+};
+
+/// A derivation as the checker computes it.
+struct Derivation {
+  std::string title;
+  std::vector<Quantity> quantities;
+  std::vector<Condition> conditions;
+};
+
+/// A claim as the checker computes it.
+struct Claim {
+  std::string statement;
+  Verdict verdict = Verdict::undecided;
+  std::vector<Quantity> evidence;
+};
+
+/// A number of the design file, from its decimal text, which [lo, hi] must contain.
+Ball read_number(const Tree& number, Objections& objections);
+/// [lo, hi] as a ball. Objects when the decimals beside it are narrower than it is.
+Ball read_enclosure(const Tree& enclosure, const std::string& name, Objections& objections);
+/// Objects unless the enclosure is true of `value`. An enclosure that shares no point with `value` is an
+/// alarm.
+void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections& objections);
+/// Objects unless the checker came to this verdict as well; UNDECIDED claims nothing.
+void check_verdict(const std::string& claimed, Verdict found, const std::string& name,
+                   Objections& objections);
+
+/// Holds the title, all quantities, all conditions and the verdict of `claimed` against `found`. Quantities
+/// that are said not to be proved, and those that are said not to be applicable, claim nothing.
+void check_derivation(const Tree& claimed, const Derivation& found, Objections& objections);
+
+/// The same for a claim. Evidence that is not known is an objection; the words of an UNDECIDED claim claim
+/// nothing.
+void check_claim(const Tree& claimed, const Claim& found, Objections& objections);
+
+}  // namespace veritrack::checker

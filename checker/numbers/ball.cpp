@@ -1,0 +1,232 @@
+#include "checker/numbers/ball.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace veritrack::checker {
+
+namespace {
+
+slong bits = 128;
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+[[noreturn]] void refuse(std::string_view text) {
+  throw std::invalid_argument("not a number: " + std::string(text.substr(0, 60)));
+}
+
+/// Reads digits from `text` at `at`, appends them to `number`; false when there are none. An underscore is
+/// allowed between two digits.
+bool read_digits(std::string_view text, std::size_t& at, std::string& number) {
+  const std::size_t first = at;
+  while (at < text.size() &&
+         (is_digit(text[at]) || (text[at] == '_' && at > first && is_digit(text[at - 1]) &&
+                                 at + 1 < text.size() && is_digit(text[at + 1])))) {
+    if (text[at] != '_') {
+      number += text[at];
+    }
+    ++at;
+  }
+  return at > first;
+}
+
+/// x = |t| at the two ends of a ball: an even function that is monotone in |t| lies between its values there.
+template <typename Function>
+Ball between_ends(const Ball& t, const Function& f) {
+  Ball near_end;
+  Ball far_end;
+  arf_t end;
+  arf_init(end);
+  arb_get_abs_lbound_arf(end, t.raw(), bits);
+  arb_set_arf(near_end.raw(), end);
+  arb_get_abs_ubound_arf(end, t.raw(), bits);
+  arb_set_arf(far_end.raw(), end);
+  arf_clear(end);
+  Ball result;
+  arb_union(result.raw(), f(near_end).raw(), f(far_end).raw(), bits);
+  return result;
+}
+
+/// Below this the ratios are replaced by bounds that hold between 0 and here: (1 +- 2^-38) of their limits.
+const Ball& smallest() {
+  static const Ball threshold(std::ldexp(1.0, -20));
+  return threshold;
+}
+Ball near_limit(const Ball& limit) {
+  return Ball::hull(limit * (Ball(1.0) - Ball(std::ldexp(1.0, -38))),
+                    limit * (Ball(1.0) + Ball(std::ldexp(1.0, -38))));
+}
+
+}  // namespace
+
+slong precision() {
+  return bits;
+}
+void set_precision(slong new_bits) {
+  bits = std::clamp<slong>(new_bits, 64, 4096);
+}
+
+Ball Ball::everything() {
+  Ball z;
+  arb_indeterminate(z.x_);
+  return z;
+}
+
+Ball Ball::hull(const Ball& low, const Ball& high) {
+  Ball z;
+  arb_union(z.x_, low.x_, high.x_, bits);
+  return z;
+}
+
+Ball Ball::within(const Ball& x) {
+  Ball z;
+  arb_add_error(z.x_, x.x_);
+  return z;
+}
+
+Ball Ball::lower() const {
+  Ball z;
+  arf_t end;
+  arf_init(end);
+  arb_get_lbound_arf(end, x_, bits);
+  arb_set_arf(z.x_, end);
+  arf_clear(end);
+  return z;
+}
+
+Ball Ball::upper() const {
+  Ball z;
+  arf_t end;
+  arf_init(end);
+  arb_get_ubound_arf(end, x_, bits);
+  arb_set_arf(z.x_, end);
+  arf_clear(end);
+  return z;
+}
+
+double Ball::upper_double() const {
+  return finite() ? arf_get_d(arb_midref(upper().x_), ARF_RND_CEIL) : HUGE_VAL;
+}
+
+std::string Ball::text(slong digits) const {
+  char* raw_text = arb_get_str(x_, digits, 0);
+  std::string result(raw_text);
+  flint_free(raw_text);
+  return result;
+}
+
+Ball pi() {
+  Ball z;
+  arb_const_pi(z.raw(), bits);
+  return z;
+}
+
+// With x = |x| u: sin(x)/x is the mean of cos(x u) over 0 <= u <= 1, hence falls with |x| up to pi; its g is
+// minus the mean of u^2 sin(x u)/(x u), hence rises with |x| from -1/3.
+Ratio sine_ratio(const Ball& x) {
+  if (!certainly_at_most(abs(x), Ball(3.0))) {
+    return {Ball::everything(), Ball::everything()};
+  }
+  const auto ratio = [](const Ball& t) {
+    Ball z;
+    arb_sinc(z.raw(), t.raw(), bits);
+    return z;
+  };
+  const auto slope = [](const Ball& t) {
+    return certainly_less(smallest(), t) ? (cos(t) - sin(t) / t) / square(t)
+                                         : near_limit(Ball(-1.0) / Ball(3.0));
+  };
+  return {between_ends(x, ratio), between_ends(x, slope)};
+}
+
+// atan(t)/t is the mean of 1/(1 + t^2 u^2), hence falls with |t|; its g is minus twice the mean of
+// u^2/(1 + t^2 u^2)^2, hence rises with |t| from -2/3.
+Ratio arctangent_ratio(const Ball& t) {
+  if (!t.finite()) {
+    return {Ball::everything(), Ball::everything()};
+  }
+  const auto ratio = [](const Ball& x) {
+    Ball angle;
+    arb_atan(angle.raw(), x.raw(), bits);
+    return certainly_less(smallest(), x) ? angle / x : near_limit(Ball(1.0));
+  };
+  const auto slope = [&](const Ball& x) {
+    return certainly_less(smallest(), x) ? (Ball(1.0) / (Ball(1.0) + square(x)) - ratio(x)) / square(x)
+                                         : near_limit(Ball(-2.0) / Ball(3.0));
+  };
+  return {between_ends(t, ratio), between_ends(t, slope)};
+}
+
+Ball from_decimal(std::string_view text) {
+  std::string number;
+  std::size_t at = 0;
+  if (!text.empty() && (text[0] == '+' || text[0] == '-')) {
+    number += text[at++];
+  }
+  if (text.size() > 400 || !read_digits(text, at, number)) {
+    refuse(text);
+  }
+  if (at < text.size() && text[at] == '.') {
+    number += text[at++];
+    if (!read_digits(text, at, number)) {
+      refuse(text);
+    }
+  }
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    number += text[at++];
+    if (at < text.size() && (text[at] == '+' || text[at] == '-')) {
+      number += text[at++];
+    }
+    const std::size_t exponent = number.size();
+    if (!read_digits(text, at, number) || number.size() - exponent > 4) {
+      refuse(text);
+    }
+  }
+  Ball z;
+  if (at != text.size() || arb_set_str(z.raw(), number.c_str(), bits) != 0 || !z.finite()) {
+    refuse(text);
+  }
+  return z;
+}
+
+Ball from_hexadecimal(std::string_view text) {
+  const std::string number(text);
+  std::size_t at = number.starts_with('-') ? 1 : 0;
+  const auto take = [&](std::string_view allowed, std::size_t most) {
+    const std::size_t first = at;
+    while (at < number.size() && allowed.find(number[at]) != std::string_view::npos) {
+      ++at;
+    }
+    if (at == first || at - first > most) {
+      refuse(text);
+    }
+    return number.substr(first, at - first);
+  };
+  take("0", 1);
+  take("x", 1);
+  std::string mantissa = take("01", 1);
+  long exponent = 0;
+  if (number.compare(at, 1, ".") == 0) {
+    ++at;
+    const std::string fraction = take("0123456789abcdef", 13);
+    mantissa += fraction;
+    exponent = -4 * static_cast<long>(fraction.size());
+  }
+  take("p", 1);
+  const std::string sign = take("+-", 1);
+  const long size = std::strtol(take("0123456789", 4).c_str(), nullptr, 10);
+  exponent += sign == "-" ? -size : size;
+  if (at != number.size()) {
+    refuse(text);
+  }
+  Ball z;
+  arb_set_ui(z.raw(), std::strtoull(mantissa.c_str(), nullptr, 16));
+  arb_mul_2exp_si(z.raw(), z.raw(), exponent);
+  return number.starts_with('-') ? -z : z;
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,52 @@
+#include "checker/single_channel/single_channel_certificate.hpp"
+
+#include "checker/document/guarantee.hpp"
+#include "checker/single_channel/single_channel.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+/// Every number of a design file stands in an object with its text.
+void read_numbers(const Tree& tree, Objections& objections) {
+  if (tree.kind() == Tree::Kind::array) {
+    for (const Tree& element : tree.elements()) {
+      read_numbers(element, objections);
+    }
+  } else if (tree.kind() == Tree::Kind::object && tree.find("text") != nullptr) {
+    read_number(tree, objections);
+  } else if (tree.kind() == Tree::Kind::object) {
+    for (const auto& [key, value] : tree.members()) {
+      read_numbers(value, objections);
+    }
+  }
+}
+
+}  // namespace
+
+void verify_single_channel_tracker(const Tree& certificate, Verification& result) {
+  Objections objections;
+  read_numbers(certificate.at("design"), objections);
+  result.parts.push_back({"design", objections});
+  for (const Tree& set : certificate.at("certified_sets").elements()) {
+    result.parts.push_back({"certified set " + set.at("purpose").text(), {kUnknown}});
+  }
+  for (const Tree& derivation : certificate.at("derivations").elements()) {
+    result.parts.push_back({derivation.at("id").text(), {kUnknown}});
+  }
+  const std::map<std::string, Claim> propositions = proposition_claims();
+  const Promises promises;
+  const auto check = [&](const Tree& claim, Objections& found) {
+    const std::string& id = claim.at("id").text();
+    if (is_guarantee(id)) {
+      check_guarantee(claim, certificate, promises, found);
+    } else if (const auto known = propositions.find(id); known != propositions.end()) {
+      check_claim(claim, known->second, found);
+    } else {
+      found.emplace_back(kUnknown);
+    }
+  };
+  check_claims(certificate, requirements(certificate.at("design")), check, result);
+}
+
+}  // namespace veritrack::checker

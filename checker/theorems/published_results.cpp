@@ -1,0 +1,482 @@
+#include "checker/theorems/published_results.hpp"
+
+#include <functional>
+#include <map>
+
+#include "checker/theorems/error_equation.hpp"
+#include "checker/theorems/signal_model.hpp"
+#include "checker/theorems/theorem_2_9.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+const Ball zero(0.0);
+const Ball half(0.5);
+const Ball one(1.0);
+const Ball two(2.0);
+
+/// left < right, with its two sides.
+Condition less(const std::string& id, const std::string& statement, const Ball& left, const Ball& right) {
+  return {id, statement, decide_less(left, right), left, right};
+}
+Condition at_most(const std::string& id, const std::string& statement, const Ball& left, const Ball& right) {
+  return {id, statement, decide_at_most(left, right), left, right};
+}
+/// 2^n, exactly.
+Ball power_of_two(slong n) {
+  Ball z(1.0);
+  arb_mul_2exp_si(z.raw(), z.raw(), n);
+  return z;
+}
+/// A matrix with the column (z, leak), |z| = 2^500, has at least that norm: it is not below |z|.
+Condition not_below_far(const std::string& id, const std::string& statement, const Ball& norm) {
+  const Ball far = power_of_two(500);
+  return {id, statement, Verdict::refuted, Range(far, norm), far};
+}
+Ball leaked(const Design& d) {
+  return d.epsilon * d.largest_frequency;
+}
+/// The largest |w| + |v| that is assumed: |w| may be anything from what leaks to that and the slew.
+Condition noise_free(const std::string& statement, const Design& d) {
+  const Ball least = leaked(d) + d.noise;
+  const Ball most = least + d.slew;
+  const Verdict verdict = certainly_at_most(most, zero) ? Verdict::proved
+                          : certainly_less(zero, least) ? Verdict::refuted
+                                                        : Verdict::undecided;
+  return {"noise-free", statement, verdict, Range(least, most), zero};
+}
+
+Derivation riccati_bounds(const Design& d, const Tree& /*claimed*/) {
+  const Ball kept2 = square(one - d.epsilon);
+  const Ball b_1 = gramian_eigenvalues(one / kept2).smallest / d.r;
+  const Ball a_1 = max(d.q1, d.q2);
+  const Ball naive = one / b_1 + a_1;
+  const auto attained = [&](const Ball& m) { return largest_covariance(d.q1, d.q2, d.r, d.epsilon, m); };
+  const Ball information = max(one / d.q1 + one / d.r, one / d.q2);
+  const Ball gramian = two * d.r * kept2 + d.q2;
+  Derivation found;
+  found.title = "The bounds on P(k|k) that the thesis takes from Deyst and Price";
+  const Ball at_one = phase_frequency_covariance(d.q1, d.q2, d.r, d.epsilon, one);
+  found.quantities = {{"b_1_exact", b_1},
+                      {"a_1_exact", a_1},
+                      {"p_naive_exact", naive},
+                      {"p_attained", at_one},
+                      {"q_sound", information}};
+  found.conditions = {
+      at_most("naive-matrix",
+              R"(P(k \mid k) \le \mathcal{O}(k, 1)^{-1} + \mathcal{C}(k, 1) \text{ at } |z| = 1)",
+              gramian + d.q1 * kept2, gramian),
+      at_most("naive-number", R"(\lVert P(k \mid k) \rVert \le \frac{1}{b_1} + a_1 \text{ at } |z| = 1)",
+              at_one, naive)};
+  for (const Reading reading : {Reading::printed, Reading::errata}) {
+    const std::string name = reading == Reading::printed ? "printed" : "errata";
+    const Constants29 c = constants_2_9(d, reading);
+    const Ball m = one - c.epsilon_r;
+    const Ball sound = certainly_positive(m) ? attained(m) : Ball::everything();
+    found.quantities.push_back({"p_" + name, c.p});
+    found.quantities.push_back({"p_sound_" + name, sound, Sense::bounds_above});
+    found.quantities.push_back({"q_" + name, c.q});
+    // Only what a filter attains refutes.
+    const Ball reached = phase_frequency_covariance(d.q1, d.q2, d.r, d.epsilon, m);
+    const bool holds = certainly_at_most(sound, c.p);
+    Condition p{"p-" + name,
+                R"(\lVert P(k \mid k) \rVert \le p \text{ for } \bigl||z| - 1\bigr| \le \epsilon_r)",
+                holds                          ? Verdict::proved
+                : certainly_less(c.p, reached) ? Verdict::refuted
+                                               : Verdict::undecided,
+                holds ? sound : reached,
+                c.p,
+                Sense::bounds_above};
+    found.conditions.push_back(p);
+    found.conditions.push_back({"q-" + name, R"(\lVert P(k \mid k)^{-1} \rVert \le q)",
+                                proved_if(certainly_at_most(information, c.q)), information, c.q});
+  }
+  return found;
+}
+
+Derivation song_grizzle(const Design& d, const Tree& /*claimed*/) {
+  const Ball far = power_of_two(500);
+  return {
+      "Song and Grizzle 1993 (thesis, theorem 2.5), assumptions as printed",
+      {},
+      {less("gramian",
+            R"(0 < \beta_1, \quad \beta_1 I \le \mathcal{O} \text{ for every sequence of estimates})", zero,
+            zero),
+       not_below_far(
+           "bounded-F",
+           R"(\sup_x \lVert F(x) \rVert < \infty \text{, so } \lVert F(x) \rVert < |z| \text{ for large } |z|)",
+           first_derivative_norm(far, d.epsilon))}};
+}
+
+Derivation baras_bensoussan_james(const Design& d, const Tree& /*claimed*/) {
+  const Ball band(0.25);
+  const Ball leak = -log(one - d.epsilon);
+  const Ball q_0 = min(d.q1, d.q2);
+  const Ball spread = (max(d.q1, d.q2) + d.r * (square(leak) + square(one + band))) / (two * leak);
+  const Ball nu = half * spread;
+  const Ball q = nu + spread;
+  const Ball sound = min(q_0 * sqrt(nu) / (q * sqrt(q)), band * sqrt(nu / q));
+  const Ball start = certainly_positive(leak) ? nu : one;
+  const auto printed = [&](const Ball& units) {
+    const Ball gamma2 = (two + square(one + band) + square(one + leak)) / square(q_0 * units);
+    const Ball p = one / (start * units) + half * (one / (d.r * units) + gamma2);
+    return q_0 * units / (Ball(9.0) * sqrt(p) / sqrt(start * units));
+  };
+  const Ball bound = printed(one);
+  const Ball rescaled = printed(power_of_two(20));
+  const Ball far = power_of_two(500);
+  const Ball large = power_of_two(400);
+  const Ball coupling = square(half * (far - large));
+  return {
+      "Baras, Bensoussan and James 1988 (thesis, theorem 2.2) for the matching continuous-time oscillator",
+      {{"epsilon_c", leak},
+       {"q", q},
+       {"printed_start_bound", bound},
+       {"printed_start_bound_rescaled", rescaled},
+       {"initial_frequency_error_bound", sound}},
+      {not_below_far("bounded-derivative", R"(\sup_x \lVert \partial f / \partial x \rVert < \infty)",
+                     sqrt(square(far) + square(leak))),
+       less("excitation", R"(0 < q_0)", zero, q_0),
+       less("detectable", R"(\eta'(F + \Lambda H)\eta \le -\alpha_0 |\eta|^2 \text{ at } \eta = (0, 0, 1))",
+            zero, leak),
+       at_most("detectable-everywhere", R"(\lVert \Lambda(x) \rVert \le 2^{400} \text{ serves every } x)",
+               coupling, large * leak),
+       at_most("controllable-everywhere", R"(\lVert Q\Gamma(x) \rVert \le 2^{400} \text{ serves every } x)",
+               coupling, square(large)),
+       at_most("units", R"(\text{(2.16) does not depend on the units of } x)", rescaled, bound),
+       noise_free(R"(w = 0, \quad v = 0)", d),
+       less("start", R"(\lvert e_0 \rvert < \frac{q_0}{q^{3/2} \lVert P_0^{1/2} \rVert})",
+            largest_initial_error(d), sound)}};
+}
+
+Derivation theorem_2_7_printed(const Design& d, const Tree& /*claimed*/) {
+  // p^2 + q1 p - q1 r = 0.
+  const Ball p = half * (sqrt(square(d.q1) + Ball(4.0) * d.q1 * d.r) - d.q1);
+  const Ball factor = d.r / (p + d.q1 + d.r);
+  const Ball least = Ball(3.0) * factor;
+  return {"Theorem 2.7 of the thesis as printed, for the error equation of the tracker",
+          {{"amplitude_factor", factor}, {"least_lhs", least}},
+          {{"2.7", R"(\beta_2(\zeta + \eta) + \alpha_2 < 1)",
+            certainly_at_most(one, least) ? Verdict::refuted : Verdict::undecided, least, one}}};
+}
+
+Derivation theorem_3_1(const Design& d, const Tree& /*claimed*/) {
+  // J = [1 0; 1 iz; 1 (2 - epsilon) iz] turned: J'J has 3, 3, (3 - epsilon) iz, (1 + (2 - epsilon)^2) |z|^2,
+  // as printed.
+  const Ball determinant =
+      Ball(3.0) * (Ball(3.0) * (one + square(two - d.epsilon)) - square(Ball(3.0) - d.epsilon));
+  return {
+      "Strong local observability of the signal model (thesis, theorem 3.1 and section 3.2.1)",
+      {{"gram_determinant", determinant}},
+      {less("rank", R"(0 < \det J'J \text{ at } |z| = 1)", zero, determinant),
+       {"printed-gram", R"(J'J \text{ is the printed matrix, with } (1 - \epsilon)x_i)", Verdict::proved}}};
+}
+
+Derivation theorem_3_1_to_the_letter(const Design& /*d*/, const Tree& /*claimed*/) {
+  return {"What section 3.2.1 of the thesis prints besides, taken to the letter",
+          {},
+          {less("rank-everywhere", R"(0 < \det J'J \text{ for every } x)", zero, zero),
+           at_most("gram-entry", R"((J'J)_{13} \le -2x_2 - 1 - \epsilon x_2)", zero, -one),
+           less("definition-3.1", R"(h(f^k(x)) \ne h(f^k(\bar x)) \text{ for every } k = 0, \ldots, n-1)",
+                zero, zero)}};
+}
+
+/// A covariance (k|k-1) of the tracker's linearisation at |z| = 1: amplitude, and (phase, frequency).
+struct Linear {
+  Ball p11, p22, p23, p33;
+};
+/// One step under the gain that `gains` has with measurement noise gain_r; the noise is q1, q2, r.
+Linear stepped(const Linear& p, const Linear& gains, const Ball& gain_r, const Ball& q1, const Ball& q2,
+               const Ball& r, const Ball& epsilon) {
+  const Ball k1 = gains.p11 / (gains.p11 + gain_r);
+  const Ball k2 = gains.p22 / (gains.p22 + gain_r);
+  const Ball k3 = gains.p23 / (gains.p22 + gain_r);
+  const Ball f11 = square(one - k1) * p.p11 + square(k1) * r;
+  const Ball f22 = square(one - k2) * p.p22 + square(k2) * r;
+  const Ball f23 = (one - k2) * (p.p23 - k3 * p.p22) + k2 * k3 * r;
+  const Ball f33 = p.p33 - two * k3 * p.p23 + square(k3) * (p.p22 + r);
+  const Ball kept = one - epsilon;
+  return {f11 + q1, f22 + two * f23 + f33 + q1, kept * (f23 + f33), square(kept) * f33 + q2};
+}
+Ball smallest_eigenvalue(const Linear& x, const Linear& y) {
+  const Ball a = x.p22 - y.p22;
+  const Ball b = x.p23 - y.p23;
+  const Ball c = x.p33 - y.p33;
+  return min(x.p11 - y.p11, half * (a + c) - sqrt(square(half * (a - c)) + square(b)));
+}
+
+Derivation theorem_3_2(const Design& d, const Tree& /*claimed*/) {
+  // The actual noise is the designed one times `factor`.
+  const auto gap = [&](const Ball& factor) {
+    Linear designed{d.q1, d.q1, zero, d.q2};
+    Linear performed = designed;
+    Linear optimal = designed;
+    Ball smallest = Ball::everything();
+    for (int k = 0; k < 6; ++k) {
+      const Ball q1 = factor * d.q1;
+      const Ball q2 = factor * d.q2;
+      const Ball r = factor * d.r;
+      performed = stepped(performed, designed, d.r, q1, q2, r, d.epsilon);
+      designed = stepped(designed, designed, d.r, d.q1, d.q2, d.r, d.epsilon);
+      optimal = stepped(optimal, optimal, r, q1, q2, r, d.epsilon);
+      const Ball now = certainly_less(factor, one) ? smallest_eigenvalue(designed, performed)
+                                                   : smallest_eigenvalue(optimal, designed);
+      smallest = k == 0 ? now : min(smallest, now);
+    }
+    return smallest;
+  };
+  const Ball over = gap(half);
+  const Ball under = gap(two);
+  return {
+      "Over-design and under-design of the filter (thesis, theorem 3.2), linearised at |z| = 1",
+      {{"over_design_gap", over}, {"under_design_gap", under}},
+      {less("over-design", R"(P^p(k \mid k-1) \le P^d(k \mid k-1), \quad k = 1, \ldots, 6)", zero, over),
+       less("under-design", R"(P^d(k \mid k-1) \le P^o(k \mid k-1), \quad k = 1, \ldots, 6)", zero, under)}};
+}
+
+Derivation theorem_3_2_any_start(const Design& /*d*/, const Tree& /*claimed*/) {
+  return {"Theorem 3.2 of the thesis as printed, which asks nothing of the start",
+          {},
+          {at_most("any-start", R"(P^p(0 \mid -1) \le P^d(0 \mid -1) \text{ for any two})", one, zero)}};
+}
+
+Derivation lemma_3_1(const Design& d, const Tree& /*claimed*/) {
+  // P_11 P_33 with P_13 = 0, every variance in the range of the filter's covariance.
+  const Ball smallest = one / max(one / d.q1 + one / d.r, one / d.q2);
+  const Ball largest = largest_covariance(d.q1, d.q2, d.r, d.epsilon, one);
+  const Range term(square(smallest), square(largest));
+  const bool positive = certainly_positive(term.low);
+  const Ball exact = half * (one - exp(-two));
+  return {"Second-order terms of the prediction covariance (thesis, lemma 3.1)",
+          {{"phase_term_printed", zero}, {"phase_term", term}},
+          {{"exact-to-second-order",
+            R"(\frac{1}{2}\mathrm{tr}(\mathcal{H}_2 P \mathcal{H}_2 P) \le \frac{1}{4}(P\partial^2 f)_2^2)",
+            positive ? Verdict::refuted : Verdict::undecided, term, zero},
+           {"truncated-under-estimate", R"(0 < \frac{1}{2}\mathrm{tr}(\mathcal{H}_2 P \mathcal{H}_2 P))",
+            proved_if(positive), zero, term},
+           at_most("under-estimate",
+                   R"((F P F')_{22} \le \mathrm{Var}\,f_2 \text{ for every Gaussian error})", one, exact)}};
+}
+
+// ---- results that rest on the error equation, within a radius that the certificate chooses
+
+/// sup of |g(k)| for the noise that is assumed: |w| from what leaks to that and the slew.
+Range perturbation(const ErrorEquation& e, const Design& d) {
+  const Ball least = e.correction * leaked(d) + e.gain * d.noise;
+  return {least, least + e.correction * d.slew};
+}
+
+/// beta (zeta + eta) < gap, where eta has a range.
+Condition with_noise(const std::string& id, const std::string& statement, const ErrorEquation& e,
+                     const Ball& zeta, const Range& eta, const Ball& gap) {
+  const Range left(e.beta * (zeta + eta.low), e.beta * (zeta + eta.high));
+  const Verdict verdict = certainly_less(left.high, gap)     ? Verdict::proved
+                          : certainly_at_most(gap, left.low) ? Verdict::refuted
+                                                             : Verdict::undecided;
+  return {id, statement, verdict, left, gap};
+}
+
+Derivation total_stability_of(const Design& d, const Tree& claimed, bool noisy) {
+  const ErrorEquation e = error_equation(d, claimed_radius(claimed, "radius"));
+  const Ball rate = two * e.correction * e.curvature;
+  const Ball r = min(e.radius, Ball(noisy ? 0.5 : 0.9375) * e.one_minus_alpha / (e.beta * rate));
+  const Ball zeta = rate * r;
+  const Ball gap = e.one_minus_alpha - e.beta * zeta;
+  const Range g = perturbation(e, d);
+  const Range eta(g.low / r, g.high / r);
+  const Ball start = r / e.beta;
+  Derivation found;
+  found.title = noisy ? "Total stability theorem (thesis, theorem 2.6) for the error equation of the tracker"
+                      : "Corollary 2.6.1 of the thesis for the error equation of the tracker";
+  found.quantities = quantities_of(e);
+  const std::vector<Quantity> more{
+      {"r", r}, {"zeta", zeta}, {"initial_frequency_error_bound", start}, {"rate", one - gap}};
+  found.quantities.insert(found.quantities.end(), more.begin(), more.end());
+  found.conditions.push_back(start_covariance(e, d));
+  if (noisy) {
+    found.quantities.push_back({"eta", eta});
+    found.quantities.push_back({"noise_bound", gap / e.beta * r / e.gain});
+    found.conditions.push_back(
+        with_noise("2.6", R"(\beta(\zeta + \eta) + \alpha < 1)", e, zeta, eta, e.one_minus_alpha));
+  } else {
+    found.conditions.push_back(less("2.6.1", R"(\beta\zeta + \alpha < 1)", e.beta * zeta, e.one_minus_alpha));
+    Condition free = noise_free(R"(w(k) = 0, \quad v(k) = 0)", d);
+    free.lhs = g;
+    found.conditions.push_back(free);
+  }
+  found.conditions.push_back(
+      less("start", R"(\lvert e_0 \rvert < r / \beta)", largest_initial_error(d), start));
+  return found;
+}
+Derivation total_stability(const Design& d, const Tree& claimed) {
+  return total_stability_of(d, claimed, true);
+}
+Derivation total_stability_corollary(const Design& d, const Tree& claimed) {
+  return total_stability_of(d, claimed, false);
+}
+
+Derivation theorem_2_7_corrected(const Design& d, const Tree& claimed) {
+  const ErrorEquation e = error_equation(d, claimed_radius(claimed, "radius"));
+  const Ball rate = two * e.correction * e.curvature;
+  const Ball r_x = min(e.radius, Ball(0.375) * e.one_minus_alpha / (e.beta * rate));
+  const Ball r_delta = half * r_x;
+  const Ball r_z = r_delta / e.beta;
+  const Ball left = e.one_minus_alpha - e.beta * rate * r_x;
+  const Ball zeta = half * rate * r_delta;
+  const Range g = perturbation(e, d);
+  const Range eta(g.low / r_delta, g.high / r_delta);
+  const Ball gap = left - e.beta * zeta;
+  Derivation found;
+  found.title = "Theorem 2.7 of the thesis with its zeta corrected, for the error equation of the tracker";
+  found.quantities = quantities_of(e);
+  const std::vector<Quantity> more{{"r", r_x},
+                                   {"zeta", zeta},
+                                   {"one_minus_alpha_2", left},
+                                   {"r_z", r_z},
+                                   {"eta", eta},
+                                   {"initial_frequency_error_bound", r_z},
+                                   {"noise_bound", gap / e.beta * r_delta / e.gain},
+                                   {"rate", one - gap}};
+  found.quantities.insert(found.quantities.end(), more.begin(), more.end());
+  found.conditions = {start_covariance(e, d),
+                      with_noise("2.7", R"(\beta_2(\zeta + \eta) + \alpha_2 < 1)", e, zeta, eta, left),
+                      less("start", R"(\lvert e_0 \rvert < r_z)", largest_initial_error(d), r_z)};
+  return found;
+}
+
+Derivation song_grizzle_local(const Design& d, const Tree& claimed) {
+  const ErrorEquation e = error_equation(d, claimed_radius(claimed, "radius"));
+  const Ball a2 = square(e.transition);
+  const Ball p = one / e.process;
+  const Ball q = a2 * e.largest + max(d.q1, d.q2);
+  const Ball r = one / e.smallest + a2 / e.process;
+  const Ball phi = half * e.curvature * square(p * q);
+  const Ball decrease = one / (r * square(q));
+  const Ball b = p * q * e.transition;
+  const Ball vanishing = decrease / p / (sqrt(square(b) + decrease / p) + b) / phi;
+  const Ball error = min(half * vanishing, e.radius / max(one, e.correction));
+  const Ball growth = p * error * phi * (two * b + phi * error);
+  const Ball gamma = decrease - growth;
+  const Ball start = error / sqrt(p * q) / e.transition;
+  Derivation found;
+  found.title = "The argument of Song and Grizzle (1993), suprema over the states near the signal";
+  found.quantities = quantities_of(e);
+  const std::vector<Quantity> more{{"p", p},
+                                   {"q", q},
+                                   {"r", r},
+                                   {"phi", phi},
+                                   {"prediction_error", error},
+                                   {"gamma", gamma},
+                                   {"initial_frequency_error_bound", start},
+                                   {"rate", sqrt(one - gamma / p)}};
+  found.quantities.insert(found.quantities.end(), more.begin(), more.end());
+  found.conditions = {
+      start_covariance(e, d),
+      less("varphi", R"(\varphi(q^{1/2}V(0, e_0)^{1/2}, \kappa_f, 0) < 0)", growth, decrease),
+      noise_free(R"(w(k) = 0, \quad v(k) = 0)", d),
+      less("start", R"(\lvert e_0 \rvert < \frac{q^{1/2} V(0, e_0)^{1/2}}{\bar a (pq)^{1/2}})",
+           largest_initial_error(d), start)};
+  return found;
+}
+
+/// |w|/w_scale + |v|/v_scale below what a ball bears.
+Condition bears_noise(const std::string& statement, const Design& d, const Ball& of_process,
+                      const Ball& of_measurement, const Ball& borne) {
+  const Ball least = of_process * leaked(d) + of_measurement * d.noise;
+  const Range left(least, least + of_process * d.slew);
+  const Verdict verdict = certainly_less(left.high, borne)     ? Verdict::proved
+                          : certainly_at_most(borne, left.low) ? Verdict::refuted
+                                                               : Verdict::undecided;
+  return {"noise", statement, verdict, left, borne};
+}
+
+Derivation reif(const Design& d, const Tree& claimed) {
+  const ErrorEquation e = error_equation(d, claimed_radius(claimed, "epsilon_prime"));
+  const Ball p_hi = square(e.transition) * e.largest + max(d.q1, d.q2);
+  const Ball closed = e.transition * (one + p_hi / d.r);
+  const Ball ratio = e.process / (p_hi * square(closed));
+  const Ball alpha = ratio / (one + ratio);
+  const Ball kappa_phi = half * e.curvature;
+  const Ball kappa = kappa_phi / e.process * (two * closed + kappa_phi * e.radius);
+  const Ball epsilon = min(e.radius, alpha / (two * p_hi * kappa));
+  const Ball inside = epsilon * sqrt(e.process / p_hi);
+  const Ball one_minus_rate = half * alpha / (one + sqrt(one - half * alpha));
+  const Ball borne = inside * one_minus_rate;
+  const Ball gain = e.transition * p_hi / d.r;
+  return {
+      "Stochastic stability of the EKF (Reif, Guenther, Yaz, Unbehauen 1999), constants as published",
+      {{"epsilon_prime", e.radius},
+       {"a_bar", e.transition},
+       {"p_lo", e.process},
+       {"p_hi", p_hi},
+       {"alpha", alpha},
+       {"kappa", kappa},
+       {"epsilon_published", epsilon},
+       {"initial_frequency_error_bound", inside},
+       {"noise_bound", borne / gain},
+       {"rate", one - one_minus_rate}},
+      {less("excitation", R"(0 < \underline q)", zero, min(d.q1, d.q2)),
+       less("start", R"(\lvert e_0 \rvert < \epsilon (\underline p / \bar p)^{1/2})",
+            largest_initial_error(d), inside),
+       bears_noise(
+           R"(\lvert w \rvert + \frac{\bar a \bar p}{\underline r} \lvert v \rvert < \left(1 - \sqrt{1 - \alpha/2}\right) \epsilon (\underline p / \bar p)^{1/2})",
+           d, one, gain, borne)}};
+}
+
+Derivation reif_two_step(const Design& d, const Tree& claimed) {
+  const ErrorEquation e = error_equation(d, claimed_radius(claimed, "radius"));
+  const Ball growth = half * e.curvature * e.correction;
+  const Ball epsilon = min(e.radius, e.one_minus_alpha / (two * growth));
+  const Ball one_minus_rate = e.one_minus_alpha - growth * epsilon;
+  const Ball margin = one_minus_rate * epsilon / sqrt(e.largest);
+  const Ball start = epsilon / e.beta;
+  Derivation found;
+  found.title = "The argument of Reif et al. (1999), carried out for the tracker's own filter";
+  found.quantities = quantities_of(e);
+  const std::vector<Quantity> more{{"epsilon_ball", epsilon},
+                                   {"initial_frequency_error_bound", start},
+                                   {"noise_bound", margin * sqrt(d.r)},
+                                   {"rate", one - one_minus_rate}};
+  found.quantities.insert(found.quantities.end(), more.begin(), more.end());
+  found.conditions = {
+      less("excitation", R"(0 < \underline q)", zero, min(d.q1, d.q2)), start_covariance(e, d),
+      less("start", R"(\lvert e_0 \rvert < \epsilon / \beta)", largest_initial_error(d), start),
+      bears_noise(
+          R"(\frac{\lvert w \rvert}{\sqrt{\underline q}} + \frac{\lvert v \rvert}{\sqrt r} < (1 - \alpha - L\epsilon) \frac{\epsilon}{\sqrt{\bar p}})",
+          d, one / sqrt(e.process), one / sqrt(d.r), margin)};
+  return found;
+}
+
+using Evaluate = std::function<Derivation(const Design&, const Tree&)>;
+const std::map<std::string, Evaluate>& results() {
+  static const std::map<std::string, Evaluate> known{{"riccati-bounds", riccati_bounds},
+                                                     {"baras-bensoussan-james", baras_bensoussan_james},
+                                                     {"song-grizzle", song_grizzle},
+                                                     {"song-grizzle/local", song_grizzle_local},
+                                                     {"total-stability", total_stability},
+                                                     {"total-stability/corollary", total_stability_corollary},
+                                                     {"theorem-2.7/printed", theorem_2_7_printed},
+                                                     {"theorem-2.7/corrected", theorem_2_7_corrected},
+                                                     {"theorem-3.1", theorem_3_1},
+                                                     {"theorem-3.1/to-the-letter", theorem_3_1_to_the_letter},
+                                                     {"theorem-3.2", theorem_3_2},
+                                                     {"theorem-3.2/any-start", theorem_3_2_any_start},
+                                                     {"lemma-3.1", lemma_3_1},
+                                                     {"reif-1999", reif},
+                                                     {"reif-1999/two-step", reif_two_step}};
+  return known;
+}
+
+}  // namespace
+
+bool is_published_result(const std::string& id) {
+  return results().count(id) != 0;
+}
+
+void check_published_result(const std::string& id, const Tree& derivation, const Design& design,
+                            Objections& objections) {
+  check_derivation(derivation, results().at(id)(design, derivation), objections);
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,16 @@
+// The published results beside Theorem 2.9, evaluated for the design: closed formulas
+// (docs/published-results.md).
+#pragma once
+
+#include "checker/document/design.hpp"
+
+namespace veritrack::checker {
+
+/// Is there a check for this derivation?
+bool is_published_result(const std::string& id);
+
+/// Objects to what of the derivation could not be re-established.
+void check_published_result(const std::string& id, const Tree& derivation, const Design& design,
+                            Objections& objections);
+
+}  // namespace veritrack::checker

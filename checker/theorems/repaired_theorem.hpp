@@ -1,0 +1,13 @@
+// Theorem 2.9, repaired (docs/repaired-theorem.md): the error in the norm of the filter's own covariance,
+// W(k+1) <= alpha W + c W^2 + g_w |w| + g_v |v| in a tube around the signal, from the matrices in the
+// evidence.
+#pragma once
+
+#include "checker/document/design.hpp"
+
+namespace veritrack::checker {
+
+/// Objects to what of the derivation "theorem-2.9/repaired" its evidence does not prove.
+void check_repaired_theorem(const Tree& derivation, const Design& design, Objections& objections);
+
+}  // namespace veritrack::checker

@@ -1,0 +1,140 @@
+#include "checker/theorems/table_3_1.hpp"
+
+#include "checker/theorems/theorem_2_9.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+const Ball zero(0.0);
+const Ball half(0.5);
+const Ball one(1.0);
+const Ball two(2.0);
+
+/// p = q2 + r B1, q = 1/q1 + B2/r, s = q + rho^2/q1: what the table varies q1, q2 and r in.
+struct Table {
+  Ball b1, b2, rho2;
+  [[nodiscard]] Ball p(const Ball& q2, const Ball& r) const { return q2 + r * b1; }
+  [[nodiscard]] Ball q(const Ball& q1, const Ball& r) const { return one / q1 + b2 / r; }
+  [[nodiscard]] Ball s(const Ball& q1, const Ball& r) const { return q(q1, r) + rho2 / q1; }
+};
+
+/// The range over r in [r/2, 2r] of a product of a factor that rises with r and one that falls: parts are
+/// cut, and in each the factors are taken at its ends.
+template <typename Rising, typename Falling>
+Range over_r(const Ball& r, const Rising& rising, const Falling& falling) {
+  constexpr int kParts = 256;
+  Ball low = Ball::everything();
+  Ball high = Ball::everything();
+  const auto node = [&](int i) { return r * (half + Ball(1.5 * i / kParts)); };
+  for (int i = 0; i < kParts; ++i) {
+    const Ball least = rising(node(i)) * falling(node(i + 1));
+    const Ball most = rising(node(i + 1)) * falling(node(i));
+    low = i == 0 ? least : min(low, least);
+    high = i == 0 ? most : max(high, most);
+  }
+  return {low, high};
+}
+
+/// The r at which s p^2 q is stationary in r: where 2 B1/p = (B2/r^2)(1/q + 1/s). Left of it the measure
+/// falls, right of it it rises, as it is a posynomial.
+Ball stationary_alpha(const Table& t, const Ball& q1, const Ball& q2) {
+  const auto slope = [&](const Ball& r) {
+    return two * t.b1 / t.p(q2, r) - t.b2 / square(r) * (one / t.q(q1, r) + one / t.s(q1, r));
+  };
+  Ball low(0x1p-100);
+  Ball high(0x1p100);
+  if (!certainly_less(slope(low), zero) || !certainly_positive(slope(high))) {
+    return Ball::everything();
+  }
+  for (int i = 0; i < 200; ++i) {
+    const Ball middle(sqrt(low * high).near());
+    if (certainly_less(slope(middle), zero)) {
+      low = middle;
+    } else if (certainly_positive(slope(middle))) {
+      high = middle;
+    }
+  }
+  return Ball::hull(low, high);
+}
+
+Condition sign(const std::string& id, const std::string& statement, const Range& slope, bool increasing) {
+  if (increasing) {
+    return {id, statement, proved_if(certainly_positive(slope.low)), zero, slope};
+  }
+  return {id, statement, proved_if(certainly_less(slope.high, zero)), slope, zero};
+}
+
+Range negative(const Range& x) {
+  return {-x.high, -x.low};
+}
+
+}  // namespace
+
+void check_table_3_1(const Tree& derivation, const Design& d, bool printed, Objections& objections) {
+  const Constants29 c = constants_2_9(d, printed ? Reading::printed : Reading::errata);
+  const Table t{one / (d.r * c.b_1), d.r * c.b_2, square(c.rho_1)};
+  const Ball low1 = half * d.q1;
+  const Ball high1 = two * d.q1;
+  const Ball low2 = half * d.q2;
+  const Ball high2 = two * d.q2;
+  const Ball low_r = half * d.r;
+  const Ball high_r = two * d.r;
+  const Ball rho = one + t.rho2;
+
+  // -d(s p^2 q)/dq1 = p^2 ((1 + rho^2) q + s)/q1^2 and d(s p^2 q)/dq2 = 2 p s q, over the box of halves and
+  // doubles.
+  const auto alpha_q1 = [&](const Ball& q1, const Ball& q2) {
+    return over_r(
+        d.r, [&](const Ball& r) { return square(t.p(q2, r) / q1); },
+        [&](const Ball& r) { return rho * t.q(q1, r) + t.s(q1, r); });
+  };
+  const auto alpha_q2 = [&](const Ball& q1, const Ball& q2) {
+    return over_r(
+        d.r, [&](const Ball& r) { return two * t.p(q2, r); },
+        [&](const Ball& r) { return t.s(q1, r) * t.q(q1, r); });
+  };
+  const Range of_alpha_q1(alpha_q1(high1, low2).low, alpha_q1(low1, high2).high);
+  const Range of_alpha_q2(alpha_q2(high1, low2).low, alpha_q2(low1, high2).high);
+  const Range of_beta_q1(t.p(low2, low_r) / square(high1), t.p(high2, high_r) / square(low1));
+  const Range of_beta_q2(t.q(high1, high_r), t.q(low1, low_r));
+
+  const Ball r_alpha = stationary_alpha(t, d.q1, d.q2);
+  const Ball r_beta = sqrt(d.q1 * d.q2 * t.b2 / t.b1);
+  const Ball harmonic = t.p(d.q2, r_alpha) * (one / t.s(d.q1, r_alpha) + one / t.q(d.q1, r_alpha));
+  const Ball u = sqrt(two) * d.sigma;
+  const Ball common = square(u * (two - u)) * (one - square(u) / Ball(4.0));
+  const Ball alpha_formula =
+      printed ? sqrt(Ball(0.75) * common * harmonic) : sqrt(Ball(1.25) * d.sigma * harmonic);
+  const Ball beta_formula = printed ? sqrt(Ball(1.5) * common * t.p(d.q2, r_beta) / t.q(d.q1, r_beta))
+                                    : sqrt(Ball(2.5) * d.q1 * d.q2 * d.sigma);
+  const Range alpha_off(zero, abs(alpha_formula / r_alpha - one).upper());
+  const Range beta_off(zero, abs(beta_formula / r_beta - one).upper());
+  const Ball three_digits(0.001);
+  const Verdict minimum = printed ? Verdict::refuted : Verdict::proved;
+
+  Derivation found;
+  found.title = printed ? "Table 3.1 of the thesis as printed: alpha and beta by q1, q2 and r"
+                        : "Table 3.1 of the thesis with the errata sheet: alpha and beta by q1, q2 and r";
+  found.quantities = {{"r_alpha", r_alpha},
+                      {"r_alpha_formula", alpha_formula},
+                      {"r_beta", r_beta},
+                      {"r_beta_formula", beta_formula}};
+  found.conditions = {
+      sign("alpha-q1", R"(\alpha \text{ decreases with } q_1)", negative(of_alpha_q1), false),
+      sign("beta-q1", R"(\beta \text{ decreases with } q_1)", negative(of_beta_q1), false),
+      sign("alpha-q2", R"(\alpha \text{ increases with } q_2)", of_alpha_q2, true),
+      sign("beta-q2", R"(\beta \text{ increases with } q_2)", of_beta_q2, true),
+      {"alpha-r",
+       printed ? R"(\alpha \text{ is maximised at } r_\alpha)"
+               : R"(\alpha \text{ is minimised at } r_\alpha)",
+       r_alpha.finite() ? minimum : Verdict::undecided, r_alpha},
+      {"beta-r", R"(\beta \text{ is minimised at } r_\beta)", proved_if(certainly_positive(r_beta)), r_beta},
+      {"r_alpha", R"(r_\alpha \text{ is what the formula gives, to } 10^{-3})",
+       proved_if(certainly_less(alpha_off.high, three_digits)), alpha_off, three_digits},
+      {"r_beta", R"(r_\beta \text{ is what the formula gives, to } 10^{-3})",
+       proved_if(certainly_less(beta_off.high, three_digits)), beta_off, three_digits}};
+  check_derivation(derivation, found, objections);
+}
+
+}  // namespace veritrack::checker

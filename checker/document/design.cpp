@@ -33,6 +33,9 @@ Design read_design(const Tree& tree, Objections& objections) {
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
         start[i][j] = read_number(covariance.at(i).at(j), objections) / (unit[i] * unit[j]);
+        if (covariance.at(i).at(j).at("text").text() != covariance.at(j).at(i).at("text").text()) {
+          objections.emplace_back("initial_covariance is not written symmetrically");
+        }
       }
     }
   } else if (covariance.text() != "steady-state") {

@@ -40,11 +40,16 @@ theorems::Condition regular_condition(const KklRobustness& found, const Interval
   return condition;
 }
 
-theorems::Condition frequency_condition(const KklRobustness& found) {
+constexpr const char* kOtherObserver =
+    "what was bounded is an observer with an ell for which mu of (9) vanishes, not the one in use.";
+
+theorems::Condition frequency_condition(const KklRobustness& found, bool regular) {
   theorems::Condition condition{"frequency-exists", "\\hat x_3 / x_3 > 0",
-                                Verdict::undecided, found.smallest_relative_square,
+                                Verdict::undecided, regular ? found.smallest_relative_square : Interval(),
                                 Interval(0.0),      {}};
-  if (rigor::certainly_positive(found.smallest_relative_square)) {
+  if (!regular) {
+    condition.reason = kOtherObserver;
+  } else if (rigor::certainly_positive(found.smallest_relative_square)) {
     condition.verdict = Verdict::proved;
     condition.reason = "the estimate of the squared frequency stays positive under the disturbance.";
   } else {
@@ -55,12 +60,14 @@ theorems::Condition frequency_condition(const KklRobustness& found) {
   return condition;
 }
 
-theorems::Condition bounded_condition(const KklRobustness& found) {
+theorems::Condition bounded_condition(const KklRobustness& found, bool regular) {
   theorems::Condition condition{
       "bounded",          "|\\hat\\omega - \\omega| \\le b_\\omega,\\ |\\hat A - A| \\le b_A",
-      Verdict::undecided, found.frequency_error_bound,
+      Verdict::undecided, regular ? found.frequency_error_bound : Interval(),
       Interval(),         {}};
-  if (rigor::is_finite(found.frequency_error_bound) && rigor::is_finite(found.amplitude_error_bound)) {
+  if (!regular) {
+    condition.reason = kOtherObserver;
+  } else if (rigor::is_finite(found.frequency_error_bound) && rigor::is_finite(found.amplitude_error_bound)) {
     condition.verdict = Verdict::proved;
     condition.reason =
         "branch and bound over signal and disturbance, " + std::to_string(found.cells) + " cells.";
@@ -78,9 +85,10 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question
   const SampledErrors sampled = sample_errors(question);
   const rigor::UpwardRounding upward;
   const theorems::Condition regular = regular_condition(found, question.ell);
-  const theorems::Condition exists = frequency_condition(found);
   // Bounds of the observer with a smaller ell are none of the one in use.
-  const bool applies = regular.verdict == Verdict::proved && exists.verdict == Verdict::proved;
+  const bool is_regular = regular.verdict == Verdict::proved;
+  const theorems::Condition exists = frequency_condition(found, is_regular);
+  const bool applies = is_regular && exists.verdict == Verdict::proved;
   const auto bound = [applies](const Interval& value) { return applies ? value : Interval(); };
   theorems::Derivation derivation;
   derivation.id = "kkl-robustness";
@@ -95,7 +103,7 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question
       quantity("frequency_error_simulated", "", "\\max |\\hat\\omega - \\omega|", Interval(sampled.frequency),
                false),
       quantity("amplitude_error_simulated", "", "\\max |\\hat A - A|", Interval(sampled.amplitude), false)};
-  derivation.conditions = {regular, exists, bounded_condition(found)};
+  derivation.conditions = {regular, exists, bounded_condition(found, is_regular)};
   derivation.verdict = rigor::conjunction(
       {derivation.conditions[0].verdict, derivation.conditions[1].verdict, derivation.conditions[2].verdict});
   derivation.notes = {

@@ -100,6 +100,10 @@ TEST_CASE("an ell for which mu does not vanish, or a disturbance too large, leav
   const auto with_large_ell = derive_kkl_robustness(q);
   CHECK(with_large_ell.verdict == Verdict::undecided);
   CHECK(theorems::find_quantity(with_large_ell, "frequency_error_bound").not_applicable);
+  // At 3 rad/s and the phase 0.785 rad the observer with ell = 5 estimates x3 as -0.144.
+  for (const theorems::Condition& condition : with_large_ell.conditions) {
+    CHECK_MESSAGE(condition.verdict == Verdict::undecided, condition.id);
+  }
   auto large = question(BoundedDisturbance{Interval(1.0)});
   large.cells = 3'000;
   CHECK(derive_kkl_robustness(large).verdict == Verdict::undecided);

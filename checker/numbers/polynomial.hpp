@@ -1,0 +1,66 @@
+// Functions of three variables, each in [-1, 1], as polynomials with balls for coefficients: a polynomial
+// stands for all functions that are, at each point, the value of a polynomial with coefficients in the balls.
+// What is cut off (terms of a degree above a limit) and what is not known exactly is in the radii. Every
+// result holds the exact result for all functions that its operands stand for.
+#pragma once
+
+#include <arb_poly.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "checker/numbers/ball.hpp"
+
+namespace veritrack::checker {
+
+class Polynomial {
+ public:
+  static constexpr std::size_t kVariables = 3;
+  static constexpr std::size_t kMostDegree = 5;
+
+  /// Zero.
+  Polynomial() = default;
+  Polynomial(Ball constant) { terms_.push_back(std::move(constant)); }  // NOLINT(google-explicit-constructor)
+  /// The variable of this index, stretched to run over all of `range`.
+  static Polynomial variable(const Ball& range, std::size_t index);
+
+  [[nodiscard]] bool is_zero() const { return terms_.empty(); }
+  [[nodiscard]] Ball constant() const { return terms_.empty() ? Ball(0.0) : terms_[0]; }
+  /// All values.
+  [[nodiscard]] Ball range() const;
+  /// All functions within `distance` of this one; terms above the degree are cut off, here and in all that is
+  /// computed from it.
+  [[nodiscard]] Polynomial lowered(std::size_t degree, const Ball& distance) const;
+  /// Takes the midpoints of all coefficients. Returns a bound on how far any function that this stood for is
+  /// from the polynomial that is left.
+  Ball round();
+
+  friend Polynomial operator+(const Polynomial& x, const Polynomial& y);
+  friend Polynomial operator*(const Polynomial& x, const Polynomial& y);
+  friend Polynomial operator*(const Ball& x, const Polynomial& y);
+  friend Polynomial reciprocal(const Polynomial& x);
+  friend Polynomial sqrt(const Polynomial& x);
+  friend Polynomial sin(const Polynomial& x);
+  friend Polynomial cos(const Polynomial& x);
+  friend Polynomial arctangent(const Polynomial& x);
+
+ private:
+  /// One of Arb's functions of power series: f(argument) to so many terms, with so many bits.
+  using Series = void (*)(arb_poly_struct*, const arb_poly_struct*, slong, slong);
+  [[nodiscard]] Polynomial composed(Series series) const;
+
+  std::size_t limit_ = kMostDegree;
+  std::vector<Ball> terms_;  ///< by degree: as many as the polynomial needs
+};
+
+inline Polynomial operator-(const Polynomial& x) {
+  return Ball(-1.0) * x;
+}
+inline Polynomial operator-(const Polynomial& x, const Polynomial& y) {
+  return x + (-y);
+}
+inline Polynomial square(const Polynomial& x) {
+  return x * x;
+}
+
+}  // namespace veritrack::checker

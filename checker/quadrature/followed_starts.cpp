@@ -1,0 +1,283 @@
+#include "checker/quadrature/followed_starts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace veritrack::checker {
+
+namespace {
+
+/// Of the polynomials in which derivatives are enclosed.
+constexpr std::size_t kSlopeDegree = 2;
+constexpr std::size_t kMostGenerators = 90;
+constexpr std::size_t kKeptGenerators = 45;
+
+/// A polynomial with its derivatives with respect to the state and the noise. Derivatives that are zero take
+/// no work.
+struct Sensitive {
+  static constexpr std::size_t kInputs = kStateSize + 2;
+  Polynomial value;
+  std::array<Polynomial, kInputs> by;
+
+  Sensitive() = default;
+  Sensitive(Polynomial constant) : value(std::move(constant)) {}  // NOLINT(google-explicit-constructor)
+  Sensitive(const Ball& constant) : value(constant) {}            // NOLINT(google-explicit-constructor)
+  static Sensitive variable(Polynomial range, std::size_t index) {
+    Sensitive x(std::move(range));
+    x.by[index] = Polynomial(Ball(1.0));
+    return x;
+  }
+  [[nodiscard]] Sensitive chain(Polynomial f, const Polynomial& derivative) const {
+    Sensitive z(std::move(f));
+    for (std::size_t i = 0; i < kInputs; ++i) {
+      z.by[i] = derivative * by[i];
+    }
+    return z;
+  }
+};
+
+Sensitive operator+(const Sensitive& x, const Sensitive& y) {
+  Sensitive z(x.value + y.value);
+  for (std::size_t i = 0; i < Sensitive::kInputs; ++i) {
+    z.by[i] = x.by[i] + y.by[i];
+  }
+  return z;
+}
+Sensitive operator*(const Sensitive& x, const Sensitive& y) {
+  Sensitive z(x.value * y.value);
+  for (std::size_t i = 0; i < Sensitive::kInputs; ++i) {
+    z.by[i] = x.by[i] * y.value + x.value * y.by[i];
+  }
+  return z;
+}
+Sensitive operator*(const Ball& x, const Sensitive& y) {
+  return y.chain(x * y.value, Polynomial(x));
+}
+Sensitive operator-(const Sensitive& x) {
+  return Ball(-1.0) * x;
+}
+Sensitive operator-(const Sensitive& x, const Sensitive& y) {
+  return x + (-y);
+}
+Sensitive square(const Sensitive& x) {
+  return x.chain(square(x.value), Ball(2.0) * x.value);
+}
+Sensitive reciprocal(const Sensitive& x) {
+  const Polynomial over = reciprocal(x.value);
+  return x.chain(over, -square(over));
+}
+Sensitive sqrt(const Sensitive& x) {
+  const Polynomial root = sqrt(x.value);
+  return x.chain(root, Ball(0.5) * reciprocal(root));
+}
+Sensitive sin(const Sensitive& x) {
+  return x.chain(sin(x.value), cos(x.value));
+}
+Sensitive cos(const Sensitive& x) {
+  return x.chain(cos(x.value), -sin(x.value));
+}
+Sensitive arctangent(const Sensitive& x) {
+  return x.chain(arctangent(x.value), reciprocal(Polynomial(Ball(1.0)) + square(x.value)));
+}
+
+/// (metric (e - origin), P11, P12, P13, P22, P23, P33 in the frame of the estimated phase). arg z is taken
+/// about `angle`.
+template <typename S>
+std::array<S, 9> polar_of(const State<S>& x, const Matrix3& metric, const std::array<Ball, 3>& origin,
+                          const Ball& angle) {
+  const S& z1 = x[kZ1];
+  const S& z2 = x[kZ2];
+  const S length = sqrt(square(z1) + square(z2));
+  const S over = reciprocal(length);
+  const S c = over * z1;
+  const S s = over * z2;
+  const S tangent = (cos(angle) * z2 - sin(angle) * z1) * reciprocal(cos(angle) * z1 + sin(angle) * z2);
+  const std::array<S, 3> error{length - S(Ball(1.0) + origin[0]),
+                               x[kEta] + arctangent(tangent) + S(angle - origin[1]), x[kNu] - S(origin[2])};
+  std::array<S, 9> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result[i] = metric[i][0] * error[0] + metric[i][1] * error[1] + metric[i][2] * error[2];
+  }
+  const S cross = c * s;
+  const S cosine2 = square(c);
+  const S sine2 = square(s);
+  const S turned = Ball(2.0) * (cross * x[kP12]);
+  result[3] = cosine2 * x[kP11] + turned + sine2 * x[kP22];
+  result[4] = cross * (x[kP22] - x[kP11]) + (cosine2 - sine2) * x[kP12];
+  result[5] = c * x[kP13] + s * x[kP23];
+  result[6] = sine2 * x[kP11] - turned + cosine2 * x[kP22];
+  result[7] = c * x[kP23] - s * x[kP13];
+  result[8] = x[kP33];
+  return result;
+}
+
+/// Everything within `radii` of the polynomials, with the derivatives with respect to each coordinate.
+State<Sensitive> neighbourhood(const State<Polynomial>& middle, const State<Ball>& radii) {
+  State<Sensitive> x;
+  for (std::size_t i = 0; i < kStateSize; ++i) {
+    x[i] = Sensitive::variable(middle[i].lowered(kSlopeDegree, radii[i]), i);
+  }
+  return x;
+}
+
+Ball largest(const Ball& x) {
+  return abs(x).upper();
+}
+
+}  // namespace
+
+FollowedStarts::FollowedStarts(const Loop& loop, const Starts& starts, const Matrix3& covariance)
+    : loop_(loop) {
+  middle_[kEta] = Polynomial::variable(starts.phase, 0);
+  middle_[kNu] = Polynomial::variable(starts.frequency, 1);
+  // The estimate is in its own direction: its length is not negative.
+  middle_[kZ1] = certainly_positive(Ball(1.0) + starts.amplitude)
+                     ? Polynomial(Ball(1.0)) + Polynomial::variable(starts.amplitude, 2)
+                     : Polynomial(Ball::everything());
+  middle_[kZ2] = Polynomial(Ball(0.0));
+  std::size_t at = kP11;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) {
+      middle_[at++] = Polynomial(covariance[i][j]);
+    }
+  }
+  round();
+}
+
+State<Ball> FollowedStarts::radii() const {
+  State<Ball> sums;
+  for (const State<Ball>& generator : generators_) {
+    for (std::size_t i = 0; i < kStateSize; ++i) {
+      sums[i] += abs(generator[i]);
+    }
+  }
+  return sums;
+}
+
+void FollowedStarts::add_box(const State<Ball>& radii) {
+  for (std::size_t i = 0; i < kStateSize; ++i) {
+    generators_.emplace_back();
+    generators_.back()[i] = radii[i].upper();
+  }
+}
+
+void FollowedStarts::round() {
+  State<Ball> distances;
+  for (std::size_t i = 0; i < kStateSize; ++i) {
+    distances[i] = middle_[i].round();
+  }
+  add_box(distances);
+}
+
+void FollowedStarts::merge_smallest() {
+  if (generators_.size() <= kMostGenerators) {
+    return;
+  }
+  // By their share in the extent of the set; any order will do.
+  const State<Ball> extent = radii();
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t j = 0; j < generators_.size(); ++j) {
+    double share = 0.0;
+    for (std::size_t i = 0; i < kStateSize; ++i) {
+      const double part = std::fabs(generators_[j][i].near()) / extent[i].near();
+      share += std::isfinite(part) ? part : 0.0;
+    }
+    order.emplace_back(-share, j);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<State<Ball>> kept;
+  State<Ball> rest;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const State<Ball>& generator = generators_[order[k].second];
+    if (k < kKeptGenerators) {
+      kept.push_back(generator);
+      continue;
+    }
+    for (std::size_t i = 0; i < kStateSize; ++i) {
+      rest[i] += abs(generator[i]);
+    }
+  }
+  generators_ = std::move(kept);
+  add_box(rest);
+}
+
+void FollowedStarts::step() {
+  const Ball wobble = Ball::within(loop_.noise);
+  const Polynomial noise(wobble);
+  const State<Sensitive> slopes = checker::step<Sensitive>(
+      loop_, neighbourhood(middle_, radii()),
+      {Sensitive::variable(noise, kStateSize), Sensitive::variable(noise, kStateSize + 1)});
+  // {G_x e + G_v v}: the middles of the products are generators, their radii a box.
+  for (std::size_t v = 0; v < 2; ++v) {
+    generators_.emplace_back();
+  }
+  State<Ball> box;
+  box[kNu] = loop_.slew;
+  std::vector<State<Ball>> images(generators_.size());
+  std::array<std::array<Ball, Sensitive::kInputs>, kStateSize> matrix;
+  for (std::size_t i = 0; i < kStateSize; ++i) {
+    for (std::size_t j = 0; j < Sensitive::kInputs; ++j) {
+      matrix[i][j] = slopes[i].by[j].range();
+    }
+  }
+  for (std::size_t g = 0; g < images.size(); ++g) {
+    for (std::size_t i = 0; i < kStateSize; ++i) {
+      Ball sum;
+      if (g + 2 >= images.size()) {
+        sum = matrix[i][kStateSize + g + 2 - images.size()] * loop_.noise;
+      } else {
+        for (std::size_t j = 0; j < kStateSize; ++j) {
+          arb_addmul(sum.raw(), matrix[i][j].raw(), generators_[g][j].raw(), precision());
+        }
+      }
+      Ball radius;
+      arb_get_rad_arb(radius.raw(), sum.raw());
+      arb_get_mid_arb(images[g][i].raw(), sum.raw());
+      box[i] += radius;
+    }
+  }
+  generators_ = std::move(images);
+  add_box(box);
+  middle_ = checker::step<Polynomial>(loop_, middle_, {Polynomial(), Polynomial()});
+  round();
+  merge_smallest();
+}
+
+Ball FollowedStarts::frequency_error() const {
+  return middle_[kNu].range() + Ball::within(radii()[kNu]);
+}
+
+PolarEnclosure FollowedStarts::polar(const Matrix3& metric, const std::array<Ball, 3>& origin) const {
+  // The angle, and the whole turns, are chosen near the middle: any choice will do.
+  const double angle = std::atan2(middle_[kZ2].constant().near(), middle_[kZ1].constant().near());
+  const double phase = middle_[kEta].constant().near() + angle;
+  const Ball turns = Ball(std::nearbyint(phase / 6.283185307179586)) * Ball(2.0) * pi();
+  const std::array<Ball, 3> shifted{origin[0], origin[1] + turns, origin[2]};
+  const State<Ball> extent = radii();
+  const auto middle = polar_of<Polynomial>(middle_, metric, shifted, Ball(angle));
+  const auto slopes = polar_of<Sensitive>(neighbourhood(middle_, extent), metric, shifted, Ball(angle));
+  // On the segments arg z = angle + atan(tangent): only if z stays on the side that `angle` points to.
+  const Ball ahead = cos(Ball(angle)) * (middle_[kZ1].range() + Ball::within(extent[kZ1])) +
+                     sin(Ball(angle)) * (middle_[kZ2].range() + Ball::within(extent[kZ2]));
+  std::array<Ball, 9> found;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::array<Ball, kStateSize> row;
+    for (std::size_t j = 0; j < kStateSize; ++j) {
+      row[j] = slopes[i].by[j].range();
+    }
+    Ball way;
+    for (const State<Ball>& generator : generators_) {
+      Ball sum;
+      for (std::size_t j = 0; j < kStateSize; ++j) {
+        arb_addmul(sum.raw(), row[j].raw(), generator[j].raw(), precision());
+      }
+      way += largest(sum);
+    }
+    found[i] = certainly_positive(ahead) ? middle[i].range() + Ball::within(way) : Ball::everything();
+  }
+  return {{found[0], found[1], found[2]},
+          {{{found[3], found[4], found[5]}, {found[4], found[6], found[7]}, {found[5], found[7], found[8]}}}};
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,112 @@
+// Starts of the quadrature tracker, followed sample by sample: an enclosure of every state that a box of
+// starts can come to, whatever the noise and the slew do within their bounds. With and without a leak.
+//
+// The frame. It turns with the predictions of the tracker, so that neither the estimate nor the covariance is
+// ever turned: only the signal is. Let theta be the frame's angle, theta+ = theta + x3, and phi the signal's
+// phase. Of the filtered estimate at one sample the state has
+//     eta = theta - phi;  nu = x3 - omega;  z1, z2: the estimate of the plane in the frame;  P in the frame.
+// With omega the frequency, w = omega+ - omega, v of the size of the noise, J z = (-z2, z1),
+//     eta+ = eta + nu;  F = [[I, J z], [0, 1 - epsilon]],  P^ = F P F' + diag(q1, q1, q2),  K = P^ H' S^-1;
+//     (z, nu)+ = (z, (1 - epsilon) nu - epsilon omega - w) + K ((cos eta+, -sin eta+) + v - z),  P+ = P^ - K
+//     S K'.
+// The errors are |z| - 1, eta + arg z, and nu. The signal has amplitude 1.
+//
+// The enclosure. {p(s) + e}: p polynomials in the start errors, e in a zonotope, which holds everything else.
+// A step G takes it into {G(p(s), 0) + G_x e + G_v v}, the derivatives over all that lies between (mean value
+// theorem).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "checker/numbers/matrix3.hpp"
+#include "checker/numbers/polynomial.hpp"
+
+namespace veritrack::checker {
+
+/// The tracker and what drives it.
+struct Loop {
+  Ball q1, q2, r, epsilon;
+  Ball frequency;    ///< holds every omega, rad/sample; without effect when epsilon = 0
+  Ball noise, slew;  ///< |v| <= noise, |w| <= slew, rad/sample per sample
+};
+
+/// All errors of the filtered estimate in these balls.
+struct Starts {
+  Ball amplitude, phase, frequency;  ///< |z| - 1; rad; rad/sample
+};
+
+/// Coordinates of the state.
+enum Coordinate : std::size_t { kEta, kNu, kZ1, kZ2, kP11, kP12, kP13, kP22, kP23, kP33, kStateSize };
+template <typename S>
+using State = std::array<S, kStateSize>;
+
+/// One step; a template, as it runs on balls, on polynomials and on numbers with derivatives.
+template <typename S>
+State<S> step(const Loop& loop, const State<S>& x, const std::array<S, 2>& noise) {
+  const Ball kept = Ball(1.0) - loop.epsilon;
+  const S& z1 = x[kZ1];
+  const S& z2 = x[kZ2];
+  // P^, of which c is the third column without (1 - epsilon), and S^-1.
+  const S c1 = x[kP13] - z2 * x[kP33];
+  const S c2 = x[kP23] + z1 * x[kP33];
+  const S noise_variance = Ball(loop.q1 + loop.r);
+  const S s11 = x[kP11] + noise_variance - z2 * (x[kP13] + c1);
+  const S s12 = x[kP12] + z1 * c1 - z2 * x[kP23];
+  const S s22 = x[kP22] + noise_variance + z1 * (x[kP23] + c2);
+  const S over = reciprocal(s11 * s22 - square(s12));
+  const S i11 = s22 * over;
+  const S i12 = -(s12 * over);
+  const S i22 = s11 * over;
+  const S k31 = kept * (c1 * i11 + c2 * i12);
+  const S k32 = kept * (c1 * i12 + c2 * i22);
+  State<S> next;
+  next[kEta] = x[kEta] + x[kNu];
+  const S y1 = cos(next[kEta]) + noise[0];
+  const S y2 = noise[1] - sin(next[kEta]);
+  const S j1 = y1 - z1;
+  const S j2 = y2 - z2;
+  // z + K (y - z) = y - r S^-1 (y - z).
+  next[kZ1] = y1 - loop.r * (i11 * j1 + i12 * j2);
+  next[kZ2] = y2 - loop.r * (i12 * j1 + i22 * j2);
+  next[kNu] = kept * x[kNu] - S(Ball(loop.epsilon * loop.frequency)) + k31 * j1 + k32 * j2;
+  next[kP11] = S(loop.r) - square(loop.r) * i11;
+  next[kP12] = -(square(loop.r) * i12);
+  next[kP22] = S(loop.r) - square(loop.r) * i22;
+  next[kP13] = loop.r * k31;
+  next[kP23] = loop.r * k32;
+  next[kP33] = square(kept) * x[kP33] + S(loop.q2) - kept * (k31 * c1 + k32 * c2);
+  return next;
+}
+
+/// How all states of an enclosure lie to a point.
+struct PolarEnclosure {
+  std::array<Ball, 3> error;  ///< metric (e - origin), with the phase error modulo 2 pi
+  Matrix3 covariance;         ///< in the frame of the estimated phase
+};
+
+class FollowedStarts {
+ public:
+  /// Every start with P(0) in `covariance`, symmetric, in the frame of the estimated phase.
+  FollowedStarts(const Loop& loop, const Starts& starts, const Matrix3& covariance);
+
+  /// One sample on.
+  void step();
+  /// Of every state: x3 - omega, rad/sample.
+  [[nodiscard]] Ball frequency_error() const;
+  /// Balls of everything when the estimate may be zero. A phase error is one of its values modulo 2 pi.
+  [[nodiscard]] PolarEnclosure polar(const Matrix3& metric, const std::array<Ball, 3>& origin) const;
+
+ private:
+  [[nodiscard]] State<Ball> radii() const;
+  /// What is not a polynomial with exact coefficients goes into the zonotope.
+  void round();
+  void add_box(const State<Ball>& radii);
+  void merge_smallest();
+
+  Loop loop_;
+  State<Polynomial> middle_;
+  std::vector<State<Ball>> generators_;  ///< exact: {sum_j g_j t_j : |t_j| <= 1}
+};
+
+}  // namespace veritrack::checker

@@ -1,0 +1,45 @@
+#include "checker/document/json_tree.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+using namespace veritrack::checker;
+
+TEST_CASE("a tree holds what the text says, in its order") {
+  const Tree tree = read_json(R"({"b": [true, "x", 3, null], "a": {"c": false}})");
+  CHECK(tree.kind() == Tree::Kind::object);
+  REQUIRE(tree.members().size() == 2);
+  CHECK(tree.members()[0].first == "b");
+  const Tree& list = tree.at("b");
+  REQUIRE(list.elements().size() == 4);
+  CHECK(list.at(0).truth());
+  CHECK(list.at(1).text() == "x");
+  CHECK(list.at(2).kind() == Tree::Kind::integer);
+  CHECK(list.at(3).kind() == Tree::Kind::nothing);
+  CHECK(!tree.at("a").at("c").truth());
+  CHECK(tree.find("d") == nullptr);
+}
+
+TEST_CASE("what is asked for as another type, or is not there, is malformed") {
+  const Tree tree = read_json(R"({"text": "x", "list": [1]})");
+  CHECK_THROWS_AS((void)tree.at("none"), Malformed);
+  CHECK_THROWS_AS((void)tree.at("text").truth(), Malformed);
+  CHECK_THROWS_AS((void)tree.at("text").elements(), Malformed);
+  CHECK_THROWS_AS((void)tree.at("list").members(), Malformed);
+  CHECK_THROWS_AS((void)tree.at("list").at(1), Malformed);
+  CHECK_THROWS_AS((void)tree.text(), Malformed);
+}
+
+TEST_CASE("no text has two meanings") {
+  const std::string deep(100000, '[');
+  for (const std::string& text :
+       {std::string(), std::string("{"), std::string("[1,]"), std::string("[1] 2"),
+        std::string(R"({"a": 1, "a": 1})"), std::string(R"({"a": {"b": 1, "b": 2}})"),
+        std::string(R"({"a": 1, "\u0061": 2})"), std::string("[0.5]"), std::string("[1e3]"),
+        std::string("[99999999999999999999]"), std::string("[NaN]"), std::string("\"\xff\""), deep}) {
+    CHECK_THROWS_AS_MESSAGE((void)read_json(text), Malformed, text.substr(0, 40));
+  }
+  // The same name in different objects is not a duplicate.
+  CHECK(read_json(R"([{"a": 1}, {"a": 2}])").elements().size() == 2);
+}

@@ -192,14 +192,16 @@ void add_inverse(const KklClaimsQuestion& question, theorems::Derivation& deriva
   const Interval modulus =
       continuity_modulus(range.lambda, question.ell, Interval(lower.lower()), Interval(upper.upper()));
   derivation.quantities.push_back(quantity("continuity_modulus", "K", "", "docs/kkl-observer.md", modulus));
-  derivation.conditions.push_back(
-      condition("continuity", "|\\gamma(\\xi) - \\gamma(\\xi')| \\le \\tfrac{\\pi}{2} K |\\xi - \\xi'|",
-                rigor::is_finite(modulus) ? Verdict::proved : Verdict::undecided,
-                rigor::is_finite(modulus) ? "on the annulus " + decimal(lower.lower()) + " <= |xi| <= " +
-                                                rigor::to_decimal(upper.upper(), 4, rigor::Direction::up) +
-                                                ", which holds T of the assumed range; K bounds the slope."
-                                          : "no finite bound on the slope was found.",
-                modulus));
+  derivation.conditions.push_back(condition(
+      "continuity",
+      "|\\gamma(\\xi) - \\gamma(\\xi')| \\le \\tfrac{\\pi}{2} K |\\xi - \\xi'| \\text{ on an annulus that "
+      "holds } T(\\mathcal R)",
+      rigor::is_finite(modulus) ? Verdict::proved : Verdict::undecided,
+      rigor::is_finite(modulus) ? "on the annulus " + decimal(lower.lower()) + " <= |xi| <= " +
+                                      rigor::to_decimal(upper.upper(), 4, rigor::Direction::up) +
+                                      ", which holds T of the assumed range; K bounds the slope."
+                                : "no finite bound on the slope was found.",
+      modulus));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "checker/kkl/kkl_observer.hpp"
+#include "checker/kkl/kkl_ell.hpp"
 
 #include "checker/numbers/slope.hpp"
 
@@ -14,7 +14,7 @@ const Ball four(4.0);
 /// smaller eigenvalue of a pencil of 2x2 matrices. |M xi|^2 is the sum over triples of filters of det(lambda,
 /// 1, xi)^2.
 template <typename S>
-S excitation_ratio(const std::vector<Ball>& lambda, const S& frequency) {
+S ratio_at(const std::vector<Ball>& lambda, const S& frequency) {
   const S s = square(frequency);
   std::vector<std::array<S, 2>> t;
   t.reserve(lambda.size());
@@ -54,7 +54,7 @@ class Infimum {
 
   /// True only when the ratio is at least the bound from `low` to `high`.
   [[nodiscard]] bool holds(const Ball& low, const Ball& high, int depth) const {
-    const Slope ratio = excitation_ratio(design_.lambda, Slope::variable(Ball::hull(low, high), 0));
+    const Slope ratio = ratio_at(design_.lambda, Slope::variable(Ball::hull(low, high), 0));
     const bool falls = certainly_less(ratio.by[0], zero);
     const bool at_end = (falls && at_least(high)) || (certainly_positive(ratio.by[0]) && at_least(low));
     if (certainly_at_most(bound_, ratio.value) || at_end) {
@@ -66,7 +66,7 @@ class Infimum {
 
  private:
   [[nodiscard]] bool at_least(const Ball& frequency) const {
-    return certainly_at_most(bound_, excitation_ratio(design_.lambda, frequency));
+    return certainly_at_most(bound_, ratio_at(design_.lambda, frequency));
   }
 
   const KklDesign& design_;
@@ -75,25 +75,26 @@ class Infimum {
 
 }  // namespace
 
-KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
-  KklDesign design;
-  for (const Tree& rate : tree.at("design").at("lambda").elements()) {
-    design.lambda.push_back(read_number(rate, objections));
-    if (!certainly_positive(design.lambda.back())) {
-      objections.emplace_back("the rates must be positive");
-    }
-  }
-  const Tree& assume = tree.at("assume");
-  design.frequency_low = read_number(assume.at("frequency").at(0), objections);
-  design.frequency_high = read_number(assume.at("frequency").at(1), objections);
-  if (!certainly_positive(design.frequency_low) ||
-      !certainly_at_most(design.frequency_low, design.frequency_high) || design.lambda.size() != 4) {
-    objections.emplace_back("four rates and a range of frequencies above zero are needed");
-  }
-  return design;
+Ball excitation_ratio(const std::vector<Ball>& lambda, const Ball& frequency) {
+  return ratio_at(lambda, frequency);
 }
 
-void check_kkl_ell(const Tree& claimed, const KklDesign& design, Objections& objections) {
+// The minimum is at least `low` if every cell says so, and at most `high` if one frequency does.
+bool is_true(const EllEnclosure& enclosure, const KklDesign& design) {
+  constexpr int kDepth = 60;
+  const auto& [low, high, attained] = enclosure;
+  const bool inside = certainly_at_most(design.frequency_low.lower(), attained) &&
+                      certainly_at_most(attained, design.frequency_high.upper());
+  return inside && certainly_at_most(ratio_at(design.lambda, attained), high) &&
+         Infimum(design, low).holds(design.frequency_low, design.frequency_high, kDepth);
+}
+
+std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& design,
+                                          Objections& objections) {
+  if (!design.has_four_filters()) {
+    objections.emplace_back("ell is defined for four filters");
+    return std::nullopt;
+  }
   Derivation found;
   found.title = "The constant of (10): how far T(x) stays from the singular set of the inverse";
   const Tree& quantities = claimed.at("quantities");
@@ -101,17 +102,12 @@ void check_kkl_ell(const Tree& claimed, const KklDesign& design, Objections& obj
   const Tree* minimizer = quantities.find("argmin_omega");
   if (ell == nullptr || minimizer == nullptr) {
     objections.emplace_back("there is no enclosure of ell, or no frequency where it is attained");
-    return;
+    return std::nullopt;
   }
   const Ball low = from_hexadecimal(ell->at("lo").text());
   const Ball high = from_hexadecimal(ell->at("hi").text());
-  // The minimum is at least lo if every cell says so, and at most hi if one frequency does.
-  constexpr int kDepth = 60;
   const Ball attained = from_hexadecimal(minimizer->at("lo").text());
-  const bool inside = certainly_at_most(design.frequency_low.lower(), attained) &&
-                      certainly_at_most(attained, design.frequency_high.upper());
-  const bool enclosed = inside && certainly_at_most(excitation_ratio(design.lambda, attained), high) &&
-                        Infimum(design, low).holds(design.frequency_low, design.frequency_high, kDepth);
+  const bool enclosed = is_true({low, high, attained}, design);
   const Ball nothing = Ball::everything();
   const Ball value = enclosed ? low : nothing;
   found.quantities = {{"ell", enclosed ? Range(low, high) : Range(nothing)},
@@ -136,6 +132,7 @@ void check_kkl_ell(const Tree& claimed, const KklDesign& design, Objections& obj
         {id, R"(\ell_{)" + name + R"(} \in [\ell_{lo}, \ell_{hi}])", verdict, number, Range(low, high)});
   }
   check_derivation(claimed, found, objections);
+  return enclosed ? std::optional(EllEnclosure{low, high, attained}) : std::nullopt;
 }
 
 }  // namespace veritrack::checker

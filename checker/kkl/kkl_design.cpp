@@ -1,0 +1,47 @@
+#include "checker/kkl/kkl_design.hpp"
+
+namespace veritrack::checker {
+
+KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
+  const auto positive = [&](const Tree& number) {
+    Ball value = read_number(number, objections);
+    if (!certainly_positive(value)) {
+      objections.push_back(number.at("text").text() + " is not positive");
+    }
+    return value;
+  };
+  const Tree& chosen = tree.at("design");
+  const Tree& assume = tree.at("assume");
+  KklDesign design;
+  for (const Tree& rate : chosen.at("lambda").elements()) {
+    design.lambda.push_back(positive(rate));
+  }
+  if (const Tree* ell = chosen.find("ell")) {
+    design.ell = positive(*ell);
+  }
+  design.frequency_low = positive(assume.at("frequency").at(0));
+  design.frequency_high = positive(assume.at("frequency").at(1));
+  design.amplitude_low = positive(assume.at("amplitude").at(0));
+  design.amplitude_high = positive(assume.at("amplitude").at(1));
+  if (const Tree* disturbance = assume.find("disturbance")) {
+    for (const auto& [key, value] : disturbance->members()) {
+      auto& number = key == "bound"       ? design.bound
+                     : key == "amplitude" ? design.disturbance_amplitude
+                                          : design.disturbance_frequency;
+      number = positive(value);
+    }
+    const bool sinusoid =
+        disturbance->find("amplitude") != nullptr && disturbance->find("frequency") != nullptr;
+    const bool bounded = disturbance->find("bound") != nullptr;
+    if (disturbance->members().size() != (bounded ? 1 : 2) || bounded == sinusoid) {
+      objections.emplace_back("the disturbance has a bound, or an amplitude and a frequency");
+    }
+  }
+  if (design.lambda.size() < 4 || !certainly_at_most(design.frequency_low, design.frequency_high) ||
+      !certainly_at_most(design.amplitude_low, design.amplitude_high)) {
+    objections.emplace_back("four rates or more and two ranges, each from low to high, are needed");
+  }
+  return design;
+}
+
+}  // namespace veritrack::checker

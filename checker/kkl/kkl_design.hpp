@@ -1,0 +1,27 @@
+// The design and the assumptions of a KKL observer (Praly, Marconi, Isidori).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "checker/document/statement.hpp"
+
+namespace veritrack::checker {
+
+struct KklDesign {
+  std::vector<Ball> lambda;            ///< filter rates, 1/s
+  std::optional<Ball> ell;             ///< of (9); none: the lower end of the enclosure of (10)
+  Ball frequency_low, frequency_high;  ///< rad/s
+  Ball amplitude_low, amplitude_high;  ///< signal units
+  // The disturbance, none of these when there is none: |d| <= bound, or amplitude sin(W t + p) for any p and
+  // any W from the frequency up.
+  std::optional<Ball> bound, disturbance_amplitude, disturbance_frequency;
+
+  /// The checks of everything but injectivity are for four filters, as the paper's inverse is.
+  [[nodiscard]] bool has_four_filters() const { return lambda.size() == 4; }
+};
+
+/// Objects to numbers that [lo, hi] does not contain, and to what no such design can be.
+KklDesign read_kkl_design(const Tree& design, Objections& objections);
+
+}  // namespace veritrack::checker

@@ -219,7 +219,8 @@ void add_inverse(const KklDesign& design, const Ball& ell, const EllEnclosure& i
 
 void check_paper_claims(const Tree& claimed, const KklDesign& design, const Ball& ell,
                         const std::optional<EllEnclosure>& infimum, Objections& objections) {
-  Derivation found{"The claims of the paper", {}, claims_of_every_design()};
+  static const std::vector<Condition> of_every_design = claims_of_every_design();
+  Derivation found{"The claims of the paper", {}, of_every_design};
   const Range eigenvalue = smallest_eigenvalue(design.lambda);
   const Ball singular_value = sqrt(eigenvalue.low);
   Ball largest_rate(0.0);

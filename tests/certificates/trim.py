@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Makes the certificates of accepted/ from a whole one: a certificate that states less is a certificate.
 
-usage: trim.py CERTIFICATE.json theorem-2.9|published|repaired|contraction|one-set > accepted/NAME.json
+usage: trim.py CERTIFICATE.json theorem-2.9|published|repaired|contraction|one-set|kkl-observer|kkl-paper > accepted/NAME.json
 
 theorem-2.9   the two readings of Theorem 2.9 and their claims; no certified set
 published     the published results and the places of the proof of Theorem 2.9; no certified set
 repaired      the repaired theorem
 contraction   all certified sets, the derivation "contraction" and the claims that rest on it
 one-set       the same from the set that is checked fastest, for tests that check it hundreds of times
+kkl-observer  a KKL observer at one frequency with a sinusoidal disturbance, and an easier bound on the amplitude error
+kkl-paper     its ell and the paper's claims
 """
 import json
 import sys
@@ -28,7 +30,9 @@ def main():
         "published": lambda id: not id.startswith(("theorem-2.9/", "contraction")),
         "repaired": lambda id: id == "theorem-2.9/repaired",
     }
-    if kind in without_sets:
+    if kind.startswith("kkl"):
+        kkl(certificate, kind)
+    elif kind in without_sets:
         kept = [d["id"] for d in certificate["derivations"] if without_sets[kind](d["id"])]
         gaps = [claim["id"] for claim in certificate["claims"]
                 if kind == "published" and claim["id"].startswith("theorem-2.9/")
@@ -41,12 +45,34 @@ def main():
         keep(certificate, ["contraction"],
              ["ekf/frequency-error-bound", "ekf/settling-time", "ekf/guarantee"])
         derivation = certificate["derivations"][0]
-        derivation["quantities"] = {name: quantity for name, quantity in derivation["quantities"].items()
-                                    if quantity.get("proved", True)}
+        drop_unproved(derivation)
         if kind == "one-set":
             one_set(certificate, derivation)
     json.dump(certificate, sys.stdout, indent=2, ensure_ascii=False)
     sys.stdout.write("\n")
+
+
+def drop_unproved(derivation):
+    derivation["quantities"] = {name: quantity for name, quantity in derivation["quantities"].items()
+                                if quantity.get("proved", True)}
+
+
+def kkl(certificate, kind):
+    claims = []
+    if kind == "kkl-observer":
+        claims = [claim["id"] for claim in certificate["claims"]]
+        easier = {"lo": "0x1.4p-5", "hi": "0x1.4p-5", "decimal": "[0.0390625, 0.0390625]"}
+        owners = [next(d for d in certificate["derivations"] if d["id"] == "kkl-robustness")["quantities"]]
+        owners += [claim["evidence"] for claim in certificate["claims"]]
+        for owner in owners:
+            if "amplitude_error_bound" in owner:
+                owner["amplitude_error_bound"].update(easier)
+    else:
+        certificate["design"]["require"] = {}
+        certificate["verdict"] = "nothing-required"
+    keep(certificate, ["kkl-ell", "kkl-robustness" if kind == "kkl-observer" else "kkl-paper"], claims)
+    for derivation in certificate["derivations"]:
+        drop_unproved(derivation)
 
 
 def one_set(certificate, derivation):

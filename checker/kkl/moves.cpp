@@ -11,7 +11,7 @@ namespace {
 
 const Ball zero(0.0);
 const Ball one(1.0);
-constexpr int kPeriods = 24;
+constexpr int kPeriods = 8;
 constexpr int kTimes = 120;
 
 /// 1 / (lambda r + j) for the period r = 1/W: the response 1 / (lambda + j W) is r times this.

@@ -238,6 +238,10 @@ void check_paper_claims(const Tree& claimed, const KklDesign& design, const Ball
   if (design.has_four_filters() && infimum) {
     add_inverse(design, ell, *infimum, claimed, found);
   }
+  // A slip of the paper is none of the design.
+  if (claimed.at("verdict").text() != "undecided") {
+    objections.emplace_back("the paper's claims together have no verdict on the design");
+  }
   check_derivation(claimed, found, objections);
 }
 

@@ -50,30 +50,31 @@ Claim claim_of(const StartCapture& capture, std::string id, std::string statemen
   return claim;
 }
 
-/// The claim that all starts are captured under less noise and slew, for the first share of a few that will
-/// do; none otherwise.
-std::optional<Claim> capture_at_reduced_noise(
-    const ContractionQuestion& question, const contraction::CertifiedSet& set,
-    const std::function<bool(const contraction::RegionProgress&)>& progress) {
+/// Adds the derivation and the claim that all starts are captured under less noise and slew, for the first
+/// share of a few that will do; nothing otherwise.
+void add_capture_at_reduced_noise(Certificate& certificate, const contraction::CertifiedSet& set,
+                                  const std::function<bool(const contraction::RegionProgress&)>& progress) {
+  const ContractionQuestion question = contraction_question(certificate.design);
   for (const double share : {0.5, 0.25, 0.125}) {
     ContractionQuestion reduced = question;
     reduced.noise = Interval(share) * question.noise;
     reduced.slew = Interval(share) * question.slew;
-    const StartCapture capture =
-        contraction::capture_starts(reduced, set, "capture", kMostCellsAtReducedNoise, progress);
+    StartCapture capture = contraction::capture_starts(reduced, set, "capture/reduced-noise",
+                                                       kMostCellsAtReducedNoise, progress);
     if (capture.derivation.verdict == Verdict::proved) {
       const auto text = [](const Interval& value) {
         return rigor::to_decimal(value.lower(), 3, rigor::Direction::down);
       };
-      return claim_of(
+      certificate.claims.push_back(claim_of(
           capture, "ekf/capture-at-reduced-noise",
           fmt::format("From every assumed start, with noise of at most {} of the amplitude and slew of at "
                       "most {} rad/sample per sample, the tracker comes into the certified set, which it "
                       "never leaves.",
-                      text(reduced.noise), text(reduced.slew)));
+                      text(reduced.noise), text(reduced.slew))));
+      certificate.derivations.push_back(std::move(capture.derivation));
+      return;
     }
   }
-  return std::nullopt;
 }
 
 contraction::SimulatedBasin basin_of_starts(const ContractionQuestion& question) {
@@ -126,10 +127,7 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
     const bool captured = noise_free->derivation.verdict == Verdict::proved;
     certificate.derivations.push_back(std::move(noise_free->derivation));
     if (captured) {
-      if (auto reduced =
-              capture_at_reduced_noise(contraction_question(certificate.design), set->set, report)) {
-        certificate.claims.push_back(std::move(*reduced));
-      }
+      add_capture_at_reduced_noise(certificate, set->set, report);
     }
   }
   certificate.followed_starts =

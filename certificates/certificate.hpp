@@ -68,7 +68,7 @@ struct Certificate {
   std::string design_text;  ///< as read
   /// The published theorem in its readings ("theorem-2.9/..."), then what this program proves
   /// ("contraction"; then, when the starts exceed the certified set, "capture" and perhaps
-  /// "capture/noise-free").
+  /// "capture/noise-free" and "capture/reduced-noise").
   std::vector<theorems::Derivation> derivations;
   std::vector<NamedSet> certified_sets;
   std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts

@@ -75,10 +75,11 @@ std::string contraction_section(const Certificate& certificate) {
     text += derivation_tables(derivation);
   }
   for (const theorems::Derivation& derivation : derivations_of(certificate, "capture")) {
-    text += fmt::format(
-        "## Starts beyond the certified set: capture {}, {}\n\n",
-        derivation.id == "capture" ? "under the assumed noise and slew" : "without noise and slew",
-        markdown::verdict(derivation.verdict));
+    const char* disturbed = derivation.id == "capture"              ? "under the assumed noise and slew"
+                            : derivation.id == "capture/noise-free" ? "without noise and slew"
+                                                                    : "under less noise and slew";
+    text += fmt::format("## Starts beyond the certified set: capture {}, {}\n\n", disturbed,
+                        markdown::verdict(derivation.verdict));
     text += derivation.title +
             ", by verified propagation: boxes of starts are followed sample by sample, with everything that "
             "noise and slew can do to them, and cut in two where they cannot be followed.\n\n";

@@ -17,19 +17,19 @@ constexpr int kNotVerified = 1;
 constexpr int kMalformed = 2;
 
 constexpr const char* kUsage =
-    "usage: veritrack-verify [--precision BITS] CERTIFICATE.json\n"
-    "Re-establishes every claim of the certificate from its evidence. Exit status: 0 VERIFIED, 1 NOT "
-    "VERIFIED,\n"
-    "2 malformed.\n";
+    "usage: veritrack-verify [--precision BITS] [--full] CERTIFICATE.json\n"
+    "Re-establishes every claim of the certificate from its evidence; with --full also from more boxes of "
+    "starts\n"
+    "than are followed in seconds. Exit status: 0 VERIFIED, 1 NOT VERIFIED, 2 malformed.\n";
 
-int run(const std::string& path) {
+int run(const std::string& path, bool all_boxes) {
   using namespace veritrack::checker;
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) {
     throw Malformed("the file cannot be read");
   }
-  const Verification result = verify(read_json(text));
+  const Verification result = verify(read_json(text), all_boxes);
   std::size_t refused = 0;
   for (const Part& part : result.parts) {
     std::printf("%s %s\n", part.objections.empty() ? "verified    " : "NOT VERIFIED", part.name.c_str());
@@ -51,6 +51,7 @@ int run(const std::string& path) {
 int main(int count, char** words) {
   const std::vector<std::string> arguments(words + 1, words + count);
   std::string path;
+  bool all_boxes = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     if (argument == "--precision" && i + 1 < arguments.size()) {
@@ -60,6 +61,8 @@ int main(int count, char** words) {
         return kMalformed;
       }
       veritrack::checker::set_precision(bits);
+    } else if (argument == "--full") {
+      all_boxes = true;
     } else if (path.empty() && !argument.starts_with("-")) {
       path = argument;
     } else {
@@ -72,7 +75,7 @@ int main(int count, char** words) {
     return kMalformed;
   }
   try {
-    return run(path);
+    return run(path, all_boxes);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "veritrack-verify: %s: malformed: %s\n", path.c_str(), error.what());
     return kMalformed;

@@ -9,7 +9,7 @@
 
 namespace veritrack::checker {
 
-Verification verify(const Tree& certificate) {
+Verification verify(const Tree& certificate, bool all_boxes) {
   if (certificate.at("schema").text() != "veritrack/certificate/1") {
     throw Malformed("not a certificate of format 1");
   }
@@ -26,7 +26,7 @@ Verification verify(const Tree& certificate) {
   const std::string& tracker = certificate.at("design").at("tracker").text();
   try {
     if (tracker == "quadrature-ekf") {
-      verify_quadrature_tracker(certificate, result);
+      verify_quadrature_tracker(certificate, all_boxes, result);
     } else if (tracker == "kkl-observer") {
       verify_kkl_observer(certificate, result);
     } else if (tracker == "single-channel-ekf") {

@@ -138,7 +138,9 @@ void add_capture_quantities(theorems::Derivation& derivation, const CertifiedSet
     add("wrong_lock_frequency_error", "\\liminf_k |\\nu(k)|", "2 \\pi |n| - R\\,|e_3' T^{-1}|", wrong, "");
   }
   add("cells", "", "", Interval(static_cast<double>(region.cells.size())), "");
+  derivation.quantities.back().proved = proved;
   add("cells_captured", "", "", Interval(static_cast<double>(count(region, Verdict::proved))), "");
+  derivation.quantities.back().proved = proved;
 }
 
 Condition set_bears_assumptions(const ContractionQuestion& question, const CertifiedSet& set) {
@@ -183,6 +185,31 @@ Condition starts_captured(const Region& region, std::vector<std::string>& notes)
     }
   }
   return condition;
+}
+
+std::vector<theorems::Evidence> capture_evidence(const ContractionQuestion& question, const Region& region) {
+  const Verdict decided = verdict(region);
+  if (decided == Verdict::undecided) {
+    return {};
+  }
+  theorems::Evidence evidence{decided == Verdict::proved ? "cover" : "witness",
+                              {{"noise", question.noise.upper()}, {"slew", question.slew.upper()}},
+                              {}};
+  std::vector<RegionCell> cells = region.cells;
+  if (decided == Verdict::refuted) {
+    cells = {*std::find_if(cells.begin(), cells.end(),
+                           [](const RegionCell& cell) { return cell.verdict == Verdict::refuted; })};
+    evidence.numbers.emplace_back("turns", static_cast<double>(cells.front().result.turns));
+  }
+  rigor::DynamicMatrix boxes(static_cast<Eigen::Index>(cells.size()), 8);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const StartBox starts = cells[i].whole ? cells[i].starts : middle(cells[i].starts);
+    boxes.row(static_cast<Eigen::Index>(i)) << starts.amplitude_error.lower(), starts.amplitude_error.upper(),
+        starts.phase_error.lower(), starts.phase_error.upper(), starts.frequency_error.lower(),
+        starts.frequency_error.upper(), static_cast<double>(cells[i].result.samples), cells[i].result.level;
+  }
+  evidence.matrices.emplace_back("boxes", boxes);
+  return {evidence};
 }
 
 }  // namespace veritrack::contraction

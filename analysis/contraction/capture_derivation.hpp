@@ -37,4 +37,9 @@ void add_capture_quantities(theorems::Derivation& derivation, const CertifiedSet
 /// The condition starts-captured, with the reason for its verdict; the first cells that failed go to `notes`.
 [[nodiscard]] theorems::Condition starts_captured(const Region& region, std::vector<std::string>& notes);
 
+/// Exact numbers from which the verdict can be established again: every cell with the samples after which it
+/// is captured and its level then ("cover", PROVED), or the starts that lock elsewhere ("witness", REFUTED).
+[[nodiscard]] std::vector<theorems::Evidence> capture_evidence(const ContractionQuestion& question,
+                                                               const Region& region);
+
 }  // namespace veritrack::contraction

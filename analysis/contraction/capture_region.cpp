@@ -57,11 +57,6 @@ std::vector<OpenCell> first_cells(const StartBox& starts, const RegionOptions& o
   return cells;
 }
 
-StartBox middle(const StartBox& box) {
-  return {Interval(midpoint(box.amplitude_error)), Interval(midpoint(box.phase_error)),
-          Interval(midpoint(box.frequency_error))};
-}
-
 /// Two halves along the direction; none when it has no interior double to cut at.
 std::vector<OpenCell> halves(const OpenCell& cell, int direction) {
   OpenCell lower = cell;
@@ -129,6 +124,11 @@ void add_frequency_errors(std::vector<double>& all, const std::vector<double>& c
 }
 
 }  // namespace
+
+StartBox middle(const StartBox& box) {
+  return {Interval(midpoint(box.amplitude_error)), Interval(midpoint(box.phase_error)),
+          Interval(midpoint(box.frequency_error))};
+}
 
 Region prove_region(const CaptureProblem& problem, const CaptureTarget& target, const StartBox& starts,
                     const RegionOptions& options,

@@ -20,6 +20,9 @@ struct RegionOptions {
   std::size_t generation_size = 512;  ///< cells handed out between two calls of `progress`
 };
 
+/// The start in the middle of the box.
+[[nodiscard]] StartBox middle(const StartBox& box);
+
 /// A cell of starts. PROVED: all of them are captured. REFUTED: none of them is, they lock elsewhere (or, in
 /// a cell that is not halved any further, at least the middle does: `whole` is then false).
 struct RegionCell {

@@ -109,6 +109,9 @@ StartCapture capture_starts(const ContractionQuestion& question, const Certified
   }
   derivation.verdict =
       rigor::conjunction({derivation.conditions[0].verdict, derivation.conditions[1].verdict});
+  if (derivation.conditions[0].verdict == Verdict::proved) {
+    derivation.evidence = capture_evidence(question, capture.region);
+  }
   CaptureTube tube;
   if (derivation.verdict == Verdict::proved) {
     tube = capture_tube(question, set, capture.region);

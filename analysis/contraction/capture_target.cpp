@@ -14,7 +14,7 @@ using rigor::IntervalMatrix;
 
 std::optional<Settled> CertifiedSetTarget::settled(const StateEnclosure& states) const {
   const double middle = states.center[trackers::kFrequencyError];
-  const double turns = periodic_ ? std::nearbyint(middle / 6.283185307179586) : 0.0;
+  const double turns = periodic_ ? std::round(middle / 6.283185307179586) : 0.0;
   const rigor::Vector<3> near(0.0, 0.0, 6.283185307179586 * turns);
   if (!(std::fabs(turns) < 1e6) || !(metric_of_middle(set_.metric, near, states) < set_.radius)) {
     return std::nullopt;

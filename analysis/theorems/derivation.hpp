@@ -53,7 +53,7 @@ struct Feasibility {
 struct Evidence {
   std::string name;  ///< what it is evidence of, e.g. "start"
   std::vector<std::pair<std::string, double>> numbers;
-  std::vector<std::pair<std::string, rigor::Matrix<3>>> matrices;
+  std::vector<std::pair<std::string, rigor::DynamicMatrix>> matrices;
 };
 
 /// A theorem, in one reading of its text, evaluated for a design.

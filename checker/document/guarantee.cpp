@@ -96,16 +96,20 @@ void check_guarantee(const Tree& claim, const Tree& certificate, const Promises&
   };
   const Ball bound = promises.bound.value_or(Ball::everything());
   Claim found;
-  found.evidence.push_back({"frequency_error_bound", bound, Sense::bounds_above});
+  found.evidence = {
+      {"frequency_error_bound", bound, Sense::bounds_above},
+      {"wrong_lock_frequency_error", promises.wrong_lock.value_or(Ball::everything()), Sense::bounds_below}};
   Verdict below = Verdict::undecided;
   std::string limit;
   if (const Tree* asked = require.find("frequency_error_below")) {
     const Ball value = read_number(*asked, objections);
     limit = asked->at("text").text();
     // A start that is off by as much is allowed, and is not below.
-    below = certainly_less(bound, value)                                   ? Verdict::proved
-            : certainly_at_most(value, assumed("initial_frequency_error")) ? Verdict::refuted
-                                                                           : Verdict::undecided;
+    below = certainly_less(bound, value) ? Verdict::proved
+            : certainly_at_most(value, assumed("initial_frequency_error")) ||
+                    (promises.wrong_lock && certainly_at_most(value, *promises.wrong_lock))
+                ? Verdict::refuted
+                : Verdict::undecided;
   }
   if (id == kSettling) {
     const Tree& asked = require.at("settles_within");

@@ -120,6 +120,9 @@ void check_claim(const Tree& claimed, const Claim& found, Objections& objections
   }
   check_verdict(verdict, found.verdict, "the claim", objections);
   for (const auto& [name, value] : claimed.at("evidence").members()) {
+    if (is_unproved(value)) {
+      continue;
+    }
     const auto known = find_named(found.evidence, name);
     if (known == found.evidence.end()) {
       objections.push_back(name + " is not evidence of this claim");

@@ -13,6 +13,7 @@ struct Monomials {
   std::vector<std::size_t> degrees;
   std::array<std::size_t, Polynomial::kMostDegree + 1> up_to{};  ///< how many of each degree or less
   std::vector<std::vector<std::size_t>> products;
+  std::vector<Ball> ranges;  ///< on [-1, 1]: [0, 1] for a square, else [-1, 1]
 
   Monomials() {
     for (std::size_t degree = 0; degree <= Polynomial::kMostDegree; ++degree) {
@@ -25,6 +26,9 @@ struct Monomials {
       up_to[degree] = exponents.size();
     }
     for (std::size_t i = 0; i < exponents.size(); ++i) {
+      const bool is_square = std::all_of(exponents[i].begin(), exponents[i].end(),
+                                         [](std::size_t power) { return power % 2 == 0; });
+      ranges.push_back(is_square ? Ball::hull(Ball(0.0), Ball(1.0)) : Ball::within(Ball(1.0)));
       products.emplace_back();
       for (std::size_t j = 0; j < up_to[Polynomial::kMostDegree - degrees[i]]; ++j) {
         auto sum = exponents[i];
@@ -35,13 +39,6 @@ struct Monomials {
             static_cast<std::size_t>(std::find(exponents.begin(), exponents.end(), sum) - exponents.begin()));
       }
     }
-  }
-  /// On [-1, 1]: [0, 1] for a square, else [-1, 1].
-  [[nodiscard]] Ball range(std::size_t index) const {
-    const auto& powers = exponents[index];
-    const bool is_square =
-        std::all_of(powers.begin(), powers.end(), [](std::size_t power) { return power % 2 == 0; });
-    return is_square ? Ball::hull(Ball(0.0), Ball(1.0)) : Ball::within(Ball(1.0));
   }
 };
 
@@ -105,7 +102,7 @@ Polynomial Polynomial::variable(const Ball& range, std::size_t index) {
 Ball Polynomial::range() const {
   Ball sum;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    sum += i == 0 ? terms_[0] : terms_[i] * monomials().range(i);
+    sum += i == 0 ? terms_[0] : terms_[i] * monomials().ranges[i];
   }
   return sum;
 }

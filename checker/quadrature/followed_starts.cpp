@@ -81,34 +81,23 @@ Sensitive arctangent(const Sensitive& x) {
   return x.chain(arctangent(x.value), reciprocal(Polynomial(Ball(1.0)) + square(x.value)));
 }
 
-/// (metric (e - origin), P11, P12, P13, P22, P23, P33 in the frame of the estimated phase). arg z is taken
-/// about `angle`.
+/// Metric (e - origin), then the covariance in the frame of the estimated phase. arg z is taken about
+/// `angle`.
 template <typename S>
-std::array<S, 9> polar_of(const State<S>& x, const Matrix3& metric, const std::array<Ball, 3>& origin,
-                          const Ball& angle) {
+State<S> polar_of(const State<S>& x, const Matrix3& metric, const std::array<Ball, 3>& origin,
+                  const Ball& angle) {
   const S& z1 = x[kZ1];
   const S& z2 = x[kZ2];
   const S length = sqrt(square(z1) + square(z2));
   const S over = reciprocal(length);
-  const S c = over * z1;
-  const S s = over * z2;
   const S tangent = (cos(angle) * z2 - sin(angle) * z1) * reciprocal(cos(angle) * z1 + sin(angle) * z2);
-  const std::array<S, 3> error{length - S(Ball(1.0) + origin[0]),
-                               x[kEta] + arctangent(tangent) + S(angle - origin[1]), x[kNu] - S(origin[2])};
-  std::array<S, 9> result;
+  const std::array<S, 3> error{length - S(Ball(1.0) + origin[0]), arctangent(tangent) + S(angle - origin[1]),
+                               x[kNu] - S(origin[2])};
+  State<S> result = x;
   for (std::size_t i = 0; i < 3; ++i) {
     result[i] = metric[i][0] * error[0] + metric[i][1] * error[1] + metric[i][2] * error[2];
   }
-  const S cross = c * s;
-  const S cosine2 = square(c);
-  const S sine2 = square(s);
-  const S turned = Ball(2.0) * (cross * x[kP12]);
-  result[3] = cosine2 * x[kP11] + turned + sine2 * x[kP22];
-  result[4] = cross * (x[kP22] - x[kP11]) + (cosine2 - sine2) * x[kP12];
-  result[5] = c * x[kP13] + s * x[kP23];
-  result[6] = sine2 * x[kP11] - turned + cosine2 * x[kP22];
-  result[7] = c * x[kP23] - s * x[kP13];
-  result[8] = x[kP33];
+  turn(result, S(over * z1), S(-(over * z2)));
   return result;
 }
 
@@ -129,19 +118,23 @@ Ball largest(const Ball& x) {
 
 FollowedStarts::FollowedStarts(const Loop& loop, const Starts& starts, const Matrix3& covariance)
     : loop_(loop) {
-  middle_[kEta] = Polynomial::variable(starts.phase, 0);
-  middle_[kNu] = Polynomial::variable(starts.frequency, 1);
+  const Polynomial phase = Polynomial::variable(starts.phase, 0);
+  const Polynomial cosine = cos(phase);
+  const Polynomial sine = sin(phase);
   // The estimate is in its own direction: its length is not negative.
-  middle_[kZ1] = certainly_positive(Ball(1.0) + starts.amplitude)
-                     ? Polynomial(Ball(1.0)) + Polynomial::variable(starts.amplitude, 2)
-                     : Polynomial(Ball::everything());
-  middle_[kZ2] = Polynomial(Ball(0.0));
+  const Polynomial length = certainly_positive(Ball(1.0) + starts.amplitude)
+                                ? Polynomial(Ball(1.0)) + Polynomial::variable(starts.amplitude, 2)
+                                : Polynomial(Ball::everything());
+  middle_[kZ1] = length * cosine;
+  middle_[kZ2] = length * sine;
+  middle_[kNu] = Polynomial::variable(starts.frequency, 1);
   std::size_t at = kP11;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = i; j < 3; ++j) {
       middle_[at++] = Polynomial(covariance[i][j]);
     }
   }
+  turn(middle_, cosine, sine);
   round();
 }
 
@@ -249,18 +242,15 @@ Ball FollowedStarts::frequency_error() const {
 }
 
 PolarEnclosure FollowedStarts::polar(const Matrix3& metric, const std::array<Ball, 3>& origin) const {
-  // The angle, and the whole turns, are chosen near the middle: any choice will do.
+  // Near the middle: any angle will do.
   const double angle = std::atan2(middle_[kZ2].constant().near(), middle_[kZ1].constant().near());
-  const double phase = middle_[kEta].constant().near() + angle;
-  const Ball turns = Ball(std::nearbyint(phase / 6.283185307179586)) * Ball(2.0) * pi();
-  const std::array<Ball, 3> shifted{origin[0], origin[1] + turns, origin[2]};
   const State<Ball> extent = radii();
-  const auto middle = polar_of<Polynomial>(middle_, metric, shifted, Ball(angle));
-  const auto slopes = polar_of<Sensitive>(neighbourhood(middle_, extent), metric, shifted, Ball(angle));
+  const auto middle = polar_of<Polynomial>(middle_, metric, origin, Ball(angle));
+  const auto slopes = polar_of<Sensitive>(neighbourhood(middle_, extent), metric, origin, Ball(angle));
   // On the segments arg z = angle + atan(tangent): only if z stays on the side that `angle` points to.
   const Ball ahead = cos(Ball(angle)) * (middle_[kZ1].range() + Ball::within(extent[kZ1])) +
                      sin(Ball(angle)) * (middle_[kZ2].range() + Ball::within(extent[kZ2]));
-  std::array<Ball, 9> found;
+  State<Ball> found;
   for (std::size_t i = 0; i < found.size(); ++i) {
     std::array<Ball, kStateSize> row;
     for (std::size_t j = 0; j < kStateSize; ++j) {

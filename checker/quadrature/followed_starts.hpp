@@ -1,15 +1,14 @@
 // Starts of the quadrature tracker, followed sample by sample: an enclosure of every state that a box of
 // starts can come to, whatever the noise and the slew do within their bounds. With and without a leak.
 //
-// The frame. It turns with the predictions of the tracker, so that neither the estimate nor the covariance is
-// ever turned: only the signal is. Let theta be the frame's angle, theta+ = theta + x3, and phi the signal's
-// phase. Of the filtered estimate at one sample the state has
-//     eta = theta - phi;  nu = x3 - omega;  z1, z2: the estimate of the plane in the frame;  P in the frame.
-// With omega the frequency, w = omega+ - omega, v of the size of the noise, J z = (-z2, z1),
-//     eta+ = eta + nu;  F = [[I, J z], [0, 1 - epsilon]],  P^ = F P F' + diag(q1, q1, q2),  K = P^ H' S^-1;
-//     (z, nu)+ = (z, (1 - epsilon) nu - epsilon omega - w) + K ((cos eta+, -sin eta+) + v - z),  P+ = P^ - K
-//     S K'.
-// The errors are |z| - 1, eta + arg z, and nu. The signal has amplitude 1.
+// The frame is that of the true phase, the signal of amplitude 1 is (1, 0) in it. Of the filtered estimate
+// the state has z = (z1, z2), nu = x3 - omega, and P. With omega the frequency, w = omega+ - omega, v the
+// noise, J z = (-z2, z1), Rot the turn by nu (the prediction turns by x3, the signal by omega), and
+// everything before the last line in the frame of the prediction:
+//     F = [[I, J z], [0, 1 - epsilon]],  P^ = F P F' + diag(q1, q1, q2),  S = H P^ H' + r I,  K = P^ H' S^-1,
+//     j = Rot^-1 ((1, 0) + v) - z,
+//     z+ = Rot (z + K_z j),  nu+ = (1 - epsilon) nu - epsilon omega - w + K_3 j,  P+ = Rot (P^ - K S K')
+//     Rot^-1.
 //
 // The enclosure. {p(s) + e}: p polynomials in the start errors, e in a zonotope, which holds everything else.
 // A step G takes it into {G(p(s), 0) + G_x e + G_v v}, the derivatives over all that lies between (mean value
@@ -37,9 +36,25 @@ struct Starts {
 };
 
 /// Coordinates of the state.
-enum Coordinate : std::size_t { kEta, kNu, kZ1, kZ2, kP11, kP12, kP13, kP22, kP23, kP33, kStateSize };
+enum Coordinate : std::size_t { kZ1, kZ2, kNu, kP11, kP12, kP13, kP22, kP23, kP33, kStateSize };
 template <typename S>
 using State = std::array<S, kStateSize>;
+
+/// Turns the covariance by the angle that has this cosine and sine.
+template <typename S>
+void turn(State<S>& x, const S& cosine, const S& sine) {
+  const S square_part = square(cosine) * (x[kP11] - x[kP22]);
+  const S cross = cosine * sine;
+  const S moved = square_part - Ball(2.0) * (cross * x[kP12]);
+  const S p12 = cross * (x[kP11] - x[kP22]) + (square(cosine) - square(sine)) * x[kP12];
+  const S p11 = x[kP22] + moved;
+  const S p13 = cosine * x[kP13] - sine * x[kP23];
+  x[kP22] = x[kP11] - moved;
+  x[kP23] = sine * x[kP13] + cosine * x[kP23];
+  x[kP11] = p11;
+  x[kP12] = p12;
+  x[kP13] = p13;
+}
 
 /// One step; a template, as it runs on balls, on polynomials and on numbers with derivatives.
 template <typename S>
@@ -60,15 +75,17 @@ State<S> step(const Loop& loop, const State<S>& x, const std::array<S, 2>& noise
   const S i22 = s11 * over;
   const S k31 = kept * (c1 * i11 + c2 * i12);
   const S k32 = kept * (c1 * i12 + c2 * i22);
+  const S cosine = cos(x[kNu]);
+  const S sine = sin(x[kNu]);
+  const S y1 = S(Ball(1.0)) + noise[0];
+  const S j1 = cosine * y1 + sine * noise[1] - z1;
+  const S j2 = cosine * noise[1] - sine * y1 - z2;
+  // z + K_z j = Rot^-1 ((1, 0) + v) - r S^-1 j.
+  const S w1 = loop.r * (i11 * j1 + i12 * j2);
+  const S w2 = loop.r * (i12 * j1 + i22 * j2);
   State<S> next;
-  next[kEta] = x[kEta] + x[kNu];
-  const S y1 = cos(next[kEta]) + noise[0];
-  const S y2 = noise[1] - sin(next[kEta]);
-  const S j1 = y1 - z1;
-  const S j2 = y2 - z2;
-  // z + K (y - z) = y - r S^-1 (y - z).
-  next[kZ1] = y1 - loop.r * (i11 * j1 + i12 * j2);
-  next[kZ2] = y2 - loop.r * (i12 * j1 + i22 * j2);
+  next[kZ1] = y1 - (cosine * w1 - sine * w2);
+  next[kZ2] = noise[1] - (sine * w1 + cosine * w2);
   next[kNu] = kept * x[kNu] - S(Ball(loop.epsilon * loop.frequency)) + k31 * j1 + k32 * j2;
   next[kP11] = S(loop.r) - square(loop.r) * i11;
   next[kP12] = -(square(loop.r) * i12);
@@ -76,12 +93,13 @@ State<S> step(const Loop& loop, const State<S>& x, const std::array<S, 2>& noise
   next[kP13] = loop.r * k31;
   next[kP23] = loop.r * k32;
   next[kP33] = square(kept) * x[kP33] + S(loop.q2) - kept * (k31 * c1 + k32 * c2);
+  turn(next, cosine, sine);
   return next;
 }
 
 /// How all states of an enclosure lie to a point.
 struct PolarEnclosure {
-  std::array<Ball, 3> error;  ///< metric (e - origin), with the phase error modulo 2 pi
+  std::array<Ball, 3> error;  ///< metric (e - origin), the phase error a value near that of the middle
   Matrix3 covariance;         ///< in the frame of the estimated phase
 };
 
@@ -94,7 +112,7 @@ class FollowedStarts {
   void step();
   /// Of every state: x3 - omega, rad/sample.
   [[nodiscard]] Ball frequency_error() const;
-  /// Balls of everything when the estimate may be zero. A phase error is one of its values modulo 2 pi.
+  /// The phase error is that in (-pi, pi], or near it. Balls of everything when the estimate may be zero.
   [[nodiscard]] PolarEnclosure polar(const Matrix3& metric, const std::array<Ball, 3>& origin) const;
 
  private:

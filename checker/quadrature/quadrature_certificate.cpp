@@ -3,6 +3,7 @@
 #include <map>
 
 #include "checker/document/guarantee.hpp"
+#include "checker/quadrature/capture.hpp"
 #include "checker/quadrature/contraction.hpp"
 #include "checker/theorems/proof_gaps.hpp"
 #include "checker/theorems/published_results.hpp"
@@ -17,8 +18,8 @@ namespace {
 /// Walks through a certificate of the quadrature tracker.
 class QuadratureVerifier {
  public:
-  QuadratureVerifier(const Tree& certificate, Verification& result)
-      : certificate_(certificate), result_(result) {}
+  QuadratureVerifier(const Tree& certificate, bool all_boxes, Verification& result)
+      : certificate_(certificate), all_boxes_(all_boxes), result_(result) {}
 
   void run() {
     Objections objections;
@@ -60,6 +61,11 @@ class QuadratureVerifier {
       check_theorem_2_9(derivation, design_, Reading::errata, objections);
     } else if (id == "contraction" && certainly_equal(design_.epsilon, Ball(0.0))) {
       promises_ = check_contraction(derivation, design_, sets_, objections);
+    } else if (id == "capture" || id == "capture/noise-free" || id == "capture/reduced-noise") {
+      captured_[id] = check_capture(derivation, design_, sets_, all_boxes_, objections);
+      if (!objections.empty()) {
+        captured_.erase(id);
+      }
     } else if (id == "theorem-2.9/repaired") {
       check_repaired_theorem(derivation, design_, objections);
     } else if (id == "table-3.1/printed" || id == "table-3.1/errata") {
@@ -130,8 +136,10 @@ class QuadratureVerifier {
   void check_all_claims() {
     if (derivations_.count("capture") != 0) {
       // The starts had to be followed, and what is claimed of them rests on that.
-      promises_.bound.reset();
-      promises_.settling.reset();
+      const Captured& found = captured_["capture"];
+      promises_.bound = found.verdict == Verdict::proved ? found.bound : std::nullopt;
+      promises_.settling = found.settling;
+      promises_.wrong_lock = found.wrong_lock;
     }
     const std::map<std::string, Claim> gaps = proof_gaps(design_);
     const auto check = [&](const Tree& claim, Objections& objections) {
@@ -140,6 +148,8 @@ class QuadratureVerifier {
         check_conditions_claim(claim, id, objections);
       } else if (is_guarantee(id)) {
         check_guarantee(claim, certificate_, promises_, objections);
+      } else if (is_capture_claim(id)) {
+        check_capture_claim(claim, captured_, objections);
       } else if (const auto gap = gaps.find(id); gap != gaps.end()) {
         check_claim(claim, gap->second, objections);
       } else {
@@ -150,17 +160,19 @@ class QuadratureVerifier {
   }
 
   const Tree& certificate_;
+  bool all_boxes_;
   Verification& result_;
   Design design_;
   std::vector<CertifiedSet> sets_;
   std::map<std::string, Known> derivations_;
+  std::map<std::string, Captured> captured_;  ///< of the derivations that are verified
   Promises promises_;
 };
 
 }  // namespace
 
-void verify_quadrature_tracker(const Tree& certificate, Verification& result) {
-  QuadratureVerifier(certificate, result).run();
+void verify_quadrature_tracker(const Tree& certificate, bool all_boxes, Verification& result) {
+  QuadratureVerifier(certificate, all_boxes, result).run();
 }
 
 }  // namespace veritrack::checker

@@ -6,6 +6,6 @@
 namespace veritrack::checker {
 
 /// Throws Malformed for what is not a certificate of this tracker.
-void verify_quadrature_tracker(const Tree& certificate, Verification& result);
+void verify_quadrature_tracker(const Tree& certificate, bool all_boxes, Verification& result);
 
 }  // namespace veritrack::checker

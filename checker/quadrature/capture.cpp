@@ -1,0 +1,323 @@
+#include "checker/quadrature/capture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <utility>
+
+#include "checker/quadrature/followed_starts.hpp"
+#include "checker/quadrature/start_boxes.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+const Ball zero(0.0);
+const Ball one(1.0);
+constexpr double kMostSamples = 1000;
+constexpr std::size_t kMostBoxes = 200;
+constexpr int kHalvings = 4;
+
+/// A box that holds all assumed starts, and one that they hold.
+StartBox outward(const Design& d) {
+  return {{-d.amplitude_error.upper(), -d.phase_error.upper(), -d.frequency_error.upper()},
+          {d.amplitude_error.upper(), d.phase_error.upper(), d.frequency_error.upper()}};
+}
+StartBox inward(const Design& d) {
+  return {{-d.amplitude_error.lower(), -d.phase_error.lower(), -d.frequency_error.lower()},
+          {d.amplitude_error.lower(), d.phase_error.lower(), d.frequency_error.lower()}};
+}
+
+/// A covariance of exact numbers that is below every one in the balls, in the Loewner order, or above.
+Covariance<Ball> beyond(const Covariance<Ball>& p, bool above) {
+  Covariance<Ball> point = p;
+  Ball radius;
+  arb_get_mid_arb(point.p23.raw(), p.p23.raw());
+  arb_get_rad_arb(radius.raw(), p.p23.raw());
+  point.p11 = above ? p.p11.upper() : p.p11.lower();
+  point.p22 = above ? (p.p22 + radius).upper() : (p.p22 - radius).lower();
+  point.p33 = above ? (p.p33 + radius).upper() : (p.p33 - radius).lower();
+  return point;
+}
+
+/// The filter's steady state, by Lemma 2: between the iterates of the bounds of an invariant order interval
+/// at the exact estimate. |P_ij - L_ij| <= sqrt(D_ii D_jj) for L <= P <= L + D.
+Matrix3 steady_covariance(const Setting& set) {
+  constexpr int kIterations = 1000;
+  Covariance<Ball> lower = set.lower;
+  Covariance<Ball> upper = set.upper;
+  for (int k = 0; k < kIterations; ++k) {
+    lower = beyond(update(set, lower, one).filtered, false);
+    upper = beyond(update(set, upper, one).filtered, true);
+  }
+  const Covariance<Ball> gap = upper - lower;
+  const std::array<Ball, 3> width{sqrt(gap.p11), sqrt(gap.p22), sqrt(gap.p33)};
+  Matrix3 p = whole(lower);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      p[i][j] += Ball::within(width[i] * width[j]);
+    }
+  }
+  return p;
+}
+
+/// Two halves along the side that is longest, an error of the frequency counting four times as much as one of
+/// the phase; any side will do.
+std::pair<StartBox, StartBox> halves(const StartBox& box) {
+  constexpr std::array<double, 3> kWeights{1.0, 1.0, 4.0};
+  std::size_t direction = 0;
+  double longest = -1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double length = kWeights[i] * (box.high[i] - box.low[i]).near();
+    if (length > longest) {
+      longest = length;
+      direction = i;
+    }
+  }
+  std::pair<StartBox, StartBox> parts{box, box};
+  const Ball middle((Ball(0.5) * (box.low[direction] + box.high[direction])).near());
+  parts.first.high[direction] = middle;
+  parts.second.low[direction] = middle;
+  return parts;
+}
+
+/// Boxes of starts, each in the set that is shifted by so many turns after so many samples, at a level.
+struct Cover {
+  std::vector<StartBox> boxes;
+  std::vector<int> samples;
+  std::vector<Ball> levels;
+  Ball turns;
+};
+
+Cover read_cover(const Tree& evidence) {
+  Cover cover;
+  for (const Tree& row : evidence.at("matrices").at("boxes").elements()) {
+    const auto number = [&](std::size_t i) { return from_hexadecimal(row.at(i).text()); };
+    cover.boxes.push_back({{number(0), number(2), number(4)}, {number(1), number(3), number(5)}});
+    const double samples = number(6).near();
+    if (!(samples >= 0.0) || samples > kMostSamples || samples != std::floor(samples)) {
+      throw Malformed("not a number of samples");
+    }
+    cover.samples.push_back(static_cast<int>(samples));
+    cover.levels.push_back(number(7));
+  }
+  if (evidence.at("name").text() == "witness") {
+    cover.turns = from_hexadecimal(evidence.at("numbers").at("turns").text());
+    if (!certainly_equal(cover.turns, Ball(std::floor(cover.turns.near())))) {
+      throw Malformed("not a number of turns");
+    }
+  }
+  return cover;
+}
+
+/// Follows boxes of starts into a set, the one shifted by whole turns in the frequency error.
+class Followed {
+ public:
+  Followed(const Loop& loop, const Matrix3& covariance, const Setting& set, const Ball& turns)
+      : loop_(loop), covariance_(covariance), set_(set), shift_(Ball(2.0) * turns * pi()) {}
+
+  /// A bound on |frequency error| up to so many samples when then |T e| <= level and the covariance is in its
+  /// bounds, for certain; nothing otherwise. What cannot be shown of the box as a whole is shown of its
+  /// halves.
+  [[nodiscard]] std::optional<Ball> reach(const StartBox& box, int samples, const Ball& level,
+                                          int halvings) const {
+    const auto side = [&](std::size_t i) { return Ball::hull(box.low[i], box.high[i]); };
+    FollowedStarts states(loop_, {side(0), side(1), side(2)}, covariance_);
+    Ball largest = abs(states.frequency_error());
+    for (int k = 0; k < samples && largest.finite(); ++k) {
+      states.step();
+      largest = max(largest, abs(states.frequency_error()));
+    }
+    const Metric& t = set_.metric;
+    const PolarEnclosure found =
+        states.polar({{{t.amplitude, zero, zero}, {zero, t.phase, t.coupling}, {zero, zero, t.frequency}}},
+                     {zero, zero, shift_});
+    const Ball size = square(found.error[0]) + square(found.error[1]) + square(found.error[2]);
+    if (largest.finite() && certainly_at_most(size, square(level)) &&
+        between(found.covariance, set_.lower, set_.upper)) {
+      return largest.upper();
+    }
+    if (halvings == 0) {
+      return std::nullopt;
+    }
+    const auto [low, high] = halves(box);
+    const std::optional<Ball> first = reach(low, samples, level, halvings - 1);
+    const std::optional<Ball> second = first ? reach(high, samples, level, halvings - 1) : std::nullopt;
+    return second ? std::optional(max(*first, *second)) : std::nullopt;
+  }
+
+ private:
+  Loop loop_;
+  Matrix3 covariance_;
+  Setting set_;
+  Ball shift_;
+};
+
+/// What the verified set, with what was found on the way to it, says of starts that come into it.
+void conclude(const Cover& cover, const Ball& largest, const Setting& set, const Design& disturbed,
+              const Tree& quantities, Captured& found) {
+  const Ball ultimate = ultimate_level(set, disturbed) / set.metric.frequency;
+  Ball bound = max(largest, ultimate);
+  for (const Ball& level : cover.levels) {
+    bound = max(bound, level / set.metric.frequency);
+  }
+  const Ball samples(*std::max_element(cover.samples.begin(), cover.samples.end()));
+  found.verdict = Verdict::proved;
+  found.bound = bound;
+  const Tree* claimed_samples = quantities.find("settling_samples");
+  const Tree* claimed_ultimate = quantities.find("ultimate_frequency_error");
+  if (claimed_samples != nullptr && claimed_ultimate != nullptr) {
+    // The claim is about the ultimate bound that is claimed.
+    const Ball count = from_hexadecimal(claimed_samples->at("lo").text());
+    const Ball twice = Ball(2.0) * from_hexadecimal(claimed_ultimate->at("lo").text());
+    bool settles = true;
+    for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
+      const Ball rest = count - Ball(cover.samples[i]);
+      settles =
+          settles && certainly_at_most(zero, rest) && settled(set, disturbed, cover.levels[i], twice, rest);
+    }
+    found.settling = settles ? std::optional(count) : std::nullopt;
+  }
+  const Ball total(static_cast<double>(cover.boxes.size()));
+  found.quantities = {{"capture_samples", samples, Sense::bounds_above},
+                      {"frequency_error_bound", bound, Sense::bounds_above},
+                      {"ultimate_frequency_error", ultimate, Sense::bounds_above},
+                      {"settling_samples", found.settling.value_or(Ball::everything()), Sense::bounds_above},
+                      {"cells", total},
+                      {"cells_captured", total}};
+}
+
+/// Every box of the cover, or an evenly spaced sample of them; objects unless each does what it should, and
+/// to a sample. The largest |frequency error|.
+Ball follow_all(const Cover& cover, const Followed& followed, bool all_boxes, Objections& objections) {
+  const std::size_t total = cover.boxes.size();
+  const std::size_t count = all_boxes ? total : std::min(total, kMostBoxes);
+  Ball largest(0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t index = i * total / count;
+    const std::optional<Ball> reached =
+        followed.reach(cover.boxes[index], cover.samples[index], cover.levels[index], kHalvings);
+    if (!reached) {
+      objections.push_back("box " + std::to_string(index) + " of " + std::to_string(total) +
+                           " does not certainly come where it should");
+      break;
+    }
+    largest = max(largest, *reached);
+  }
+  if (count < total && objections.empty()) {
+    objections.push_back("a sample of " + std::to_string(count) + " of " + std::to_string(total) +
+                         " boxes holds; --full checks all");
+  }
+  return largest;
+}
+
+const std::regex& reduced_noise() {
+  static const std::regex sentence(
+      "From every assumed start, with noise of at most ([-+.e0-9]+) of the amplitude and slew of at most "
+      "([-+.e0-9]+) rad/sample per sample, the tracker comes into the certified set, which it never "
+      "leaves\\.");
+  return sentence;
+}
+
+}  // namespace
+
+Captured check_capture(const Tree& claimed, const Design& design, const std::vector<CertifiedSet>& sets,
+                       bool all_boxes, Objections& objections) {
+  const bool assumed_noise = claimed.at("id").text() == "capture";
+  Captured found;
+  found.noise = assumed_noise ? design.noise : zero;
+  found.slew = assumed_noise ? design.slew : zero;
+  const Tree* evidence = claimed.find("evidence");
+  evidence = evidence != nullptr ? &evidence->at(0) : nullptr;
+  if (evidence != nullptr) {
+    const Ball noise = from_hexadecimal(evidence->at("numbers").at("noise").text());
+    const Ball slew = from_hexadecimal(evidence->at("numbers").at("slew").text());
+    if (!certainly_at_most(found.noise, noise) || !certainly_at_most(found.slew, slew)) {
+      objections.emplace_back("the starts were followed under less noise or slew than is assumed");
+    }
+    found.noise = noise;
+    found.slew = slew;
+  }
+  Design disturbed = design;
+  disturbed.noise = found.noise;
+  disturbed.slew = found.slew;
+  const Setting* set = first_of(sets, "start-error");
+  const bool borne = set != nullptr && bears(*set, disturbed);
+  if (evidence != nullptr && borne && objections.empty()) {
+    const Cover cover = read_cover(*evidence);
+    const Loop loop{design.q1, design.q2, design.r, design.epsilon, zero, found.noise, found.slew};
+    const Matrix3 covariance = design.covariance ? *design.covariance : steady_covariance(*set);
+    const Ball largest =
+        follow_all(cover, Followed(loop, covariance, *set, cover.turns), all_boxes, objections);
+    for (const Ball& level : cover.levels) {
+      if (!certainly_at_most(zero, level) || !certainly_at_most(level, set->radius)) {
+        objections.emplace_back("a level is not within the radius of the set");
+      }
+    }
+    const Ball reach = set->radius * inverse_rows(set->metric)[2];
+    const Ball off = Ball(2.0) * abs(cover.turns) * pi() - reach;
+    if (certainly_equal(cover.turns, zero)) {
+      if (covers(outward(design), cover.boxes)) {
+        conclude(cover, largest, *set, disturbed, claimed.at("quantities"), found);
+      } else {
+        objections.emplace_back("the boxes do not cover all assumed starts");
+      }
+    } else if (cover.boxes.size() == 1 && covers(cover.boxes[0], {inward(design)}) &&
+               certainly_less(reach, off)) {
+      // The shifted set is never left either, as the frequency error acts through its sine and cosine alone.
+      found.verdict = Verdict::refuted;
+      found.wrong_lock = off;
+      found.quantities = {{"wrong_lock_frequency_error", off, Sense::bounds_below}};
+    }
+  }
+  check_derivation(
+      claimed,
+      {"Capture of every assumed start by the certified set",
+       found.quantities,
+       {{"certified-set", R"(V \le V_\Omega,\ W \le W_\Omega)", proved_if(borne)},
+        {"starts-captured", R"(X(k_c) \in \Omega \text{ from every assumed start})", found.verdict}}},
+      objections);
+  return found;
+}
+
+bool is_capture_claim(const std::string& id) {
+  return id == "ekf/capture" || id == "ekf/capture-noise-free" || id == "ekf/capture-at-reduced-noise";
+}
+
+void check_capture_claim(const Tree& claimed, const std::map<std::string, Captured>& captured,
+                         Objections& objections) {
+  const std::string& id = claimed.at("id").text();
+  const auto found_of = [&](const char* derivation) {
+    const auto found = captured.find(derivation);
+    return found != captured.end() ? found->second : Captured();
+  };
+  Claim claim;
+  Captured found = found_of("capture");
+  claim.statement =
+      "From every assumed start, with the assumed noise and slew, the tracker comes into the certified set, "
+      "which it never leaves.";
+  if (id == "ekf/capture") {
+    // No noise is allowed noise.
+    const bool refuted = found_of("capture/noise-free").verdict == Verdict::refuted;
+    claim.verdict = refuted ? Verdict::refuted : found.verdict;
+  } else if (id == "ekf/capture-noise-free") {
+    claim.statement =
+        "From every assumed start, without noise and slew, the tracker comes into the certified set, which "
+        "it "
+        "never leaves.";
+    found = found_of("capture/noise-free");
+    claim.verdict = found.verdict;
+  } else {
+    found = found_of("capture/reduced-noise");
+    std::smatch numbers;
+    claim.statement = claimed.at("statement").text();
+    claim.verdict = proved_if(found.verdict == Verdict::proved &&
+                              std::regex_match(claim.statement, numbers, reduced_noise()) &&
+                              certainly_at_most(from_decimal(numbers[1].str()), found.noise) &&
+                              certainly_at_most(from_decimal(numbers[2].str()), found.slew));
+  }
+  claim.evidence = found.quantities;
+  check_claim(claimed, claim, objections);
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,33 @@
+// Starts beyond the certified set, which are followed into it (docs/contraction.md, section 7).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checker/document/guarantee.hpp"
+#include "checker/quadrature/certified_set.hpp"
+
+namespace veritrack::checker {
+
+/// What was found of a derivation "capture", "capture/noise-free" or "capture/reduced-noise".
+struct Captured {
+  Ball noise, slew;  ///< the starts were followed under at most these
+  Verdict verdict = Verdict::undecided;
+  std::vector<Quantity> quantities;
+  std::optional<Ball> bound, settling, wrong_lock;  ///< as in Promises
+};
+
+/// Objects unless the boxes in the evidence cover all assumed starts and every one of them is followed into
+/// the certified set, or the start in the evidence is followed into another. Of very many boxes a sample is
+/// followed unless `all_boxes`, and proves nothing.
+Captured check_capture(const Tree& derivation, const Design& design, const std::vector<CertifiedSet>& sets,
+                       bool all_boxes, Objections& objections);
+
+/// The claims "ekf/capture...", from what was found of the derivations that were verified, by their ids.
+bool is_capture_claim(const std::string& id);
+void check_capture_claim(const Tree& claim, const std::map<std::string, Captured>& captured,
+                         Objections& objections);
+
+}  // namespace veritrack::checker

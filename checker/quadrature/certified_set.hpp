@@ -1,0 +1,49 @@
+// The certified sets of the tracker without a leak (docs/contraction.md): read, proved, and what each of them
+// says of the errors in it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "checker/document/design.hpp"
+#include "checker/numbers/matrix3.hpp"
+#include "checker/quadrature/step.hpp"
+
+namespace veritrack::checker {
+
+/// A certified set as the certificate gives it.
+struct CertifiedSet {
+  std::string purpose;
+  Setting setting;
+  bool verified = false;
+};
+
+/// Reads a set and proves of it, from nothing but the design: P_lo > 0, P_hi > P_lo, T invertible, and the
+/// hypotheses (a), (b), (c) of the theorem. What fails is an objection, and the set is not verified.
+CertifiedSet check_set(const Tree& set, const Design& design, std::int64_t& cells, Objections& objections);
+
+/// The first verified set of this purpose, or none.
+const Setting* first_of(const std::vector<CertifiedSet>& sets, const std::string& purpose);
+
+/// It is certified for at least the noise and slew of the design.
+bool bears(const Setting& set, const Design& design);
+/// Lengths of the rows of T^-1: |amplitude|, |phase|, |frequency error| are at most these times |T e|.
+std::array<Ball, 3> inverse_rows(const Metric& metric);
+/// sup |T e| over |e_i| <= bounds_i.
+Ball largest_level(const Metric& metric, const Ball& amplitude, const Ball& phase, const Ball& frequency);
+/// What |T e| tends to at most under the noise and slew of the design.
+Ball ultimate_level(const Setting& set, const Design& design);
+/// From |T e| <= start on: within `frequency_error` so many samples later, and at all later ones:
+/// rate^(2k) (l^2 - u^2) + u^2 <= level^2.
+bool settled(const Setting& set, const Design& design, const Ball& start, const Ball& frequency_error,
+             const Ball& samples);
+
+Covariance<Ball> operator-(const Covariance<Ball>& x, const Covariance<Ball>& y);
+bool positive_definite(const Covariance<Ball>& p);
+Matrix3 whole(const Covariance<Ball>& p);
+/// P - lower > 0 and upper - P > 0.
+bool between(const Matrix3& p, const Covariance<Ball>& lower, const Covariance<Ball>& upper);
+
+}  // namespace veritrack::checker

@@ -188,6 +188,33 @@ void add_promises(const PhaseQuestion& question, const PhaseCertificate& certifi
                question.tracker.design.epsilon == Interval(0.0) && set ? Interval(0.0) : Interval());
 }
 
+/// The numbers from which a set is verified again (docs/certificate-format.md).
+theorems::Evidence evidence_of(const char* name, const PhaseSet& set) {
+  const WindowClaim& claim = set.claim;
+  const WindowAssumption& assumption = claim.assumption;
+  theorems::Evidence evidence{name,
+                              {{"radius", assumption.radius},
+                               {"frequency_variance", assumption.frequency_variance},
+                               {"signal_variance", assumption.signal_variance},
+                               {"loosening", assumption.loosening},
+                               {"settling", claim.settling},
+                               {"noise", set.noise.upper()},
+                               {"slew", claim.slew},
+                               {"curvature", claim.curvature},
+                               {"curvature_weight", claim.curvature_weight},
+                               {"signal_uncertainty", claim.signal_uncertainty},
+                               {"start_level", set.start_level}},
+                              {}};
+  if (set.assumed_level) {
+    evidence.numbers.emplace_back("assumed_level", *set.assumed_level);
+    evidence.numbers.emplace_back("start_weight", set.start_weight);
+  }
+  for (std::size_t m = 1; m <= claim.shares.size(); ++m) {
+    evidence.numbers.emplace_back("share_" + std::to_string(m), claim.shares[m - 1]);
+  }
+  return evidence;
+}
+
 }  // namespace
 
 PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
@@ -216,6 +243,16 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
     }
     certificate.noise_set = search.largest_noise();
     certificate.slew_set = search.largest_slew();
+  }
+  const std::pair<const char*, const std::optional<PhaseSet>*> sets[] = {
+      {"start-error", &certificate.set},
+      {"frequency-error-bound", &certificate.bound_set},
+      {"largest-noise", &certificate.noise_set},
+      {"largest-slew", &certificate.slew_set}};
+  for (const auto& [name, set] : sets) {
+    if (*set) {
+      derivation.evidence.push_back(evidence_of(name, **set));
+    }
   }
   derivation.conditions.push_back(invariant_set(question, certificate));
   if (certificate.set) {

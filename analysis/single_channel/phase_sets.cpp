@@ -142,16 +142,17 @@ std::optional<PhaseSet> PhaseSearch::least_bound() const {
   const auto within = [&](PhaseSet& set, double margin) {
     const StartProposal start = propose_start(request_, set.claim, box_);
     set.assumed_level = margin * start.level;
+    set.start_weight = start.weight;
     // The steady state of a start that is turned by the phase error: z is off by at most that all along.
     const Interval reach =
         Interval(set.claim.assumption.radius) * sqrt(Interval(set.claim.assumption.signal_variance));
     const bool turns_little = certainly_less_equal(tracker.initial_phase_error, reach);
     const bool inside = errors_of(question_, set).levels(*set.assumed_level, kFollowed).has_value();
-    return std::make_pair(turns_little && inside, start.weight);
+    return turns_little && inside;
   };
   const auto promise = [&](const WindowClaim& claim) {
     PhaseSet set{claim, {}, tracker.noise, tracker.slew, 0.0, std::nullopt};
-    if (!errors_of(question_, set).keeps_radius() || !within(set, 1.0).first) {
+    if (!errors_of(question_, set).keeps_radius() || !within(set, 1.0)) {
       return 0.0;
     }
     return 1.0 / frequency_error_bound(question_, set, *set.assumed_level).upper();
@@ -167,10 +168,10 @@ std::optional<PhaseSet> PhaseSearch::least_bound() const {
       continue;
     }
     for (const double margin : {1.02, 1.1, 1.3}) {
-      const auto [inside, weight] = within(*set, margin);
+      const bool inside = within(*set, margin);
       const bool at_rest = box_.signal == 0.0 && box_.frequency == 0.0;
       if (inside && (at_rest || certainly_holds_start(tracker.design, question_.band, set->claim, box_,
-                                                      *set->assumed_level, weight))) {
+                                                      *set->assumed_level, set->start_weight))) {
         return set;
       }
     }

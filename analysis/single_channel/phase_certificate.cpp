@@ -197,7 +197,6 @@ theorems::Evidence evidence_of(const char* name, const PhaseSet& set) {
                                {"frequency_variance", assumption.frequency_variance},
                                {"signal_variance", assumption.signal_variance},
                                {"loosening", assumption.loosening},
-                               {"settling", claim.settling},
                                {"noise", set.noise.upper()},
                                {"slew", claim.slew},
                                {"curvature", claim.curvature},
@@ -253,6 +252,12 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
     if (*set) {
       derivation.evidence.push_back(evidence_of(name, **set));
     }
+  }
+  if (certificate.set) {
+    auto& numbers = derivation.evidence.front().numbers;
+    numbers.emplace_back("least_p11", certificate.set->floor.p11);
+    numbers.emplace_back("least_p22", certificate.set->floor.p22);
+    numbers.emplace_back("least_p33", certificate.set->floor.p33);
   }
   derivation.conditions.push_back(invariant_set(question, certificate));
   if (certificate.set) {

@@ -1,7 +1,11 @@
 #include "checker/single_channel/single_channel_certificate.hpp"
 
+#include <set>
+
 #include "checker/document/guarantee.hpp"
+#include "checker/single_channel/phase_contraction.hpp"
 #include "checker/single_channel/single_channel.hpp"
+#include "checker/single_channel/tracker_design.hpp"
 
 namespace veritrack::checker {
 
@@ -27,15 +31,26 @@ void read_numbers(const Tree& tree, Objections& objections) {
 void verify_single_channel_tracker(const Tree& certificate, Verification& result) {
   Objections objections;
   read_numbers(certificate.at("design"), objections);
+  const SingleChannelDesign design = read_single_channel_design(certificate.at("design"), objections);
   result.parts.push_back({"design", objections});
   for (const Tree& set : certificate.at("certified_sets").elements()) {
     result.parts.push_back({"certified set " + set.at("purpose").text(), {kUnknown}});
   }
+  Promises promises;
+  std::set<std::string> derivations;
   for (const Tree& derivation : certificate.at("derivations").elements()) {
-    result.parts.push_back({derivation.at("id").text(), {kUnknown}});
+    const std::string& id = derivation.at("id").text();
+    objections.clear();
+    if (!derivations.insert(id).second) {
+      objections.emplace_back("a second derivation of this id");
+    } else if (id == "contraction") {
+      promises = check_phase_contraction(derivation, design, result.cells, objections);
+    } else {
+      objections.emplace_back(kUnknown);
+    }
+    result.parts.push_back({id, objections});
   }
   const std::map<std::string, Claim> propositions = proposition_claims();
-  const Promises promises;
   const auto check = [&](const Tree& claim, Objections& found) {
     const std::string& id = claim.at("id").text();
     if (is_guarantee(id)) {

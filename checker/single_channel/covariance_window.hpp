@@ -1,0 +1,39 @@
+// The covariance of the single-channel tracker without a leak over a window of samples, at every phase and
+// every frequency of a band: docs/single-channel.md, section 4.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "checker/single_channel/tracker_design.hpp"
+
+namespace veritrack::checker {
+
+/// What a certificate states of the windows of a set. e = (delta, nu) is the error in the frame of the true
+/// phase, relative to the amplitude and in rad/sample.
+struct WindowStatement {
+  /// As long as e' P^-1 e <= radius^2 at every sample,
+  Ball radius;
+  /// P33 <= frequency_variance and P <= signal_variance on the first two components;
+  Ball frequency_variance, signal_variance;
+  Ball loosening;  ///< eta, a free number of the proof
+  Ball slew;       ///< bound on |omega(k+1) - omega(k)|, rad/sample
+  /// of any covariance at least the part shares[m - 1] is due to its last m samples;
+  std::vector<Ball> shares;
+  /// |nu| |delta + i nu/2| <= curvature e' P^-1 e, by a free weight;
+  Ball curvature, curvature_weight;
+  /// every predicted covariance is above signal_uncertainty diag(1, 1, 0);
+  Ball signal_uncertainty;
+  /// the diagonal of every covariance is above this;
+  Ball least_p11, least_p22, least_p33;
+  /// and, when there are starts, e' P^-1 e <= start_level^2 for |delta| <= start_signal and |nu| <=
+  /// start_frequency, by a free weight between 0 and 1.
+  bool has_starts = false;
+  Ball start_level, start_weight, start_signal, start_frequency;
+};
+
+/// True only when all of it holds at every phase, for every frequency of the design's band. Counts the cells
+/// of phase and frequency that it takes.
+bool window_holds(const WindowStatement& statement, const SingleChannelDesign& design, std::int64_t& cells);
+
+}  // namespace veritrack::checker

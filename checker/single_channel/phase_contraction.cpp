@@ -1,0 +1,254 @@
+#include "checker/single_channel/phase_contraction.hpp"
+
+#include <algorithm>
+
+#include "checker/single_channel/covariance_window.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+const Ball zero(0.0);
+const Ball one(1.0);
+const Ball two(2.0);
+
+/// A verified window, and what errors do in it: x_k = |e_k| in the metric P_k^-1. As long as x <= R,
+///   x_{k+m} <= kappa_m x_k + c sum_{j<m} kappa_{m-1-j} x_{k+j}^2 + sqrt(m) u,   m = 1, ..., n.
+class ErrorSet {
+ public:
+  ErrorSet(WindowStatement window, const SingleChannelDesign& design, const Ball& noise, const Ball& start)
+      : window_(std::move(window)), noise_(noise), start_(start), kappa_{one} {
+    for (const Ball& share : window_.shares) {
+      kappa_.push_back(sqrt(one - share));
+      sum_ += kappa_[kappa_.size() - 2];
+    }
+    // |delta nu + i nu^2/2| falls short of the truth by at most |nu|^3/6, |nu| <= x sqrt(P33).
+    const Ball& variance = window_.frequency_variance;
+    curvature_ = (window_.curvature + window_.radius * variance * sqrt(variance) / Ball(6.0)) /
+                 sqrt(window_.signal_uncertainty);
+    input_ = sqrt(square(noise) / design.r + square(window_.slew) / design.q2);
+  }
+
+  [[nodiscard]] const WindowStatement& window() const { return window_; }
+  [[nodiscard]] const Ball& noise() const { return noise_; }
+  [[nodiscard]] const Ball& start() const { return start_; }
+  [[nodiscard]] std::size_t samples() const { return window_.shares.size(); }
+  /// By which a window multiplies errors that are at most `level` throughout, and what it makes of them.
+  [[nodiscard]] Ball factor(const Ball& level) const { return kappa_.back() + curvature_ * sum_ * level; }
+  [[nodiscard]] Ball after(const Ball& level) const {
+    return factor(level) * level + sqrt(Ball(static_cast<double>(samples()))) * input_;
+  }
+  [[nodiscard]] Ball rate() const {
+    return exp(log(factor(window_.radius)) / Ball(static_cast<double>(samples())));
+  }
+  [[nodiscard]] Ball frequency_error(const Ball& level) const {
+    return level * sqrt(window_.frequency_variance);
+  }
+  /// Bounds on x_0, ..., x_samples for x_0 <= start; everything where they are not certainly within R.
+  [[nodiscard]] std::vector<Ball> levels(const Ball& start, std::size_t samples) const {
+    std::vector<Ball> x{start};
+    for (std::size_t k = 1; k <= samples; ++k) {
+      const std::size_t m = std::min(k, kappa_.size() - 1);
+      Ball pushed = zero;
+      for (std::size_t j = 0; j < m; ++j) {
+        pushed += kappa_[m - 1 - j] * square(x[k - m + j]);
+      }
+      const Ball next =
+          kappa_[m] * x[k - m] + curvature_ * pushed + sqrt(Ball(static_cast<double>(m))) * input_;
+      x.push_back(certainly_at_most(next, window_.radius) ? next.upper() : Ball::everything());
+    }
+    return x;
+  }
+  /// Starts of that level are never above R: not in the first window, and so in none.
+  [[nodiscard]] bool keeps(const Ball& start) const {
+    return certainly_less(after(window_.radius), window_.radius) &&
+           certainly_at_most(start, window_.radius) && levels(start, samples()).back().finite();
+  }
+  /// limsup x_k for starts that are kept: L with L <= after(L) and L <= R, where after(L) - L is convex and
+  /// negative at R, is at most the smaller root.
+  [[nodiscard]] Ball ultimate() const {
+    const Ball room = one - kappa_.back();
+    const Ball pushed = sqrt(Ball(static_cast<double>(samples()))) * input_;
+    return two * pushed / (room + sqrt(square(room) - Ball(4.0) * curvature_ * sum_ * pushed));
+  }
+  /// sup x_k for starts of that level: a level between the smaller root and R that a window starts with is
+  /// kept.
+  [[nodiscard]] Ball largest(const Ball& start) const {
+    Ball most = ultimate();
+    for (const Ball& level : levels(start, samples())) {
+      most = max(most, level);
+    }
+    return most;
+  }
+  /// From that sample on |nu| <= frequency_error: so it is for a window, and the level is kept.
+  [[nodiscard]] bool settled(const Ball& start, const Ball& frequency_error, std::size_t sample) const {
+    const Ball target = frequency_error / sqrt(window_.frequency_variance);
+    const std::vector<Ball> x = levels(start, sample + samples() - 1);
+    return certainly_at_most(ultimate(), target) &&
+           std::all_of(x.begin() + static_cast<std::ptrdiff_t>(sample), x.end(),
+                       [&](const Ball& level) { return certainly_at_most(level, target); });
+  }
+
+ private:
+  WindowStatement window_;
+  Ball noise_, start_;
+  std::vector<Ball> kappa_;  ///< kappa_0 = 1, ..., kappa_n
+  Ball sum_ = Ball(0.0);     ///< of kappa_0, ..., kappa_{n-1}
+  Ball curvature_, input_;   ///< c, u
+};
+
+/// The set of this name, verified; none when the evidence has none, or it does not hold.
+std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& name,
+                                     const SingleChannelDesign& design, std::int64_t& cells,
+                                     Objections& objections) {
+  const Tree* evidence = derivation.find("evidence");
+  if (evidence == nullptr) {
+    return std::nullopt;
+  }
+  for (const Tree& item : evidence->elements()) {
+    if (item.at("name").text() != name) {
+      continue;
+    }
+    const Tree& numbers = item.at("numbers");
+    const auto number = [&](const std::string& key) { return from_hexadecimal(numbers.at(key).text()); };
+    WindowStatement window;
+    window.radius = number("radius");
+    window.frequency_variance = number("frequency_variance");
+    window.signal_variance = number("signal_variance");
+    window.loosening = number("loosening");
+    window.slew = number("slew");
+    window.curvature = number("curvature");
+    window.curvature_weight = number("curvature_weight");
+    window.signal_uncertainty = number("signal_uncertainty");
+    if (numbers.find("least_p11") != nullptr) {
+      window.least_p11 = number("least_p11");
+      window.least_p22 = number("least_p22");
+      window.least_p33 = number("least_p33");
+    }
+    for (int m = 1; numbers.find("share_" + std::to_string(m)) != nullptr; ++m) {
+      window.shares.push_back(number("share_" + std::to_string(m)));
+    }
+    window.has_starts = numbers.find("assumed_level") != nullptr;
+    if (window.has_starts) {
+      window.start_level = number("assumed_level");
+      window.start_weight = number("start_weight");
+      window.start_signal = design.amplitude_error + design.phase_error;
+      window.start_frequency = design.frequency_error;
+    }
+    const ErrorSet set(window, design, number("noise"), number("start_level"));
+    if (certainly_at_most(zero, set.noise()) && certainly_positive(set.start()) && set.keeps(set.start()) &&
+        window_holds(window, design, cells)) {
+      return set;
+    }
+    objections.push_back("the set \"" + name + "\" is not certainly what its evidence says");
+  }
+  return std::nullopt;
+}
+
+bool bears(const ErrorSet& set, const SingleChannelDesign& design) {
+  return certainly_at_most(design.noise, set.noise()) && certainly_at_most(design.slew, set.window().slew);
+}
+
+/// The assumed starts are in the set: their errors, and the steady state of a start that is turned by the
+/// phase error, along which |delta| is at most that.
+bool holds_starts(const ErrorSet& set, const SingleChannelDesign& design) {
+  const WindowStatement& window = set.window();
+  return window.has_starts && design.starts_in_steady_state && set.keeps(window.start_level) &&
+         certainly_at_most(design.phase_error, window.radius * sqrt(window.signal_variance));
+}
+
+/// How far the starts of the set reach, whatever phase and frequency, and what they never exceed.
+void add_size(const ErrorSet& set, Derivation& found) {
+  const WindowStatement& window = set.window();
+  const auto atan = [](const Ball& x) {
+    Ball z;
+    arb_atan(z.raw(), x.raw(), precision());
+    return z;
+  };
+  const Ball signal = set.start() * sqrt(window.signal_variance);
+  const auto reach = [&](const Ball& least) { return set.start() * root_of_non_negative(max(least, zero)); };
+  found.quantities = {
+      {"contraction_rate", set.rate()},
+      {"radius", set.start()},
+      {"frequency_error_radius", Range(reach(window.least_p33), set.frequency_error(set.start()))},
+      // At delta_2 = reach, and |z| <= 1 + signal; arg z <= asin(signal).
+      {"phase_error_radius",
+       Range(atan(reach(window.least_p22) / (one + signal)), atan(signal / sqrt(one - square(signal))))},
+      {"amplitude_error_radius", Range(reach(window.least_p11), signal)},
+      // Without noise and slew the errors tend to zero.
+      {"bias_frequency", zero}};
+}
+
+}  // namespace
+
+Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign& design, std::int64_t& cells,
+                                 Objections& objections) {
+  const auto whole = verified_set(claimed, "start-error", design, cells, objections);
+  const auto bound = verified_set(claimed, "frequency-error-bound", design, cells, objections);
+  const auto noisy = verified_set(claimed, "largest-noise", design, cells, objections);
+  const auto slewing = verified_set(claimed, "largest-slew", design, cells, objections);
+  Promises promises;
+  promises.starts_inside = bound && bears(*bound, design) && holds_starts(*bound, design);
+  if (noisy) {
+    promises.noise = noisy->noise();
+  }
+  if (slewing) {
+    promises.slew = slewing->window().slew;
+  }
+  const Ball nothing = Ball::everything();
+  Derivation found;
+  found.title = "Contraction of the errors over all phases and the band of frequencies";
+  const bool invariant = whole && bears(*whole, design);
+  if (invariant) {
+    add_size(*whole, found);
+    promises.reach = whole->start() * root_of_non_negative(max(whole->window().least_p33, zero));
+  }
+  // Without a set that holds the starts, what is said is said of every start in the set "start-error".
+  const ErrorSet* set = promises.starts_inside ? &*bound : invariant ? &*whole : nullptr;
+  if (set != nullptr) {
+    const Ball start = promises.starts_inside ? set->window().start_level : set->start();
+    promises.ultimate = set->frequency_error(set->ultimate());
+    if (promises.starts_inside) {
+      promises.bound = set->frequency_error(set->largest(start));
+    }
+    const Tree& quantities = claimed.at("quantities");
+    const Tree* samples = quantities.find("settling_samples");
+    const Tree* ultimate = quantities.find("ultimate_frequency_error");
+    if (samples != nullptr && ultimate != nullptr) {
+      // The claim is about the ultimate bound that is claimed, which is checked below.
+      constexpr double kMost = 10000.0;
+      const Ball count = from_hexadecimal(samples->at("lo").text());
+      const Ball twice = two * from_hexadecimal(ultimate->at("lo").text());
+      if (certainly_at_most(zero, count) && certainly_at_most(count, Ball(kMost)) &&
+          set->settled(start, twice, static_cast<std::size_t>(count.near()))) {
+        found.quantities.push_back({"settling_samples", count, Sense::bounds_above});
+        promises.settling = promises.starts_inside ? std::optional(count) : std::nullopt;
+      }
+    }
+  }
+  const auto add = [&](const char* name, const std::optional<Ball>& value, Sense sense) {
+    found.quantities.push_back({name, value.value_or(nothing), sense});
+  };
+  add("ultimate_frequency_error", promises.ultimate, Sense::bounds_above);
+  add("frequency_error_bound", promises.bound, Sense::bounds_above);
+  add("largest_noise", promises.noise, Sense::bounds_below);
+  add("largest_slew", promises.slew, Sense::bounds_below);
+
+  found.conditions = {
+      {"leak", R"(\epsilon = 0)", proved_if(certainly_equal(design.epsilon, zero)), design.epsilon, zero},
+      {"controllable-amplitude", "q_1 > 0", decide_less(zero, design.q1), design.q1, zero},
+      {"invariant-set", R"((\kappa_n + c R \sum_m \kappa_m) R + \sqrt n\,u \le R)", proved_if(invariant)}};
+  if (whole) {
+    found.conditions.back().lhs = whole->after(whole->window().radius);
+    found.conditions.back().rhs = whole->window().radius;
+    found.conditions.push_back(
+        {"start-in-set", R"(e(0)' P(0)^{-1} e(0) \le R_0^2)", proved_if(promises.starts_inside)});
+    const bool inside = promises.starts_inside;
+    found.conditions.back().lhs = inside ? bound->window().start_level : nothing;
+    found.conditions.back().rhs = inside ? bound->start() : whole->start();
+  }
+  check_derivation(claimed, found, objections);
+  return promises;
+}
+
+}  // namespace veritrack::checker

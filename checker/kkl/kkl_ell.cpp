@@ -73,6 +73,24 @@ class Infimum {
   Ball bound_;
 };
 
+/// True only when no frequency of [low, high) is a minimizer: the ratio is above `least`, or falls there.
+/// With `rises`, none of (low, high]: it is above, or rises.
+bool no_minimizer(const KklDesign& design, const Ball& low, const Ball& high, const Ball& least, bool rises,
+                  int depth) {
+  if (certainly_at_most(high, low)) {
+    return true;  // an empty stretch
+  }
+  const Slope ratio = ratio_at(design.lambda, Slope::variable(Ball::hull(low, high), 0));
+  if (certainly_less(least, ratio.value) || certainly_positive(rises ? ratio.by[0] : -ratio.by[0])) {
+    return true;
+  }
+  const Ball middle = (Ball(0.5) * (low + high)).lower();
+  return depth > 0 && no_minimizer(design, low, middle, least, rises, depth - 1) &&
+         no_minimizer(design, middle, high, least, rises, depth - 1);
+}
+
+constexpr int kDepth = 60;
+
 }  // namespace
 
 Ball excitation_ratio(const std::vector<Ball>& lambda, const Ball& frequency) {
@@ -81,10 +99,9 @@ Ball excitation_ratio(const std::vector<Ball>& lambda, const Ball& frequency) {
 
 // The minimum is at least `low` if every cell says so, and at most `high` if one frequency does.
 bool is_true(const EllEnclosure& enclosure, const KklDesign& design) {
-  constexpr int kDepth = 60;
   const auto& [low, high, attained] = enclosure;
-  const bool inside = certainly_at_most(design.frequency_low.lower(), attained) &&
-                      certainly_at_most(attained, design.frequency_high.upper());
+  const bool inside =
+      certainly_at_most(design.frequency_low, attained) && certainly_at_most(attained, design.frequency_high);
   return inside && certainly_at_most(ratio_at(design.lambda, attained), high) &&
          Infimum(design, low).holds(design.frequency_low, design.frequency_high, kDepth);
 }
@@ -108,10 +125,14 @@ std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& 
   const Ball high = from_hexadecimal(ell->at("hi").text());
   const Ball attained = from_hexadecimal(minimizer->at("lo").text());
   const bool enclosed = is_true({low, high, attained}, design);
+  const Ball last = from_hexadecimal(minimizer->at("hi").text());
+  const bool located = enclosed &&
+                       no_minimizer(design, design.frequency_low, attained, high, false, kDepth) &&
+                       no_minimizer(design, last, design.frequency_high, high, true, kDepth);
   const Ball nothing = Ball::everything();
   const Ball value = enclosed ? low : nothing;
   found.quantities = {{"ell", enclosed ? Range(low, high) : Range(nothing)},
-                      {"argmin_omega", enclosed ? attained : nothing}};
+                      {"argmin_omega", located ? Range(attained, last) : Range(nothing)}};
   const Ball width = (high - low) / low;
   const Ball nine_digits(1e-9);
   found.conditions = {

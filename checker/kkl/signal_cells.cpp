@@ -225,8 +225,8 @@ bool SignalCells::amplitude_error_at_most(const KklCell& cell, const Ball& bound
   if (!certainly_less(relative, one)) {
     return false;
   }
-  // x3_hat / w^2, and what the errors of x1 and x2 get of e: the sum of row_i (T + u)_i.
-  const Ball square_ratio = one + Ball::within(relative);
+  // w_hat / w, and what the errors of x1 and x2 get of e: the sum of row_i (T + u)_i.
+  const Ball speed = sqrt(one + Ball::within(relative));
   const auto pulled = [&]<typename S>(const KklSignal<S>& x, Row row) -> S {
     S sum(Ball::within(row_[row].sum()));
     for (std::size_t i = 0; i < kFilters; ++i) {
@@ -240,22 +240,29 @@ bool SignalCells::amplitude_error_at_most(const KklCell& cell, const Ball& bound
     const S over = third * reciprocal(x.squared_norm);
     return {first, second, -(x.y[0] * over), -(x.y[1] * over)};
   };
-  const auto error_of = [&](Row row) {
-    return Ball::within(largest(cell, [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
-                          return with_error(x, S(row == kFirst ? one : zero), S(row == kSecond ? one : zero),
-                                            pulled(x, row));
-                        }).sum());
-  };
-  const Ball k1 = error_of(kFirst);
-  const Ball k2 = error_of(kSecond);
-  // (A_hat / A)^2 - 1 = k1 (2 x1 + k1) + (k2 (2 x2 + k2) - e cos^2 p) / x3_hat.
-  const Size squared = largest(cell, [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
-    const S over = reciprocal(square_ratio * square(x.frequency));
-    const S first = two * x.sine + S(k1);
-    const S second = (S(k2) - two * (x.frequency * x.cosine)) * over;
-    const S third = pulled(x, kFirst) * first + pulled(x, kSecond) * second - square(x.cosine) * over;
+  const auto within_size = [](const Size& size) { return Ball::within(size.sum()); };
+  const Ball k1 = within_size(largest(cell, [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
+    return with_error(x, S(one), S(zero), pulled(x, kFirst));
+  }));
+  // d = x2_hat / (A w_hat) + cos p: w_hat / w times it is k2 / w + cos p e / (w (w_hat + w)).
+  const Ball d = within_size(largest(cell,
+                                     [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
+                                       const S over = reciprocal(x.frequency);
+                                       return with_error(x, S(zero), over,
+                                                         pulled(x, kSecond) * over +
+                                                             x.cosine * square(over) / (one + speed));
+                                     })) /
+                 speed;
+  // (A_hat / A)^2 - 1 = k1 (2 sin p + k1) + d (d - 2 cos p), times w_hat / w to have that factor only once.
+  Size squared = largest(cell, [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
+    const S over = reciprocal(x.frequency);
+    const S first = speed * (two * x.sine + S(k1));
+    const S second = (S(d) - two * x.cosine) * over;
+    const S third =
+        pulled(x, kFirst) * first + pulled(x, kSecond) * second + x.cosine * second * over / (one + speed);
     return with_error(x, first, second, third);
   });
+  squared = {squared.driven / speed.lower(), squared.left / speed.lower()};
   // sqrt(1 + t) - 1 is largest in size at the lowest t. The disturbance counts for less at a higher
   // amplitude.
   const Ball error =

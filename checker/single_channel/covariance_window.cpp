@@ -51,12 +51,14 @@ Covariance predicted(const Covariance& p, const Ball& keep, const Ball& added, c
           keep * p32,           keep * p.p33 + d.q2};
 }
 
-/// After a measurement of variance r in the direction h = (cos phase, -sin phase, 0).
+/// After a measurement of variance r in the direction h = (cos phase, -sin phase, 0). A bound on P gives one
+/// on the updated P, whatever its sign, only where h'Ph + r > 0: nothing is known of the result elsewhere.
 Covariance updated(const Covariance& p, const SineCosine& phase, const Ball& r) {
   const CellSeries b1 = p.p11 * phase.cosine - p.p21 * phase.sine;
   const CellSeries b2 = p.p21 * phase.cosine - p.p22 * phase.sine;
   const CellSeries b3 = p.p31 * phase.cosine - p.p32 * phase.sine;
-  const CellSeries over = reciprocal(b1 * phase.cosine - b2 * phase.sine + r);
+  const CellSeries variance = b1 * phase.cosine - b2 * phase.sine + r;
+  const CellSeries over = certainly_positive(variance.range()) ? reciprocal(variance) : Ball::everything();
   const CellSeries k1 = b1 * over;
   const CellSeries k2 = b2 * over;
   return {p.p11 - k1 * b1, p.p21 - k1 * b2, p.p22 - k2 * b2,

@@ -93,6 +93,9 @@ inline Ball operator-(const Ball& x) {
   arb_neg(z.raw(), x.raw());
   return z;
 }
+inline Ball reciprocal(const Ball& x) {
+  return Ball(1.0) / x;
+}
 
 // Comparisons hold only when they hold for all points; the negation of one says nothing.
 inline bool certainly_less(const Ball& x, const Ball& y) {

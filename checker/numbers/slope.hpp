@@ -80,9 +80,6 @@ inline Slope cos(const Slope& x) {
 }
 
 // The same names for both kinds of numbers.
-inline Ball reciprocal(const Ball& x) {
-  return Ball(1.0) / x;
-}
 inline const Ball& value_of(const Ball& x) {
   return x;
 }

@@ -3,30 +3,12 @@
 #include <set>
 
 #include "checker/document/guarantee.hpp"
+#include "checker/single_channel/bias.hpp"
 #include "checker/single_channel/phase_contraction.hpp"
 #include "checker/single_channel/single_channel.hpp"
 #include "checker/single_channel/tracker_design.hpp"
 
 namespace veritrack::checker {
-
-namespace {
-
-/// Every number of a design file stands in an object with its text.
-void read_numbers(const Tree& tree, Objections& objections) {
-  if (tree.kind() == Tree::Kind::array) {
-    for (const Tree& element : tree.elements()) {
-      read_numbers(element, objections);
-    }
-  } else if (tree.kind() == Tree::Kind::object && tree.find("text") != nullptr) {
-    read_number(tree, objections);
-  } else if (tree.kind() == Tree::Kind::object) {
-    for (const auto& [key, value] : tree.members()) {
-      read_numbers(value, objections);
-    }
-  }
-}
-
-}  // namespace
 
 void verify_single_channel_tracker(const Tree& certificate, Verification& result) {
   Objections objections;
@@ -45,6 +27,8 @@ void verify_single_channel_tracker(const Tree& certificate, Verification& result
       objections.emplace_back("a second derivation of this id");
     } else if (id == "contraction") {
       promises = check_phase_contraction(derivation, design, result.cells, objections);
+    } else if (id == "single-channel-bias" || id.starts_with("single-channel-bias/")) {
+      check_bias(derivation, design, objections);
     } else {
       objections.emplace_back(kUnknown);
     }

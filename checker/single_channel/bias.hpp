@@ -1,0 +1,29 @@
+// The derivations single-channel-bias/...: the frequency error that is left in the steady state on a
+// noise-free tone.
+//
+// Without a leak (epsilon = 0, q1, q2, r > 0) it is zero at every frequency between 0 and pi. The exact
+// estimate, delta = nu = 0, stays exact: it predicts the signal, and there is no innovation. Its P follows
+// the Riccati equation of a linear system, F with the rows (1, 0, 0), (0, 1, 1), (0, 0, 1), of which the
+// measurement (cos phi, -sin phi, 0) turns by omega a sample. From any phase four samples determine the
+// state: they show a cos phi_k - (b + k c) sin phi_k, which solves a recursion of order four, and is zero for
+// all k only when a = b = c = 0, since sin omega is not 0. By compactness of the circle the system is
+// uniformly observable; as Q > 0 it is uniformly controllable. So P converges to a periodic curve, and the
+// errors e+ = (I - K h')F e decay exponentially (Kalman and Bucy; Jazwinski, Theorems 7.4 and 7.5). The
+// derivative of the nonlinear step on that curve is block triangular - P acts on the errors by the innovation
+// only, which is zero - with this decay for the errors, and its square for P: the curve attracts a
+// neighbourhood.
+#pragma once
+
+#include "checker/single_channel/tracker_design.hpp"
+
+namespace veritrack::checker {
+
+/// Objects unless every quantity holds at the quantity "frequency", and those named ..._around at all
+/// frequencies within 0.002 rad/sample of it, and contraction_rate bounds the rate at which an invariant
+/// curve attracts in some norms.
+void check_bias(const Tree& derivation, const SingleChannelDesign& design, Objections& objections);
+
+/// Whether the steady state at `frequency` (rad/sample) of the design with epsilon = 0 has no error.
+bool exact_without_leak(const SingleChannelDesign& design, const Ball& frequency);
+
+}  // namespace veritrack::checker

@@ -10,6 +10,25 @@
 
 namespace veritrack::checker {
 
+namespace {
+
+/// Every number of a design file stands in an object with its text.
+void read_numbers(const Tree& tree, Objections& objections) {
+  if (tree.kind() == Tree::Kind::array) {
+    for (const Tree& element : tree.elements()) {
+      read_numbers(element, objections);
+    }
+  } else if (tree.kind() == Tree::Kind::object && tree.find("text") != nullptr) {
+    read_number(tree, objections);
+  } else if (tree.kind() == Tree::Kind::object) {
+    for (const auto& [key, value] : tree.members()) {
+      read_numbers(value, objections);
+    }
+  }
+}
+
+}  // namespace
+
 void verify_single_channel_tracker(const Tree& certificate, Verification& result) {
   Objections objections;
   read_numbers(certificate.at("design"), objections);

@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 """Makes the certificates of accepted/ from a whole one: a certificate that states less is a certificate.
 
-usage: trim.py CERTIFICATE.json theorem-2.9|published|repaired|contraction|one-set|kkl-observer|kkl-paper > accepted/NAME.json
+usage: trim.py CERTIFICATE.json theorem-2.9|published|repaired|contraction|one-set|capture|
+               kkl-observer|kkl-paper > accepted/NAME.json
 
 theorem-2.9   the two readings of Theorem 2.9 and their claims; no certified set
 published     the published results and the places of the proof of Theorem 2.9; no certified set
 repaired      the repaired theorem
 contraction   all certified sets, the derivation "contraction" and the claims that rest on it
 one-set       the same from the set that is checked fastest, for tests that check it hundreds of times
+capture       farther starts, followed into the set of one-set: one box, of which little is said
 kkl-observer  a KKL observer at one frequency with a sinusoidal disturbance, and an easier bound on the amplitude error
 kkl-paper     its ell and the paper's claims
 """
+import decimal
 import json
+import math
 import sys
 
 
@@ -46,8 +50,10 @@ def main():
              ["ekf/frequency-error-bound", "ekf/settling-time", "ekf/guarantee"])
         derivation = certificate["derivations"][0]
         drop_unproved(derivation)
-        if kind == "one-set":
+        if kind in ("one-set", "capture"):
             one_set(certificate, derivation)
+        if kind == "capture":
+            capture(certificate)
     json.dump(certificate, sys.stdout, indent=2, ensure_ascii=False)
     sys.stdout.write("\n")
 
@@ -89,6 +95,45 @@ def one_set(certificate, derivation):
     certificate["claims"] = [claim for claim in certificate["claims"] if claim["id"] != "ekf/settling-time"]
     del certificate["design"]["require"]["settles_within"]
     certificate["comparison"] = []
+
+
+def capture(certificate):
+    """From 0.012 rad/sample off, after six samples."""
+    assume = certificate["design"]["assume"]
+    assume["initial_frequency_error"] |= enclosure(math.nextafter(0.012, 0), math.nextafter(0.012, 1)) | {"text": "0.012"}
+    the_set = certificate["certified_sets"][0]
+    the_set["purpose"] = "start-error"
+    rate, gain, frequency = (float.fromhex(number) for number in
+                             (the_set["rate"], the_set["noise_gain"], the_set["metric"][2][2]))
+    ultimate = gain * 0.001 / math.sqrt(1 - rate**2) / frequency
+    box = [-0.00501, 0.00501, -0.00501, 0.00501, -0.01201, 0.01201, 6.0, 0.0443]
+    quantities = {"capture_samples": enclosure(6), "frequency_error_bound": enclosure(0.012011),
+                  "ultimate_frequency_error": enclosure(ultimate * 1.000001), "cells": enclosure(1), "cells_captured": enclosure(1)}
+    for quantity in quantities.values():
+        quantity |= {"symbol": "", "formula": "", "source": "docs/contraction.md"}
+    reason = "every assumed start, in 1 cells, is in the certified set after at most 6 samples."
+    certificate["derivations"] = [{
+        "id": "capture", "title": "Capture of every assumed start by the certified set", "quantities": quantities,
+        "conditions": [{"id": "certified-set", "statement": "V \\le V_\\Omega,\\ W \\le W_\\Omega",
+                        "verdict": "proved", "reason": "the set is never left under this noise and slew."},
+                       {"id": "starts-captured", "statement": "X(k_c) \\in \\Omega \\text{ from every assumed start}",
+                        "verdict": "proved", "reason": reason}],
+        "verdict": "proved",
+        "evidence": [{"name": "cover", "numbers": {"noise": assume["noise"]["hi"], "slew": "0x0p+0"},
+                      "matrices": {"boxes": [[number.hex() for number in box]]}}],
+        "notes": []}]
+    certificate["claims"] = [{
+        "id": "ekf/capture", "verdict": "proved", "required": False, "reason": reason, "evidence": quantities,
+        "statement": "From every assumed start, with the assumed noise and slew, the tracker comes into the certified "
+                     "set, which it never leaves."}] + certificate["claims"]
+    for claim in certificate["claims"][1:]:
+        claim["evidence"] = {"frequency_error_bound": quantities["frequency_error_bound"]}
+        claim["statement"] = claim["statement"].replace("0.005 rad/sample", "0.012 rad/sample").replace("0.00556", "0.0121")
+
+
+def enclosure(low, high=None):
+    high = low if high is None else high
+    return {"lo": float(low).hex(), "hi": float(high).hex(), "decimal": f"[{decimal.Decimal(low)}, {decimal.Decimal(high)}]"}
 
 
 main()

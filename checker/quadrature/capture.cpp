@@ -187,24 +187,24 @@ void conclude(const Cover& cover, const Ball& largest, const Setting& set, const
                       {"cells_captured", total}};
 }
 
-/// What was followed before as its mirror image need not be followed again: (psi, nu, P12, P13, v2, w) ->
-/// -(...) commutes with the step, and leaves the set and a P(0) with P12 = P13 = 0 as they are.
-bool is_mirror_image(const Cover& cover, std::size_t index) {
+/// The box of which this one is the mirror image, captured at the same sample, when there is one:
+/// (psi, nu, P12, P13, v2, w) -> -(...) commutes with the step, and leaves the set and a P(0) with
+/// P12 = P13 = 0 as they are.
+std::size_t mirror_image(const Cover& cover, std::size_t index) {
   const StartBox& box = cover.boxes[index];
-  for (std::size_t i = 0; i < index; ++i) {
+  for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
     const StartBox& other = cover.boxes[i];
-    bool same = cover.samples[i] == cover.samples[index] &&
-                certainly_equal(cover.levels[i], cover.levels[index]) &&
-                certainly_equal(box.low[0], other.low[0]) && certainly_equal(box.high[0], other.high[0]);
+    bool same = cover.samples[i] == cover.samples[index] && certainly_equal(box.low[0], other.low[0]) &&
+                certainly_equal(box.high[0], other.high[0]);
     for (const std::size_t j : {std::size_t{1}, std::size_t{2}}) {
       same =
           same && certainly_equal(box.low[j], -other.high[j]) && certainly_equal(box.high[j], -other.low[j]);
     }
     if (same) {
-      return true;
+      return i;
     }
   }
-  return false;
+  return index;
 }
 
 /// Every box of the cover, or an evenly spaced sample of them; objects unless each does what it should, and
@@ -216,11 +216,12 @@ Ball follow_all(const Cover& cover, const Followed& followed, bool symmetric, bo
   Ball largest(0.0);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t index = i * total / count;
-    if (symmetric && count == total && is_mirror_image(cover, index)) {
-      continue;
+    const std::size_t image = symmetric && count == total ? mirror_image(cover, index) : index;
+    if (image < index) {
+      continue;  // followed before, to the smaller level
     }
-    const std::optional<Ball> reached =
-        followed.reach(cover.boxes[index], cover.samples[index], cover.levels[index], kHalvings);
+    const std::optional<Ball> reached = followed.reach(
+        cover.boxes[index], cover.samples[index], min(cover.levels[index], cover.levels[image]), kHalvings);
     if (!reached) {
       objections.push_back("box " + std::to_string(index) + " of " + std::to_string(total) +
                            " does not certainly come where it should");

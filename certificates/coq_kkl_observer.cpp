@@ -9,6 +9,7 @@
 #include "certificates/coq_numbers.hpp"
 #include "certificates/coq_parts.hpp"
 #include "certificates/kkl_observer.hpp"
+#include "trackers/kkl_observer.hpp"
 
 namespace veritrack::certificates::coq {
 
@@ -97,6 +98,48 @@ void prove_lower_bound(Proofs& proofs) {
       "down to 9 digits.");
 }
 
+/// A signal whose ratio is at most `bound`, a decimal: at the frequency where branch and bound found the
+/// least one.
+void prove_upper_bound(Proofs& proofs, const KklObserverTables& tables, double argmin,
+                       const std::string& bound) {
+  const observers::KklRange range = kkl_range(tables);
+  const observers::SignalWitness witness =
+      observers::propose_least_excited(rigor::midpoint(range.lambda), argmin);
+  // At an end of the range the decimal of the design, next to which the double lies.
+  Interval frequency(argmin);
+  std::string term = exactly(argmin);
+  for (const Number& end : tables.assume.frequency) {
+    if (rigor::is_subset(Interval(argmin), end.value)) {
+      frequency = end.value;
+      term = decimal(end.text);
+    }
+  }
+  const rigor::IntervalVector<4> xi = trackers::kkl_transform<Interval, 4>(
+      {Interval(witness.x1), Interval(witness.x2), square(frequency)}, range.lambda);
+  Interval squares(0.0);
+  for (const Interval& filter : xi) {
+    squares += square(filter);
+  }
+  const bool holds = rigor::certainly_less(trackers::kkl_excitation<Interval, 4>(xi, range.lambda),
+                                           rigor::parse_decimal(bound) * squares);
+  if (!holds) {
+    return;  // the proposal is not good enough
+  }
+  proofs.write(fmt::format("\nDefinition ell_upper : R := {}.\n", decimal(bound)));
+  proofs.prove(
+      "ell_is_at_most",
+      fmt::format("exists x1 x2 s : R, in_range s /\\ (x1 <> 0 \\/ x2 <> 0) /\\\n  ({}excitation {} u1 u2 "
+                  "u3 u4 <= ell_upper * g33 u1 u2 u3 u4)",
+                  filters(), kRates),
+      fmt::format("exists {}, {}, ({} ^ 2). split; [ | split ].\n- unfold_design. lra.\n- {}; lra.\n"
+                  "- cbv zeta. unfold g33, excitation, transform, ell_upper. unfold_design. interval with "
+                  "(i_prec 90).",
+                  exactly(witness.x1), exactly(witness.x2), term, witness.x1 != 0.0 ? "left" : "right"),
+      "kkl-ell/ell",
+      "The infimum (10) over the frequency range is at most the upper end of its enclosure, rounded "
+      "up to 9 digits: a signal has a ratio as small as that.");
+}
+
 void prove_inverse(Proofs& proofs) {
   proofs.prove(
       "gamma_inverts_T",
@@ -139,9 +182,13 @@ FormalProofs kkl_observer_proofs(const Certificate& certificate) {
   }
   // Nine digits leave the branch and bound of the tactic some room.
   constexpr int kDigits = 9;
-  const double lower = find_quantity(*find_derivation(certificate, "kkl-ell"), "ell").value.lower();
-  define_design(proofs, certificate, decimal(rigor::to_decimal(lower, kDigits, rigor::Direction::down)));
+  const theorems::Derivation& enclosed = *find_derivation(certificate, "kkl-ell");
+  const Interval ell = find_quantity(enclosed, "ell").value;
+  define_design(proofs, certificate,
+                decimal(rigor::to_decimal(ell.lower(), kDigits, rigor::Direction::down)));
   prove_lower_bound(proofs);
+  prove_upper_bound(proofs, tables, find_quantity(enclosed, "argmin_omega").value.lower(),
+                    rigor::to_decimal(ell.upper(), kDigits, rigor::Direction::up));
   const Verdict inverse = verdict_of(certificate, "kkl-paper", "left-inverse");
   if (inverse == Verdict::proved) {
     prove_inverse(proofs);

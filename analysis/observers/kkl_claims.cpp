@@ -1,5 +1,6 @@
 #include "analysis/observers/kkl_claims.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -225,6 +226,25 @@ std::optional<SignalWitness> find_inverse_witness(const KklRange& range, const I
     }
   }
   return std::nullopt;
+}
+
+SignalWitness propose_least_excited(const Eigen::Vector4d& lambda, double frequency) {
+  const rigor::NearestRounding nearest;
+  // T is linear in (x1, x2): here by its columns for (1, 0) and (0, frequency).
+  Eigen::Matrix<double, 4, 2> columns;
+  for (int j = 0; j < 2; ++j) {
+    const trackers::OscillatorState<double> x(1.0 - j, j * frequency, frequency * frequency);
+    columns.col(j) = trackers::kkl_transform<double, 4>(x, lambda);
+  }
+  const auto excitation = [&](double first, double second) {
+    return trackers::kkl_excitation<double, 4>(columns * Eigen::Vector2d(first, second), lambda);
+  };
+  Eigen::Matrix2d seen;
+  seen << excitation(1.0, 0.0), 0.0, 0.0, excitation(0.0, 1.0);
+  seen(0, 1) = seen(1, 0) = 0.25 * (excitation(1.0, 1.0) - excitation(1.0, -1.0));
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> pencil(seen, columns.transpose() * columns);
+  const Eigen::Vector2d least = pencil.eigenvectors().col(0);
+  return {least(0), least(1) * frequency, frequency};
 }
 
 Interval continuity_modulus(const rigor::IntervalVector<4>& lambda, const Interval& ell,

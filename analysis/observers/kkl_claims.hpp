@@ -41,6 +41,10 @@ struct SignalWitness {
 [[nodiscard]] std::optional<SignalWitness> find_inverse_witness(const KklRange& range,
                                                                 const rigor::Interval& ell);
 
+/// The signal of this frequency (rad/s) with the smallest |M T|^2 / |T|^2, scaled somehow: a proposal in
+/// double, for four filters.
+[[nodiscard]] SignalWitness propose_least_excited(const Eigen::Vector4d& lambda, double frequency);
+
 /// A bound on how fast gamma changes with xi (in the units of x per unit of xi) along every path in lower <=
 /// |xi| <= upper. Empty when not finite. Needs the upward mode.
 ///

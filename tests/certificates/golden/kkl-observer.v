@@ -37,6 +37,20 @@ intros x1 x2 s range. apply excitation_is_at_least; [ apply range_is_positive | 
   apply discriminant_is_positive ]; assumption.
 Qed.
 
+Definition ell_upper : R := (691009525 / 1000000000000).
+
+Lemma ell_is_at_most :
+  exists x1 x2 s : R, in_range s /\ (x1 <> 0 \/ x2 <> 0) /\
+  (let u1 := transform l1 x1 x2 s in let u2 := transform l2 x1 x2 s in
+  let u3 := transform l3 x1 x2 s in let u4 := transform l4 x1 x2 s in
+  excitation l1 l2 l3 l4 u1 u2 u3 u4 <= ell_upper * g33 u1 u2 u3 u4).
+Proof.
+exists (- (1207444726629133 / 2 ^ 56)), (- (6073908518308717 / 2 ^ 49)), (4 ^ 2). split; [ | split ].
+- unfold_design. lra.
+- left; lra.
+- cbv zeta. unfold g33, excitation, transform, ell_upper. unfold_design. interval with (i_prec 90).
+Qed.
+
 Lemma gamma_inverts_T :
   forall x1 x2 s y1 y2 y3 : R, in_range s -> x1 <> 0 \/ x2 <> 0 ->
   let u1 := transform l1 x1 x2 s in let u2 := transform l2 x1 x2 s in
@@ -59,5 +73,6 @@ Definition proved_here := (
   determinant,
   inverse_where_regularization_vanishes,
   ell_is_at_least,
+  ell_is_at_most,
   gamma_inverts_T).
 Print Assumptions proved_here.

@@ -202,7 +202,8 @@ void certify_single_channel(Certificate& certificate, const SingleChannelEkfTabl
     std::transform(statements.begin(), statements.end(), std::back_inserter(certificate.claims), to_claim);
   };
   add_all(single_channel::proposition_1_formulas());
-  add_all(single_channel::proposition_1_conclusion(at_middle, exact, design.epsilon));
+  add_all(
+      single_channel::proposition_1_conclusion(at_middle, exact, design.epsilon, frequencies[middle].text));
   add_all(single_channel::proposition_2());
   add_required_claims(certificate, tables.require, tables.assume);
   certificate.claims.push_back(guarantee_claim(certificate, {tables.assume, tables.require, true}));

@@ -152,18 +152,15 @@ std::vector<Statement> proposition_1_formulas() {
 }
 
 std::vector<Statement> proposition_1_conclusion(const SteadyStateBias& with_leak,
-                                                const SteadyStateBias& without_leak,
-                                                const Interval& epsilon) {
-  const auto frequency = [](const SteadyStateBias& bias) {
-    return theorems::enclosed(Interval(midpoint(bias.frequency)));
-  };
+                                                const SteadyStateBias& without_leak, const Interval& epsilon,
+                                                const std::string& frequency) {
   std::vector<Statement> statements;
   const bool exact = without_leak.verdict == Verdict::proved && without_leak.min_error == Interval(0.0) &&
                      without_leak.max_error == Interval(0.0);
   statements.push_back(theorems::make_statement(
       "proposition-1/if",
       fmt::format("With ε = 0 the steady state on a noise-free tone of {} rad/sample has no frequency error.",
-                  frequency(without_leak)),
+                  frequency),
       exact ? Verdict::proved : Verdict::undecided, without_leak.reason, {}));
   if (epsilon == Interval(0.0)) {
     return statements;
@@ -182,7 +179,7 @@ std::vector<Statement> proposition_1_conclusion(const SteadyStateBias& with_leak
       "proposition-1/only-if",
       fmt::format("With the design's ε the steady state on a noise-free tone of {} rad/sample has a mean "
                   "frequency error other than 0.",
-                  frequency(with_leak)),
+                  frequency),
       verdict, with_leak.reason, std::move(evidence)));
   return statements;
 }

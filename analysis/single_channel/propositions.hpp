@@ -2,6 +2,7 @@
 // Kalman filter frequency tracker", IEEE Trans. Automatic Control 45(9), 2000, as statements with verdicts.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "analysis/single_channel/invariant_curve.hpp"
@@ -15,11 +16,13 @@ namespace veritrack::single_channel {
 [[nodiscard]] std::vector<theorems::Statement> proposition_1_formulas();
 
 /// What Proposition 1 concludes, "unbiased if and only if epsilon omega = 0", in both directions, at one
-/// frequency: `with_leak` and `without_leak` are the steady states of the design and of the design with
-/// epsilon = 0. The second direction is left out for a design with epsilon = 0. Needs the upward mode.
+/// frequency (its decimal, rad/sample): `with_leak` and `without_leak` are the steady states of the design
+/// and of the design with epsilon = 0. The second direction is left out for a design with epsilon = 0. Needs
+/// the upward mode.
 [[nodiscard]] std::vector<theorems::Statement> proposition_1_conclusion(const SteadyStateBias& with_leak,
                                                                         const SteadyStateBias& without_leak,
-                                                                        const rigor::Interval& epsilon);
+                                                                        const rigor::Interval& epsilon,
+                                                                        const std::string& frequency);
 
 /// Proposition 2: q, r and P(0) scaled by the same factor leave the estimates alone (an identity of the
 /// maps), q and r alone, with "the same initialization", do not (a witness). No design enters. Needs the

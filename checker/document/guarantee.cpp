@@ -56,16 +56,6 @@ std::string assumptions(const Tree& design) {
          words("initial_amplitude_error") + " of the amplitude (" + words("amplitude") + "), ";
 }
 
-/// The decimal between the two ends of the sentence; nothing when it has others.
-std::optional<Ball> decimal_between(const std::string& text, const std::string& before,
-                                    const std::string& after) {
-  if (text.size() <= before.size() + after.size() || !text.starts_with(before) || !text.ends_with(after)) {
-    return std::nullopt;
-  }
-  return from_decimal(
-      std::string_view(text).substr(before.size(), text.size() - before.size() - after.size()));
-}
-
 }  // namespace
 
 bool is_guarantee(const std::string& id) {

@@ -174,4 +174,13 @@ void check_derivation(const Tree& claimed, const Derivation& found, Objections& 
   check_verdict(claimed.at("verdict").text(), all_of(verdicts), "the derivation", objections);
 }
 
+std::optional<Ball> decimal_between(const std::string& text, const std::string& before,
+                                    const std::string& after) {
+  if (text.size() <= before.size() + after.size() || !text.starts_with(before) || !text.ends_with(after)) {
+    return std::nullopt;
+  }
+  return from_decimal(
+      std::string_view(text).substr(before.size(), text.size() - before.size() - after.size()));
+}
+
 }  // namespace veritrack::checker

@@ -65,6 +65,10 @@ struct Claim {
   std::vector<Quantity> evidence;
 };
 
+/// The decimal between the two ends of a sentence; nothing when it has other ends.
+std::optional<Ball> decimal_between(const std::string& text, const std::string& before,
+                                    const std::string& after);
+
 /// A number of the design file, from its decimal text, which [lo, hi] must contain.
 Ball read_number(const Tree& number, Objections& objections);
 /// [lo, hi] as a ball. Objects when the decimals beside it are narrower than it is.

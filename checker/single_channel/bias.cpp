@@ -149,14 +149,16 @@ bool locked(const InvariantCurve& curve, const Ball& t, const Ball& distance) {
   });
 }
 
-}  // namespace
-
+/// Whether the steady state at `frequency` (rad/sample) of the design with epsilon = 0 has no error.
 bool exact_without_leak(const SingleChannelDesign& design, const Ball& frequency) {
   return certainly_positive(design.q1) && certainly_positive(design.q2) && certainly_positive(design.r) &&
          certainly_positive(frequency) && certainly_less(frequency, pi());
 }
 
-void check_bias(const Tree& claimed, const SingleChannelDesign& design, Objections& objections) {
+}  // namespace
+
+std::optional<SteadyStateBias> check_bias(const Tree& claimed, const SingleChannelDesign& design,
+                                          Objections& objections) {
   const Tree& quantities = claimed.at("quantities");
   Derivation found;
   found.title = "Steady-state frequency error on a noise-free tone";
@@ -208,6 +210,39 @@ void check_bias(const Tree& claimed, const SingleChannelDesign& design, Objectio
   found.conditions = {
       {"invariant-curve", R"(X_*(\varphi + \omega) = G_\varphi(X_*(\varphi)))", proved_if(established)}};
   check_derivation(claimed, found, objections);
+  const auto mean = std::find_if(found.quantities.begin(), found.quantities.end(),
+                                 [](const Quantity& quantity) { return quantity.name == "mean_bias"; });
+  if (!established || mean == found.quantities.end()) {
+    return std::nullopt;
+  }
+  return SteadyStateBias{{from_hexadecimal(ends.at("lo").text()), from_hexadecimal(ends.at("hi").text())},
+                         mean->value};
+}
+
+void check_proposition_1(const Tree& claim, const SingleChannelDesign& design,
+                         const std::vector<SteadyStateBias>& established, Objections& objections) {
+  const std::string& statement = claim.at("statement").text();
+  Claim found;
+  if (claim.at("id").text() == "proposition-1/if") {
+    if (const auto frequency =
+            decimal_between(statement, "With ε = 0 the steady state on a noise-free tone of ",
+                            " rad/sample has no frequency error.")) {
+      found = {statement, proved_if(exact_without_leak(design, *frequency)), {}};
+    }
+  } else if (const auto frequency =
+                 decimal_between(statement, "With the design's ε the steady state on a noise-free tone of ",
+                                 " rad/sample has a mean frequency error other than 0.")) {
+    const auto bias =
+        std::find_if(established.begin(), established.end(), [&](const SteadyStateBias& one_bias) {
+          return certainly_at_most(one_bias.frequency.low, *frequency) &&
+                 certainly_at_most(*frequency, one_bias.frequency.high);
+        });
+    if (bias != established.end()) {
+      const bool biased = certainly_less(bias->mean.high, zero) || certainly_less(zero, bias->mean.low);
+      found = {statement, proved_if(biased), {{"mean_bias", bias->mean}}};
+    }
+  }
+  check_claim(claim, found, objections);
 }
 
 }  // namespace veritrack::checker

@@ -18,12 +18,20 @@
 
 namespace veritrack::checker {
 
+/// A bias that was established: at every frequency of `frequency`, rad/sample.
+struct SteadyStateBias {
+  Range frequency, mean;
+};
+
 /// Objects unless every quantity holds at the quantity "frequency", and those named ..._around at all
 /// frequencies within 0.002 rad/sample of it, and contraction_rate bounds the rate at which an invariant
 /// curve attracts in some norms.
-void check_bias(const Tree& derivation, const SingleChannelDesign& design, Objections& objections);
+std::optional<SteadyStateBias> check_bias(const Tree& derivation, const SingleChannelDesign& design,
+                                          Objections& objections);
 
-/// Whether the steady state at `frequency` (rad/sample) of the design with epsilon = 0 has no error.
-bool exact_without_leak(const SingleChannelDesign& design, const Ball& frequency);
+/// "Unbiased if and only if epsilon omega = 0", at the frequency that the claim names: objects unless it
+/// follows for epsilon = 0 (proposition-1/if), or from an established bias (proposition-1/only-if).
+void check_proposition_1(const Tree& claim, const SingleChannelDesign& design,
+                         const std::vector<SteadyStateBias>& established, Objections& objections);
 
 }  // namespace veritrack::checker

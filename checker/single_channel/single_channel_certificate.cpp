@@ -4,6 +4,7 @@
 
 #include "checker/document/guarantee.hpp"
 #include "checker/single_channel/bias.hpp"
+#include "checker/single_channel/frozen_filter.hpp"
 #include "checker/single_channel/phase_contraction.hpp"
 #include "checker/single_channel/single_channel.hpp"
 #include "checker/single_channel/tracker_design.hpp"
@@ -38,6 +39,7 @@ void verify_single_channel_tracker(const Tree& certificate, Verification& result
     result.parts.push_back({"certified set " + set.at("purpose").text(), {kUnknown}});
   }
   Promises promises;
+  std::vector<SteadyStateBias> biases;
   std::set<std::string> derivations;
   for (const Tree& derivation : certificate.at("derivations").elements()) {
     const std::string& id = derivation.at("id").text();
@@ -47,7 +49,11 @@ void verify_single_channel_tracker(const Tree& certificate, Verification& result
     } else if (id == "contraction") {
       promises = check_phase_contraction(derivation, design, result.cells, objections);
     } else if (id == "single-channel-bias" || id.starts_with("single-channel-bias/")) {
-      check_bias(derivation, design, objections);
+      if (const auto bias = check_bias(derivation, design, objections)) {
+        biases.push_back(*bias);
+      }
+    } else if (id == "single-channel/transfer-function") {
+      check_transfer_function(derivation, objections);
     } else {
       objections.emplace_back(kUnknown);
     }
@@ -58,6 +64,8 @@ void verify_single_channel_tracker(const Tree& certificate, Verification& result
     const std::string& id = claim.at("id").text();
     if (is_guarantee(id)) {
       check_guarantee(claim, certificate, promises, found);
+    } else if (id == "proposition-1/if" || id == "proposition-1/only-if") {
+      check_proposition_1(claim, design, biases, found);
     } else if (const auto known = propositions.find(id); known != propositions.end()) {
       check_claim(claim, known->second, found);
     } else {

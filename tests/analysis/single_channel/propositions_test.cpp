@@ -121,16 +121,16 @@ TEST_CASE("proposition 1 is decided in both directions where a steady state is v
   SteadyStateBias biased = exact;
   biased.mean_bias = Interval::from_bounds(-0.2, -0.1);
   const Interval leak(0.05);
-  const auto both = proposition_1_conclusion(biased, exact, leak);
+  const auto both = proposition_1_conclusion(biased, exact, leak, "1.5");
   CHECK(verdict_of(both, "proposition-1/if") == Verdict::proved);
   CHECK(verdict_of(both, "proposition-1/only-if") == Verdict::proved);
-  CHECK(proposition_1_conclusion(exact, exact, Interval(0.0)).size() == 1);
+  CHECK(proposition_1_conclusion(exact, exact, Interval(0.0), "1.5").size() == 1);
   biased.mean_bias = Interval::from_bounds(-0.2, 0.1);
-  CHECK(verdict_of(proposition_1_conclusion(biased, exact, leak), "proposition-1/only-if") ==
+  CHECK(verdict_of(proposition_1_conclusion(biased, exact, leak, "1.5"), "proposition-1/only-if") ==
         Verdict::undecided);
   SteadyStateBias unknown;
   unknown.reason = "not verified";
-  const auto neither = proposition_1_conclusion(unknown, unknown, leak);
+  const auto neither = proposition_1_conclusion(unknown, unknown, leak, "1.5");
   CHECK(verdict_of(neither, "proposition-1/if") == Verdict::undecided);
   CHECK(verdict_of(neither, "proposition-1/only-if") == Verdict::undecided);
 }

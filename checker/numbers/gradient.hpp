@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "checker/numbers/ball.hpp"
+
 namespace veritrack::checker {
 
 template <typename S, std::size_t Directions>
@@ -44,6 +46,18 @@ struct Gradient {
       z.along[i] = x.along[i] * y.value + x.value * y.along[i];
     }
     return z;
+  }
+  friend Gradient operator*(const Ball& x, const Gradient& y) { return y.chain(x * y.value, S(x)); }
+  friend Gradient operator-(const Gradient& x) { return Ball(-1.0) * x; }
+  friend Gradient square(const Gradient& x) { return x.chain(square(x.value), Ball(2.0) * x.value); }
+  friend Gradient sqrt(const Gradient& x) {
+    const S root = sqrt(x.value);
+    return x.chain(root, Ball(0.5) * reciprocal(root));
+  }
+  friend Gradient sin(const Gradient& x) { return x.chain(sin(x.value), cos(x.value)); }
+  friend Gradient cos(const Gradient& x) { return x.chain(cos(x.value), -sin(x.value)); }
+  friend Gradient arctangent(const Gradient& x) {
+    return x.chain(arctangent(x.value), reciprocal(S(Ball(1.0)) + square(x.value)));
   }
   friend Gradient reciprocal(const Gradient& x) {
     const S over = reciprocal(x.value);

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <regex>
-#include <utility>
 
 #include "checker/quadrature/followed_starts.hpp"
-#include "checker/quadrature/start_boxes.hpp"
+#include "checker/quadrature/start_cover.hpp"
 
 namespace veritrack::checker {
 
@@ -14,7 +13,6 @@ namespace {
 
 const Ball zero(0.0);
 const Ball one(1.0);
-constexpr double kMostSamples = 1000;
 constexpr std::size_t kMostBoxes = 200;
 constexpr int kHalvings = 2;
 
@@ -26,88 +24,6 @@ StartBox outward(const Design& d) {
 StartBox inward(const Design& d) {
   return {{-d.amplitude_error.lower(), -d.phase_error.lower(), -d.frequency_error.lower()},
           {d.amplitude_error.lower(), d.phase_error.lower(), d.frequency_error.lower()}};
-}
-
-/// A covariance of exact numbers that is below every one in the balls, in the Loewner order, or above.
-Covariance<Ball> beyond(const Covariance<Ball>& p, bool above) {
-  Covariance<Ball> point = p;
-  Ball radius;
-  arb_get_mid_arb(point.p23.raw(), p.p23.raw());
-  arb_get_rad_arb(radius.raw(), p.p23.raw());
-  point.p11 = above ? p.p11.upper() : p.p11.lower();
-  point.p22 = above ? (p.p22 + radius).upper() : (p.p22 - radius).lower();
-  point.p33 = above ? (p.p33 + radius).upper() : (p.p33 - radius).lower();
-  return point;
-}
-
-/// The filter's steady state, by Lemma 2: between the iterates of the bounds of an invariant order interval
-/// at the exact estimate. |P_ij - L_ij| <= sqrt(D_ii D_jj) for L <= P <= L + D.
-Matrix3 steady_covariance(const Setting& set) {
-  constexpr int kIterations = 1000;
-  Covariance<Ball> lower = set.lower;
-  Covariance<Ball> upper = set.upper;
-  for (int k = 0; k < kIterations; ++k) {
-    lower = beyond(update(set, lower, one).filtered, false);
-    upper = beyond(update(set, upper, one).filtered, true);
-  }
-  const Covariance<Ball> gap = upper - lower;
-  const std::array<Ball, 3> width{sqrt(gap.p11), sqrt(gap.p22), sqrt(gap.p33)};
-  Matrix3 p = whole(lower);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      p[i][j] += Ball::within(width[i] * width[j]);
-    }
-  }
-  return p;
-}
-
-/// Two halves along the side that is longest, an error of the frequency counting four times as much as one of
-/// the phase; any side will do.
-std::pair<StartBox, StartBox> halves(const StartBox& box) {
-  constexpr std::array<double, 3> kWeights{1.0, 1.0, 4.0};
-  std::size_t direction = 0;
-  double longest = -1.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double length = kWeights[i] * (box.high[i] - box.low[i]).near();
-    if (length > longest) {
-      longest = length;
-      direction = i;
-    }
-  }
-  std::pair<StartBox, StartBox> parts{box, box};
-  const Ball middle((Ball(0.5) * (box.low[direction] + box.high[direction])).near());
-  parts.first.high[direction] = middle;
-  parts.second.low[direction] = middle;
-  return parts;
-}
-
-/// Boxes of starts, each in the set that is shifted by so many turns after so many samples, at a level.
-struct Cover {
-  std::vector<StartBox> boxes;
-  std::vector<int> samples;
-  std::vector<Ball> levels;
-  Ball turns;
-};
-
-Cover read_cover(const Tree& evidence) {
-  Cover cover;
-  for (const Tree& row : evidence.at("matrices").at("boxes").elements()) {
-    const auto number = [&](std::size_t i) { return from_hexadecimal(row.at(i).text()); };
-    cover.boxes.push_back({{number(0), number(2), number(4)}, {number(1), number(3), number(5)}});
-    const double samples = number(6).near();
-    if (!(samples >= 0.0) || samples > kMostSamples || samples != std::floor(samples)) {
-      throw Malformed("not a number of samples");
-    }
-    cover.samples.push_back(static_cast<int>(samples));
-    cover.levels.push_back(number(7));
-  }
-  if (evidence.at("name").text() == "witness") {
-    cover.turns = from_hexadecimal(evidence.at("numbers").at("turns").text());
-    if (!certainly_equal(cover.turns, Ball(std::floor(cover.turns.near())))) {
-      throw Malformed("not a number of turns");
-    }
-  }
-  return cover;
 }
 
 /// Follows boxes of starts into a set, the one shifted by whole turns in the frequency error.
@@ -185,26 +101,6 @@ void conclude(const Cover& cover, const Ball& largest, const Setting& set, const
                       {"settling_samples", found.settling.value_or(Ball::everything()), Sense::bounds_above},
                       {"cells", total},
                       {"cells_captured", total}};
-}
-
-/// The box of which this one is the mirror image, captured at the same sample, when there is one:
-/// (psi, nu, P12, P13, v2, w) -> -(...) commutes with the step, and leaves the set and a P(0) with
-/// P12 = P13 = 0 as they are.
-std::size_t mirror_image(const Cover& cover, std::size_t index) {
-  const StartBox& box = cover.boxes[index];
-  for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
-    const StartBox& other = cover.boxes[i];
-    bool same = cover.samples[i] == cover.samples[index] && certainly_equal(box.low[0], other.low[0]) &&
-                certainly_equal(box.high[0], other.high[0]);
-    for (const std::size_t j : {std::size_t{1}, std::size_t{2}}) {
-      same =
-          same && certainly_equal(box.low[j], -other.high[j]) && certainly_equal(box.high[j], -other.low[j]);
-    }
-    if (same) {
-      return i;
-    }
-  }
-  return index;
 }
 
 /// Every box of the cover, or an evenly spaced sample of them; objects unless each does what it should, and

@@ -9,6 +9,18 @@ namespace {
 const Ball zero(0.0);
 const Ball one(1.0);
 
+/// A covariance of exact numbers that is below every one in the balls, in the Loewner order, or above.
+Covariance<Ball> beyond(const Covariance<Ball>& p, bool above) {
+  Covariance<Ball> point = p;
+  Ball radius;
+  arb_get_mid_arb(point.p23.raw(), p.p23.raw());
+  arb_get_rad_arb(radius.raw(), p.p23.raw());
+  point.p11 = above ? p.p11.upper() : p.p11.lower();
+  point.p22 = above ? (p.p22 + radius).upper() : (p.p22 - radius).lower();
+  point.p33 = above ? (p.p33 + radius).upper() : (p.p33 - radius).lower();
+  return point;
+}
+
 }  // namespace
 
 bool positive_definite(const Covariance<Ball>& p) {
@@ -70,6 +82,25 @@ const Setting* first_of(const std::vector<CertifiedSet>& sets, const std::string
     }
   }
   return nullptr;
+}
+
+Matrix3 steady_covariance(const Setting& set) {
+  constexpr int kIterations = 1000;
+  Covariance<Ball> lower = set.lower;
+  Covariance<Ball> upper = set.upper;
+  for (int k = 0; k < kIterations; ++k) {
+    lower = beyond(update(set, lower, one).filtered, false);
+    upper = beyond(update(set, upper, one).filtered, true);
+  }
+  const Covariance<Ball> gap = upper - lower;
+  const std::array<Ball, 3> width{sqrt(gap.p11), sqrt(gap.p22), sqrt(gap.p33)};
+  Matrix3 p = whole(lower);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      p[i][j] += Ball::within(width[i] * width[j]);
+    }
+  }
+  return p;
 }
 
 CertifiedSet check_set(const Tree& tree, const Design& design, std::int64_t& cells, Objections& objections) {

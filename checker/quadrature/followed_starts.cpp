@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "checker/numbers/gradient.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -13,72 +15,13 @@ constexpr std::size_t kSlopeDegree = 2;
 constexpr std::size_t kMostGenerators = 90;
 constexpr std::size_t kKeptGenerators = 45;
 
-/// A polynomial with its derivatives with respect to the state and the noise. Derivatives that are zero take
-/// no work.
-struct Sensitive {
-  static constexpr std::size_t kInputs = kStateSize + 2;
-  Polynomial value;
-  std::array<Polynomial, kInputs> by;
+/// With respect to the state and the noise.
+using Sensitive = Gradient<Polynomial, kStateSize + 2>;
 
-  Sensitive() = default;
-  Sensitive(Polynomial constant) : value(std::move(constant)) {}  // NOLINT(google-explicit-constructor)
-  Sensitive(const Ball& constant) : value(constant) {}            // NOLINT(google-explicit-constructor)
-  static Sensitive variable(Polynomial range, std::size_t index) {
-    Sensitive x(std::move(range));
-    x.by[index] = Polynomial(Ball(1.0));
-    return x;
-  }
-  [[nodiscard]] Sensitive chain(Polynomial f, const Polynomial& derivative) const {
-    Sensitive z(std::move(f));
-    for (std::size_t i = 0; i < kInputs; ++i) {
-      z.by[i] = derivative * by[i];
-    }
-    return z;
-  }
-};
-
-Sensitive operator+(const Sensitive& x, const Sensitive& y) {
-  Sensitive z(x.value + y.value);
-  for (std::size_t i = 0; i < Sensitive::kInputs; ++i) {
-    z.by[i] = x.by[i] + y.by[i];
-  }
-  return z;
-}
-Sensitive operator*(const Sensitive& x, const Sensitive& y) {
-  Sensitive z(x.value * y.value);
-  for (std::size_t i = 0; i < Sensitive::kInputs; ++i) {
-    z.by[i] = x.by[i] * y.value + x.value * y.by[i];
-  }
-  return z;
-}
-Sensitive operator*(const Ball& x, const Sensitive& y) {
-  return y.chain(x * y.value, Polynomial(x));
-}
-Sensitive operator-(const Sensitive& x) {
-  return Ball(-1.0) * x;
-}
-Sensitive operator-(const Sensitive& x, const Sensitive& y) {
-  return x + (-y);
-}
-Sensitive square(const Sensitive& x) {
-  return x.chain(square(x.value), Ball(2.0) * x.value);
-}
-Sensitive reciprocal(const Sensitive& x) {
-  const Polynomial over = reciprocal(x.value);
-  return x.chain(over, -square(over));
-}
-Sensitive sqrt(const Sensitive& x) {
-  const Polynomial root = sqrt(x.value);
-  return x.chain(root, Ball(0.5) * reciprocal(root));
-}
-Sensitive sin(const Sensitive& x) {
-  return x.chain(sin(x.value), cos(x.value));
-}
-Sensitive cos(const Sensitive& x) {
-  return x.chain(cos(x.value), -sin(x.value));
-}
-Sensitive arctangent(const Sensitive& x) {
-  return x.chain(arctangent(x.value), reciprocal(Polynomial(Ball(1.0)) + square(x.value)));
+Sensitive variable(const Polynomial& range, std::size_t index) {
+  Sensitive x(range);
+  x.along[index] = Polynomial(Ball(1.0));
+  return x;
 }
 
 /// Metric (e - origin), then the covariance in the frame of the estimated phase. arg z is taken about
@@ -105,7 +48,7 @@ State<S> polar_of(const State<S>& x, const Matrix3& metric, const std::array<Bal
 State<Sensitive> neighbourhood(const State<Polynomial>& middle, const State<Ball>& radii) {
   State<Sensitive> x;
   for (std::size_t i = 0; i < kStateSize; ++i) {
-    x[i] = Sensitive::variable(middle[i].lowered(kSlopeDegree, radii[i]), i);
+    x[i] = variable(middle[i].lowered(kSlopeDegree, radii[i]), i);
   }
   return x;
 }
@@ -199,8 +142,7 @@ void FollowedStarts::step() {
   const Ball wobble = Ball::within(loop_.noise);
   const Polynomial noise(wobble);
   const State<Sensitive> slopes = checker::step<Sensitive>(
-      loop_, neighbourhood(middle_, radii()),
-      {Sensitive::variable(noise, kStateSize), Sensitive::variable(noise, kStateSize + 1)});
+      loop_, neighbourhood(middle_, radii()), {variable(noise, kStateSize), variable(noise, kStateSize + 1)});
   // {G_x e + G_v v}: the middles of the products are generators, their radii a box.
   for (std::size_t v = 0; v < 2; ++v) {
     generators_.emplace_back();
@@ -208,10 +150,10 @@ void FollowedStarts::step() {
   State<Ball> box;
   box[kNu] = loop_.slew;
   std::vector<State<Ball>> images(generators_.size());
-  std::array<std::array<Ball, Sensitive::kInputs>, kStateSize> matrix;
+  std::array<std::array<Ball, kStateSize + 2>, kStateSize> matrix;
   for (std::size_t i = 0; i < kStateSize; ++i) {
-    for (std::size_t j = 0; j < Sensitive::kInputs; ++j) {
-      matrix[i][j] = slopes[i].by[j].range();
+    for (std::size_t j = 0; j < kStateSize + 2; ++j) {
+      matrix[i][j] = slopes[i].along[j].range();
     }
   }
   for (std::size_t g = 0; g < images.size(); ++g) {
@@ -254,7 +196,7 @@ PolarEnclosure FollowedStarts::polar(const Matrix3& metric, const std::array<Bal
   for (std::size_t i = 0; i < found.size(); ++i) {
     std::array<Ball, kStateSize> row;
     for (std::size_t j = 0; j < kStateSize; ++j) {
-      row[j] = slopes[i].by[j].range();
+      row[j] = slopes[i].along[j].range();
     }
     Ball way;
     for (const State<Ball>& generator : generators_) {

@@ -65,7 +65,7 @@ State<S> step(const Loop& loop, const State<S>& x, const std::array<S, 2>& noise
   // P^, of which c is the third column without (1 - epsilon), and S^-1.
   const S c1 = x[kP13] - z2 * x[kP33];
   const S c2 = x[kP23] + z1 * x[kP33];
-  const S noise_variance = Ball(loop.q1 + loop.r);
+  const S noise_variance = S(loop.q1 + loop.r);
   const S s11 = x[kP11] + noise_variance - z2 * (x[kP13] + c1);
   const S s12 = x[kP12] + z1 * c1 - z2 * x[kP23];
   const S s22 = x[kP22] + noise_variance + z1 * (x[kP23] + c2);

@@ -240,29 +240,32 @@ bool SignalCells::amplitude_error_at_most(const KklCell& cell, const Ball& bound
     const S over = third * reciprocal(x.squared_norm);
     return {first, second, -(x.y[0] * over), -(x.y[1] * over)};
   };
-  const auto within_size = [](const Size& size) { return Ball::within(size.sum()); };
-  const Ball k1 = within_size(largest(cell, [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
+  // k1 = x1_hat / A - sin p, and m = k2 / w + cos p e / (w (w_hat + w)), with k2 = x2_hat / A + w cos p.
+  const auto k1 = [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
     return with_error(x, S(one), S(zero), pulled(x, kFirst));
-  }));
-  // d = x2_hat / (A w_hat) + cos p: w_hat / w times it is k2 / w + cos p e / (w (w_hat + w)).
-  const Ball d = within_size(largest(cell,
-                                     [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
-                                       const S over = reciprocal(x.frequency);
-                                       return with_error(x, S(zero), over,
-                                                         pulled(x, kSecond) * over +
-                                                             x.cosine * square(over) / (one + speed));
-                                     })) /
-                 speed;
-  // (A_hat / A)^2 - 1 = k1 (2 sin p + k1) + d (d - 2 cos p), times w_hat / w to have that factor only once.
-  Size squared = largest(cell, [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
+  };
+  const auto m = [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
     const S over = reciprocal(x.frequency);
-    const S first = speed * (two * x.sine + S(k1));
-    const S second = (S(d) - two * x.cosine) * over;
-    const S third =
-        pulled(x, kFirst) * first + pulled(x, kSecond) * second + x.cosine * second * over / (one + speed);
-    return with_error(x, first, second, third);
+    return with_error(x, S(zero), over, (pulled(x, kSecond) + x.cosine * over / (one + speed)) * over);
+  };
+  const Size k1_size = largest(cell, k1);
+  const Size m_size = largest(cell, m);
+  // With d = x2_hat / (A w_hat) + cos p = m w / w_hat, (A_hat / A)^2 - 1 = k1 (2 sin p + k1) + d (d - 2 cos
+  // p): 2 sin p k1 - 2 cos p m, a linear function of u, and products of errors.
+  Size squared = largest(cell, [&]<typename S>(const KklSignal<S>& x) -> Weights<S> {
+    const Weights<S> of_k1 = k1(x);
+    const Weights<S> of_m = m(x);
+    Weights<S> sum;
+    for (std::size_t j = 0; j < kRows; ++j) {
+      sum[j] = two * (x.sine * of_k1[j] - x.cosine * of_m[j]);
+    }
+    return sum;
   });
-  squared = {squared.driven / speed.lower(), squared.left / speed.lower()};
+  const Ball slow = one / speed;
+  const Ball times_m =
+      (m_size.sum() * square(slow) + two * abs(cell.over.cosine.value) * abs(slow - one)).upper();
+  squared.driven += k1_size.sum() * k1_size.driven + times_m * m_size.driven;
+  squared.left += k1_size.sum() * k1_size.left + times_m * m_size.left;
   // sqrt(1 + t) - 1 is largest in size at the lowest t. The disturbance counts for less at a higher
   // amplitude.
   const Ball error =

@@ -67,7 +67,7 @@ def kkl(certificate, kind):
     claims = []
     if kind == "kkl-observer":
         claims = [claim["id"] for claim in certificate["claims"]]
-        easier = {"lo": "0x1.4p-5", "hi": "0x1.4p-5", "decimal": "[0.0390625, 0.0390625]"}
+        easier = {"lo": "0x1.dp-6", "hi": "0x1.dp-6", "decimal": "[0.0283203125, 0.0283203125]"}
         owners = [next(d for d in certificate["derivations"] if d["id"] == "kkl-robustness")["quantities"]]
         owners += [claim["evidence"] for claim in certificate["claims"]]
         for owner in owners:

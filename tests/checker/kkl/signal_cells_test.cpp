@@ -65,7 +65,7 @@ void check_bounds(const checker::KklDesign& design, const Errors& seen, double r
     return cells.always([&](const checker::KklCell& cell) { return (cells.*statement)(cell, Ball(bound)); });
   };
   CHECK(holds(&SignalCells::frequency_error_at_most, room * seen.frequency));
-  CHECK(holds(&SignalCells::amplitude_error_at_most, 1.15 * room * seen.amplitude));
+  CHECK(holds(&SignalCells::amplitude_error_at_most, 1.1 * room * seen.amplitude));
   CHECK(holds(&SignalCells::relative_square_at_least, 1.0 - room * (1.0 - seen.least_square)));
   CHECK(holds(&SignalCells::ratio_at_least, seen.least_ratio / room));
   CHECK(!holds(&SignalCells::frequency_error_at_most, 0.95 * seen.frequency));

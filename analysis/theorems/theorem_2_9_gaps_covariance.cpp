@@ -31,9 +31,10 @@ Statement predicted_for_design(const Reading& reading, const Readings& readings)
   const Interval one(1.0);
   const Interval largest_variance = max(input.q1, input.q2);
   const bool ranged = certainly_positive(c.epsilon_r) && certainly_less(c.epsilon_r, one);
-  const Interval upper = ranged ? square(first_derivative_norm(one + c.epsilon_r, input.epsilon)) *
-                                          largest_covariance(input, one - c.epsilon_r) +
-                                      largest_variance
+  const Interval upper = ranged ? Interval((square(first_derivative_norm(one + c.epsilon_r, input.epsilon)) *
+                                                largest_covariance(input, one - c.epsilon_r) +
+                                            largest_variance)
+                                               .upper())
                                 : Interval::empty();
   const Verdict above = decide_less_equal(largest_variance, c.s);
   const Verdict below = decide_less_equal(upper, c.s);
@@ -47,7 +48,7 @@ Statement predicted_for_design(const Reading& reading, const Readings& readings)
       "Sound bounds: the largest eigenvalue of P(k+1|k) is at least " + at_least(largest_variance) +
           " and at most " + at_most(upper) + "; s is " + enclosed(c.s) + ".",
       {evidence("predicted_lower", R"(\max(q_1, q_2))", "", largest_variance),
-       evidence("predicted_upper", "", "", upper), evidence("s", "s", "", c.s)});
+       evidence("predicted_bound", "", "", upper), evidence("s", "s", "", c.s)});
 }
 
 /// The bounds come from a window of N + 1 measurements, and step 0 has none behind it.

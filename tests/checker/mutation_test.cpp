@@ -343,7 +343,7 @@ TEST_CASE("whole enclosures moved, and whole design values, consistently") {
                                                       "rate",
                                                       "p_sound_printed",
                                                       "p_sound_errata",
-                                                      "predicted_upper",
+                                                      "predicted_bound",
                                                       "ultimate_frequency_error",
                                                       "lhs"};
         static const std::set<std::string> from_below{"one_minus_alpha", "noise_bound",

@@ -1,0 +1,32 @@
+// Conditions that several of the published results have.
+#pragma once
+
+#include <string>
+
+#include "checker/document/design.hpp"
+
+namespace veritrack::checker {
+
+/// left < right, with its two sides.
+inline Condition less(const std::string& id, const std::string& statement, const Ball& left,
+                      const Ball& right) {
+  return {id, statement, decide_less(left, right), left, right};
+}
+inline Condition at_most(const std::string& id, const std::string& statement, const Ball& left,
+                         const Ball& right) {
+  return {id, statement, decide_at_most(left, right), left, right};
+}
+inline Ball leaked(const Design& d) {
+  return d.epsilon * d.largest_frequency;
+}
+/// The largest |w| + |v| that is assumed: |w| may be anything from what leaks to that and the slew.
+inline Condition noise_free(const std::string& statement, const Design& d) {
+  const Ball least = leaked(d) + d.noise;
+  const Ball most = least + d.slew;
+  const Verdict verdict = certainly_at_most(most, Ball(0.0)) ? Verdict::proved
+                          : certainly_less(Ball(0.0), least) ? Verdict::refuted
+                                                             : Verdict::undecided;
+  return {"noise-free", statement, verdict, Range(least, most), Ball(0.0)};
+}
+
+}  // namespace veritrack::checker

@@ -138,5 +138,26 @@ TEST_CASE("fewer than four filters are refused") {
   CHECK_THROWS_AS((void)derive_kkl_claims(question({1.0, 2.0, 3.0}, 1.0)), std::invalid_argument);
 }
 
+TEST_CASE("the least excited signal of a frequency is excited as little as the branch and bound says") {
+  test::Random random(49);
+  for (std::int64_t i = 0; i < test::effort(100); ++i) {
+    CAPTURE(i);
+    const Eigen::Vector4d lambda(random.uniform(0.5, 1.2), random.uniform(1.5, 2.2), random.uniform(2.5, 3.2),
+                                 random.uniform(3.5, 4.2));
+    const double frequency = random.uniform(0.5, 5.0);
+    const SignalWitness signal = propose_least_excited(lambda, frequency);
+    const rigor::UpwardRounding upward;
+    const KklRange range{rigor::to_interval(lambda), Interval(frequency)};
+    const rigor::IntervalVector<4> xi = trackers::kkl_transform<Interval, 4>(signal.state(), range.lambda);
+    Interval squares(0.0);
+    for (const Interval& filter : xi) {
+      squares += square(filter);
+    }
+    const Interval ratio = trackers::kkl_excitation<Interval, 4>(xi, range.lambda) / squares;
+    CHECK(ratio.upper() <= enclose_ell(range).upper * (1.0 + 1e-10));
+    CHECK(ratio.upper() >= enclose_ell(range).lower);
+  }
+}
+
 }  // namespace
 }  // namespace veritrack::observers

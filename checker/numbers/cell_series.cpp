@@ -35,15 +35,20 @@ Ball CellSeries::deviation() const {
   return sum;
 }
 
-Ball CellSeries::take_remainder() {
+Ball CellSeries::remainder() const {
   Ball sum(0.0);
   Ball radius;
-  for (Ball& coefficient : c_) {
+  for (const Ball& coefficient : c_) {
     arb_get_rad_arb(radius.raw(), coefficient.raw());
-    arb_get_mid_arb(coefficient.raw(), coefficient.raw());
     sum += radius;
   }
   return sum;
+}
+
+void CellSeries::drop_remainder() {
+  for (Ball& coefficient : c_) {
+    arb_get_mid_arb(coefficient.raw(), coefficient.raw());
+  }
 }
 
 CellSeries operator*(const CellSeries& a, const CellSeries& b) {

@@ -19,8 +19,17 @@ class CellSeries {
   [[nodiscard]] const Ball& constant() const { return c_[0]; }
   /// All values over the cell.
   [[nodiscard]] Ball range() const { return c_[0] + Ball::within(deviation()); }
-  /// Makes the coefficients exact; returns how far the function may be from the polynomial that is left.
-  Ball take_remainder();
+  /// Of the part that is linear, at x = 1 or -1, y = 1 or -1.
+  [[nodiscard]] Ball corner(int x, int y) const {
+    const Ball by_x = x > 0 ? c_[0] + c_[1] : c_[0] - c_[1];
+    return y > 0 ? by_x + c_[2] : by_x - c_[2];
+  }
+  /// A bound on the part that is quadratic.
+  [[nodiscard]] Ball bend() const { return abs(c_[3]) + abs(c_[4]) + abs(c_[5]); }
+  /// How far the function may be from the polynomial with the middles of the coefficients; and that
+  /// polynomial.
+  [[nodiscard]] Ball remainder() const;
+  void drop_remainder();
 
   CellSeries& operator+=(const CellSeries& other);
   CellSeries& operator-=(const CellSeries& other);

@@ -24,9 +24,10 @@ struct WindowStatement {
   Ball curvature, curvature_weight;
   /// every predicted covariance is above signal_uncertainty diag(1, 1, 0);
   Ball signal_uncertainty;
-  /// the diagonal of every covariance is above this;
+  /// when the window has them, the diagonal of every covariance is above these;
+  bool has_least = false;
   Ball least_p11, least_p22, least_p33;
-  /// and, when there are starts, e' P^-1 e <= start_level^2 for |delta| <= start_signal and |nu| <=
+  /// and, when it has starts, e' P^-1 e <= start_level^2 for |delta| <= start_signal and |nu| <=
   /// start_frequency, by a free weight between 0 and 1.
   bool has_starts = false;
   Ball start_level, start_weight, start_signal, start_frequency;

@@ -120,7 +120,8 @@ std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& 
     window.curvature = number("curvature");
     window.curvature_weight = number("curvature_weight");
     window.signal_uncertainty = number("signal_uncertainty");
-    if (numbers.find("least_p11") != nullptr) {
+    window.has_least = numbers.find("least_p11") != nullptr;
+    if (window.has_least) {
       window.least_p11 = number("least_p11");
       window.least_p22 = number("least_p22");
       window.least_p33 = number("least_p33");

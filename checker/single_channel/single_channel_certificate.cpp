@@ -59,6 +59,9 @@ void verify_single_channel_tracker(const Tree& certificate, Verification& result
     }
     result.parts.push_back({id, objections});
   }
+  for (const Tree& row : certificate.at("comparison").elements()) {
+    result.parts.push_back({"comparison " + row.at("result").text(), {kUnknown}});
+  }
   const std::map<std::string, Claim> propositions = proposition_claims();
   const auto check = [&](const Tree& claim, Objections& found) {
     const std::string& id = claim.at("id").text();

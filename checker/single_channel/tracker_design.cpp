@@ -15,15 +15,15 @@ SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& obj
   if (by_ratio && (chosen.find("q") != nullptr || chosen.find("r") != nullptr)) {
     throw Malformed("lambda stands in place of q and r");
   }
-  const Ball q = chosen.find("q") != nullptr ? number(chosen, "q") : Ball(1.0);
+  const auto q = [&] { return by_ratio ? Ball(1.0) : number(chosen, "q"); };
   design.r = number(chosen, by_ratio ? "lambda" : "r");
   design.epsilon = number(chosen, "epsilon");
   if (process_noise.kind() == Tree::Kind::object) {
     design.q1 = number(process_noise, "q1");
     design.q2 = number(process_noise, "q2");
   } else if (process_noise.text() == "identity" || process_noise.text() == "frequency-only") {
-    design.q1 = process_noise.text() == "identity" ? q : Ball(0.0);
-    design.q2 = q;
+    design.q1 = process_noise.text() == "identity" ? q() : Ball(0.0);
+    design.q2 = q();
   } else {
     throw Malformed("no process noise: " + process_noise.text());
   }
@@ -37,8 +37,10 @@ SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& obj
   design.phase_error = number(assume, "initial_phase_error");
   design.frequency_error = number(assume, "initial_frequency_error");
   const Tree& covariance = assume.at("initial_covariance");
-  design.starts_in_steady_state =
-      covariance.kind() == Tree::Kind::text && covariance.text() == "steady-state";
+  design.starts_in_steady_state = covariance.kind() == Tree::Kind::text;
+  if (design.starts_in_steady_state && covariance.text() != "steady-state") {
+    throw Malformed("initial_covariance is neither a matrix nor steady-state");
+  }
   const Ball zero(0.0);
   if (!certainly_positive(design.amplitude) || !certainly_positive(design.q2) ||
       !certainly_at_most(design.lowest, design.highest)) {

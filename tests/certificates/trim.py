@@ -2,7 +2,7 @@
 """Makes the certificates of accepted/ from a whole one: a certificate that states less is a certificate.
 
 usage: trim.py CERTIFICATE.json theorem-2.9|published|repaired|contraction|one-set|capture|
-               kkl-observer|kkl-paper > accepted/NAME.json
+               kkl-observer|kkl-paper|steady-state|frozen-filter > accepted/NAME.json
 
 theorem-2.9   the two readings of Theorem 2.9 and their claims; no certified set
 published     the published results and the places of the proof of Theorem 2.9; no certified set
@@ -12,6 +12,9 @@ one-set       the same from the set that is checked fastest, for tests that chec
 capture       farther starts, followed into the set of one-set: one box, of which little is said
 kkl-observer  a KKL observer at one frequency with a sinusoidal disturbance, and an easier bound on the amplitude error
 kkl-paper     its ell and the paper's claims
+steady-state  of the single-channel tracker with a leak at one frequency (tests/certificates/steady-state.toml) and
+              Proposition 1
+frozen-filter that tracker's, alone
 """
 import decimal
 import json
@@ -36,6 +39,11 @@ def main():
     }
     if kind.startswith("kkl"):
         kkl(certificate, kind)
+    elif kind == "steady-state":
+        keep(certificate, ["single-channel-bias"], ["proposition-1/if", "proposition-1/only-if"])
+        del certificate["derivations"][0]["quantities"]["quadrature_bias"]
+    elif kind == "frozen-filter":
+        keep(certificate, ["single-channel/transfer-function"], [])
     elif kind in without_sets:
         kept = [d["id"] for d in certificate["derivations"] if without_sets[kind](d["id"])]
         gaps = [claim["id"] for claim in certificate["claims"]

@@ -1,0 +1,168 @@
+// The steady state of the single-channel tracker: the established curve against the tracker that runs, and
+// what must not be verified of it.
+#include "checker/single_channel/bias.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "checker/single_channel/invariant_curve.hpp"
+#include "tests/support/golden.hpp"
+#include "tests/support/random.hpp"
+#include "trackers/single_channel_rotating_frame.hpp"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using namespace veritrack;
+using checker::Ball;
+
+constexpr double kEpsilon = 0.01;
+constexpr double kFrequency = 1.5;  // rad/sample
+constexpr double kRate = 0.92;
+
+checker::TrackerValues<Ball> values() {
+  return {Ball(1.0), Ball(1.0), Ball(10.0), Ball(kEpsilon)};
+}
+
+Json accepted() {
+  return Json::parse(test::read_file(VERITRACK_SOURCE_DIR "/tests/certificates/accepted/steady-state.json"));
+}
+
+/// What is wrong with the derivation of the accepted certificate.
+checker::Objections objections_to(const Json& derivation) {
+  checker::Objections objections;
+  const auto design =
+      checker::read_single_channel_design(checker::read_json(accepted()["design"].dump()), objections);
+  check_bias(checker::read_json(derivation.dump()), design, objections);
+  return objections;
+}
+
+double number_of(const Json& value) {
+  return std::strtod(value.get<std::string>().c_str(), nullptr);
+}
+std::string hexadecimal(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%a", value);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("the simulated tracker settles within the distances of the curve") {
+  const auto curve = checker::establish_invariant_curve(values(), Ball(kFrequency), 0.0, Ball(kRate));
+  REQUIRE(curve.has_value());
+  const trackers::QuadratureEkfDesign<double> design{1.0, 1.0, 10.0, kEpsilon};
+  trackers::SingleChannelEkf<double> tracker(
+      trackers::single_channel_design(design),
+      {1.0, 0.0, kFrequency, trackers::diagonal_process_noise(1.0, 1.0)});
+  constexpr int kSettling = 500;
+  for (int k = 1; k <= kSettling + test::effort(300); ++k) {
+    tracker.step(std::cos(kFrequency * k));
+    if (k > kSettling) {
+      const Ball phase(std::remainder(kFrequency * k, std::numbers::pi));
+      const checker::Matrix b = checker::waves(curve->family.harmonics, phase, Ball(1.0), 1);
+      const Ball expected = (curve->family.terms.front() * b)(2, 0);
+      CHECK(std::fabs(tracker.filtered().frequency - kFrequency - expected.near()) <=
+            curve->near_here[2].near() + 1e-12);
+    }
+  }
+  CHECK(curve->near_here[2].near() < 1e-8);
+}
+
+TEST_CASE("no curve where one of the conditions fails") {
+  const auto establish = [](const Ball& frequency, double half_width, const Ball& rate) {
+    return checker::establish_invariant_curve(values(), frequency, half_width, rate).has_value();
+  };
+  // Faster than the products of the Jacobians shrink.
+  CHECK(!establish(Ball(kFrequency), 0.0, Ball(0.7)));
+  CHECK(!establish(Ball(kFrequency), 0.0, Ball(1.0)));
+  // Frequencies too far apart for one curve, and for one family.
+  CHECK(!establish(Ball::hull(Ball(1.49), Ball(1.51)), 0.0, Ball(kRate)));
+  CHECK(!establish(Ball(kFrequency), 0.5, Ball(kRate)));
+  CHECK(!establish(Ball::everything(), 0.0, Ball(kRate)));
+  auto undefined = values();
+  undefined.r = Ball::everything();
+  CHECK(!checker::establish_invariant_curve(undefined, Ball(kFrequency), 0.0, Ball(kRate)));
+}
+
+TEST_CASE("every number of the derivation, one part in a thousand better") {
+  const Json derivation = accepted()["derivations"][0];
+  REQUIRE(objections_to(derivation).empty());
+  std::vector<Json> changed;
+  for (const auto& [name, quantity] : derivation["quantities"].items()) {
+    for (const char* end : {"lo", "hi"}) {
+      const double number = number_of(quantity[end]);
+      if (number == 0.0) {
+        continue;
+      }
+      // Into the enclosure; of the frequency, another one. The decimals stay as they are.
+      const bool up = (std::string(end) == "lo") == (number > 0.0);
+      Json better = derivation;
+      better["quantities"][name][end] = hexadecimal(number * (up ? 1.001 : 0.999));
+      changed.push_back(better);
+    }
+  }
+  int refused = 0;
+  int proved_anew = 0;
+  for (const Json& better : changed) {
+    // A rate that is a little better may be proved: by other norms, or on finer cells.
+    const bool of_rate =
+        better["quantities"]["contraction_rate"] != derivation["quantities"]["contraction_rate"];
+    const bool accepted_anew = objections_to(better).empty();
+    CHECK_MESSAGE((!accepted_anew || of_rate), better["quantities"].dump());
+    (accepted_anew ? proved_anew : refused) += 1;
+  }
+  MESSAGE(refused << " changed numbers refused, " << proved_anew << " proved anew");
+  CHECK(refused >= 14);
+}
+
+TEST_CASE("words, verdicts and another frequency") {
+  Json derivation = accepted()["derivations"][0];
+  for (const char* name : {"mean_bias_around", "min_error_around", "max_error_around"}) {
+    derivation["quantities"].erase(name);  // they take longest
+  }
+  std::vector<Json> changed(6, derivation);
+  changed[0]["id"] = "single-channel-bias/1.501";
+  changed[1]["title"] = "No frequency error on a noise-free tone";
+  changed[2]["conditions"][0]["verdict"] = changed[2]["verdict"] = "refuted";
+  changed[3]["conditions"].erase(0);
+  // Nothing is said to be proved, and quantities are there all the same.
+  changed[4]["conditions"][0]["verdict"] = changed[4]["verdict"] = "undecided";
+  changed[5]["quantities"]["quadrature_bias"] = derivation["quantities"]["mean_bias"];
+  for (const Json& one : changed) {
+    CHECK_MESSAGE(!objections_to(one).empty(), one.dump().substr(0, 200));
+  }
+  Json nothing = derivation;
+  nothing["conditions"][0]["verdict"] = nothing["verdict"] = "undecided";
+  nothing["quantities"] = {{"frequency", derivation["quantities"]["frequency"]}};
+  CHECK(objections_to(nothing).empty());
+}
+
+TEST_CASE("Proposition 1 rests on a bias that was established at the frequency in the sentence") {
+  const Json claims = accepted()["claims"];
+  const checker::SingleChannelDesign design{
+      Ball(1.0), Ball(1.0), Ball(1.0), Ball(10.0), Ball(kEpsilon), Ball(1.5), Ball(1.5), {}, {}, {}, {}, {}};
+  const auto objections = [&](Json claim, const std::string& statement, const Ball& mean) {
+    if (!statement.empty()) {
+      claim["statement"] = statement;
+    }
+    checker::Objections found;
+    check_proposition_1(checker::read_json(claim.dump()), design, {{Ball(1.5), mean}}, found);
+    return found.size();
+  };
+  const Ball mean(-0.049402273);
+  CHECK(objections(claims[0], "", mean) == 0);
+  CHECK(objections(claims[1], "", mean) == 0);
+  CHECK(objections(claims[1], "", Ball(0.0)) > 0);
+  CHECK(objections(claims[1], "", Ball::everything()) > 0);
+  const std::string of_3 = " a noise-free tone of 3.2 rad/sample has ";
+  CHECK(objections(claims[0], "With ε = 0 the steady state on" + of_3 + "no frequency error.", mean) > 0);
+  CHECK(objections(claims[1],
+                   "With the design's ε the steady state on" + of_3 + "a mean frequency error other than 0.",
+                   mean) > 0);
+}

@@ -29,8 +29,11 @@ SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& obj
   }
   design.q1 = design.q1 / square(design.amplitude);
   design.r = design.r / square(design.amplitude);
-  design.lowest = read_number(assume.at("frequency").at(0), objections);
-  design.highest = read_number(assume.at("frequency").at(1), objections);
+  const Tree& band = assume.at("frequency");
+  design.lowest = read_number(band.at(0), objections);
+  design.highest = read_number(band.at(1), objections);
+  const bool in_order = band.at(0).at("text").text() == band.at(1).at("text").text() ||
+                        certainly_at_most(design.lowest, design.highest);
   design.noise = number(assume, "noise") / design.amplitude;
   design.slew = number(assume, "slew");
   design.amplitude_error = number(assume, "initial_amplitude_error") / design.amplitude;
@@ -42,8 +45,7 @@ SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& obj
     throw Malformed("initial_covariance is neither a matrix nor steady-state");
   }
   const Ball zero(0.0);
-  if (!certainly_positive(design.amplitude) || !certainly_positive(design.q2) ||
-      !certainly_at_most(design.lowest, design.highest)) {
+  if (!certainly_positive(design.amplitude) || !certainly_positive(design.q2) || !in_order) {
     objections.emplace_back("amplitude and q2 must be positive, and the frequencies in order");
   }
   for (const Ball* bound : {&design.q1, &design.r, &design.epsilon, &design.noise, &design.slew,

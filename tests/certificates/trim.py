@@ -2,7 +2,7 @@
 """Makes the certificates of accepted/ from a whole one: a certificate that states less is a certificate.
 
 usage: trim.py CERTIFICATE.json theorem-2.9|published|repaired|contraction|one-set|capture|
-               kkl-observer|kkl-paper|steady-state|frozen-filter > accepted/NAME.json
+               kkl-observer|kkl-paper|steady-state|frozen-filter|phases > accepted/NAME.json
 
 theorem-2.9   the two readings of Theorem 2.9 and their claims; no certified set
 published     the published results and the places of the proof of Theorem 2.9; no certified set
@@ -15,6 +15,8 @@ kkl-paper     its ell and the paper's claims
 steady-state  of the single-channel tracker with a leak at one frequency (tests/certificates/steady-state.toml) and
               Proposition 1
 frozen-filter that tracker's, alone
+phases        the single-channel tracker's sets over all phases at one frequency
+              (tests/certificates/phases.toml), and the claims that rest on them
 """
 import decimal
 import json
@@ -44,6 +46,12 @@ def main():
         del certificate["derivations"][0]["quantities"]["quadrature_bias"]
     elif kind == "frozen-filter":
         keep(certificate, ["single-channel/transfer-function"], [])
+    elif kind == "phases":
+        keep(certificate, ["contraction"], [c["id"] for c in certificate["claims"] if c["id"].startswith("ekf/")])
+        derivation = certificate["derivations"][0]
+        derivation["evidence"] = [e for e in derivation["evidence"] if not e["name"].startswith("largest-")]
+        for name in ("largest_noise", "largest_slew"):
+            del derivation["quantities"][name]
     elif kind in without_sets:
         kept = [d["id"] for d in certificate["derivations"] if without_sets[kind](d["id"])]
         gaps = [claim["id"] for claim in certificate["claims"]

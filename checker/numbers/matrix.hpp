@@ -44,6 +44,15 @@ class Matrix {
     }
     return z;
   }
+  /// The solutions of A x = b for all A in the balls of this one; balls of everything when one of them may be
+  /// singular.
+  [[nodiscard]] Matrix solve(const Matrix& b) const {
+    Matrix x(columns(), b.columns());
+    if (arb_mat_solve_precond(x.x_, x_, b.x_, precision()) == 0) {
+      arb_mat_indeterminate(x.x_);
+    }
+    return x;
+  }
   /// True only when every symmetric matrix whose lower triangle is in the balls is positive definite.
   [[nodiscard]] bool definite() const {
     Matrix factor(rows(), columns());

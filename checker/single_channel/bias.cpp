@@ -158,7 +158,7 @@ bool exact_without_leak(const SingleChannelDesign& design, const Ball& frequency
 }  // namespace
 
 std::optional<SteadyStateBias> check_bias(const Tree& claimed, const SingleChannelDesign& design,
-                                          Objections& objections) {
+                                          QuadratureBranch& quadrature, Objections& objections) {
   const Tree& quantities = claimed.at("quantities");
   Derivation found;
   found.title = "Steady-state frequency error on a noise-free tone";
@@ -171,8 +171,9 @@ std::optional<SteadyStateBias> check_bias(const Tree& claimed, const SingleChann
                                                : Range(from_hexadecimal(ends.at("lo").text()),
                                                        from_hexadecimal(ends.at("hi").text()))});
   const bool no_leak = certainly_equal(design.epsilon, zero);
-  if (no_leak) {
-    found.quantities.push_back({"quadrature_bias", zero});
+  if (quantities.find("quadrature_bias") != nullptr) {
+    // Without a leak the exact estimate is a fixed point at every frequency.
+    found.quantities.push_back({"quadrature_bias", no_leak ? zero : quadrature.error_at(frequency)});
   }
 
   const auto& conditions = claimed.at("conditions").elements();

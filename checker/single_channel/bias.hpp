@@ -14,6 +14,7 @@
 // neighbourhood.
 #pragma once
 
+#include "checker/single_channel/quadrature_bias.hpp"
 #include "checker/single_channel/tracker_design.hpp"
 
 namespace veritrack::checker {
@@ -27,7 +28,7 @@ struct SteadyStateBias {
 /// frequencies within 0.002 rad/sample of it, and contraction_rate bounds the rate at which an invariant
 /// curve attracts in some norms.
 std::optional<SteadyStateBias> check_bias(const Tree& derivation, const SingleChannelDesign& design,
-                                          Objections& objections);
+                                          QuadratureBranch& quadrature, Objections& objections);
 
 /// "Unbiased if and only if epsilon omega = 0", at the frequency that the claim names: objects unless it
 /// follows for epsilon = 0 (proposition-1/if), or from an established bias (proposition-1/only-if).

@@ -40,6 +40,7 @@ void verify_single_channel_tracker(const Tree& certificate, Verification& result
   }
   Promises promises;
   std::vector<SteadyStateBias> biases;
+  QuadratureBranch quadrature({design.q1, design.q2, design.r, design.epsilon});
   std::set<std::string> derivations;
   for (const Tree& derivation : certificate.at("derivations").elements()) {
     const std::string& id = derivation.at("id").text();
@@ -49,7 +50,7 @@ void verify_single_channel_tracker(const Tree& certificate, Verification& result
     } else if (id == "contraction") {
       promises = check_phase_contraction(derivation, design, result.cells, objections);
     } else if (id == "single-channel-bias" || id.starts_with("single-channel-bias/")) {
-      if (const auto bias = check_bias(derivation, design, objections)) {
+      if (const auto bias = check_bias(derivation, design, quadrature, objections)) {
         biases.push_back(*bias);
       }
     } else if (id == "single-channel/transfer-function") {

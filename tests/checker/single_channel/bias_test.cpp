@@ -38,7 +38,8 @@ checker::Objections objections_to(const Json& derivation) {
   checker::Objections objections;
   const auto design =
       checker::read_single_channel_design(checker::read_json(accepted()["design"].dump()), objections);
-  check_bias(checker::read_json(derivation.dump()), design, objections);
+  checker::QuadratureBranch quadrature({design.q1, design.q2, design.r, design.epsilon});
+  check_bias(checker::read_json(derivation.dump()), design, quadrature, objections);
   return objections;
 }
 

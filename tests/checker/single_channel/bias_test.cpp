@@ -75,6 +75,24 @@ TEST_CASE("the simulated tracker settles within the distances of the curve") {
   CHECK(curve->near_here[2].near() < 1e-8);
 }
 
+TEST_CASE("the quadrature tracker's fixed point is where the simulated one settles") {
+  checker::QuadratureBranch branch(values());
+  const trackers::QuadratureEkfDesign<double> design{1.0, 1.0, 10.0, kEpsilon};
+  for (const double frequency : {0.3, 2.6, kFrequency}) {
+    trackers::RotatingFrameState<double> x;
+    x << 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0;
+    constexpr int kSettling = 3000;
+    for (int k = 0; k < kSettling; ++k) {
+      x = trackers::rotating_frame_map<double>(x, {0.0, 0.0, 0.0, frequency}, design);
+    }
+    const Ball found = branch.error_at(Ball(frequency));
+    CHECK(std::fabs(found.near() - x(2)) <= 1e-13);
+    CHECK(certainly_less(abs(found - Ball(found.near())), Ball(1e-15)));
+  }
+  CHECK(!branch.error_at(Ball(4.5)).finite());
+  CHECK(!branch.error_at(Ball::everything()).finite());
+}
+
 TEST_CASE("no curve where one of the conditions fails") {
   const auto establish = [](const Ball& frequency, double half_width, const Ball& rate) {
     return checker::establish_invariant_curve(values(), frequency, half_width, rate).has_value();

@@ -19,6 +19,15 @@ Matrix3 each(const Function& entry) {
   return result;
 }
 
+/// acos; of a ball that reaches beyond +-1, of what lies between.
+Ball angle_of(const Ball& cosine) {
+  const Ball sine = root_of_non_negative(Ball(1.0) - square(cosine));
+  const bool obtuse = certainly_positive(-cosine);
+  Ball z;
+  arb_atan2(z.raw(), sine.raw(), (obtuse ? -cosine : cosine).raw(), precision());
+  return obtuse ? pi() - z : z;
+}
+
 }  // namespace
 
 Matrix3 operator+(const Matrix3& x, const Matrix3& y) {
@@ -68,7 +77,7 @@ Range extreme_eigenvalues(const Matrix3& a) {
   const Ball p = sqrt((square(d0) + square(d1) + square(d2) + two * off) / Ball(6.0));
   const Ball determinant = d0 * (d1 * d2 - square(a[1][2])) - a[0][1] * (a[0][1] * d2 - a[1][2] * a[0][2]) +
                            a[0][2] * (a[0][1] * a[1][2] - d1 * a[0][2]);
-  const Ball angle = acos(half * determinant / (p * square(p))) / three;
+  const Ball angle = angle_of(half * determinant / (p * square(p))) / three;
   return {mean + two * p * cos(angle + two * pi() / three), mean + two * p * cos(angle)};
 }
 

@@ -15,7 +15,7 @@ const Ball two(2.0);
 void add_start(Derivation& found, const Tube& tube, const Design& d) {
   const Ball start = tube.radius / sqrt(tube.q());
   const std::vector<Quantity> quantities{
-      {"window", zero},
+      {"window", Ball(tube.window)},
       {"epsilon_r", tube.plane},
       {"rho_1", first_derivative_norm(one + tube.plane, d.epsilon)},
       {"p", tube.p()},
@@ -63,7 +63,7 @@ void check_feasibility(const Tree& claimed, const std::optional<Tube>& noise, co
   const bool holds = certainly_positive(w) && certainly_positive(v) && certainly_positive(start) &&
                      noise->invariant(noise->disturbance(w, v));
   check_verdict("proved", proved_if(holds), "feasibility", objections);
-  check_enclosure(witness.at("window"), {"window", zero}, objections);
+  check_enclosure(witness.at("window"), {"window", Ball(noise->window)}, objections);
   check_enclosure(witness.at("epsilon_r"), {"epsilon_r", noise->plane}, objections);
   check_enclosure(witness.at("frequency_tube"), {"frequency_tube", noise->frequency}, objections);
   check_enclosure(witness.at("radius"), {"radius", noise->radius}, objections);
@@ -113,7 +113,7 @@ void check_repaired_theorem(const Tree& claimed, const Design& d, Objections& ob
     invariance.lhs_sense = Sense::bounds_above;
     invariance.rhs = assumed->radius;
     // Without a leak the steady state lies in every order interval that the filter keeps.
-    const bool in_range = d.covariance ? definite(assumed->upper - *d.covariance) &&
+    const bool in_range = d.covariance ? assumed->window == 0 && definite(assumed->upper - *d.covariance) &&
                                              definite(*d.covariance - inverse(assumed->information))
                                        : certainly_equal(d.epsilon, zero);
     found.conditions[3].verdict = proved_if(in_range);

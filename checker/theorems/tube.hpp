@@ -15,6 +15,7 @@ struct Tube {
   Ball plane, frequency;  ///< |z(k|k) - z(k)| and |x3(k|k) - x3(k)| at most
   Ball one_minus_alpha, curvature, process_gain, measurement_gain, s, radius;
   Matrix3 upper, information;  ///< P(k|k) <= upper, P(k|k)^-1 <= information
+  int window = 0;  ///< they hold after so many steps whatever P(0|0) was; 0: the filter does not leave them
   [[nodiscard]] Ball plane_gain() const {
     return sqrt(larger_eigenvalue(upper[0][0], upper[1][0], upper[1][1]));
   }

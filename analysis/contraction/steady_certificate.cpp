@@ -19,6 +19,32 @@ using Tube = FixedPointTube<QuadraturePolarLoop::kStates>;
 
 constexpr const char* kSource = "docs/leak.md";
 
+theorems::Evidence evidence_of(const char* name, const SteadySet& set) {
+  theorems::Evidence evidence{
+      name,
+      {{"noise", set.noise}, {"slew", set.slew}},
+      {{"metric", set.metric}, {"covariance_below", set.below}, {"covariance_above", set.above}}};
+  for (std::size_t j = 0; j < set.levels.size(); ++j) {
+    evidence.numbers.emplace_back("s_" + std::to_string(j), set.levels[j]);
+  }
+  return evidence;
+}
+
+/// The sets that were verified: everything that is said is proved from them.
+std::vector<theorems::Evidence> evidence_of(const SteadySearch& search) {
+  std::vector<theorems::Evidence> evidence;
+  if (search.found()) {
+    evidence.push_back(evidence_of("start-error", search.set->set));
+  }
+  if (search.noise_set) {
+    evidence.push_back(evidence_of("largest-noise", *search.noise_set));
+  }
+  if (search.slew_set) {
+    evidence.push_back(evidence_of("largest-slew", *search.slew_set));
+  }
+  return evidence;
+}
+
 }  // namespace
 
 LeakCertificate certify_with_leak(const LeakQuestion& question) {
@@ -41,9 +67,10 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
   if (branch.verdict == Verdict::proved && is_finite(question.band) && is_well_posed(question.tracker)) {
     SteadySearch search = search_steady_sets(question.tracker, branch);
     why = "no set was found in which the steps contract";
+    largest_noise = search.largest_noise();
+    largest_slew = search.largest_slew();
+    derivation.evidence = evidence_of(search);
     certificate.set = std::move(search.set);
-    largest_noise = search.largest_noise;
-    largest_slew = search.largest_slew;
   }
   const bool proved = certificate.set && certificate.set->verdict == Verdict::proved;
   if (certificate.set) {

@@ -55,10 +55,10 @@ std::optional<SteadyVerification> largest_set(const ContractionQuestion& questio
   return last;
 }
 
-/// The largest disturbance on a ladder for which a set of this shape verifies; at least `known`.
-double largest_disturbance(const ContractionQuestion& question, const LockBranch& branch,
-                           SteadyRequest request, const SteadyShape& shape, double SteadyRequest::*size,
-                           double known) {
+/// The set of this shape that bears the largest disturbance on a ladder, if that is more than `known`.
+std::optional<SteadySet> toughest_set(const ContractionQuestion& question, const LockBranch& branch,
+                                      SteadyRequest request, const SteadyShape& shape,
+                                      double SteadyRequest::*size, double known) {
   // Relative to the amplitude, or rad/sample per sample: from more than any tracker bears down.
   constexpr double kMost = 0.3;
   constexpr double kStep = 0.8;
@@ -86,17 +86,29 @@ double largest_disturbance(const ContractionQuestion& question, const LockBranch
   for (int i = 0; i < kTries && step < kSteps; ++i, ++step) {
     for (const SteadySet& set : proposals(step)) {
       if (!(request.*size > known)) {
-        return known;
+        return std::nullopt;
       }
       if (verify_steady_set(question.design, branch.cells, set).verdict == Verdict::proved) {
-        return request.*size;
+        return set;
       }
     }
   }
-  return known;
+  return std::nullopt;
 }
 
 }  // namespace
+
+bool SteadySearch::found() const {
+  return set && set->verdict == Verdict::proved;
+}
+
+double SteadySearch::largest_noise() const {
+  return noise_set ? noise_set->noise : found() ? set->set.noise : 0.0;
+}
+
+double SteadySearch::largest_slew() const {
+  return slew_set ? slew_set->slew : found() ? set->set.slew : 0.0;
+}
 
 SteadySearch search_steady_sets(const ContractionQuestion& question, const LockBranch& branch) {
   const rigor::UpwardRounding upward;
@@ -108,11 +120,10 @@ SteadySearch search_steady_sets(const ContractionQuestion& question, const LockB
   }
   result.shaped = true;
   result.set = largest_set(question, branch, request, *shape);
-  const bool found = result.set && result.set->verdict == Verdict::proved;
-  result.largest_noise = largest_disturbance(question, branch, request, *shape, &SteadyRequest::noise,
-                                             found ? result.set->set.noise : 0.0);
-  result.largest_slew = largest_disturbance(question, branch, request, *shape, &SteadyRequest::slew,
-                                            found ? result.set->set.slew : 0.0);
+  result.noise_set =
+      toughest_set(question, branch, request, *shape, &SteadyRequest::noise, result.largest_noise());
+  result.slew_set =
+      toughest_set(question, branch, request, *shape, &SteadyRequest::slew, result.largest_slew());
   return result;
 }
 

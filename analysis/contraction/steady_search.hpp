@@ -12,8 +12,13 @@ namespace veritrack::contraction {
 struct SteadySearch {
   bool shaped = false;                    ///< sampling found a shape to try at all
   std::optional<SteadyVerification> set;  ///< PROVED for the assumed noise and slew, or the last attempt
-  double largest_noise = 0.0;  ///< certified without slew, relative to the amplitude; zero when none is
-  double largest_slew = 0.0;   ///< certified without noise, rad/sample per sample
+  std::optional<SteadySet> noise_set;  ///< certified for more noise than `set`, without slew, of one level
+  std::optional<SteadySet> slew_set;   ///< certified for more slew than `set`, without noise, of one level
+  [[nodiscard]] bool found() const;    ///< `set` is PROVED
+  /// Certified without slew, relative to the amplitude; zero when none is.
+  [[nodiscard]] double largest_noise() const;
+  /// Certified without noise, rad/sample per sample; zero when none is.
+  [[nodiscard]] double largest_slew() const;
 };
 
 /// Tries sets from the largest that sampling can imagine down. The branch must be PROVED. Opens its own

@@ -19,8 +19,9 @@ Design read_design(const Tree& tree, Objections& objections) {
   design.q1_equals_q2 = certainly_equal(amplitude, Ball(1.0)) &&
                         chosen.at("q1").at("text").text() == chosen.at("q2").at("text").text();
   const Tree& frequency = assume.at("frequency");
-  design.largest_frequency =
-      max(abs(read_number(frequency.at(0), objections)), abs(read_number(frequency.at(1), objections)));
+  design.lowest_frequency = read_number(frequency.at(0), objections);
+  design.highest_frequency = read_number(frequency.at(1), objections);
+  design.largest_frequency = max(abs(design.lowest_frequency), abs(design.highest_frequency));
   design.noise = number(assume, "noise") / amplitude;
   design.slew = number(assume, "slew");
   design.amplitude_error = number(assume, "initial_amplitude_error") / amplitude;

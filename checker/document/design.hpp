@@ -13,7 +13,7 @@ namespace veritrack::checker {
 struct Design {
   Ball amplitude;  ///< the true one, signal units
   Ball q1, q2, r, epsilon;
-  Ball largest_frequency;  ///< rad/sample
+  Ball lowest_frequency, highest_frequency, largest_frequency;  ///< rad/sample
   Ball noise, slew;
   Ball amplitude_error, phase_error, frequency_error;            ///< of the start, bounds on absolute values
   std::optional<std::array<std::array<Ball, 3>, 3>> covariance;  ///< none: the filter's steady state

@@ -5,6 +5,7 @@
 #include "checker/document/guarantee.hpp"
 #include "checker/quadrature/capture.hpp"
 #include "checker/quadrature/contraction.hpp"
+#include "checker/quadrature/steady_contraction.hpp"
 #include "checker/theorems/proof_gaps.hpp"
 #include "checker/theorems/published_results.hpp"
 #include "checker/theorems/repaired_theorem.hpp"
@@ -61,6 +62,8 @@ class QuadratureVerifier {
       check_theorem_2_9(derivation, design_, Reading::errata, objections);
     } else if (id == "contraction" && certainly_equal(design_.epsilon, Ball(0.0))) {
       promises_ = check_contraction(derivation, design_, sets_, objections);
+    } else if (id == "contraction") {
+      promises_ = check_steady_contraction(derivation, design_, result_.cells, objections);
     } else if (id == "capture" || id == "capture/noise-free" || id == "capture/reduced-noise") {
       captured_[id] = check_capture(derivation, design_, sets_, all_boxes_, objections);
       if (!objections.empty()) {

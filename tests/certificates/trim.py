@@ -2,7 +2,7 @@
 """Makes the certificates of accepted/ from a whole one: a certificate that states less is a certificate.
 
 usage: trim.py CERTIFICATE.json theorem-2.9|published|repaired|contraction|one-set|capture|
-               kkl-observer|kkl-paper|steady-state|frozen-filter|phases > accepted/NAME.json
+               kkl-observer|kkl-paper|steady-state|frozen-filter|phases|steady-set > accepted/NAME.json
 
 theorem-2.9   the two readings of Theorem 2.9 and their claims; no certified set
 published     the published results and the places of the proof of Theorem 2.9; no certified set
@@ -17,6 +17,8 @@ steady-state  of the single-channel tracker with a leak at one frequency (tests/
 frozen-filter that tracker's, alone
 phases        the single-channel tracker's sets over all phases at one frequency
               (tests/certificates/phases.toml), and the claims that rest on them
+steady-set    of the quadrature tracker with a leak in a narrow band (tests/certificates/steady-set.toml): the
+              contraction with two levels, and the set for the largest noise
 """
 import decimal
 import json
@@ -29,6 +31,32 @@ def keep(certificate, derivations, claims):
     certificate["comparison"] = [row for row in certificate["comparison"] if row["result"] in derivations]
     certificate["claims"] = [claim for claim in certificate["claims"] if claim["id"] in claims]
     certificate["audits"] = []
+
+
+def steady_set(certificate):
+    """Fewer levels: what rests on the last ones is larger."""
+    derivation = certificate["derivations"][0]
+    drop_unproved(derivation)
+    derivation["evidence"] = [e for e in derivation["evidence"] if e["name"] != "largest-slew"]
+    numbers = derivation["evidence"][0]["numbers"]
+    for name in [name for name in numbers if name.startswith("s_") and name not in ("s_0", "s_1")]:
+        del numbers[name]
+    quantities = derivation["quantities"]
+    del quantities["largest_slew"]
+    reach = float.fromhex(quantities["frequency_error_radius"]["hi"])
+    level = float.fromhex(numbers["s_1"])
+    bias = -float.fromhex(quantities["bias_frequency"]["lo"])
+    def say(enclosure, value):
+        value *= 1.0 + 1e-12
+        enclosure["lo"] = enclosure["hi"] = value.hex()
+        enclosure["decimal"] = f"[{value - 1e-8:.9f}, {value + 1e-8:.9f}]"
+    say(quantities["ultimate_frequency_error"], bias + level * reach)
+    say(quantities["frequency_error_bound"], bias + level * reach)
+    say(quantities["contraction_rate"], level)
+    say(derivation["conditions"][1]["lhs"], level)
+    for claim in certificate["claims"]:
+        claim["evidence"] = {"frequency_error_bound": quantities["frequency_error_bound"]}
+    certificate["comparison"] = []
 
 
 def main():
@@ -44,6 +72,9 @@ def main():
     elif kind == "steady-state":
         keep(certificate, ["single-channel-bias"], ["proposition-1/if", "proposition-1/only-if"])
         del certificate["derivations"][0]["quantities"]["quadrature_bias"]
+    elif kind == "steady-set":
+        keep(certificate, ["contraction"], ["ekf/frequency-error-bound"])
+        steady_set(certificate)
     elif kind == "frozen-filter":
         keep(certificate, ["single-channel/transfer-function"], [])
     elif kind == "phases":

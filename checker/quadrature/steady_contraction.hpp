@@ -1,0 +1,16 @@
+// The contraction certificate of the tracker with a leak (docs/leak.md), re-established from the sets in its
+// evidence.
+#pragma once
+
+#include <cstdint>
+
+#include "checker/document/guarantee.hpp"
+#include "checker/quadrature/steady_set.hpp"
+
+namespace veritrack::checker {
+
+/// Objects to what of the derivation "contraction" its sets do not prove over the band of frequencies.
+Promises check_steady_contraction(const Tree& derivation, const Design& design, std::int64_t& cells,
+                                  Objections& objections);
+
+}  // namespace veritrack::checker

@@ -1,0 +1,44 @@
+// Does every step from one level of a set around the steady state lead to the next one? With a leak.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "checker/quadrature/disc_cell.hpp"
+#include "checker/quadrature/steady_rate.hpp"
+#include "checker/quadrature/steady_state.hpp"
+
+namespace veritrack::checker {
+
+/// A level and the next, and what acts on the tracker.
+struct SteadyLevel {
+  Ball level, next;
+  Ball noise;  ///< |v| <= noise
+  /// Upper bounds on how far the slew carries e+ - e*, in the metric, and P+ - P*, as a share of its bounds.
+  Ball motion, covariance_motion;
+};
+
+/// Cells of (x, y) and of the frequencies of one cell of the branch.
+class SteadyCover {
+ public:
+  SteadyCover(const SteadySetting& setting, const SteadyCell& steady) : setting_(setting), steady_(steady) {}
+
+  /// Proves it for all (x, y) of the unit disc and all frequencies of the cell.
+  bool leads(const SteadyLevel& level);
+  /// So far.
+  [[nodiscard]] std::int64_t cells() const { return cells_; }
+
+ private:
+  bool holds(const SteadyLevel& level, const DiscCell& cell, int depth);
+  /// `side` is where to cut a cell for which it fails.
+  bool proves(const SteadyLevel& level, const DiscCell& cell, std::size_t& side);
+
+  const SteadySetting& setting_;
+  const SteadyCell& steady_;
+  std::vector<DiscCell> proved_;  ///< of the level before: where to begin
+  int levels_ = 0;
+  std::int64_t cells_ = 0;
+  bool hopeless_ = false;  ///< a small cell fails in its middle
+};
+
+}  // namespace veritrack::checker

@@ -1,0 +1,33 @@
+// Do the assumed starts, which are about the truth, come into a set around the steady state? With a leak.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "checker/quadrature/steady_set.hpp"
+
+namespace veritrack::checker {
+
+/// What holds for all starts at all frequencies that were looked at: upper bounds.
+struct SteadyStart {
+  Ball samples = Ball(0.0);   ///< after which they are in Omega_1
+  Ball level = Ball(0.0);     ///< and at which level then
+  Ball bound = Ball(0.0);     ///< on |x3 - omega| at every sample, rad/sample
+  Ball settling = Ball(0.0);  ///< samples until they are in the last level
+};
+
+/// What the certificate says of them, which is as far as they are looked at: frequencies are cut until it
+/// holds.
+struct SteadyStartClaim {
+  std::optional<Ball> samples, level, bound, settling;
+};
+
+/// Nothing when some start does not certainly come into the set. Starts outside are followed, with the
+/// design's noise, when there is no slew.
+std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& set,
+                                        const std::vector<SteadyCell>& branch, const SteadyStartClaim& claim);
+
+/// At least |e_i - e*_i| over level 1: amplitude, phase (rad), frequency (rad/sample).
+std::array<Ball, 3> error_radii(const SteadySet& set);
+
+}  // namespace veritrack::checker

@@ -98,7 +98,7 @@ bool keeps_variances(const Bound& upper, const WindowAssumption& assumption) {
   const Model limit(assumption.signal_variance);
   const Model room1 = limit - upper.p11;
   const Model room2 = limit - upper.p22;
-  return rigor::certainly_less_equal(upper.p33.range(), Interval(assumption.frequency_variance)) &&
+  return rigor::certainly_less(upper.p33.range(), Interval(assumption.frequency_variance)) &&
          rigor::certainly_positive(room1.range()) &&
          rigor::certainly_positive((room1 * room2 - square(upper.p12)).range());
 }

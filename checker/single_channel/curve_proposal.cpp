@@ -34,8 +34,9 @@ std::vector<State> settled_curve(const TrackerValues<double>& values, double fre
     const double phase = kPi * static_cast<double>(node) / static_cast<double>(count);
     const State x = settled(values, frequency, phase);
     for (std::size_t k = 0; k < coefficients.size(); ++k) {
-      const auto harmonic = static_cast<double>((k + 1) / 2);
-      const double wave = k % 2 == 1 ? std::cos(2.0 * harmonic * phase) : std::sin(2.0 * harmonic * phase);
+      const std::size_t harmonic = (k + 1) / 2;
+      const double angle = 2.0 * static_cast<double>(harmonic) * phase;
+      const double wave = k % 2 == 1 ? std::cos(angle) : std::sin(angle);
       const double part = (k == 0 ? 1.0 : 2.0 * wave) / static_cast<double>(count);
       for (std::size_t i = 0; i < kToneStates; ++i) {
         // Without a leak the errors are zero, and stay so.
@@ -50,7 +51,8 @@ State along(const CurveFamily& family, double phase) {
   State x{};
   const Matrix& middle = family.terms.front();
   for (slong k = 0; k < middle.columns(); ++k) {
-    const double angle = 2.0 * static_cast<double>((k + 1) / 2) * phase;
+    const slong harmonic = (k + 1) / 2;
+    const double angle = 2.0 * static_cast<double>(harmonic) * phase;
     const double wave = k % 2 == 1 ? std::cos(angle) : k == 0 ? 1.0 : std::sin(angle);
     for (std::size_t i = 0; i < kToneStates; ++i) {
       x[i] += middle(static_cast<slong>(i), k).near() * wave;

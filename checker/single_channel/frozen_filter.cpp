@@ -9,7 +9,7 @@ void check_transfer_function(const Tree& claimed, Objections& objections) {
   found.title = "Stability of the tracker with frozen frequency and gain, from measurement to innovation";
   const auto chosen = [&](const char* name) {
     const Tree& quantity = claimed.at("quantities").at(name);
-    const Ball value = from_hexadecimal(quantity.at("lo").text());
+    Ball value = from_hexadecimal(quantity.at("lo").text());
     found.quantities.push_back({name, value});
     if (!certainly_equal(value, from_hexadecimal(quantity.at("hi").text()))) {
       objections.push_back(std::string(name) + " is a choice, and must be one number");

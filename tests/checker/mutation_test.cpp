@@ -65,7 +65,7 @@ std::vector<Pointer> places(const Json& certificate) {
 constexpr std::array kNames{"theorem-2.9",  "one-set",   "capture",       "published", "repaired",
                             "kkl-observer", "kkl-paper", "frozen-filter", "phases"};
 std::vector<Pointer> places_to_change(const std::string& name, const Json& certificate) {
-  const std::vector<Pointer> all = places(certificate);
+  std::vector<Pointer> all = places(certificate);
   static const std::map<std::string, std::int64_t> strides{
       {"published", 11}, {"capture", 4}, {"kkl-observer", 3}, {"phases", 7}};
   const auto slow = strides.find(name);
@@ -177,7 +177,9 @@ TEST_CASE("a set made larger, faster or tougher step by step is refused before i
   const Json certificate = accepted("one-set");
   const std::map<std::string, double> flattering{
       {"radius", 1.1}, {"noise", 2.0}, {"rate", 0.99}, {"noise_gain", 0.9}};
-  for (const auto& [key, factor] : flattering) {
+  for (const auto& change : flattering) {
+    const std::string& key = change.first;
+    const double factor = change.second;
     const Pointer at("/certified_sets/0/" + key);
     double number = std::strtod(certificate[at].get<std::string>().c_str(), nullptr);
     bool refused = false;
@@ -200,7 +202,9 @@ TEST_CASE("a bound of the KKL observer made better step by step is refused befor
                                                  {"amplitude_error_bound", 0.98},
                                                  {"largest_ell", 1.02},
                                                  {"settling_time", 0.95}};
-  for (const auto& [name, factor] : flattering) {
+  for (const auto& change : flattering) {
+    const std::string& name = change.first;
+    const double factor = change.second;
     double number = number_of(certificate[Pointer("/derivations/1/quantities/" + name + "/hi")]);
     int steps = 0;
     for (bool refused = false; !refused && steps < 20; ++steps) {

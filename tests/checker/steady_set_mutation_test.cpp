@@ -50,7 +50,7 @@ TEST_CASE("with a leak: better numbers, flipped verdicts and dropped evidence ar
   };
   for (const auto& [name, factor] : quantities) {
     Json changed = certificate;
-    Json& quantity = changed[Pointer(derivation + "/quantities/" + name)];
+    Json& quantity = changed[Pointer(derivation) / "quantities" / name];
     multiply(quantity["lo"], factor);
     multiply(quantity["hi"], factor);
     quantity["decimal"] = "[-1e300, 1e300]";
@@ -58,7 +58,7 @@ TEST_CASE("with a leak: better numbers, flipped verdicts and dropped evidence ar
   }
   for (const char* end : {"lo", "hi"}) {
     Json changed = certificate;
-    multiply(changed[Pointer(derivation + "/quantities/bias_frequency/" + end)],
+    multiply(changed[Pointer(derivation + "/quantities/bias_frequency") / end],
              std::string(end) == "lo" ? 0.999 : 1.001);
     expect_refused(changed, std::string("bias_frequency ") + end);
   }
@@ -86,9 +86,10 @@ TEST_CASE("with a leak: better numbers, flipped verdicts and dropped evidence ar
                                                              {"/matrices/covariance_below/2/2", 0.5},
                                                              {"/matrices/metric/2/2", 0.5},
                                                              {"/numbers/s_0", 1.001}};
+  const std::string first_set = derivation + "/evidence/0";
   for (const auto& [place, factor] : evidence) {
     Json changed = certificate;
-    multiply(changed[Pointer(derivation + "/evidence/0" + place)], factor);
+    multiply(changed[Pointer(first_set + place)], factor);
     expect_refused(changed, place);
   }
   Json leak = certificate;

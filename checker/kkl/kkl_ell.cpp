@@ -55,8 +55,8 @@ class Infimum {
   /// True only when the ratio is at least the bound from `low` to `high`.
   [[nodiscard]] bool holds(const Ball& low, const Ball& high, int depth) const {
     const Slope ratio = ratio_at(design_.lambda, Slope::variable(Ball::hull(low, high), 0));
-    const bool falls = certainly_less(ratio.by[0], zero);
-    const bool at_end = (falls && at_least(high)) || (certainly_positive(ratio.by[0]) && at_least(low));
+    const bool falls = certainly_less(ratio.along[0], zero);
+    const bool at_end = (falls && at_least(high)) || (certainly_positive(ratio.along[0]) && at_least(low));
     if (certainly_at_most(bound_, ratio.value) || at_end) {
       return true;
     }
@@ -81,7 +81,7 @@ bool no_minimizer(const KklDesign& design, const Ball& low, const Ball& high, co
     return true;  // an empty stretch
   }
   const Slope ratio = ratio_at(design.lambda, Slope::variable(Ball::hull(low, high), 0));
-  if (certainly_less(least, ratio.value) || certainly_positive(rises ? ratio.by[0] : -ratio.by[0])) {
+  if (certainly_less(least, ratio.value) || certainly_positive(rises ? ratio.along[0] : -ratio.along[0])) {
     return true;
   }
   const Ball middle = (Ball(0.5) * (low + high)).lower();

@@ -69,7 +69,7 @@ void Moves::cut_periods(const KklDesign& design) {
       const auto over = response(lambda_[i], Slope::variable(Ball::hull(begin, end), 0));
       for (std::size_t part = 0; part < 2; ++part) {
         cell.middle[part][i] = at_middle[part];
-        cell.slope[part][i] = over[part].by[0];
+        cell.slope[part][i] = over[part].along[0];
       }
     }
     cells_.push_back(std::move(cell));

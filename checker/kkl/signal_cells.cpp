@@ -25,7 +25,7 @@ Ball dot(const Filters& x, const Filters& y) {
 Ball centred(const Ball& at_middle, const Slope& over, const std::array<Ball, kVariables>& radius) {
   Ball value = at_middle;
   for (std::size_t v = 0; v < kVariables; ++v) {
-    value += Ball::within(over.by[v] * radius[v]);
+    value += Ball::within(over.along[v] * radius[v]);
   }
   return value;
 }
@@ -150,7 +150,7 @@ bool SignalCells::holds(const Statement& statement, const Box& box, int depth, i
   }
   // Cut where y moves most.
   const auto movement = [&](std::size_t v) {
-    return (cell.radius[v] * (abs(cell.over.y[0].by[v]) + abs(cell.over.y[1].by[v]))).upper_double();
+    return (cell.radius[v] * (abs(cell.over.y[0].along[v]) + abs(cell.over.y[1].along[v]))).upper_double();
   };
   std::size_t widest = 0;
   for (std::size_t v = 1; v < kVariables; ++v) {

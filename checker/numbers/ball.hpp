@@ -153,16 +153,6 @@ inline Ball cos(const Ball& x) {
   arb_cos(z.raw(), x.raw(), precision());
   return z;
 }
-/// acos; of a ball that reaches beyond +-1, of what lies between.
-inline Ball acos(const Ball& x) {
-  Ball z;
-  arb_set_si(z.raw(), 1);
-  arb_min(z.raw(), z.raw(), x.raw(), precision());
-  Ball least(-1.0);
-  arb_max(z.raw(), z.raw(), least.raw(), precision());
-  arb_acos(z.raw(), z.raw(), precision());
-  return z;
-}
 inline Ball max(const Ball& x, const Ball& y) {
   Ball z;
   arb_max(z.raw(), x.raw(), y.raw(), precision());

@@ -17,6 +17,12 @@ struct Gradient {
   Gradient(S constant) : value(std::move(constant)) {}  // NOLINT(google-explicit-constructor)
   Gradient(double constant) : value(constant) {}        // NOLINT(google-explicit-constructor)
 
+  /// The variable of this index.
+  static Gradient variable(S range, std::size_t index) {
+    Gradient x(std::move(range));
+    x.along[index] = S(Ball(1.0));
+    return x;
+  }
   /// f(x), given f and f' at the value of x.
   [[nodiscard]] Gradient chain(const S& f, const S& derivative) const {
     Gradient z(f);
@@ -48,6 +54,8 @@ struct Gradient {
     return z;
   }
   friend Gradient operator*(const Ball& x, const Gradient& y) { return y.chain(x * y.value, S(x)); }
+  friend Gradient operator*(const Gradient& x, const Ball& y) { return y * x; }
+  friend Gradient operator/(const Gradient& x, const Gradient& y) { return x * reciprocal(y); }
   friend Gradient operator-(const Gradient& x) { return Ball(-1.0) * x; }
   friend Gradient square(const Gradient& x) { return x.chain(square(x.value), Ball(2.0) * x.value); }
   friend Gradient sqrt(const Gradient& x) {

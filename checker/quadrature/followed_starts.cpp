@@ -17,13 +17,6 @@ constexpr std::size_t kKeptGenerators = 45;
 
 /// With respect to the state and the noise.
 using Sensitive = Gradient<Polynomial, kStateSize + 2>;
-
-Sensitive variable(const Polynomial& range, std::size_t index) {
-  Sensitive x(range);
-  x.along[index] = Polynomial(Ball(1.0));
-  return x;
-}
-
 /// Metric (e - origin), then the covariance in the frame of the estimated phase. arg z is taken about
 /// `angle`.
 template <typename S>
@@ -48,7 +41,7 @@ State<S> polar_of(const State<S>& x, const Matrix3& metric, const std::array<Bal
 State<Sensitive> neighbourhood(const State<Polynomial>& middle, const State<Ball>& radii) {
   State<Sensitive> x;
   for (std::size_t i = 0; i < kStateSize; ++i) {
-    x[i] = variable(middle[i].lowered(kSlopeDegree, radii[i]), i);
+    x[i] = Sensitive::variable(middle[i].lowered(kSlopeDegree, radii[i]), i);
   }
   return x;
 }
@@ -142,7 +135,8 @@ void FollowedStarts::step() {
   const Ball wobble = Ball::within(loop_.noise);
   const Polynomial noise(wobble);
   const State<Sensitive> slopes = checker::step<Sensitive>(
-      loop_, neighbourhood(middle_, radii()), {variable(noise, kStateSize), variable(noise, kStateSize + 1)});
+      loop_, neighbourhood(middle_, radii()),
+      {Sensitive::variable(noise, kStateSize), Sensitive::variable(noise, kStateSize + 1)});
   // {G_x e + G_v v}: the middles of the products are generators, their radii a box.
   for (std::size_t v = 0; v < 2; ++v) {
     generators_.emplace_back();

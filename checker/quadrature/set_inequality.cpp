@@ -140,8 +140,8 @@ class Cover {
     for (std::size_t variable = 0; variable < kVariables; ++variable) {
       for (std::size_t i = 0; i < kSize; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
-          m[i][j] = over.fixed[i][j].by[variable] + Ball(lambda) * over.by_lambda[i][j].by[variable] +
-                    over_lambda * over.by_inverse[i][j].by[variable];
+          m[i][j] = over.fixed[i][j].along[variable] + Ball(lambda) * over.by_lambda[i][j].along[variable] +
+                    over_lambda * over.by_inverse[i][j].along[variable];
         }
       }
       const Ball way = range[variable].value - middle[variable];

@@ -33,7 +33,7 @@ Linearized linearized(const Design& design, const StateVector& x, const Ball& om
       const Slope& entry = i < 3 ? next.error[i] : next.covariance[i - 3];
       result.value[i] = entry.value;
       for (std::size_t j = first; j < std::min(first + kVariables, kStates + 1); ++j) {
-        result.by[i][j] = entry.by[j - first];
+        result.by[i][j] = entry.along[j - first];
       }
     }
   }

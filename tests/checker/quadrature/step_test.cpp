@@ -101,7 +101,7 @@ TEST_CASE("derivatives are those of finite differences") {
                                            checker::Slope::variable(Ball(chi), 1));
     const checker::Slope angle = checker::secant(slope.signal, slope.mean).angle[0];
     const Ball over(0.5 / step);
-    CHECK(std::fabs((angle.by[0] - over * (at(a + step, chi) - at(a - step, chi))).near()) < 1e-9);
-    CHECK(std::fabs((angle.by[1] - over * (at(a, chi + step) - at(a, chi - step))).near()) < 1e-9);
+    CHECK(std::fabs((angle.along[0] - over * (at(a + step, chi) - at(a - step, chi))).near()) < 1e-9);
+    CHECK(std::fabs((angle.along[1] - over * (at(a, chi + step) - at(a, chi - step))).near()) < 1e-9);
   }
 }

@@ -108,15 +108,16 @@ inline Chord sin(const Chord& x) {
 inline Chord cos(const Chord& x) {
   return x.chain(cos(x.centre), cos(x.range), -(sin(x.mean()) * sine_of_half_difference(x)));
 }
-/// sin(x)/x and atan(x)/x: even functions f with f' = x g, so that f(x) - f(c) = (x + c)/2 g (x - c).
+/// sin(x)/x and atan(x)/x: even functions f with f' = x g, so that f(x) - f(c) = (x + c)/2 g (x - c), g
+/// somewhere between c and x.
 inline Chord even(const Chord& x, const Ratio& at_centre, const Ratio& over_box) {
   return x.chain(at_centre.value, over_box.value, x.mean() * over_box.slope);
 }
 inline Chord sine_over(const Chord& x) {
-  return even(x, sine_ratio(x.centre), sine_ratio(x.range));
+  return even(x, sine_ratio(x.centre), sine_ratio(Ball::hull(x.centre, x.range)));
 }
 inline Chord arctangent_over(const Chord& t) {
-  return even(t, arctangent_ratio(t.centre), arctangent_ratio(t.range));
+  return even(t, arctangent_ratio(t.centre), arctangent_ratio(Ball::hull(t.centre, t.range)));
 }
 inline const Ball& value_of(const Chord& x) {
   return x.range;

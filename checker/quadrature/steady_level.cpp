@@ -90,6 +90,9 @@ Symmetric<Ball> reach_of(const SteadyPlace<Chord>& place, const Symmetric<Chord>
   for (std::size_t i = 0; i < after.size(); ++i) {
     after[i] = place.steady.covariance[i].range + place.level.range * over(deviation[i], way);
   }
+  // In between it is turned by less than the reach.
+  const Ball angle = Ball::within(place.level.range * turn);
+  after = turned(after, sin(angle), cos(angle));
   const Ball two(2.0);
   return scaled(turn, Symmetric<Ball>{two * after[k12], after[k22] - after[k11], after[k23],
                                       -(two * after[k12]), -after[k13], zero});

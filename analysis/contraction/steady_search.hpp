@@ -12,9 +12,9 @@ namespace veritrack::contraction {
 struct SteadySearch {
   bool shaped = false;                    ///< sampling found a shape to try at all
   std::optional<SteadyVerification> set;  ///< PROVED for the assumed noise and slew, or the last attempt
-  std::optional<SteadySet> noise_set;  ///< certified for more noise than `set`, without slew, of one level
-  std::optional<SteadySet> slew_set;   ///< certified for more slew than `set`, without noise, of one level
-  [[nodiscard]] bool found() const;    ///< `set` is PROVED
+  std::optional<SteadySet> noise_set;     ///< certified for more noise than `set`, without slew, of one level
+  std::optional<SteadySet> slew_set;      ///< certified for more slew than `set`, without noise, of one level
+  [[nodiscard]] bool found() const;       ///< `set` is PROVED
   /// Certified without slew, relative to the amplitude; zero when none is.
   [[nodiscard]] double largest_noise() const;
   /// Certified without noise, rad/sample per sample; zero when none is.

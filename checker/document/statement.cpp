@@ -132,6 +132,17 @@ void check_claim(const Tree& claimed, const Claim& found, Objections& objections
   }
 }
 
+const Tree* find_evidence(const Tree& derivation, const std::string& name) {
+  const Tree* evidence = derivation.find("evidence");
+  if (evidence == nullptr) {
+    return nullptr;
+  }
+  const auto& items = evidence->elements();
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&](const Tree& item) { return item.at("name").text() == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
 void check_derivation(const Tree& claimed, const Derivation& found, Objections& objections) {
   if (claimed.at("title").text() != found.title) {
     objections.push_back("the title is not that of the derivation");

@@ -80,6 +80,9 @@ void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections
 void check_verdict(const std::string& claimed, Verdict found, const std::string& name,
                    Objections& objections);
 
+/// The evidence of this name in a derivation, or none.
+const Tree* find_evidence(const Tree& derivation, const std::string& name);
+
 /// Holds the title, all quantities, all conditions and the verdict of `claimed` against `found`. Quantities
 /// that are said not to be proved, and those that are said not to be applicable, claim nothing.
 void check_derivation(const Tree& claimed, const Derivation& found, Objections& objections);

@@ -101,48 +101,43 @@ class ErrorSet {
 std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& name,
                                      const SingleChannelDesign& design, std::int64_t& cells,
                                      Objections& objections) {
-  const Tree* evidence = derivation.find("evidence");
-  if (evidence == nullptr) {
+  const Tree* item = find_evidence(derivation, name);
+  if (item == nullptr) {
     return std::nullopt;
   }
-  for (const Tree& item : evidence->elements()) {
-    if (item.at("name").text() != name) {
-      continue;
-    }
-    const Tree& numbers = item.at("numbers");
-    const auto number = [&](const std::string& key) { return from_hexadecimal(numbers.at(key).text()); };
-    WindowStatement window;
-    window.radius = number("radius");
-    window.frequency_variance = number("frequency_variance");
-    window.signal_variance = number("signal_variance");
-    window.loosening = number("loosening");
-    window.slew = number("slew");
-    window.curvature = number("curvature");
-    window.curvature_weight = number("curvature_weight");
-    window.signal_uncertainty = number("signal_uncertainty");
-    window.has_least = numbers.find("least_p11") != nullptr;
-    if (window.has_least) {
-      window.least_p11 = number("least_p11");
-      window.least_p22 = number("least_p22");
-      window.least_p33 = number("least_p33");
-    }
-    for (int m = 1; numbers.find("share_" + std::to_string(m)) != nullptr; ++m) {
-      window.shares.push_back(number("share_" + std::to_string(m)));
-    }
-    window.has_starts = numbers.find("assumed_level") != nullptr;
-    if (window.has_starts) {
-      window.start_level = number("assumed_level");
-      window.start_weight = number("start_weight");
-      window.start_signal = design.amplitude_error + design.phase_error;
-      window.start_frequency = design.frequency_error;
-    }
-    const ErrorSet set(window, design, number("noise"), number("start_level"));
-    if (certainly_at_most(zero, set.noise()) && certainly_positive(set.start()) && set.keeps(set.start()) &&
-        window_holds(window, design, cells)) {
-      return set;
-    }
-    objections.push_back("the set \"" + name + "\" is not certainly what its evidence says");
+  const Tree& numbers = item->at("numbers");
+  const auto number = [&](const std::string& key) { return from_hexadecimal(numbers.at(key).text()); };
+  WindowStatement window;
+  window.radius = number("radius");
+  window.frequency_variance = number("frequency_variance");
+  window.signal_variance = number("signal_variance");
+  window.loosening = number("loosening");
+  window.slew = number("slew");
+  window.curvature = number("curvature");
+  window.curvature_weight = number("curvature_weight");
+  window.signal_uncertainty = number("signal_uncertainty");
+  window.has_least = numbers.find("least_p11") != nullptr;
+  if (window.has_least) {
+    window.least_p11 = number("least_p11");
+    window.least_p22 = number("least_p22");
+    window.least_p33 = number("least_p33");
   }
+  for (int m = 1; numbers.find("share_" + std::to_string(m)) != nullptr; ++m) {
+    window.shares.push_back(number("share_" + std::to_string(m)));
+  }
+  window.has_starts = numbers.find("assumed_level") != nullptr;
+  if (window.has_starts) {
+    window.start_level = number("assumed_level");
+    window.start_weight = number("start_weight");
+    window.start_signal = design.amplitude_error + design.phase_error;
+    window.start_frequency = design.frequency_error;
+  }
+  const ErrorSet set(window, design, number("noise"), number("start_level"));
+  if (certainly_at_most(zero, set.noise()) && certainly_positive(set.start()) && set.keeps(set.start()) &&
+      window_holds(window, design, cells)) {
+    return set;
+  }
+  objections.push_back("the set \"" + name + "\" is not certainly what its evidence says");
   return std::nullopt;
 }
 

@@ -196,54 +196,49 @@ class TubeCheck {
 
 std::optional<Tube> verified_tube(const Tree& derivation, const std::string& name, const Design& design,
                                   Objections& objections) {
-  const Tree* evidence = derivation.find("evidence");
-  if (evidence == nullptr) {
+  const Tree* item = find_evidence(derivation, name);
+  if (item == nullptr) {
     return std::nullopt;
   }
-  for (const Tree& item : evidence->elements()) {
-    if (item.at("name").text() != name) {
-      continue;
-    }
-    const auto number = [&](const char* key) { return from_hexadecimal(item.at("numbers").at(key).text()); };
-    const auto matrix = [&](const char* key) {
-      Matrix3 result;
-      for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) {
-          result[i][j] = from_hexadecimal(item.at("matrices").at(key).at(i).at(j).text());
-        }
-      }
-      return result;
-    };
-    const double window = number("window").near();
-    const Tube tube{number("plane_error"),
-                    number("frequency_error"),
-                    number("one_minus_alpha"),
-                    number("curvature"),
-                    number("process_gain"),
-                    number("measurement_gain"),
-                    number("s"),
-                    number("radius"),
-                    matrix("covariance_upper"),
-                    matrix("information_upper"),
-                    static_cast<int>(std::clamp(window, 0.0, 20.0))};
-    bool sensible = certainly_equal(number("window"), Ball(tube.window)) && certainly_positive(tube.plane) &&
-                    certainly_less(tube.plane, one) && certainly_positive(tube.frequency) &&
-                    certainly_positive(tube.one_minus_alpha) && certainly_less(tube.one_minus_alpha, one) &&
-                    certainly_positive(tube.curvature) && certainly_positive(tube.process_gain) &&
-                    certainly_positive(tube.measurement_gain) && certainly_positive(design.q1) &&
-                    certainly_at_most(zero, design.epsilon) && certainly_less(design.epsilon, one);
-    for (const Matrix3* m : {&tube.upper, &tube.information}) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < i; ++j) {
-          sensible = sensible && certainly_equal((*m)[i][j], (*m)[j][i]);
-        }
+  const auto number = [&](const char* key) { return from_hexadecimal(item->at("numbers").at(key).text()); };
+  const auto matrix = [&](const char* key) {
+    Matrix3 result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        result[i][j] = from_hexadecimal(item->at("matrices").at(key).at(i).at(j).text());
       }
     }
-    if (sensible && TubeCheck(tube, design).holds()) {
-      return tube;
+    return result;
+  };
+  const double window = number("window").near();
+  const Tube tube{number("plane_error"),
+                  number("frequency_error"),
+                  number("one_minus_alpha"),
+                  number("curvature"),
+                  number("process_gain"),
+                  number("measurement_gain"),
+                  number("s"),
+                  number("radius"),
+                  matrix("covariance_upper"),
+                  matrix("information_upper"),
+                  static_cast<int>(std::clamp(window, 0.0, 20.0))};
+  bool sensible = certainly_equal(number("window"), Ball(tube.window)) && certainly_positive(tube.plane) &&
+                  certainly_less(tube.plane, one) && certainly_positive(tube.frequency) &&
+                  certainly_positive(tube.one_minus_alpha) && certainly_less(tube.one_minus_alpha, one) &&
+                  certainly_positive(tube.curvature) && certainly_positive(tube.process_gain) &&
+                  certainly_positive(tube.measurement_gain) && certainly_positive(design.q1) &&
+                  certainly_at_most(zero, design.epsilon) && certainly_less(design.epsilon, one);
+  for (const Matrix3* m : {&tube.upper, &tube.information}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        sensible = sensible && certainly_equal((*m)[i][j], (*m)[j][i]);
+      }
     }
-    objections.push_back("the tube \"" + name + "\" is not certainly what its evidence says");
   }
+  if (sensible && TubeCheck(tube, design).holds()) {
+    return tube;
+  }
+  objections.push_back("the tube \"" + name + "\" is not certainly what its evidence says");
   return std::nullopt;
 }
 

@@ -2,15 +2,15 @@
 // does.
 #include <benchmark/benchmark.h>
 
-#include "analysis/observers/kkl_robustness.hpp"
-#include "trackers/kkl_observer.hpp"
+#include "analysis/kkl_observer/kkl_robustness.hpp"
+#include "trackers/kkl_observer/kkl_observer.hpp"
 
 namespace {
 
 using namespace veritrack;
 using rigor::Interval;
 
-observers::KklRange range(double low, double high) {
+kkl_observer::KklRange range(double low, double high) {
   return {rigor::to_interval(Eigen::Vector4d(1.0, 2.0, 3.0, 4.0)), Interval::from_bounds(low, high)};
 }
 
@@ -26,21 +26,21 @@ void step_and_estimate(benchmark::State& state) {
 BENCHMARK(step_and_estimate);
 
 void enclose_ell(benchmark::State& state) {
-  const observers::KklRange over = range(1.0, static_cast<double>(state.range(0)));
+  const kkl_observer::KklRange over = range(1.0, static_cast<double>(state.range(0)));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(observers::enclose_ell(over));
+    benchmark::DoNotOptimize(kkl_observer::enclose_ell(over));
   }
 }
 BENCHMARK(enclose_ell)->Arg(5)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 void bound_errors(benchmark::State& state) {
-  observers::KklRobustnessQuestion question;
+  kkl_observer::KklRobustnessQuestion question;
   question.range = range(2.0, 4.0);
   question.amplitude = Interval(2.0);
   question.ell = Interval(3e-4);
-  question.disturbance = observers::SinusoidalDisturbance{Interval(0.2), Interval(100.0)};
+  question.disturbance = kkl_observer::SinusoidalDisturbance{Interval(0.2), Interval(100.0)};
   for (auto _ : state) {
-    benchmark::DoNotOptimize(observers::bound_kkl_errors(question));
+    benchmark::DoNotOptimize(kkl_observer::bound_kkl_errors(question));
   }
 }
 BENCHMARK(bound_errors)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();

@@ -19,8 +19,8 @@
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/trackers/textbook_ekf.hpp"
-#include "trackers/quadrature_ekf.hpp"
-#include "trackers/quadrature_rotating_frame.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_rotating_frame.hpp"
 #include "trackers/signals/test_signals.hpp"
 
 namespace {

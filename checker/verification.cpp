@@ -3,7 +3,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "checker/kkl/kkl_certificate.hpp"
+#include "checker/kkl_observer/kkl_certificate.hpp"
 #include "checker/quadrature/quadrature_certificate.hpp"
 #include "checker/single_channel/single_channel_certificate.hpp"
 

@@ -6,17 +6,17 @@
 #include <filesystem>
 #include <functional>
 
-#include "certificates/certificate.hpp"
-#include "certificates/coq_document.hpp"
-#include "certificates/design_reader.hpp"
-#include "certificates/markdown.hpp"
-#include "certificates/output_files.hpp"
-#include "certificates/tuning.hpp"
+#include "certificates/design/design_reader.hpp"
+#include "certificates/document/certificate.hpp"
+#include "certificates/document/coq_document.hpp"
+#include "certificates/document/markdown.hpp"
+#include "certificates/document/output_files.hpp"
+#include "certificates/kkl_observer/tuning.hpp"
 #include "reports/certificate_files.hpp"
 #include "reports/check_reports.hpp"
 #include "reports/example_report.hpp"
 #include "reports/limit_report.hpp"
-#include "reports/region_files.hpp"
+#include "reports/quadrature/region_files.hpp"
 
 namespace veritrack::cli {
 
@@ -43,7 +43,7 @@ class ProgressLine {
   ProgressLine& operator=(ProgressLine&&) = delete;
 
   /// Never asks to stop.
-  bool operator()(const contraction::RegionProgress& progress) const {
+  bool operator()(const quadrature::RegionProgress& progress) const {
     if (shown_) {
       fmt::print(stderr, "\rproved {:5.1f} %, refuted {:5.1f} % ({} propagations)",
                  100.0 * progress.proved_share, 100.0 * progress.refuted_share, progress.propagations);

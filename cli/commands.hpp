@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "certificates/region.hpp"
+#include "certificates/quadrature/region.hpp"
 
 namespace veritrack::cli {
 

@@ -1,8 +1,8 @@
 #include "reports/certificate_files.hpp"
 
-#include "certificates/json.hpp"
-#include "certificates/markdown.hpp"
-#include "certificates/output_files.hpp"
+#include "certificates/document/json.hpp"
+#include "certificates/document/markdown.hpp"
+#include "certificates/document/output_files.hpp"
 #include "reports/figures.hpp"
 #include "reports/gnuplot.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "certificates/certificate.hpp"
+#include "certificates/document/certificate.hpp"
 
 namespace veritrack::reports {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "certificates/certificate.hpp"
+#include "certificates/document/certificate.hpp"
 
 namespace veritrack::reports {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certificates/markdown_text.hpp"
-#include "certificates/output_files.hpp"
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/document/output_files.hpp"
 #include "reports/gnuplot.hpp"
 
 namespace veritrack::reports {

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <variant>
 
-#include "certificates/guarantee.hpp"
-#include "certificates/tube.hpp"
+#include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/tube.hpp"
 #include "reports/gnuplot.hpp"
-#include "reports/kkl_figures.hpp"
-#include "reports/region_map.hpp"
-#include "reports/single_channel_figures.hpp"
+#include "reports/kkl_observer/kkl_figures.hpp"
+#include "reports/quadrature/region_map.hpp"
+#include "reports/single_channel/single_channel_figures.hpp"
 
 namespace veritrack::reports {
 

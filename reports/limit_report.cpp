@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "analysis/limits/tone_bounds.hpp"
-#include "certificates/markdown_text.hpp"
-#include "certificates/output_files.hpp"
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/document/output_files.hpp"
 #include "reports/limit_figures.hpp"
 
 namespace veritrack::reports {

@@ -9,10 +9,10 @@
 #include <stdexcept>
 
 #include "analysis/rigor/rounding.hpp"
-#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/signals/phasor.hpp"
 #include "trackers/signals/random.hpp"
-#include "trackers/single_channel_ekf.hpp"
+#include "trackers/single_channel/single_channel_ekf.hpp"
 
 namespace veritrack::limits {
 

@@ -13,7 +13,7 @@
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/taylor_model.hpp"
-#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/scalar_functions.hpp"
 
 namespace veritrack::single_channel {

@@ -6,8 +6,8 @@
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/theorems/comparison.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
-#include "trackers/single_channel_ekf.hpp"
-#include "trackers/single_channel_rotating_frame.hpp"
+#include "trackers/single_channel/single_channel_ekf.hpp"
+#include "trackers/single_channel/single_channel_rotating_frame.hpp"
 
 namespace veritrack::single_channel {
 

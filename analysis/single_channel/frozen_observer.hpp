@@ -13,7 +13,7 @@
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/theorems/derivation.hpp"
-#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 
 namespace veritrack::single_channel {
 

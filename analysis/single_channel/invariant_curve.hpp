@@ -32,7 +32,7 @@
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/verdict.hpp"
-#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 
 namespace veritrack::single_channel {
 

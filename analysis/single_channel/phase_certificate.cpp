@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "analysis/contraction/controllability.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/sets/controllability.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 
 namespace veritrack::single_channel {
@@ -37,7 +37,7 @@ Condition leak(const Interval& epsilon) {
 }
 
 Condition controllable_amplitude(const trackers::QuadratureEkfDesign<Interval>& design) {
-  const contraction::UncontrollableMode mode = contraction::find_uncontrollable_mode(design);
+  const sets::UncontrollableMode mode = sets::find_uncontrollable_mode(design);
   const bool driven = certainly_positive(design.q1);
   return {"controllable-amplitude",
           "q_1 > 0",
@@ -69,11 +69,11 @@ Condition invariant_set(const PhaseQuestion& question, const PhaseCertificate& c
   }
   const auto& noisy = certificate.noise_set;
   const auto& slewing = certificate.slew_set;
-  condition.reason = "no set could be certified for this noise, slew and band: " +
-                     contraction::beyond_the_limits(
-                         question.tracker, noisy ? std::optional(noisy->noise.lower()) : std::nullopt,
-                         slewing ? std::optional(slewing->slew.lower()) : std::nullopt) +
-                     ".";
+  condition.reason =
+      "no set could be certified for this noise, slew and band: " +
+      sets::beyond_the_limits(question.tracker, noisy ? std::optional(noisy->noise.lower()) : std::nullopt,
+                              slewing ? std::optional(slewing->slew.lower()) : std::nullopt) +
+      ".";
   return condition;
 }
 
@@ -227,7 +227,7 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
       "signal amplitude constant.",
       "The metric is the inverse of the tracker's own covariance, in which errors shrink over a window of "
       "samples. Amplitude error and noise are relative to the true amplitude."};
-  const bool sensible = contraction::is_well_posed(question.tracker) && is_finite(question.band);
+  const bool sensible = sets::is_well_posed(question.tracker) && is_finite(question.band);
   derivation.conditions = {leak(question.tracker.design.epsilon),
                            controllable_amplitude(question.tracker.design)};
   const bool covered = std::all_of(derivation.conditions.begin(), derivation.conditions.end(),

@@ -10,7 +10,7 @@
 namespace veritrack::single_channel {
 
 struct PhaseCertificate {
-  /// id "contraction"; the quantities of contraction::ContractionCertificate that are proved, and
+  /// id "contraction"; the quantities of quadrature::ContractionCertificate that are proved, and
   /// bias_frequency; conditions leak, controllable-amplitude, invariant-set, start-in-set.
   theorems::Derivation derivation;
   std::optional<PhaseSet> set;        ///< the largest start error under the assumed noise and slew

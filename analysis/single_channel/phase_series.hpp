@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "trackers/scalar_functions.hpp"
-#include "trackers/single_channel_rotating_frame.hpp"
+#include "trackers/single_channel/single_channel_rotating_frame.hpp"
 
 namespace veritrack::single_channel {
 

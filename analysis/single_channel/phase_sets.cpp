@@ -66,7 +66,7 @@ Interval ultimate_frequency_error(const PhaseQuestion& question, const PhaseSet&
 
 PhaseSearch::PhaseSearch(const PhaseQuestion& question) : question_(question) {
   const rigor::UpwardRounding upward;
-  const contraction::ContractionQuestion& tracker = question.tracker;
+  const sets::ContractionQuestion& tracker = question.tracker;
   const Interval signal = tracker.initial_amplitude_error + tracker.initial_phase_error;
   box_ = {signal.upper(), tracker.initial_frequency_error.upper()};
   request_ = {{midpoint(tracker.design.q1), midpoint(tracker.design.q2), midpoint(tracker.design.r), 0.0},
@@ -123,7 +123,7 @@ std::vector<WindowClaim> PhaseSearch::best_first(const std::vector<WindowClaim>&
 
 std::optional<PhaseSet> PhaseSearch::largest_set() const {
   const rigor::UpwardRounding upward;
-  const contraction::ContractionQuestion& tracker = question_.tracker;
+  const sets::ContractionQuestion& tracker = question_.tracker;
   const auto start_of = [&](const WindowClaim& claim) {
     return largest_start({tracker.design, claim, tracker.noise, tracker.slew}, claim.assumption.radius);
   };
@@ -137,7 +137,7 @@ std::optional<PhaseSet> PhaseSearch::largest_set() const {
 
 std::optional<PhaseSet> PhaseSearch::least_bound() const {
   const rigor::UpwardRounding upward;
-  const contraction::ContractionQuestion& tracker = question_.tracker;
+  const sets::ContractionQuestion& tracker = question_.tracker;
   // Sets the level that holds the assumed starts, give or take what the grid does not see.
   const auto within = [&](PhaseSet& set, double margin) {
     const StartProposal start = propose_start(request_, set.claim, box_);

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/contraction/contraction_question.hpp"
+#include "analysis/sets/contraction_question.hpp"
 #include "analysis/single_channel/window_errors.hpp"
 #include "analysis/single_channel/window_proposal.hpp"
 
@@ -12,8 +12,8 @@ namespace veritrack::single_channel {
 
 /// What is asked, at amplitude 1.
 struct PhaseQuestion {
-  contraction::ContractionQuestion tracker;  ///< design, noise, slew and start
-  rigor::Interval band;                      ///< true frequencies, rad/sample
+  sets::ContractionQuestion tracker;  ///< design, noise, slew and start
+  rigor::Interval band;               ///< true frequencies, rad/sample
 };
 
 /// A verified window with the slew that it was verified for, and the noise that goes with it.

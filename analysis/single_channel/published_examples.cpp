@@ -10,7 +10,7 @@
 #include "analysis/rigor/rounding.hpp"
 #include "trackers/signals/phasor.hpp"
 #include "trackers/signals/random.hpp"
-#include "trackers/single_channel_ekf.hpp"
+#include "trackers/single_channel/single_channel_ekf.hpp"
 
 namespace veritrack::single_channel {
 

@@ -11,9 +11,9 @@
 #include <cstddef>
 #include <limits>
 
-#include "analysis/contraction/small_definiteness.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/matrix.hpp"
+#include "analysis/rigor/small_definiteness.hpp"
 
 namespace veritrack::single_channel {
 
@@ -75,7 +75,7 @@ bool certainly_positive(const Bound& a) {
   }
   const std::array<std::array<const Model*, 3>, 3> entries = {
       {{&a.p11, &a.p12, &a.p13}, {&a.p12, &a.p22, &a.p23}, {&a.p13, &a.p23, &a.p33}}};
-  contraction::LowerTriangle<3> changed;
+  rigor::LowerTriangle<3> changed;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column <= row; ++column) {
       Model sum(0.0);
@@ -90,7 +90,7 @@ bool certainly_positive(const Bound& a) {
       changed[row][column] = sum.range();
     }
   }
-  return contraction::certainly_positive_definite(changed);
+  return rigor::certainly_positive_definite(changed);
 }
 
 /// The two variances of the assumption hold again.

@@ -7,7 +7,7 @@
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/matrix.hpp"
-#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 
 namespace veritrack::theorems {
 

@@ -4,7 +4,7 @@
 
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/linear_solve.hpp"
-#include "trackers/quadrature_polar_frame.hpp"
+#include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 namespace veritrack::theorems {
 

@@ -3,7 +3,7 @@
 #include "analysis/theorems/covariance_range.hpp"
 #include "analysis/theorems/signal_model.hpp"
 #include "analysis/theorems/theorem_2_9_gaps_parts.hpp"
-#include "trackers/quadrature_polar_frame.hpp"
+#include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 namespace veritrack::theorems::gaps {
 

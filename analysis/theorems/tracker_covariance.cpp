@@ -2,7 +2,7 @@
 
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/theorems/riccati_bounds.hpp"
-#include "trackers/quadrature_polar_frame.hpp"
+#include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 namespace veritrack::theorems {
 

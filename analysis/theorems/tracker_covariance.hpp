@@ -13,7 +13,7 @@
 
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/rigor/verdict.hpp"
-#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 
 namespace veritrack::theorems {
 

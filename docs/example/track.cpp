@@ -3,7 +3,7 @@
 //     g++ -std=c++20 -O2 -I. -I/usr/include/eigen3 docs/example/track.cpp
 #include <cstdio>
 
-#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/signals/test_signals.hpp"
 
 int main() {

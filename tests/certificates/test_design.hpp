@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "certificates/certificate.hpp"
-#include "certificates/design_reader.hpp"
+#include "certificates/design/design_reader.hpp"
+#include "certificates/document/certificate.hpp"
 
 namespace veritrack::test {
 

@@ -8,7 +8,7 @@ import xml.etree.ElementTree
 import jsonschema
 from support import DESIGN, PROGRAM, ROOT, CliTestCase
 
-SCHEMA = json.loads((ROOT / "certificates/certificate.schema.json").read_text())
+SCHEMA = json.loads((ROOT / "certificates/document/certificate.schema.json").read_text())
 DESIGNS = sorted((ROOT / "designs").glob("*.toml"))
 QUANTITIES = """R_x epsilon_r rho_1 rho_2 rho_3 rho_4 rho_5 delta_1 delta_2 a_1 a_2 b_1 b_2 p q s gamma beta
     one_minus_alpha epsilon_z delta_p delta_k delta_k2 zeta_z eta zeta lhs_2_43 lhs_2_44 initial_error_bound""".split()

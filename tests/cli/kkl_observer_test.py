@@ -6,7 +6,7 @@ import unittest
 import jsonschema
 from support import ROOT, CliTestCase
 
-SCHEMA = json.loads((ROOT / "certificates/certificate.schema.json").read_text())
+SCHEMA = json.loads((ROOT / "certificates/document/certificate.schema.json").read_text())
 
 KKL = """\
 name = "an observer"

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <variant>
 
-#include "certificates/design_reader.hpp"
+#include "certificates/design/design_reader.hpp"
 
 namespace {
 

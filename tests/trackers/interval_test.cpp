@@ -17,8 +17,8 @@
 #include "tests/support/random.hpp"
 #include "tests/trackers/random_tracker.hpp"
 #include "tests/trackers/textbook_ekf.hpp"
-#include "trackers/quadrature_ekf.hpp"
-#include "trackers/quadrature_rotating_frame.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_rotating_frame.hpp"
 
 namespace veritrack::trackers {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/support/random.hpp"
-#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 
 namespace veritrack::test {
 

@@ -9,7 +9,7 @@
 
 #include "tests/analysis/theorems/theorem_2_9_designs.hpp"
 #include "tests/support/random.hpp"
-#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 
 namespace {
 

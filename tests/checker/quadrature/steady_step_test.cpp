@@ -7,7 +7,7 @@
 
 #include "checker/quadrature/steady_state.hpp"
 #include "tests/support/random.hpp"
-#include "trackers/quadrature_polar_frame.hpp"
+#include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/support/random.hpp"
-#include "trackers/quadrature_polar_frame.hpp"
+#include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 namespace {
 

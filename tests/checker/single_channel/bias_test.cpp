@@ -13,7 +13,7 @@
 #include "checker/single_channel/invariant_curve.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/support/random.hpp"
-#include "trackers/single_channel_rotating_frame.hpp"
+#include "trackers/single_channel/single_channel_rotating_frame.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trackers/single_channel_ekf.hpp"
+#include "trackers/single_channel/single_channel_ekf.hpp"
 
 namespace {
 

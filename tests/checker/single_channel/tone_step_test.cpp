@@ -11,7 +11,7 @@
 #include "checker/numbers/series.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trackers/random_tracker.hpp"
-#include "trackers/single_channel_rotating_frame.hpp"
+#include "trackers/single_channel/single_channel_rotating_frame.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "tests/support/random.hpp"
-#include "trackers/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 
 namespace veritrack::trackers {
 namespace {

@@ -1,0 +1,305 @@
+#include "analysis/kkl_observer/kkl_claims.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "analysis/kkl_observer/kkl_excitation_ratio.hpp"
+#include "analysis/kkl_observer/kkl_identities.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/eigenvalues.hpp"
+#include "trackers/kkl_observer/kkl_observer.hpp"
+
+namespace veritrack::kkl_observer {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+using theorems::Condition;
+
+Condition condition(std::string id, std::string statement, Verdict verdict, std::string reason,
+                    const Interval& lhs = Interval(), const Interval& rhs = Interval()) {
+  return {std::move(id), std::move(statement), verdict, lhs, rhs, std::move(reason)};
+}
+
+theorems::Quantity quantity(std::string name, std::string symbol, std::string formula, std::string source,
+                            const Interval& value) {
+  theorems::Quantity result{
+      std::move(name), std::move(symbol), std::move(formula), std::move(source), value, std::nullopt, true};
+  if (rigor::is_empty(value)) {
+    result.not_applicable = "It could not be bounded.";
+  }
+  return result;
+}
+
+std::string decimal(double value) {
+  return rigor::to_decimal(value, 4, rigor::Direction::down);
+}
+
+/// The claims that hold, or fail, for every design.
+std::vector<Condition> claims_of_every_design() {
+  std::vector<Condition> claims;
+  claims.push_back(condition(
+      "invariance", "\\tfrac{\\partial T}{\\partial x} f = F T + G h", transform_is_invariant(),
+      "an identity in all rates and states with x1' = -x2, x2' = x3 x1, the signs of the paper's proof: its "
+      "residual is the zero polynomial, by exact evaluation on a grid."));
+  claims.push_back(condition(
+      "phase-formula", "\\Phi = \\tan^{-1}(\\sqrt{x_{30}}\\, x_{10} / x_{20})",
+      transform_is_invariant_with_other_sign(),
+      "Witness x(0) = (1, 1, 1): the formula gives y(t) = sqrt(2) sin(t + pi/4), which rises at 0, while T "
+      "of (6) solves (3) only with x1' = -x2, which falls. With (6) the phase is atan2(w x1, -x2)."));
+  claims.push_back(
+      condition("determinant", "\\det(L^T L) = |M\\xi|^2", determinant_is_excitation(),
+                "an identity in all rates and all xi, by exact evaluation on a grid of 6561 points."));
+  claims.push_back(condition("null-space", "M\\lambda = 0,\\ M 1 = 0", null_space_holds_lambda_and_one(),
+                             "an identity in all rates, by exact evaluation on a grid; with distinct rates "
+                             "M has rank 2, so that this is all of its null space."));
+  // L has a column for each component of the state.
+  const Interval columns(static_cast<int>(trackers::OscillatorState<double>::RowsAtCompileTime));
+  const Interval printed(4.0);
+  claims.push_back(condition("dimensions",
+                             "\\Phi = L^T L + \\mu I,\\ I \\in R^{4 \\times 4}: \\dim I \\le \\dim L^T L",
+                             rigor::decide_less_equal(printed, columns),
+                             "Witness: L has three columns, so that L'L is 3 x 3 and I must be, where 4 x 4 "
+                             "is printed; for the same reason gamma_0, \"a real number\" in print, must have "
+                             "three components. Read so, (8) is well formed.",
+                             printed, columns));
+  return claims;
+}
+
+/// Section V: lambda = (1, 2, 3, 4), w = 3, and an ell of 5 "to satisfy (10)".
+Condition section_v_claim() {
+  const rigor::IntervalVector<4> lambda = rigor::to_interval(Eigen::Vector4d(1.0, 2.0, 3.0, 4.0));
+  const Interval largest = Interval(2.0) * ExcitationRatio<Interval>(lambda).at(Interval(3.0));
+  const Interval printed(5.0);
+  const Verdict verdict = rigor::decide_less_equal(printed, largest);
+  return condition("section-v-ell",
+                   "5 \\le 2 \\inf |MT|^2 / |T|^2 \\text{ at } \\omega = 3,\\ \\lambda = (1, 2, 3, 4)",
+                   verdict,
+                   "the largest ell for which mu vanishes along the signal of section V is " +
+                       rigor::to_decimal(largest.upper(), 4, rigor::Direction::up) +
+                       " (with the factor 2 of (9)), in every range that holds 3 rad/s.",
+                   printed, largest);
+}
+
+/// Distinct rates, and with them the Vandermonde matrix's smallest singular value.
+void add_injectivity(const KklClaimsQuestion& question, theorems::Derivation& derivation) {
+  const auto size = static_cast<Eigen::Index>(question.lambda.size());
+  rigor::IntervalMatrix<Eigen::Dynamic, 4> vandermonde(size, 4);
+  Interval largest_rate = question.lambda.front();
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Interval& rate = question.lambda[static_cast<std::size_t>(i)];
+    largest_rate = max(largest_rate, rate);
+    for (int j = 0; j < 4; ++j) {
+      vandermonde(i, j) = pow(rate, 3 - j);
+    }
+  }
+  const rigor::IntervalMatrix<4> gram = vandermonde.transpose() * vandermonde;
+  const auto eigenvalues = rigor::symmetric_eigenvalues(gram);
+  Interval smallest;
+  if (eigenvalues) {
+    smallest = (*eigenvalues)(0);
+    for (int i = 1; i < 4; ++i) {
+      smallest = min(smallest, (*eigenvalues)(i));
+    }
+  }
+  const Verdict verdict = rigor::decide_less(Interval(0.0), smallest);
+  const Interval root = sqrt(smallest);
+  const Interval s = square(Interval(question.frequency.upper()));
+  const Interval constant = sqrt(Interval(2.0) * square(Interval(1.0) + s) + Interval(2.0)) *
+                            square(square(largest_rate) + s) / root;
+  derivation.quantities.push_back(
+      quantity("vandermonde_singular_value", "\\sigma_{min}(V)", "", "paper, section IV", root));
+  derivation.quantities.push_back(
+      quantity("injectivity_constant", "d",
+               "\\sqrt{2(1 + \\bar x_3)^2 + 2}\\,(\\max \\lambda^2 + \\bar x_3)^2 / \\sigma_{min}(V)",
+               "docs/kkl-observer.md", constant));
+  derivation.conditions.push_back(condition(
+      "injectivity", "|\\Delta x_1| + |\\Delta x_2| + c |\\Delta x_3| \\le d\\, |\\Delta T|", verdict,
+      verdict == Verdict::proved
+          ? "the Vandermonde matrix of the rates has full rank, with a verified smallest singular value; d "
+            "carries a factor that the paper's last step leaves out (from the sum of four terms to their "
+            "norm)."
+          : "the Vandermonde matrix of the rates is too near to a singular one for its rank to be verified.",
+      smallest));
+}
+
+/// gamma for four filters.
+void add_inverse(const KklClaimsQuestion& question, theorems::Derivation& derivation) {
+  KklRange range;
+  for (int i = 0; i < 4; ++i) {
+    range.lambda(i) = question.lambda[static_cast<std::size_t>(i)];
+  }
+  range.frequency = question.frequency;
+  const Interval infimum = enclose_ell(range).value();
+  const Interval limit = Interval(2.0) * infimum;
+  Condition vanishes = condition("mu-vanishes", "\\ell \\le 2 \\inf_{O_r} |MT|^2 / |T|^2", Verdict::undecided,
+                                 "", question.ell, limit);
+  Condition inverse =
+      condition("left-inverse", "\\gamma(T(x)) = x \\text{ on } O_r", Verdict::undecided, "", Interval());
+  const bool small_enough =
+      rigor::is_finite(limit) && rigor::certainly_less_equal(question.ell, Interval(limit.lower()));
+  if (small_enough && rigor::certainly_positive(infimum)) {
+    vanishes.verdict = inverse.verdict = Verdict::proved;
+    vanishes.reason = "the ell in use is at most twice the verified infimum; the factor is that of (9).";
+    inverse.reason =
+        "mu vanishes on T(O_r), where det(L'L) = |M xi|^2 is positive: (15) has the solution x alone.";
+  } else if (const auto witness = find_inverse_witness(range, question.ell)) {
+    const rigor::IntervalVector<4> xi = trackers::kkl_transform<Interval, 4>(witness->state(), range.lambda);
+    const trackers::OscillatorState<Interval> found =
+        trackers::kkl_inverse<Interval, 4>(xi, {range.lambda, question.ell});
+    vanishes.verdict = inverse.verdict = Verdict::refuted;
+    const std::string at = "Witness (x1, x2) = (" + decimal(witness->x1) + ", " + decimal(witness->x2) +
+                           ") at " + decimal(witness->frequency) + " rad/s";
+    vanishes.reason = at + ": mu(T(x)) is certainly positive.";
+    inverse.reason = at + ": gamma(T(x)) has x3 " + rigor::to_decimal(found(2), 4) +
+                     "; where mu > 0, (L'L + mu I)(gamma - x) = -mu x is not zero.";
+  } else {
+    vanishes.reason = inverse.reason = "neither could be shown for the ell in use.";
+  }
+  derivation.conditions.push_back(vanishes);
+  derivation.conditions.push_back(inverse);
+
+  const Verdict positive = rigor::decide_less(Interval(0.0), question.ell);
+  derivation.conditions.push_back(
+      condition("positive-definite", "\\Phi(\\xi) > 0 \\text{ for all } \\xi \\ne 0",
+                positive == Verdict::proved ? Verdict::proved : Verdict::undecided,
+                positive == Verdict::proved
+                    ? "where M xi is not zero L has full rank; where it is, mu = ell |xi|^2 is positive."
+                    : "the ell in use is not certainly positive.",
+                question.ell));
+
+  // |T_i| <= A / sqrt(lambda_i^2 + w^2).
+  Interval largest_gain(0.0);
+  for (int i = 0; i < 4; ++i) {
+    const Interval gain = Interval(1.0) / sqrt(square(range.lambda(i)) + square(range.frequency));
+    largest_gain += square(gain);
+  }
+  const Interval upper = question.amplitude * sqrt(largest_gain);
+  // Two filters give (x1, x2) back, which bounds |xi| from below.
+  const Interval s = square(range.frequency);
+  const Interval first = square(range.lambda(0)) + s;
+  const Interval last = square(range.lambda(3)) + s;
+  const Interval apart = abs(range.lambda(0) - range.lambda(3));
+  // x1 = (d1 xi1 - d4 xi4) / (l1 - l4), x2 = (l1 d4 xi4 - l4 d1 xi1) / (l1 - l4), A^2 = x1^2 + x2^2 / s.
+  const Interval inverse_norm = sqrt((square(first) + square(last)) +
+                                     (square(range.lambda(0) * last) + square(range.lambda(3) * first)) / s) /
+                                apart;
+  const Interval lower = question.amplitude / inverse_norm;
+  const Interval modulus =
+      continuity_modulus(range.lambda, question.ell, Interval(lower.lower()), Interval(upper.upper()));
+  derivation.quantities.push_back(quantity("continuity_modulus", "K", "", "docs/kkl-observer.md", modulus));
+  derivation.conditions.push_back(condition(
+      "continuity",
+      "|\\gamma(\\xi) - \\gamma(\\xi')| \\le \\tfrac{\\pi}{2} K |\\xi - \\xi'| \\text{ on an annulus that "
+      "holds } T(\\mathcal R)",
+      rigor::is_finite(modulus) ? Verdict::proved : Verdict::undecided,
+      rigor::is_finite(modulus) ? "on the annulus " + decimal(lower.lower()) + " <= |xi| <= " +
+                                      rigor::to_decimal(upper.upper(), 4, rigor::Direction::up) +
+                                      ", which holds T of the assumed range; K bounds the slope."
+                                : "no finite bound on the slope was found.",
+      modulus));
+}
+
+}  // namespace
+
+std::optional<SignalWitness> find_inverse_witness(const KklRange& range, const Interval& ell) {
+  const trackers::KklObserverDesign<Interval, 4> design{range.lambda, ell};
+  constexpr int kPhases = 180;
+  for (const double frequency : {range.frequency.upper(), range.frequency.lower()}) {
+    for (int k = 0; k < kPhases; ++k) {
+      SignalWitness witness{0.0, 0.0, frequency};
+      {
+        const rigor::NearestRounding nearest;
+        const auto x = trackers::oscillator_state(1.0, std::numbers::pi * k / kPhases, frequency);
+        witness.x1 = x(0);
+        witness.x2 = x(1);
+      }
+      const rigor::IntervalVector<4> xi = trackers::kkl_transform<Interval, 4>(witness.state(), range.lambda);
+      if (certainly_positive(trackers::kkl_regularization<Interval, 4>(xi, design))) {
+        return witness;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+SignalWitness propose_least_excited(const Eigen::Vector4d& lambda, double frequency) {
+  const rigor::NearestRounding nearest;
+  // T is linear in (x1, x2): here by its columns for (1, 0) and (0, frequency).
+  Eigen::Matrix<double, 4, 2> columns;
+  for (int j = 0; j < 2; ++j) {
+    const trackers::OscillatorState<double> x(1.0 - j, j * frequency, frequency * frequency);
+    columns.col(j) = trackers::kkl_transform<double, 4>(x, lambda);
+  }
+  const auto excitation = [&](double first, double second) {
+    return trackers::kkl_excitation<double, 4>(columns * Eigen::Vector2d(first, second), lambda);
+  };
+  Eigen::Matrix2d seen;
+  seen << excitation(1.0, 0.0), 0.0, 0.0, excitation(0.0, 1.0);
+  seen(0, 1) = seen(1, 0) = 0.25 * (excitation(1.0, 1.0) - excitation(1.0, -1.0));
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> pencil(seen, columns.transpose() * columns);
+  const Eigen::Vector2d least = pencil.eigenvectors().col(0);
+  return {least(0), least(1) * frequency, frequency};
+}
+
+Interval continuity_modulus(const rigor::IntervalVector<4>& lambda, const Interval& ell,
+                            const Interval& lower, const Interval& upper) {
+  Interval squares(0.0);
+  Interval largest_square(0.0);
+  Interval gram(0.0);
+  for (int i = 0; i < 4; ++i) {
+    squares += square(lambda(i));
+    largest_square = max(largest_square, square(lambda(i)));
+    for (int j = i + 1; j < 4; ++j) {
+      gram += square(lambda(i) - lambda(j));
+    }
+  }
+  const Interval matrix_norm = Interval(2.0) * gram;  // of M, squared: each difference stands in it twice
+  const Interval four(4.0);
+  const Interval two(2.0);
+  const Interval one(1.0);
+  const Interval determinant = min(gram, Interval(0.5)) * ell * square(lower);
+  const Interval trace = squares + four + square(upper) * (one + Interval(3.0) * ell);
+  const Interval smallest = determinant / square(trace / two);
+  const Interval l_norm = sqrt(squares + four + square(upper));
+  const Interval driven = largest_square * upper;  // |F^2 xi|
+  const Interval gamma = l_norm * driven / smallest;
+  const Interval right_slope = driven + l_norm * largest_square;
+  const Interval phi_slope = two * l_norm + two * ell * upper + four * matrix_norm * upper;
+  const Interval modulus = (right_slope + phi_slope * gamma) / smallest;
+  return rigor::is_finite(modulus) ? Interval(modulus.upper()) : Interval();
+}
+
+theorems::Derivation derive_kkl_claims(const KklClaimsQuestion& question) {
+  constexpr std::size_t kFilters = 4;
+  if (question.lambda.size() < kFilters) {
+    throw std::invalid_argument("a KKL observer needs at least four filters");
+  }
+  const rigor::UpwardRounding upward;
+  theorems::Derivation derivation;
+  derivation.id = "kkl-paper";
+  derivation.title = "The claims of the paper";
+  derivation.conditions = claims_of_every_design();
+  derivation.conditions.push_back(section_v_claim());
+  add_injectivity(question, derivation);
+  if (question.lambda.size() == kFilters) {
+    add_inverse(question, derivation);
+  } else {
+    derivation.notes.emplace_back(
+        "The paper gives its inverse for four filters: of a design with more, "
+        "injectivity alone is certified.");
+  }
+  // A REFUTED claim is a slip of the paper's, not a fault of the design; together they have no verdict.
+  derivation.verdict = Verdict::undecided;
+  derivation.notes.emplace_back(
+      "A claim that is REFUTED here is the paper's as printed. The verdict on all of "
+      "them together is none on the design.");
+  return derivation;
+}
+
+}  // namespace veritrack::kkl_observer

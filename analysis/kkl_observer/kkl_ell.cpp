@@ -1,0 +1,214 @@
+#include "analysis/kkl_observer/kkl_ell.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/kkl_observer/kkl_excitation_ratio.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/search/constrained.hpp"
+#include "analysis/search/maximize.hpp"
+#include "trackers/kkl_observer/kkl_observer.hpp"
+
+namespace veritrack::kkl_observer {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+constexpr double kRelativeWidth = 1e-9;
+
+/// The range in double, for the solvers.
+struct Midpoints {
+  Eigen::Vector4d lambda;
+  double frequency_low, frequency_high;
+};
+
+Midpoints midpoints(const KklRange& range) {
+  return {rigor::midpoint(range.lambda), range.frequency.lower(), range.frequency.upper()};
+}
+
+/// |M T(x)|^2 / |T(x)|^2 at a state that a solver proposes: the value of (10) at that state scaled to |T|
+/// = 1.
+double ratio_at(const Eigen::Vector3d& x, const Eigen::Vector4d& lambda) {
+  const Eigen::Vector4d transformed = trackers::kkl_transform<double, 4>(x, lambda);
+  return trackers::kkl_excitation<double, 4>(transformed, lambda) / transformed.squaredNorm();
+}
+
+/// Problem (10) as the paper states it: minimize |M T(x)|^2 subject to |T(x)|^2 = 1 and x3 in its range.
+double solve_as_stated(const Midpoints& at) {
+  using Dual = rigor::Dual<double, 3>;
+  using DualVector = Eigen::Matrix<Dual, 4, 1>;
+  const DualVector lambda = at.lambda.unaryExpr([](double rate) { return Dual(rate); });
+  const auto differentiated = [&lambda](const Eigen::VectorXd& x, auto function) {
+    const Dual value =
+        function(trackers::kkl_transform<Dual, 4>(rigor::variables(Eigen::Vector3d(x)), lambda));
+    search::Differentiated result{Eigen::VectorXd(1), Eigen::MatrixXd(1, 3)};
+    result.value(0) = value.value();
+    for (int i = 0; i < 3; ++i) {
+      result.jacobian(0, i) = value.derivative(i);
+    }
+    return result;
+  };
+  search::ConstrainedProblem problem;
+  constexpr double kUnbounded = 1e20;  // what Ipopt takes for infinite
+  problem.lower = Eigen::Vector3d(-kUnbounded, -kUnbounded, at.frequency_low * at.frequency_low);
+  problem.upper = Eigen::Vector3d(kUnbounded, kUnbounded, at.frequency_high * at.frequency_high);
+  double scale = 1.0;
+  problem.objective = [&](const Eigen::VectorXd& x) {
+    return differentiated(x, [&](const DualVector& transformed) {
+      return trackers::kkl_excitation<Dual, 4>(transformed, lambda) / scale;
+    });
+  };
+  problem.constraints = [&](const Eigen::VectorXd& x) {
+    return differentiated(x, [](const DualVector& transformed) {
+      Dual sum(0.0);
+      for (int i = 0; i < 4; ++i) {
+        sum += square(transformed(i));
+      }
+      return sum;
+    });
+  };
+  problem.constraints_lower = Eigen::VectorXd::Constant(1, 1.0);
+  problem.constraints_upper = Eigen::VectorXd::Constant(1, 1.0);
+  // A local method: from the middle of the range and from near its ends.
+  double best = std::numeric_limits<double>::infinity();
+  for (const double place : {0.5, 0.02, 0.98}) {
+    const double frequency = at.frequency_low * std::pow(at.frequency_high / at.frequency_low, place);
+    Eigen::Vector3d start(1.0, frequency, frequency * frequency);
+    start.head<2>() /= trackers::kkl_transform<double, 4>(start, at.lambda).norm();
+    problem.start = start;
+    scale = ratio_at(start, at.lambda);  // the solver's tolerances are absolute
+    const double value = ratio_at(search::minimize_constrained(problem).point, at.lambda);
+    best = value < best ? value : best;
+  }
+  return best;
+}
+
+/// The reduced problem, one variable, by NLopt.
+double solve_reduced(const Midpoints& at, search::SearchMethod method) {
+  const ExcitationRatio<double> ratio(at.lambda);
+  search::SearchSpace space;
+  space.lower = Eigen::VectorXd::Constant(1, std::log(at.frequency_low));
+  space.upper = Eigen::VectorXd::Constant(1, std::log(at.frequency_high));
+  space.start = 0.5 * (space.lower + space.upper);
+  space.step = (space.upper - space.lower).cwiseMax(1e-12) / 4.0;
+  space.evaluations = 500;
+  space.method = method;
+  space.tolerance = 1e-14;
+  const auto frequency_at = [&](const Eigen::VectorXd& x) {
+    return std::min(std::max(std::exp(x(0)), at.frequency_low), at.frequency_high);
+  };
+  const search::BestPoint best =
+      search::maximize([&](const Eigen::VectorXd& x) { return -ratio.at(frequency_at(x)); }, space);
+  return ratio.at(frequency_at(best.point));
+}
+
+theorems::Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value,
+                            bool proved) {
+  theorems::Quantity result{
+      std::move(name), std::move(symbol), std::move(formula), "paper, (10)", value, std::nullopt, proved};
+  if (rigor::is_empty(value)) {
+    result.not_applicable = proved ? "It could not be enclosed." : "The solver found no number.";
+  }
+  return result;
+}
+
+/// Whether a solver's value is the minimum, as far as the enclosure can tell.
+theorems::Condition solver_condition(const std::string& id, const std::string& solver, double value,
+                                     const Interval& enclosure) {
+  theorems::Condition condition;
+  condition.id = id;
+  condition.statement = "\\ell_{" + solver + "} \\in [\\ell_{lo}, \\ell_{hi}]";
+  condition.lhs = Interval(value);
+  condition.rhs = enclosure;
+  const Interval point(value);
+  if (rigor::is_subset(point, enclosure)) {
+    condition.verdict = Verdict::proved;
+    condition.reason = solver + "'s value lies in the verified enclosure.";
+  } else if (rigor::is_finite(enclosure)) {
+    condition.verdict = Verdict::refuted;
+    condition.reason = solver + " FAILED: its value " + rigor::to_decimal(value, 12, rigor::Direction::down) +
+                       " is not the minimum, which the verified enclosure holds.";
+  } else {
+    condition.reason = "without a verified enclosure nothing can be said of " + solver + "'s value.";
+  }
+  return condition;
+}
+
+}  // namespace
+
+search::VerifiedMinimum<1> enclose_ell(const KklRange& range) {
+  const rigor::UpwardRounding upward;
+  const ExcitationRatio<Interval> ratio(range.lambda);
+  rigor::IntervalVector<1> box;
+  box(0) = range.frequency;
+  search::BranchAndBoundSettings<1> settings;
+  settings.relative_tolerance = 0.5 * kRelativeWidth;
+  settings.cells = 20'000;
+  return search::minimize_globally<1>([&ratio](const auto& frequency) { return ratio.at(frequency(0)); }, box,
+                                      settings);
+}
+
+theorems::Derivation derive_kkl_ell(const KklRange& range) {
+  const search::VerifiedMinimum<1> minimum = enclose_ell(range);
+  std::array<double, 3> proposals{};
+  {
+    const rigor::NearestRounding nearest;
+    const Midpoints at = midpoints(range);
+    proposals = {solve_as_stated(at), solve_reduced(at, search::SearchMethod::subplex),
+                 solve_reduced(at, search::SearchMethod::direct)};
+  }
+  const rigor::UpwardRounding upward;
+  // Wider than the enclosure by what values computed in double may differ: they are to be held against it.
+  constexpr double kComparison = 4e-10;
+  const Interval ell = minimum.value() * (Interval(1.0) + rigor::symmetric(kComparison));
+  theorems::Derivation derivation;
+  derivation.id = "kkl-ell";
+  derivation.title = "The constant of (10): how far T(x) stays from the singular set of the inverse";
+  const std::string reduced = "\\min_\\omega \\lambda_{min}(A^T M^T M A, A^T A)";
+  derivation.quantities = {
+      quantity("ell", "\\ell", "\\inf_{|T(x)| = 1} |M T(x)|^2", ell, true),
+      quantity("ell_ipopt", "\\ell_{Ipopt}", "\\inf_{|T(x)| = 1} |M T(x)|^2", Interval(proposals[0]), false),
+      quantity("ell_nlopt", "\\ell_{NLopt}", reduced, Interval(proposals[1]), false),
+      quantity("ell_nlopt_global", "\\ell_{DIRECT}", reduced, Interval(proposals[2]), false),
+      quantity("argmin_omega", "\\omega_\\ell", "\\arg" + reduced, minimum.where(0), true)};
+
+  theorems::Condition tight;
+  tight.id = "enclosed";
+  tight.statement = "(\\ell_{hi} - \\ell_{lo}) / \\ell_{lo} \\le 10^{-9}";
+  const Interval relative_width = Interval(rigor::width(ell)) / Interval(ell.lower());
+  tight.lhs = relative_width;
+  tight.rhs = Interval(kRelativeWidth);
+  tight.verdict = rigor::is_finite(ell) && rigor::certainly_positive(ell)
+                      ? rigor::decide_less_equal(relative_width, tight.rhs)
+                      : Verdict::undecided;
+  tight.reason = tight.verdict == Verdict::proved
+                     ? "branch and bound over the frequency, " + std::to_string(minimum.cells) + " cells."
+                     : "branch and bound over the frequency ended after " + std::to_string(minimum.cells) +
+                           " cells without an enclosure as narrow as that.";
+  theorems::Condition positive;
+  positive.id = "positive";
+  positive.statement = "\\ell > 0";
+  positive.lhs = ell;
+  positive.rhs = Interval(0.0);
+  positive.verdict = rigor::decide_less(Interval(0.0), ell);
+  positive.reason = positive.verdict == Verdict::proved
+                        ? "the enclosure lies above zero: an ell that the inverse can use exists."
+                        : "the enclosure does not lie above zero.";
+  derivation.conditions = {tight, positive, solver_condition("ipopt", "Ipopt", proposals[0], ell),
+                           solver_condition("nlopt", "NLopt", proposals[1], ell),
+                           solver_condition("nlopt-global", "DIRECT", proposals[2], ell)};
+  // What solvers say is reported, and decides nothing.
+  derivation.verdict = rigor::conjunction({tight.verdict, positive.verdict});
+  derivation.notes = {
+      "The values of Ipopt (on (10) as the paper states it) and of NLopt (on the reduced problem, locally "
+      "and globally) are proposals: they are held against the enclosure and enter no proof."};
+  return derivation;
+}
+
+}  // namespace veritrack::kkl_observer

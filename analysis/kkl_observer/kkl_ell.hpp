@@ -1,0 +1,27 @@
+// The constant ell of the KKL observer (trackers/kkl_observer/kkl_observer.hpp): problem (10) of its paper,
+// solved as it stands, solved in its reduced form, and enclosed.
+#pragma once
+
+#include "analysis/rigor/matrix.hpp"
+#include "analysis/search/branch_and_bound.hpp"
+#include "analysis/theorems/derivation.hpp"
+
+namespace veritrack::kkl_observer {
+
+/// Four filters and the frequencies that the signal may have.
+struct KklRange {
+  rigor::IntervalVector<4> lambda;  ///< filter rates, 1/s; certainly positive and distinct
+  rigor::Interval frequency;        ///< rad/s; certainly positive
+};
+
+/// Encloses the infimum of |M T(x)|^2 over |T(x)| = 1 and the frequencies of the range, (10), by branch and
+/// bound over the frequency; `where` are the frequencies (rad/s) that can attain it. Opens its own rounding
+/// scope.
+[[nodiscard]] search::VerifiedMinimum<1> enclose_ell(const KklRange& range);
+
+/// The derivation "kkl-ell": quantities ell, ell_ipopt, ell_nlopt, ell_nlopt_global, argmin_omega, of which
+/// only ell and argmin_omega are proved; conditions that ell is enclosed to 1e-9 and is positive, and that
+/// each solver's value lies in the enclosure. Opens its own rounding scopes.
+[[nodiscard]] theorems::Derivation derive_kkl_ell(const KklRange& range);
+
+}  // namespace veritrack::kkl_observer

@@ -1,0 +1,64 @@
+// What a disturbance does to the estimates of the KKL observer (trackers/kkl_observer/kkl_observer.hpp),
+// bounded for every signal of a range: the robustness that its paper leaves open.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <variant>
+
+#include "analysis/kkl_observer/kkl_ell.hpp"
+#include "analysis/rigor/matrix.hpp"
+#include "analysis/theorems/derivation.hpp"
+
+namespace veritrack::kkl_observer {
+
+/// No disturbance.
+struct NoDisturbance {};
+/// |d(t)| <= bound at all times, and nothing else; signal units.
+struct BoundedDisturbance {
+  rigor::Interval bound;
+};
+/// d(t) = amplitude sin(W t + p) for any p and any frequency W >= frequency (rad/s); signal units.
+struct SinusoidalDisturbance {
+  rigor::Interval amplitude;
+  rigor::Interval frequency;
+};
+using Disturbance = std::variant<NoDisturbance, BoundedDisturbance, SinusoidalDisturbance>;
+
+/// What is asked.
+struct KklRobustnessQuestion {
+  KklRange range;
+  rigor::Interval amplitude;  ///< of the signal, certainly positive, signal units
+  rigor::Interval ell;        ///< in use in (9)
+  Disturbance disturbance;
+  double relative_tolerance = 0.05;  ///< of the bounds; a wish, not a condition
+  std::int64_t cells = 120'000;      ///< at most, for each bound
+};
+
+/// Bounds that hold from the settling time on, for every signal of the range and filters that start at rest.
+struct KklRobustness {
+  rigor::Interval settling_time;          ///< s
+  rigor::Interval frequency_error_bound;  ///< rad/s; empty when none was found
+  rigor::Interval amplitude_error_bound;  ///< signal units; empty when none was found
+  /// Twice the smallest |M xi|^2 / |xi|^2 that the disturbed filters can reach: mu of (9) vanishes for any
+  /// ell up to its lower end. Empty when not found.
+  rigor::Interval largest_ell;
+  /// A lower bound on x3_hat / x3, which has to be positive for a frequency to exist.
+  rigor::Interval smallest_relative_square;
+  /// A disturbed signal near the worst one for the frequency: frequency (rad/s), phase (rad), amplitude, and
+  /// for a sinusoidal disturbance its phase (rad) and frequency (rad/s; infinite when the search ended
+  /// there).
+  std::array<double, 5> worst{};
+  std::int64_t cells = 0;  ///< looked at
+};
+
+/// Bounds the errors by branch and bound over signal and disturbance, in parallel; the result does not depend
+/// on the number of threads. Opens its own rounding scopes. Never throws for odd numbers.
+[[nodiscard]] KklRobustness bound_kkl_errors(const KklRobustnessQuestion& question);
+
+/// The derivation "kkl-robustness": quantities frequency_error_bound, amplitude_error_bound, settling_time,
+/// largest_ell, and what simulation finds, frequency_error_simulated and amplitude_error_simulated (not
+/// proved); conditions regular (mu vanishes, so that the bounds apply to the ell in use) and bounded.
+[[nodiscard]] theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question);
+
+}  // namespace veritrack::kkl_observer

@@ -1,0 +1,118 @@
+#include <string>
+#include <utility>
+
+#include "analysis/kkl_observer/kkl_robustness.hpp"
+#include "analysis/kkl_observer/kkl_worst_case.hpp"
+#include "analysis/rigor/decimal.hpp"
+
+namespace veritrack::kkl_observer {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+constexpr const char* kSource = "docs/kkl-observer.md";
+
+theorems::Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value,
+                            bool proved = true) {
+  theorems::Quantity result{
+      std::move(name), std::move(symbol), std::move(formula), kSource, value, std::nullopt, proved};
+  if (rigor::is_empty(value)) {
+    result.not_applicable = "No bound was found that applies: see the conditions.";
+  }
+  return result;
+}
+
+theorems::Condition regular_condition(const KklRobustness& found, const Interval& ell) {
+  theorems::Condition condition{
+      "regular", "\\ell \\le 2 \\inf |M\\xi|^2 / |\\xi|^2", Verdict::undecided, ell, found.largest_ell, {}};
+  if (rigor::certainly_less_equal(ell, found.largest_ell)) {
+    condition.verdict = Verdict::proved;
+    condition.reason = "mu of (9) vanishes wherever the disturbance can take the filters: the bounds apply.";
+  } else {
+    condition.reason =
+        "the ell in use is not certainly small enough for mu of (9) to vanish under the "
+        "disturbance (" +
+        rigor::to_decimal(found.largest_ell.lower(), 4, rigor::Direction::down) +
+        " would be): the bounds are those of an observer with a smaller ell.";
+  }
+  return condition;
+}
+
+constexpr const char* kOtherObserver =
+    "what was bounded is an observer with an ell for which mu of (9) vanishes, not the one in use.";
+
+theorems::Condition frequency_condition(const KklRobustness& found, bool regular) {
+  theorems::Condition condition{"frequency-exists", "\\hat x_3 / x_3 > 0",
+                                Verdict::undecided, regular ? found.smallest_relative_square : Interval(),
+                                Interval(0.0),      {}};
+  if (!regular) {
+    condition.reason = kOtherObserver;
+  } else if (rigor::certainly_positive(found.smallest_relative_square)) {
+    condition.verdict = Verdict::proved;
+    condition.reason = "the estimate of the squared frequency stays positive under the disturbance.";
+  } else {
+    condition.reason =
+        "the disturbance may take the estimate of the squared frequency to zero, where no "
+        "frequency can be read off it.";
+  }
+  return condition;
+}
+
+theorems::Condition bounded_condition(const KklRobustness& found, bool regular) {
+  theorems::Condition condition{
+      "bounded",          "|\\hat\\omega - \\omega| \\le b_\\omega,\\ |\\hat A - A| \\le b_A",
+      Verdict::undecided, regular ? found.frequency_error_bound : Interval(),
+      Interval(),         {}};
+  if (!regular) {
+    condition.reason = kOtherObserver;
+  } else if (rigor::is_finite(found.frequency_error_bound) && rigor::is_finite(found.amplitude_error_bound)) {
+    condition.verdict = Verdict::proved;
+    condition.reason =
+        "branch and bound over signal and disturbance, " + std::to_string(found.cells) + " cells.";
+  } else {
+    condition.reason =
+        "branch and bound found no finite bound within " + std::to_string(found.cells) + " cells.";
+  }
+  return condition;
+}
+
+}  // namespace
+
+theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question) {
+  const KklRobustness found = bound_kkl_errors(question);
+  const SampledErrors sampled = sample_errors(question);
+  const rigor::UpwardRounding upward;
+  const theorems::Condition regular = regular_condition(found, question.ell);
+  // Bounds of the observer with a smaller ell are none of the one in use.
+  const bool is_regular = regular.verdict == Verdict::proved;
+  const theorems::Condition exists = frequency_condition(found, is_regular);
+  const bool applies = is_regular && exists.verdict == Verdict::proved;
+  const auto bound = [applies](const Interval& value) { return applies ? value : Interval(); };
+  theorems::Derivation derivation;
+  derivation.id = "kkl-robustness";
+  derivation.title = "What the assumed disturbance does to the estimates";
+  derivation.quantities = {
+      quantity("frequency_error_bound", "b_\\omega", "\\sup_{t \\ge t_s} |\\hat\\omega - \\omega|",
+               bound(found.frequency_error_bound)),
+      quantity("amplitude_error_bound", "b_A", "\\sup_{t \\ge t_s} |\\hat A - A|",
+               bound(found.amplitude_error_bound)),
+      quantity("settling_time", "t_s", "", found.settling_time),
+      quantity("largest_ell", "2 \\inf |M\\xi|^2 / |\\xi|^2", "", found.largest_ell),
+      quantity("frequency_error_simulated", "", "\\max |\\hat\\omega - \\omega|", Interval(sampled.frequency),
+               false),
+      quantity("amplitude_error_simulated", "", "\\max |\\hat A - A|", Interval(sampled.amplitude), false)};
+  derivation.conditions = {regular, exists, bounded_condition(found, is_regular)};
+  derivation.verdict = rigor::conjunction(
+      {derivation.conditions[0].verdict, derivation.conditions[1].verdict, derivation.conditions[2].verdict});
+  derivation.notes = {
+      "The bounds hold from the settling time on, for every signal of the assumed range, when the filters "
+      "start at rest with the signal. A sinusoidal disturbance may have any phase and any frequency from the "
+      "assumed one up.",
+      "The simulated errors are the largest over a grid of signals; they prove nothing and show how tight "
+      "the bounds are."};
+  return derivation;
+}
+
+}  // namespace veritrack::kkl_observer

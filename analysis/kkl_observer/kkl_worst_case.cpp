@@ -1,0 +1,91 @@
+#include "analysis/kkl_observer/kkl_worst_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analysis/kkl_observer/kkl_error_map.hpp"
+#include "trackers/kkl_observer/kkl_observer.hpp"
+
+namespace veritrack::kkl_observer {
+
+namespace {
+
+using Map = KklErrorMap<double>;
+using trackers::oscillator_state;
+
+/// Where the filters are when the disturbance has been bound * sign(kernel) for ever, the kernel being that
+/// of the first-order frequency error.
+Eigen::Vector4d bang_bang(const Map& map, double frequency, double phase, double bound) {
+  const auto at = map.signal(frequency, phase);
+  Map::Filters<double> c{};
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    c[i] = at.denominators[i] * (at.projected[0] * map.basis()[0][i] + at.projected[1] * map.basis()[1][i]);
+  }
+  const double slowest = *std::min_element(map.lambda().begin(), map.lambda().end());
+  constexpr int kSteps = 1500;
+  const double step = 15.0 / slowest / kSteps;
+  Eigen::Vector4d moved = Eigen::Vector4d::Zero();
+  for (int k = 0; k < kSteps; ++k) {
+    Eigen::Vector4d decay;
+    double kernel = 0.0;
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      decay(i) = std::exp(-map.lambda()[static_cast<std::size_t>(i)] * (k + 0.5) * step);
+      kernel += c[static_cast<std::size_t>(i)] * decay(i);
+    }
+    moved += (kernel > 0.0 ? bound : -bound) * step * decay;
+  }
+  return moved;
+}
+
+}  // namespace
+
+SampledErrors sample_errors(const KklRobustnessQuestion& question, int phases) {
+  const rigor::NearestRounding nearest;
+  const Eigen::Vector4d lambda = rigor::midpoint(question.range.lambda);
+  const trackers::KklObserverDesign<double, 4> design{lambda, rigor::midpoint(question.ell)};
+  const Map map(lambda);
+  SampledErrors largest;
+  const auto look = [&](const Eigen::Vector4d& xi, double amplitude, double frequency) {
+    const auto x = trackers::kkl_inverse<double, 4>(xi, design);
+    if (!(x(2) > 0.0)) {
+      largest.frequency = largest.amplitude = std::numeric_limits<double>::infinity();
+      return;
+    }
+    const auto estimate = trackers::in_engineering_units(x);
+    largest.frequency = std::max(largest.frequency, std::fabs(estimate.frequency - frequency));
+    largest.amplitude = std::max(largest.amplitude, std::fabs(estimate.amplitude - amplitude));
+  };
+  const bool is_point = question.range.frequency.lower() == question.range.frequency.upper();
+  const int frequencies = is_point ? 1 : 17;
+  const double low = question.range.frequency.lower();
+  const double ratio = question.range.frequency.upper() / low;
+  for (int k = 0; k < frequencies; ++k) {
+    const double frequency = is_point ? low : low * std::pow(ratio, k / (frequencies - 1.0));
+    for (int j = 0; j < phases; ++j) {
+      const double phase = std::numbers::pi * j / phases;
+      for (const double amplitude : {question.amplitude.lower(), question.amplitude.upper()}) {
+        const Eigen::Vector4d clean =
+            trackers::kkl_transform<double, 4>(oscillator_state(amplitude, phase, frequency), lambda);
+        if (const auto* sinusoidal = std::get_if<SinusoidalDisturbance>(&question.disturbance)) {
+          for (int l = 0; l < 2 * phases; ++l) {
+            const double other_phase = std::numbers::pi * l / phases;
+            const auto other = oscillator_state(rigor::midpoint(sinusoidal->amplitude), other_phase,
+                                                rigor::midpoint(sinusoidal->frequency));
+            look(clean + trackers::kkl_transform<double, 4>(other, lambda), amplitude, frequency);
+          }
+        } else if (const auto* bounded = std::get_if<BoundedDisturbance>(&question.disturbance)) {
+          const Eigen::Vector4d moved = bang_bang(map, frequency, phase, rigor::midpoint(bounded->bound));
+          look(clean + moved, amplitude, frequency);
+          look(clean - moved, amplitude, frequency);
+        } else {
+          look(clean, amplitude, frequency);
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+}  // namespace veritrack::kkl_observer

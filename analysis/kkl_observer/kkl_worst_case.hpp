@@ -1,0 +1,21 @@
+// How bad a disturbance of the KKL observer gets in simulation: what the proved bounds are to be compared
+// with. It proves nothing.
+#pragma once
+
+#include "analysis/kkl_observer/kkl_robustness.hpp"
+
+namespace veritrack::kkl_observer {
+
+/// Errors that were seen.
+struct SampledErrors {
+  double frequency = 0.0;  ///< rad/s
+  double amplitude = 0.0;  ///< signal units
+};
+
+/// The largest errors of the observer as it runs (trackers::kkl_inverse, in double, with the ell in use) over
+/// a grid of signals (`phases` of them over half a turn), with filters that have forgotten their start: all
+/// phases of a sinusoidal disturbance at the lowest frequency allowed, and for a bounded one the input that
+/// is worst for the frequency to first order. Holds round-to-nearest.
+[[nodiscard]] SampledErrors sample_errors(const KklRobustnessQuestion& question, int phases = 90);
+
+}  // namespace veritrack::kkl_observer

@@ -1,0 +1,217 @@
+#include "analysis/quadrature/capture/capture_derivation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "analysis/quadrature/contraction/certified_level.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/elementary.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using rigor::Direction;
+using rigor::Interval;
+using rigor::Verdict;
+using theorems::Condition;
+using theorems::Quantity;
+
+constexpr const char* kSource = "docs/contraction.md";
+constexpr std::size_t kCellsNamed = 3;
+
+std::string range(const Interval& x) {
+  return "[" + rigor::to_decimal(x.lower(), 4, Direction::down) + ", " +
+         rigor::to_decimal(x.upper(), 4, Direction::up) + "]";
+}
+
+/// Outward rounded, as a box that failed may be named larger than it is.
+std::string named(const StartBox& starts) {
+  return "frequency error in " + range(starts.frequency_error) + " rad/sample, phase error in " +
+         range(starts.phase_error) + " rad, amplitude error in " + range(starts.amplitude_error);
+}
+
+std::size_t count(const Region& region, Verdict verdict) {
+  return static_cast<std::size_t>(
+      std::count_if(region.cells.begin(), region.cells.end(),
+                    [verdict](const RegionCell& cell) { return cell.verdict == verdict; }));
+}
+
+/// The number of samples after which every start of the PROVED cells has been captured.
+int capture_samples(const Region& region) {
+  int samples = 0;
+  for (const RegionCell& cell : region.cells) {
+    samples = std::max(samples, cell.result.samples);
+  }
+  return samples;
+}
+
+Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value) {
+  return {std::move(name), std::move(symbol), std::move(formula), kSource, value, std::nullopt};
+}
+
+/// |2 pi k| less what the frequency error may differ from it in the shifted set: what starts of the refuted
+/// cells come to exceed, and exceed for ever.
+std::optional<Interval> wrong_lock(const CertifiedSet& set, const Region& region) {
+  for (const RegionCell& cell : region.cells) {
+    if (cell.verdict == Verdict::refuted) {
+      const Interval shift = abs(Interval(2.0 * cell.result.turns) * rigor::pi());
+      return Interval((shift - error_bounds(set, Interval(set.radius))[2]).lower());
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+CaptureTube capture_tube(const sets::ContractionQuestion& question, const CertifiedSet& set,
+                         const Region& region) {
+  constexpr int kLongest = 100000;
+  const int last_capture = capture_samples(region);
+  std::vector<std::optional<double>> captures(static_cast<std::size_t>(last_capture) + 1);  // their levels
+  for (const RegionCell& cell : region.cells) {
+    std::optional<double>& level = captures[static_cast<std::size_t>(cell.result.samples)];
+    level = std::max(level.value_or(0.0), cell.result.level);
+  }
+  CaptureTube tube;
+  std::optional<CertifiedLevel> captured;
+  for (int k = 0; k <= last_capture; ++k) {
+    const auto index = static_cast<std::size_t>(k);
+    if (captured) {
+      captured->step();
+    }
+    if (const std::optional<double>& level = captures[index]) {
+      const CertifiedLevel fresh(set, Interval(*level), question.noise, question.slew);
+      captured = captured && captured->above(fresh) ? captured : fresh;
+    }
+    tube.frequency_errors.push_back(
+        std::max(region.frequency_errors.at(index), captured ? captured->frequency_error() : 0.0));
+  }
+  for (int k = last_capture; captured && captured->can_settle() && k <= kLongest; ++k) {
+    if (captured->settled()) {
+      tube.settling_samples = k;
+      break;
+    }
+    captured->step();
+    tube.frequency_errors.push_back(captured->frequency_error());
+  }
+  if (captured) {
+    tube.frequency_errors.back() =
+        std::max(tube.frequency_errors.back(), captured->largest_frequency_error());
+    tube.ultimate_frequency_error = captured->ultimate_frequency_error();
+  }
+  return tube;
+}
+
+void add_capture_quantities(theorems::Derivation& derivation, const CertifiedSet& set, const Region& region,
+                            const CaptureTube& tube) {
+  const bool proved = derivation.verdict == Verdict::proved;
+  const auto add = [&](const char* name, const char* symbol, const char* formula,
+                       const std::optional<Interval>& value, const char* missing) {
+    derivation.quantities.push_back(quantity(name, symbol, formula, value.value_or(Interval::empty())));
+    if (!value) {
+      derivation.quantities.back().not_applicable = missing;
+    }
+  };
+  constexpr const char* kNotAll = "Not every assumed start is proved to be captured.";
+  std::optional<Interval> samples;
+  std::optional<Interval> bound;
+  std::optional<Interval> ultimate;
+  std::optional<Interval> settling;
+  if (proved) {
+    ultimate = Interval(tube.ultimate_frequency_error);
+    samples = Interval(static_cast<double>(capture_samples(region)));
+    bound = Interval(*std::max_element(tube.frequency_errors.begin(), tube.frequency_errors.end()));
+    if (tube.settling_samples) {
+      settling = Interval(static_cast<double>(*tube.settling_samples));
+    }
+  }
+  add("capture_samples", "k_c", "\\min \\{k : X(k) \\in \\Omega \\text{ from every assumed start}\\}",
+      samples, kNotAll);
+  add("frequency_error_bound", "\\sup_k |\\nu(k)|",
+      "\\max(\\max_{k \\le k_c} |\\nu(k)|,\\ |T e(k_c)|\\,|e_3' T^{-1}|,\\ \\nu_\\infty)", bound, kNotAll);
+  add("ultimate_frequency_error", "\\nu_\\infty", "u\\,|e_3' T^{-1}|", ultimate, kNotAll);
+  add("settling_samples", "k_s",
+      "k_c + \\min \\{k : \\kappa^{2k} |T e(k_c)|^2 + (1 - \\kappa^{2k}) u^2 \\le 4 u^2\\}", settling,
+      proved ? "Without noise and slew the ultimate bound is zero, which is approached but not reached."
+             : kNotAll);
+  if (const std::optional<Interval> wrong = wrong_lock(set, region)) {
+    add("wrong_lock_frequency_error", "\\liminf_k |\\nu(k)|", "2 \\pi |n| - R\\,|e_3' T^{-1}|", wrong, "");
+  }
+  add("cells", "", "", Interval(static_cast<double>(region.cells.size())), "");
+  derivation.quantities.back().proved = proved;
+  add("cells_captured", "", "", Interval(static_cast<double>(count(region, Verdict::proved))), "");
+  derivation.quantities.back().proved = proved;
+}
+
+Condition set_bears_assumptions(const sets::ContractionQuestion& question, const CertifiedSet& set) {
+  const bool bears = certainly_less_equal(question.noise, Interval(set.noise)) &&
+                     certainly_less_equal(question.slew, Interval(set.slew));
+  return {"certified-set",
+          "V \\le V_\\Omega,\\ W \\le W_\\Omega",
+          bears ? Verdict::proved : Verdict::undecided,
+          Interval::empty(),
+          Interval::empty(),
+          bears ? "the set in which the starts are to be captured is never left under this noise and slew."
+                : "the set was certified for less noise or slew than is assumed."};
+}
+
+Condition starts_captured(const Region& region, std::vector<std::string>& notes) {
+  Condition condition{"starts-captured", "X(k_c) \\in \\Omega \\text{ from every assumed start}",
+                      verdict(region),   Interval::empty(),
+                      Interval::empty(), {}};
+  const std::size_t total = region.cells.size();
+  if (condition.verdict == Verdict::proved) {
+    condition.reason = "every assumed start, in " + std::to_string(total) +
+                       " cells, is in the certified set after at most " +
+                       std::to_string(capture_samples(region)) + " samples.";
+    return condition;
+  }
+  const auto refuted = std::find_if(region.cells.begin(), region.cells.end(),
+                                    [](const RegionCell& cell) { return cell.verdict == Verdict::refuted; });
+  if (refuted != region.cells.end()) {
+    condition.reason = "witness: a start with " + named(refuted->starts) + " locks " +
+                       std::to_string(refuted->result.turns) +
+                       " turns per sample off the true frequency, whatever the noise and slew within the "
+                       "assumed bounds. Smaller start errors would do.";
+    return condition;
+  }
+  condition.reason = std::to_string(total - count(region, Verdict::proved)) + " of " + std::to_string(total) +
+                     " cells of assumed starts could not be followed into the certified set; smaller start "
+                     "errors or less noise would do.";
+  for (const RegionCell& cell : region.cells) {
+    if (cell.verdict != Verdict::proved && notes.size() < kCellsNamed) {
+      notes.push_back("Not captured (" + std::string(to_string(cell.result.outcome)) +
+                      "): " + named(cell.starts) + ".");
+    }
+  }
+  return condition;
+}
+
+std::vector<theorems::Evidence> capture_evidence(const sets::ContractionQuestion& question,
+                                                 const Region& region) {
+  const Verdict decided = verdict(region);
+  if (decided == Verdict::undecided) {
+    return {};
+  }
+  theorems::Evidence evidence{decided == Verdict::proved ? "cover" : "witness",
+                              {{"noise", question.noise.upper()}, {"slew", question.slew.upper()}},
+                              {}};
+  std::vector<RegionCell> cells = region.cells;
+  if (decided == Verdict::refuted) {
+    cells = {*std::find_if(cells.begin(), cells.end(),
+                           [](const RegionCell& cell) { return cell.verdict == Verdict::refuted; })};
+    evidence.numbers.emplace_back("turns", static_cast<double>(cells.front().result.turns));
+  }
+  rigor::DynamicMatrix boxes(static_cast<Eigen::Index>(cells.size()), 8);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const StartBox starts = cells[i].whole ? cells[i].starts : middle(cells[i].starts);
+    boxes.row(static_cast<Eigen::Index>(i)) << starts.amplitude_error.lower(), starts.amplitude_error.upper(),
+        starts.phase_error.lower(), starts.phase_error.upper(), starts.frequency_error.lower(),
+        starts.frequency_error.upper(), static_cast<double>(cells[i].result.samples), cells[i].result.level;
+  }
+  evidence.matrices.emplace_back("boxes", boxes);
+  return {evidence};
+}
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,45 @@
+// What the cells of starts that were followed add up to: bounds over time, quantities and conditions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/quadrature/capture/capture_region.hpp"
+#include "analysis/quadrature/contraction/certified_set.hpp"
+#include "analysis/sets/contraction_question.hpp"
+#include "analysis/theorems/derivation.hpp"
+
+namespace veritrack::quadrature {
+
+/// The bounds of all cells while they are followed, and those of the set from each cell's capture on.
+struct CaptureTube {
+  /// On |frequency error|, rad/sample, after 0, 1, ... samples; the last one holds for ever after.
+  std::vector<double> frequency_errors;
+  double ultimate_frequency_error = 0.0;  ///< of the set that captures
+  std::optional<int> settling_samples;
+};
+
+/// The tube of a region of which every cell is PROVED. Needs the upward mode.
+[[nodiscard]] CaptureTube capture_tube(const sets::ContractionQuestion& question, const CertifiedSet& set,
+                                       const Region& region);
+
+/// Adds capture_samples, frequency_error_bound, ultimate_frequency_error, settling_samples, cells,
+/// cells_captured, and wrong_lock_frequency_error where a cell is REFUTED, to a derivation that has its
+/// verdict. Needs the upward mode.
+void add_capture_quantities(theorems::Derivation& derivation, const CertifiedSet& set, const Region& region,
+                            const CaptureTube& tube);
+
+/// The condition certified-set: the set bears the assumed noise and slew. Needs the upward mode.
+[[nodiscard]] theorems::Condition set_bears_assumptions(const sets::ContractionQuestion& question,
+                                                        const CertifiedSet& set);
+
+/// The condition starts-captured, with the reason for its verdict; the first cells that failed go to `notes`.
+[[nodiscard]] theorems::Condition starts_captured(const Region& region, std::vector<std::string>& notes);
+
+/// Exact numbers from which the verdict can be established again: every cell with the samples after which it
+/// is captured and its level then ("cover", PROVED), or the starts that lock elsewhere ("witness", REFUTED).
+[[nodiscard]] std::vector<theorems::Evidence> capture_evidence(const sets::ContractionQuestion& question,
+                                                               const Region& region);
+
+}  // namespace veritrack::quadrature

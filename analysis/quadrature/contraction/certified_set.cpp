@@ -1,0 +1,47 @@
+#include "analysis/quadrature/contraction/certified_set.hpp"
+
+#include "analysis/rigor/definiteness.hpp"
+
+namespace veritrack::quadrature {
+
+using rigor::Interval;
+using rigor::IntervalMatrix;
+using rigor::IntervalVector;
+
+Interval metric_norm(const CertifiedSet& set, const IntervalVector<3>& error) {
+  const IntervalVector<3> image = rigor::to_interval(set.metric) * error;
+  return sqrt(square(image[0]) + square(image[1]) + square(image[2]));
+}
+
+bool certainly_contains(const CertifiedSet& set, const IntervalVector<3>& error,
+                        const IntervalMatrix<3>& covariance) {
+  const IntervalMatrix<3> above = covariance - rigor::to_interval(set.covariance_lower);
+  const IntervalMatrix<3> below = rigor::to_interval(set.covariance_upper) - covariance;
+  return rigor::is_finite(covariance) &&
+         certainly_less_equal(metric_norm(set, error), Interval(set.radius)) &&
+         rigor::is_positive_definite(above) == rigor::Verdict::proved &&
+         rigor::is_positive_definite(below) == rigor::Verdict::proved;
+}
+
+IntervalVector<3> error_bounds(const CertifiedSet& set, const Interval& level) {
+  // T = diag(t_a, [[t22, t23], [0, t33]]): the inverse is written down.
+  const IntervalMatrix<3> t = rigor::to_interval(set.metric);
+  IntervalVector<3> bounds;
+  bounds[0] = level / abs(t(0, 0));
+  bounds[1] = level * sqrt(square(Interval(1.0) / t(1, 1)) + square(t(1, 2) / (t(1, 1) * t(2, 2))));
+  bounds[2] = level / abs(t(2, 2));
+  const bool has_the_form = set.metric(0, 1) == 0.0 && set.metric(0, 2) == 0.0 && set.metric(1, 0) == 0.0 &&
+                            set.metric(2, 0) == 0.0 && set.metric(2, 1) == 0.0;
+  if (!has_the_form) {
+    bounds.setConstant(Interval::empty());
+  }
+  return bounds;
+}
+
+Interval ultimate_level(const CertifiedSet& set, const Interval& noise, const Interval& slew) {
+  const Interval pushed =
+      rigor::square(Interval(set.noise_gain) * noise) + rigor::square(Interval(set.slew_gain) * slew);
+  return rigor::sqrt(pushed / (Interval(1.0) - rigor::square(Interval(set.rate))));
+}
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,25 @@
+// Does every step of a set of errors and covariances satisfy the inequality of step_inequality.hpp?
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "analysis/quadrature/contraction/step_inequality.hpp"
+
+namespace veritrack::quadrature {
+
+/// What the cells that cover a set say together.
+struct ContractionOverSet {
+  bool proved = false;
+  std::string reason;      ///< one sentence when not proved
+  std::int64_t cells = 0;  ///< examined
+};
+
+/// Covers the projection {(a/A)^2 + (chi/C)^2 <= 1, chi >= 0} of the ellipsoid by cells in (s, beta),
+/// bisected until the inequality holds in each. Half of the ellipse is enough: the step commutes with the
+/// mirror image (psi, nu, P12, P13, v2, w) -> -(psi, nu, P12, P13, v2, w), which maps the set to itself.
+/// Needs the upward mode.
+[[nodiscard]] ContractionOverSet prove_contraction(const StepSetting<rigor::Interval>& setting,
+                                                   const StepConstants<rigor::Interval>& constants);
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,103 @@
+#include "analysis/quadrature/contraction/proposal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/quadrature/contraction/shape_search.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+rigor::Matrix<3> matrix(const BlockCovariance<double>& p) {
+  rigor::Matrix<3> m;
+  m << p.p11, 0.0, 0.0, 0.0, p.p22, p.p23, 0.0, p.p23, p.p33;
+  return m;
+}
+
+}  // namespace
+
+std::optional<Shape> propose_shape(const ProposalRequest& request) {
+  const auto steady = steady_covariance(request.design);
+  if (!steady) {
+    return std::nullopt;
+  }
+  const ShapeSearch proposer(request, *steady);
+  search::SearchSpace space = proposer.space();
+  const auto search = [&](const auto& value) {
+    return search::maximize([&](const Eigen::VectorXd& x) { return value(proposer.shape(x)); }, space);
+  };
+  const bool about_start = is_about_a_start(request.objective);
+  search::BestPoint best;
+  if (request.objective == Objective::start_error) {
+    best =
+        search([&](const Shape& shape) { return proposer.largest_radius(shape) / shape.metric.frequency; });
+  } else if (about_start) {
+    space.evaluations *= 6;  // one sample instead of a bisection each time
+    best = search([&](const Shape& shape) { return proposer.worth(shape); });
+  } else {
+    space.evaluations *= 6;
+    const double start = proposer.largest_radius(proposer.shape(space.start));
+    if (start > 0.0) {
+      space.start[space.start.size() - 1] = std::log(0.5 * start);
+    }
+    best = search([&](const Shape& shape) { return proposer.largest_disturbance(shape); });
+  }
+  if (about_start ? !(best.value > kWorthless) : !(best.value > 0.0)) {
+    return std::nullopt;
+  }
+  Shape shape = proposer.shape(best.point);
+  shape.objective = best.value;
+  if (request.objective == Objective::start_error) {
+    shape.radius = proposer.largest_radius(shape);
+  } else if (about_start) {
+    const auto promise = proposer.promise(shape);
+    shape.radius = promise ? promise->radius : 0.0;
+  }
+  return shape;
+}
+
+std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Shape& shape, double fraction) {
+  const auto steady = steady_covariance(request.design);
+  if (!steady) {
+    return std::nullopt;
+  }
+  const Objective objective = request.objective;
+  CertifiedSet set;
+  const BlockMetric<double>& t = shape.metric;
+  set.metric << t.amplitude, 0.0, 0.0, 0.0, t.phase, t.coupling, 0.0, 0.0, t.frequency;
+  set.radius = (objective == Objective::start_error ? fraction : 1.0) * shape.radius;
+  set.noise = objective == Objective::noise  ? fraction * shape.objective
+              : objective == Objective::slew ? 0.0
+                                             : request.noise;
+  set.slew = objective == Objective::slew    ? fraction * shape.objective
+             : objective == Objective::noise ? 0.0
+                                             : request.slew;
+  // A smaller disturbance leaves room; half of it goes to the gains.
+  const double widening = sets_a_disturbance(objective) ? 1.0 / std::sqrt(fraction) : 1.0;
+  set.noise_gain = widening * shape.noise_gain;
+  set.slew_gain = widening * shape.slew_gain;
+  const StepConstants<double> constants{0.0, set.noise_gain * set.noise_gain, set.slew_gain * set.slew_gain,
+                                        set.noise > 0.0, set.slew > 0.0};
+  const SampledSet sampled =
+      sample_set({request.design, t, set.radius, set.noise, constants, covariance_margin(objective),
+                  is_about_a_start(objective) ? request.start_covariance : std::nullopt},
+                 *steady);
+  // What noise and slew leave for the contraction, with room for rounding.
+  constexpr double kRoom = 1.0 + 1e-9;
+  const double noise = set.noise_gain * set.noise / set.radius;
+  const double slew = set.slew_gain * set.slew / set.radius;
+  const double allowed = 1.0 - kRoom * (noise * noise + slew * slew);
+  const double wanted = is_about_a_start(objective)     ? 1.0 - fraction * (1.0 - sampled.rate_squared)
+                        : sets_a_disturbance(objective) ? allowed
+                                                        : 0.5 * (1.0 + sampled.rate_squared);
+  if (!(sampled.rate_squared < allowed)) {
+    return std::nullopt;
+  }
+  set.rate = std::sqrt(std::min(allowed, wanted)) * (1.0 - 1e-12);
+  set.covariance_lower = matrix(sampled.setting.covariance_lower);
+  set.covariance_upper = matrix(sampled.setting.covariance_upper);
+  return set;
+}
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,56 @@
+// Proposals, in floating point: which set of errors and covariances might be certified. Nothing here is
+// evidence; verification.hpp decides.
+#pragma once
+
+#include <optional>
+
+#include "analysis/quadrature/contraction/certified_set.hpp"
+#include "analysis/quadrature/contraction/covariance_proposal.hpp"
+#include "analysis/quadrature/contraction/step_inequality.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
+
+namespace veritrack::quadrature {
+
+/// What the set is chosen for. The first three are about any start; the others about a given one, which lies
+/// in the set.
+enum class Objective {
+  start_error,      ///< the largest frequency error, for the given noise and slew
+  noise,            ///< the largest noise that the set bears, without slew
+  slew,             ///< the largest slew that the set bears, without noise
+  frequency_bound,  ///< the least bound on the frequency error from the start on
+  ultimate_error,   ///< the least bound on the frequency error in the long run
+  settling          ///< the least number of samples until the frequency error is below `settled_error`
+};
+
+/// What is asked of a proposal. The design has epsilon = 0 and belongs to amplitude 1.
+struct ProposalRequest {
+  trackers::QuadratureEkfDesign<double> design;
+  Objective objective = Objective::start_error;
+  double noise = 0.0;  ///< relative to the amplitude; without meaning for Objective::noise and slew
+  double slew = 0.0;   ///< rad/sample per sample; without meaning for Objective::noise and slew
+  /// Bounds on |amplitude|, |phase| (rad) and |frequency error| (rad/sample) at the start.
+  rigor::Vector<3> start = rigor::Vector<3>::Zero();
+  std::optional<CovarianceRange> start_covariance;  ///< to be held by the set; for objectives about a start
+  double settled_error = 0.0;                       ///< rad/sample, for Objective::settling
+  int evaluations = 150;  ///< of the search; a hundred take about a quarter of a second
+};
+
+/// A metric, a radius and gains at which sampling found the objective best.
+struct Shape {
+  BlockMetric<double> metric;
+  double radius = 0.0;
+  double noise_gain = 0.0, slew_gain = 0.0;
+  double objective = 0.0;  ///< rad/sample, noise, slew, or (less is better) minus rad/sample or samples
+};
+
+/// The best shape found; nothing when sampling finds no set at all (q1 = 0, say). Deterministic.
+[[nodiscard]] std::optional<Shape> propose_shape(const ProposalRequest& request);
+
+/// A set of this shape at `fraction` of its objective, 0 < fraction <= 1, with as much room for the
+/// verification as noise and slew leave; nothing when sampling finds that none is there. For objectives about
+/// a given start the set keeps its size, and the fraction is that of the contraction, 1 - rate^2, which is
+/// claimed.
+[[nodiscard]] std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Shape& shape,
+                                                      double fraction);
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,223 @@
+#include "analysis/quadrature/contraction/quadrature_certificate.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/quadrature/contraction/promises.hpp"
+#include "analysis/quadrature/contraction/set_search.hpp"
+#include "analysis/quadrature/falsifier/sampled_quantities.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/theorems/derivation_builder.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using rigor::Direction;
+using rigor::Interval;
+using rigor::IntervalVector;
+using rigor::Verdict;
+using theorems::Condition;
+
+constexpr const char* kNone = "No set could be certified.";
+
+std::string at_most(const Interval& x) {
+  return rigor::to_decimal(x.upper(), 4, Direction::up);
+}
+std::string at_least(const Interval& x) {
+  return rigor::to_decimal(x.lower(), 4, Direction::down);
+}
+
+Condition start_in_set(const sets::ContractionQuestion& question, const CertifiedSet& set,
+                       bool starts_inside) {
+  const Interval radius(set.radius);
+  const Interval level = StartBounds(question, set).start_level();
+  Condition condition{"start-in-set",
+                      "|T e(0)| \\le R,\\ P_{lo} \\le P(0) \\le P_{hi}",
+                      starts_inside ? Verdict::proved : Verdict::undecided,
+                      Interval(level.upper()),
+                      radius,
+                      {}};
+  condition.reason = starts_inside ? "every assumed start lies in a certified set."
+                     : certainly_less_equal(level, radius)
+                         ? "the initial covariance is not certainly between the bounds of the certified set."
+                         : "the assumed start errors reach " + at_most(level) +
+                               " in a metric where the set ends at " + at_least(radius) +
+                               ": smaller start errors, or a proof of capture, would do.";
+  return condition;
+}
+
+void add_quantity(theorems::Derivation& derivation, const char* name, const char* symbol, const char* formula,
+                  const Interval& value, std::string why_not = {}) {
+  theorems::add_quantity(derivation, {name, symbol, formula, "docs/contraction.md"}, value,
+                         std::move(why_not));
+}
+
+/// The size of the set; without one the quantities are there but not applicable.
+void add_size(const std::optional<Verification>& found, theorems::Derivation& derivation) {
+  Interval rate;
+  Interval radius;
+  IntervalVector<3> bounds;
+  bounds.setConstant(Interval::empty());
+  if (found) {
+    rate = Interval(found->set.rate);
+    radius = Interval(found->set.radius);
+    bounds = error_bounds(found->set, radius);
+  }
+  add_quantity(derivation, "contraction_rate", "\\kappa", "\\sup |T e^+| / |T e|", rate, kNone);
+  add_quantity(derivation, "radius", "R", "", radius, kNone);
+  add_quantity(derivation, "frequency_error_radius", "\\nu_R", "R\\,|e_3' T^{-1}|", bounds[2], kNone);
+  add_quantity(derivation, "phase_error_radius", "\\psi_R", "R\\,|e_2' T^{-1}|", bounds[1], kNone);
+  add_quantity(derivation, "amplitude_error_radius", "a_R", "R\\,|e_1' T^{-1}|", bounds[0], kNone);
+}
+
+/// What the sets say of the assumed starts.
+void add_promises(const Promises& promises, theorems::Derivation& derivation) {
+  add_quantity(derivation, "ultimate_frequency_error", "\\nu_\\infty",
+               "u\\,|e_3' T^{-1}|,\\ u^2 = \\tfrac{L_v^2 V^2 + L_w^2 W^2}{1 - \\kappa^2}",
+               promises.ultimate_frequency_error(), kNone);
+  add_quantity(derivation, "frequency_error_bound", "\\sup_k |\\nu(k)|", "\\max(|T e(0)|, u)\\,|e_3' T^{-1}|",
+               promises.starts_inside() ? promises.frequency_error_bound() : Interval(),
+               "The assumed starts are not in a certified set.");
+  const bool settles = certainly_positive(promises.ultimate_frequency_error());
+  add_quantity(derivation, "settling_samples", "k_s", "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
+               promises.settling_samples(),
+               settles ? "No set promises from when on it holds."
+                       : "Without noise and slew the ultimate bound is zero, which is approached but not "
+                         "reached.");
+}
+
+Condition leak(const Interval& epsilon) {
+  const bool none = epsilon == Interval(0.0);
+  return {"leak",
+          "\\epsilon = 0",
+          none ? Verdict::proved : Verdict::undecided,
+          epsilon,
+          Interval(0.0),
+          none ? "there is no leak, so the errors do not depend on the frequency."
+               : "with a leak the errors do not settle at zero; this certificate does not cover that."};
+}
+
+/// With q1 = 0 the row (1, 0, 0) is a left eigenvector of F(1) to the eigenvalue 1 that Q does not reach: by
+/// the test of Popov, Belevitch and Hautus the amplitude is an uncontrollable mode on the unit circle.
+Condition controllable_amplitude(const Interval& q1) {
+  const Interval zero(0.0);
+  Condition condition{"controllable-amplitude", "q_1 > 0", rigor::decide_less(zero, q1), q1, zero, {}};
+  condition.reason =
+      condition.verdict == Verdict::proved ? "process noise reaches the amplitude."
+      : condition.verdict == Verdict::refuted
+          ? "with q1 = 0 and no leak the amplitude is an uncontrollable mode on the unit circle (witness: "
+            "the "
+            "row (1, 0, 0) is a left eigenvector of F to the eigenvalue 1, and (1, 0, 0) Q = 0): its "
+            "variance "
+            "falls like 1/k, the gain goes to zero, and no steady state is exponentially stable; any q1 > 0 "
+            "repairs this."
+          : "q1 is not certainly positive.";
+  return condition;
+}
+
+Condition invariant_set(const sets::ContractionQuestion& question,
+                        const ContractionCertificate& certificate) {
+  Condition condition{
+      "invariant-set", "\\kappa^2 R^2 + L_v^2 V^2 + L_w^2 W^2 \\le R^2", Verdict::undecided, {}, {}, {}};
+  if (certificate.set) {
+    const CertifiedSet& set = certificate.set->set;
+    condition.verdict = certificate.set->verdict;
+    condition.lhs = rigor::square(Interval(set.rate) * Interval(set.radius)) +
+                    rigor::square(Interval(set.noise_gain) * Interval(set.noise)) +
+                    rigor::square(Interval(set.slew_gain) * Interval(set.slew));
+    condition.rhs = rigor::square(Interval(set.radius));
+    condition.reason = certificate.set->reason;
+    return condition;
+  }
+  const auto& noisy = certificate.noise_set;
+  const auto& slewing = certificate.slew_set;
+  condition.reason = "no set could be certified for this noise and slew: " +
+                     sets::beyond_the_limits(question, noisy ? std::optional(noisy->set.noise) : std::nullopt,
+                                             slewing ? std::optional(slewing->set.slew) : std::nullopt) +
+                     ".";
+  return condition;
+}
+
+/// Those that bear the assumed noise and slew, the largest first.
+std::vector<CertifiedSet> sets_of(const ContractionCertificate& certificate) {
+  std::vector<CertifiedSet> sets;
+  for (const auto* found :
+       {&certificate.set, &certificate.bound_set, &certificate.ultimate_set, &certificate.settling_set}) {
+    if (*found) {
+      sets.push_back((*found)->set);
+    }
+  }
+  return sets;
+}
+
+bool bears(const CertifiedSet& set, const sets::ContractionQuestion& question) {
+  return certainly_less_equal(question.noise, Interval(set.noise)) &&
+         certainly_less_equal(question.slew, Interval(set.slew));
+}
+
+void find_sets(const sets::ContractionQuestion& question, ContractionCertificate& certificate) {
+  certificate.noise_set = find_set(question, Objective::noise);
+  certificate.slew_set = find_set(question, Objective::slew);
+  certificate.set = find_set(question, Objective::start_error);
+  for (const auto* found : {&certificate.noise_set, &certificate.slew_set}) {
+    if (!certificate.set && *found && bears((*found)->set, question)) {
+      certificate.set = *found;
+    }
+  }
+  if (!certificate.set) {
+    return;
+  }
+  certificate.bound_set = find_set(question, Objective::frequency_bound);
+  const bool disturbed = certainly_positive(question.noise) || certainly_positive(question.slew);
+  if (!disturbed) {
+    return;
+  }
+  certificate.ultimate_set = find_set(question, Objective::ultimate_error);
+  if (!certificate.ultimate_set) {
+    certificate.ultimate_set = find_inner_set(question, certificate.set->set);
+  }
+  const Interval ultimate = Promises(question, sets_of(certificate)).ultimate_frequency_error();
+  certificate.settling_set = find_set(question, Objective::settling, 2.0 * ultimate.upper());
+}
+
+}  // namespace
+
+ContractionCertificate certify_contraction(const sets::ContractionQuestion& question) {
+  const rigor::UpwardRounding upward;
+  ContractionCertificate certificate;
+  theorems::Derivation& derivation = certificate.derivation;
+  derivation.id = "contraction";
+  derivation.title = "Contraction of the errors in a set that the tracker never leaves";
+  derivation.notes = {
+      "Covers the tracker in exact arithmetic, for every frequency, signal amplitude constant.",
+      "Amplitude error and noise are relative to the true amplitude; the set is described in the frame of "
+      "the "
+      "estimated phase."};
+  const bool without_leak = question.design.epsilon == Interval(0.0);
+  if (without_leak && certainly_positive(question.design.q1) && sets::is_well_posed(question)) {
+    find_sets(question, certificate);
+  }
+  derivation.conditions = {leak(question.design.epsilon), controllable_amplitude(question.design.q1),
+                           invariant_set(question, certificate)};
+  const Promises promises(question, sets_of(certificate));
+  if (certificate.set) {
+    derivation.conditions.push_back(start_in_set(question, certificate.set->set, promises.starts_inside()));
+  }
+  add_size(certificate.set, derivation);
+  add_promises(promises, derivation);
+  const auto& noisy = certificate.noise_set;
+  const auto& slewing = certificate.slew_set;
+  add_quantity(derivation, "largest_noise", "V_{max}", "", noisy ? Interval(noisy->set.noise) : Interval(),
+               kNone);
+  add_quantity(derivation, "largest_slew", "W_{max}", "", slewing ? Interval(slewing->set.slew) : Interval(),
+               kNone);
+  if (certificate.set && question.with_samples) {
+    add_sampled_quantities(question, certificate, derivation);
+  }
+  theorems::conclude(derivation);
+  return certificate;
+}
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,80 @@
+#include "analysis/quadrature/contraction/riccati_order.hpp"
+
+#include "analysis/rigor/small_definiteness.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using rigor::Interval;
+using Block = BlockCovariance<Interval>;
+using Design = trackers::QuadratureEkfDesign<Interval>;
+
+/// sign * (P - U Phi U') as a lower triangle, U the turn with this tangent (and positive cosine).
+rigor::LowerTriangle<3> difference(const Block& p, const Block& phi, const Interval& tangent, double sign) {
+  const Interval one(1.0);
+  const Interval cosine_squared = one / (one + rigor::square(tangent));
+  const Interval sine_squared = rigor::square(tangent) * cosine_squared;
+  const Interval cosine = rigor::sqrt(cosine_squared);
+  const Interval factor(sign);
+  const Interval gap = phi.p22 - phi.p11;  // U moves this share between the two diagonal entries
+  rigor::LowerTriangle<3> result;
+  result[0][0] = factor * (p.p11 - phi.p11 - sine_squared * gap);
+  result[1][0] = factor * (tangent * cosine_squared * gap);
+  result[1][1] = factor * (p.p22 - phi.p22 + sine_squared * gap);
+  result[2][0] = factor * (tangent * cosine * phi.p23);
+  result[2][1] = factor * (p.p23 - cosine * phi.p23);
+  result[2][2] = factor * (p.p33 - phi.p33);
+  return result;
+}
+
+class OrderCheck {
+ public:
+  OrderCheck(const Block& lower, const Block& upper, const Design& design)
+      : lower_(lower), upper_(upper), design_(design) {}
+
+  /// The turns by -angle mirror those by angle: with J = diag(1, -1, -1), J U(angle) J = U(-angle), and J
+  /// leaves block covariances alone. So only non-negative tangents need to be looked at.
+  bool keeps(const Interval& rho, const Interval& tangent, int depth) const {
+    const Block low = riccati_update(lower_, rho, design_).filtered;
+    const Block high = riccati_update(upper_, rho, design_).filtered;
+    if (rigor::certainly_positive_definite(difference(lower_, low, tangent, -1.0)) &&
+        rigor::certainly_positive_definite(difference(upper_, high, tangent, 1.0))) {
+      return true;
+    }
+    if (depth == 0) {
+      return false;
+    }
+    const double middle = midpoint(tangent);
+    const double centre = midpoint(rho);
+    const bool split_turn = width(tangent) > 2.0 * width(rho);
+    if (split_turn) {
+      return keeps(rho, Interval::from_bounds(tangent.lower(), middle), depth - 1) &&
+             keeps(rho, Interval::from_bounds(middle, tangent.upper()), depth - 1);
+    }
+    return keeps(Interval::from_bounds(rho.lower(), centre), tangent, depth - 1) &&
+           keeps(Interval::from_bounds(centre, rho.upper()), tangent, depth - 1);
+  }
+
+ private:
+  Block lower_;
+  Block upper_;
+  Design design_;
+};
+
+}  // namespace
+
+bool certainly_keeps_covariance_between(const Block& lower, const Block& upper, const Design& design,
+                                        const std::vector<TurnBound>& turns) {
+  constexpr int kDepth = 12;
+  rigor::require_upward_rounding();
+  const OrderCheck check(lower, upper, design);
+  for (const TurnBound& turn : turns) {
+    if (!check.keeps(turn.rho, Interval::from_bounds(0.0, turn.tangent), kDepth)) {
+      return false;
+    }
+  }
+  return !turns.empty();
+}
+
+}  // namespace veritrack::quadrature

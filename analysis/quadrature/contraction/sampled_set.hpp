@@ -1,0 +1,35 @@
+// A set of errors and covariances as a few samples see it, in floating point: for proposals only.
+#pragma once
+
+#include <optional>
+
+#include "analysis/quadrature/contraction/covariance_proposal.hpp"
+#include "analysis/quadrature/contraction/step_inequality.hpp"
+
+namespace veritrack::quadrature {
+
+/// What sampling finds of the set {|T e| <= radius} with covariance bounds to match.
+struct SampledSet {
+  StepSetting<double> setting;  ///< with the covariance bounds found
+  /// The least rate^2 with which the samples satisfy the inequality of step_inequality.hpp; infinity when
+  /// there are no bounds or a sample does not contract.
+  double rate_squared;
+};
+
+/// The set to sample. The rate in `constants` is not read.
+struct SampleRequest {
+  trackers::QuadratureEkfDesign<double> design;
+  BlockMetric<double> metric;
+  double radius = 0.0;
+  double noise = 0.0;  ///< relative to the amplitude
+  StepConstants<double> constants;
+  /// By how much the covariance bounds are moved out beyond what is needed, in units of the steady state:
+  /// room for a proof.
+  double covariance_margin = 0.02;
+  std::optional<CovarianceRange> start_covariance;  ///< to be held by the bounds as well
+};
+
+/// Finds covariance bounds by iteration from the steady state and samples the inequality.
+[[nodiscard]] SampledSet sample_set(const SampleRequest& request, const BlockCovariance<double>& steady);
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,90 @@
+#include "analysis/quadrature/contraction/set_search.hpp"
+
+#include <array>
+
+#include "analysis/quadrature/contraction/start_bounds.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using rigor::Interval;
+
+bool sets_its_own_disturbance(Objective objective) {
+  return objective == Objective::noise || objective == Objective::slew;
+}
+
+ProposalRequest request_for(const sets::ContractionQuestion& question, Objective objective) {
+  ProposalRequest request;
+  const auto& design = question.design;
+  request.design = {midpoint(design.q1), midpoint(design.q2), midpoint(design.r), 0.0};
+  request.objective = objective;
+  request.noise = question.noise.upper();
+  request.slew = question.slew.upper();
+  request.start << question.initial_amplitude_error.upper(), question.initial_phase_error.upper(),
+      question.initial_frequency_error.upper();
+  if (question.initial_covariance) {
+    const rigor::IntervalMatrix<3>& p = *question.initial_covariance;
+    const BlockCovariance<double> middle{midpoint(p(0, 0)), midpoint(p(1, 1)), midpoint(p(1, 2)),
+                                         midpoint(p(2, 2))};
+    request.start_covariance = CovarianceRange{middle, middle};
+  }
+  request.evaluations = question.search_evaluations;
+  return request;
+}
+
+std::optional<Verification> first_that_verifies(const sets::ContractionQuestion& question,
+                                                const ProposalRequest& request) {
+  const rigor::NearestRounding nearest;
+  const auto shape = propose_shape(request);
+  if (!shape) {
+    return std::nullopt;
+  }
+  for (const double fraction : {0.85, 0.8, 0.7, 0.6, 0.45, 0.3, 0.15, 0.05}) {
+    const auto proposal = propose_set(request, *shape, fraction);
+    if (!proposal) {
+      continue;
+    }
+    Verification verification = verify_certified_set(question.design, *proposal);
+    // A proposal is not to be believed, not even in the noise and slew that it was asked to bear.
+    const rigor::UpwardRounding upward;
+    const bool bears_what_is_assumed =
+        sets_its_own_disturbance(request.objective) ||
+        (certainly_less_equal(question.noise, Interval(verification.set.noise)) &&
+         certainly_less_equal(question.slew, Interval(verification.set.slew)));
+    if (verification.verdict == rigor::Verdict::proved && bears_what_is_assumed) {
+      return verification;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Verification> find_set(const sets::ContractionQuestion& question, Objective objective,
+                                     double settled_error) {
+  ProposalRequest request = request_for(question, objective);
+  request.settled_error = settled_error;
+  return first_that_verifies(question, request);
+}
+
+std::optional<Verification> find_inner_set(const sets::ContractionQuestion& question,
+                                           const CertifiedSet& outer) {
+  ProposalRequest request = request_for(question, Objective::ultimate_error);
+  const auto block = [](const rigor::Matrix<3>& p) {
+    return BlockCovariance<double>{p(0, 0), p(1, 1), p(1, 2), p(2, 2)};
+  };
+  request.start_covariance = CovarianceRange{block(outer.covariance_lower), block(outer.covariance_upper)};
+  {
+    const rigor::UpwardRounding upward;
+    const auto bounds = error_bounds(outer, ultimate_level(outer, question.noise, question.slew));
+    constexpr double kRoom = 1.0001;
+    request.start << kRoom * bounds[0].upper(), kRoom * bounds[1].upper(), kRoom * bounds[2].upper();
+  }
+  std::optional<Verification> inner = first_that_verifies(question, request);
+  const rigor::UpwardRounding upward;
+  return inner && certainly_leads_into(outer, inner->set, question.noise, question.slew) ? inner
+                                                                                         : std::nullopt;
+}
+
+}  // namespace veritrack::quadrature

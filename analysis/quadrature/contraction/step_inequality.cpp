@@ -1,0 +1,260 @@
+#include "analysis/quadrature/contraction/step_inequality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using rigor::Interval;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The smallest k with k q >= offset + P' W^-1 P on the axis, in (x, nu), W the Schur block; infinity when W
+/// is not definite.
+double rate_squared_with(const PolarStepForm<double, double>& f, const BlockMetric<double>& metric,
+                         const ReducedForm<double, double>& reduced) {
+  const Gram<double>& w = reduced.schur;
+  // Cholesky of W, and X = L^-1 P.
+  if (!(w.g11 > 0.0)) {
+    return kInfinity;
+  }
+  const double l11 = std::sqrt(w.g11);
+  const double l21 = w.g12 / l11;
+  const double l31 = w.g13 / l11;
+  const double w22 = w.g22 - l21 * l21;
+  if (!(w22 > 0.0)) {
+    return kInfinity;
+  }
+  const double l22 = std::sqrt(w22);
+  const double l32 = (w.g23 - l31 * l21) / l22;
+  const double w33 = w.g33 - l31 * l31 - l32 * l32;
+  if (!(w33 > 0.0)) {
+    return kInfinity;
+  }
+  const double l33 = std::sqrt(w33);
+  const std::array<double, 3>& c = reduced.centre[0];
+  const double x1 = c[0] / l11;
+  const double x2 = (c[1] - l21 * x1) / l22;
+  const double x3 = (c[2] - l31 * x1 - l32 * x2) / l33;
+  const double y2 = metric.coupling / l22;
+  const double y3 = (metric.frequency - l32 * y2) / l33;
+  const double n11 = x1 * x1 + x2 * x2 + x3 * x3 + reduced.offset11;
+  const double n12 = x2 * y2 + x3 * y3;
+  const double n22 = y2 * y2 + y3 * y3;
+  // The larger root k of det(n - k q) = 0.
+  const Gram<double>& q = f.size;
+  const double leading = q.g11 * q.g33 - q.g13 * q.g13;
+  const double half = 0.5 * (n11 * q.g33 + n22 * q.g11) - n12 * q.g13;
+  const double last = n11 * n22 - n12 * n12;
+  if (!(leading > 0.0)) {
+    return kInfinity;
+  }
+  return (half + std::sqrt(std::max(0.0, half * half - leading * last))) / leading;
+}
+
+/// The multipliers worth a look, as logarithms: above the norm of Gamma, and so small that noise of that gain
+/// could be borne at all.
+struct Range {
+  double low, high;
+};
+Range range_of_multipliers(const PolarStepForm<double, double>& form,
+                           const StepConstants<double>& constants) {
+  const double trace = std::log(form.gram.g11 + form.gram.g22 + form.gram.g33);
+  Range range{trace - 0.7, trace + 5.0};
+  if (constants.noisy) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      const auto& c = form.gain[j];
+      const double room = constants.noise_gain_squared - (c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
+      if (form.spread[j] > 0.0) {
+        range.high = std::min(range.high, std::log(room / form.spread[j]));
+      }
+    }
+  }
+  return range;
+}
+
+constexpr std::size_t kAcrossRow = 4;
+constexpr std::size_t kAlongRow = 5;
+
+/// The matrix without the rows of v, in the order T e+, nu, y, x.
+template <typename Constant, typename Scalar>
+rigor::LowerTriangle<6, Scalar> remaining_matrix(const PolarStepForm<Constant, Scalar>& form,
+                                                 const BlockMetric<Constant>& metric,
+                                                 const StepConstants<Constant>& constants,
+                                                 const ReducedForm<Constant, Scalar>& reduced) {
+  const Gram<Scalar>& w = reduced.schur;
+  const Gram<Constant>& q = form.size;
+  const Constant& k = constants.rate_squared;
+  const auto& c = reduced.centre;
+  const Scalar none(0.0);
+  return {{{w.g11, none, none, none, none, none},
+           {w.g12, w.g22, none, none, none, none},
+           {w.g13, w.g23, w.g33, none, none, none},
+           {none, Scalar(metric.coupling), Scalar(metric.frequency), Scalar(k * q.g33), none, none},
+           {c[1][0], c[1][1], c[1][2], Scalar(k * q.g23), k * q.g22 - reduced.offset22, none},
+           {c[0][0], c[0][1], c[0][2], Scalar(k * q.g13), k * q.g12 - reduced.offset12,
+            k * q.g11 - reduced.offset11}}};
+}
+
+/// The multiplier for the angle that leaves most room.
+double propose_angle_multiplier(rigor::LowerTriangle<6, double> a, double tangent_squared) {
+  if (!std::isfinite(tangent_squared) || !rigor::eliminate(a, kAcrossRow)) {
+    return 0.0;
+  }
+  // The rest is a form in (y, x): (s_xx - tau t^2)(s_yy + tau) is largest half way between its roots.
+  const double middle = 0.5 * (a[kAlongRow][kAlongRow] / tangent_squared - a[kAcrossRow][kAcrossRow]);
+  return middle > 0.0 ? middle : 0.0;
+}
+
+template <typename Scalar>
+void add_angle(rigor::LowerTriangle<6, Scalar>& a, const Scalar& multiplier, const Scalar& tangent_squared) {
+  a[kAlongRow][kAlongRow] -= multiplier * tangent_squared;
+  a[kAcrossRow][kAcrossRow] += multiplier;
+}
+
+/// L^-1 of a = L L', roughly; nothing when a is not definite. Only the lower triangle has a meaning.
+std::optional<rigor::LowerTriangle<6, double>> inverse_cholesky(const rigor::LowerTriangle<6, double>& a) {
+  rigor::LowerTriangle<6, double> l{};
+  rigor::LowerTriangle<6, double> inverse{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = a[i][j];
+      for (std::size_t k = 0; k < j; ++k) {
+        sum -= l[i][k] * l[j][k];
+      }
+      if (i == j && !(sum > 0.0)) {
+        return std::nullopt;
+      }
+      l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
+    }
+  }
+  for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t i = j; i < 6; ++i) {
+      double sum = i == j ? 1.0 : 0.0;
+      for (std::size_t k = j; k < i; ++k) {
+        sum -= l[i][k] * inverse[k][j];
+      }
+      inverse[i][j] = sum / l[i][i];
+    }
+  }
+  return inverse;
+}
+
+/// C A C' for a lower triangular C.
+template <typename Entry>
+rigor::LowerTriangle<6> congruent(const rigor::LowerTriangle<6>& c, const Entry& a) {
+  std::array<std::array<Interval, 6>, 6> half;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      Interval sum = c[i][0] * (j > 0 ? a(j, 0) : a(0, 0));
+      for (std::size_t k = 1; k <= i; ++k) {
+        sum += c[i][k] * (k < j ? a(j, k) : a(k, j));
+      }
+      half[i][j] = sum;
+    }
+  }
+  rigor::LowerTriangle<6> result;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      Interval sum = half[i][0] * c[j][0];
+      for (std::size_t k = 1; k <= j; ++k) {
+        sum += half[i][k] * c[j][k];
+      }
+      result[i][j] = sum;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+RayRate propose_rate(const PolarStepForm<double, double>& form, const BlockMetric<double>& metric,
+                     const StepConstants<double>& constants) {
+  constexpr double kGolden = 0.6180339887498949;
+  const auto bound = [&](double log_lambda) {
+    return rate_squared_with(form, metric, reduced_form(form, metric, constants, std::exp(log_lambda)));
+  };
+  auto [low, high] = range_of_multipliers(form, constants);
+  if (!(low < high)) {
+    return {kInfinity, 0.0};
+  }
+  double left = high - kGolden * (high - low);
+  double right = low + kGolden * (high - low);
+  double at_left = bound(left);
+  double at_right = bound(right);
+  for (int i = 0; i < 12; ++i) {
+    if (at_left < at_right) {
+      high = right;
+      right = left;
+      at_right = at_left;
+      left = high - kGolden * (high - low);
+      at_left = bound(left);
+    } else {
+      low = left;
+      left = right;
+      at_left = at_right;
+      right = low + kGolden * (high - low);
+      at_right = bound(right);
+    }
+  }
+  return at_left < at_right ? RayRate{at_left, std::exp(left)} : RayRate{at_right, std::exp(right)};
+}
+
+CellVerdict check_cell(const CellForms& forms, const BlockMetric<Interval>& metric,
+                       const StepConstants<Interval>& constants, const BlockMetric<double>& proposed_metric,
+                       const StepConstants<double>& proposed_constants, double multiplier) {
+  CellVerdict verdict;
+  const Interval lambda(multiplier);
+  if (!certainly_positive(lambda)) {
+    return verdict;
+  }
+  rigor::LowerTriangle<6, double> proposed =
+      remaining_matrix(forms.proposal, proposed_metric, proposed_constants,
+                       reduced_form(forms.proposal, proposed_metric, proposed_constants, multiplier));
+  const double tau = propose_angle_multiplier(proposed, forms.tangent_squared);
+  if (tau > 0.0) {
+    add_angle(proposed, tau, forms.tangent_squared);
+  }
+  const auto inverse = inverse_cholesky(proposed);
+  const ReducedForm<Interval, Interval> middle = reduced_form(forms.middle, metric, constants, lambda);
+  const ReducedForm<Interval, Derivatives> over = reduced_form(forms.over, metric, constants, lambda);
+  if (!inverse || !certainly_positive(over.noise_pivots[0]) || !certainly_positive(over.noise_pivots[1])) {
+    return verdict;
+  }
+  rigor::LowerTriangle<6> c;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      c[i][j] = Interval((*inverse)[i][j]);
+    }
+  }
+  rigor::LowerTriangle<6> at_middle = remaining_matrix(forms.middle, metric, constants, middle);
+  if (tau > 0.0) {
+    add_angle(at_middle, Interval(tau), Interval(forms.tangent_squared));
+  }
+  const rigor::LowerTriangle<6, Derivatives> slopes = remaining_matrix(forms.over, metric, constants, over);
+  rigor::LowerTriangle<6> sum = congruent(c, [&](std::size_t i, std::size_t j) { return at_middle[i][j]; });
+  for (int variable = 0; variable < kCellVariables; ++variable) {
+    const auto index = static_cast<std::size_t>(variable);
+    const Interval away = rigor::symmetric(forms.half_widths[index]);
+    const rigor::LowerTriangle<6> slope = congruent(c, [&](std::size_t i, std::size_t j) -> const Interval& {
+      return slopes[i][j].derivative(variable);
+    });
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        const Interval moved = slope[i][j] * away;
+        verdict.influence[index] += moved.upper();
+        sum[i][j] += moved;
+      }
+    }
+  }
+  // C A C' is definite with A, as C is triangular; and that it has an inverse is not needed: a singular C
+  // would leave C A C' singular.
+  verdict.holds = rigor::certainly_positive_definite<6>(sum);
+  return verdict;
+}
+
+}  // namespace veritrack::quadrature

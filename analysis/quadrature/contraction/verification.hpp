@@ -1,0 +1,34 @@
+// Verification of a proposed set: the proof, from nothing but the design and the proposal.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "analysis/quadrature/contraction/certified_set.hpp"
+#include "analysis/rigor/verdict.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
+
+namespace veritrack::quadrature {
+
+/// What verify_certified_set found.
+struct Verification {
+  rigor::Verdict verdict =
+      rigor::Verdict::undecided;  ///< proved or undecided: a failed search refutes nothing
+  std::string reason;             ///< one sentence: what is proved, or which step failed
+  CertifiedSet set;               ///< the proposal
+  std::int64_t cells = 0;         ///< examined
+};
+
+/// Is the promise of CertifiedSet true for this proposal, for every design in the intervals? Proved are
+///   1. P_lo > 0, P_hi - P_lo > 0, T invertible, 0 <= rate < 1, and the ranges of all inputs;
+///   2. |T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2 w^2 over the set, for |v| <= V and |w| <= W
+///      (error_contraction.hpp);
+///   3. invariance of the covariance bounds under every |z| and turn that occur in the set with noise up to V
+///      (riccati_order.hpp);
+///   4. rate^2 R^2 + L_v^2 V^2 + L_w^2 W^2 <= R^2.
+/// By 3 and 4 a step does not leave the set, so that 2 applies to the next; docs/contraction.md has the
+/// proof. epsilon must be zero. Opens its own UpwardRounding scope; never throws for odd numbers.
+[[nodiscard]] Verification verify_certified_set(const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+                                                const CertifiedSet& proposal);
+
+}  // namespace veritrack::quadrature

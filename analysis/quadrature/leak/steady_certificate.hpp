@@ -1,0 +1,31 @@
+// The contraction certificate of the quadrature tracker with a leak (epsilon > 0): around its steady state,
+// which depends on the frequency, over a band of frequencies. docs/leak.md.
+#pragma once
+
+#include <optional>
+
+#include "analysis/quadrature/contraction/quadrature_certificate.hpp"
+#include "analysis/quadrature/leak/steady_verification.hpp"
+
+namespace veritrack::quadrature {
+
+/// What is asked, at amplitude 1.
+struct LeakQuestion {
+  sets::ContractionQuestion
+      tracker;           ///< design, noise, slew and start; "steady state" is that of the frequency
+  rigor::Interval band;  ///< true frequencies, rad/sample
+};
+
+struct LeakCertificate {
+  /// id "contraction"; the quantities of ContractionCertificate, about the steady state where they are
+  /// radii and about the truth where they are bounds, and bias_frequency; conditions steady-state,
+  /// invariant-set, start-in-set.
+  theorems::Derivation derivation;
+  std::optional<SteadyVerification> set;  ///< PROVED, or the last attempt
+};
+
+/// Proposes, verifies and reports. Never throws for odd numbers: what is not finite proves nothing. Opens its
+/// own UpwardRounding scope.
+[[nodiscard]] LeakCertificate certify_with_leak(const LeakQuestion& question);
+
+}  // namespace veritrack::quadrature

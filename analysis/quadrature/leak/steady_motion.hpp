@@ -1,0 +1,25 @@
+// How far a slew of the frequency carries a state from its steady state. With a leak.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/quadrature/leak/steady_set.hpp"
+#include "analysis/sets/fixed_point_quadrature.hpp"
+
+namespace veritrack::quadrature {
+
+/// In units of the level, upper bounds: the errors in the metric, the covariance as a share of its bounds.
+struct SteadyMotion {
+  rigor::Interval errors = rigor::Interval(0.0);
+  rigor::Interval covariance = rigor::Interval(0.0);
+};
+
+/// What the slew of the set does between neighbouring samples, uniform over the branch, since a step may lead
+/// from one cell to another; nothing when it could not be enclosed. Needs the upward mode.
+[[nodiscard]] std::optional<SteadyMotion> steady_motion(
+    const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+    const std::vector<sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>>& branch,
+    const SteadySet& set);
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,75 @@
+#include "analysis/quadrature/leak/steady_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/quadrature/leak/steady_rate.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using rigor::Interval;
+
+constexpr std::array<double, 2> kEnds{-1.0, 1.0};
+
+/// share * a - b.
+Symmetric<Interval> difference(const Interval& share, const Symmetric<Interval>& a,
+                               const Symmetric<Interval>& b) {
+  return {share * a.p11 - b.p11, share * a.p12 - b.p12, share * a.p13 - b.p13,
+          share * a.p22 - b.p22, share * a.p23 - b.p23, share * a.p33 - b.p33};
+}
+
+bool is_within(const CovarianceBand<Interval>& band, const CovarianceStep<Interval>& image,
+               const Interval& share) {
+  return certainly_positive_definite(plus(image.low, band.below, share)) &&
+         certainly_positive_definite(difference(share, band.above, image.high));
+}
+
+CovarianceStep<Interval> moved_by(const CovarianceStep<SteadySecant>& step, const SteadyOffset& offset) {
+  return {quadrature::moved_by(step.low, offset), quadrature::moved_by(step.high, offset)};
+}
+
+/// The width of the slopes in one variable, relative to the band.
+double blur_of(const Symmetric<SteadySecant>& image, const Symmetric<Interval>& band, std::size_t variable) {
+  const double d1 = std::sqrt(band.p11.upper());
+  const double d2 = std::sqrt(band.p22.upper());
+  const double d3 = std::sqrt(band.p33.upper());
+  const auto share = [variable](const SteadySecant& entry, double scale) {
+    return width(entry.slope(variable)) / scale;
+  };
+  return share(image.p11, d1 * d1) + share(image.p12, d1 * d2) + share(image.p13, d1 * d3) +
+         share(image.p22, d2 * d2) + share(image.p23, d2 * d3) + share(image.p33, d3 * d3);
+}
+
+}  // namespace
+
+SteadyOrder keeps_covariance(const SteadySettings& settings, const std::vector<SteadyOffset>& corners,
+                             const SteadyStep<SteadySecant>& step, double level,
+                             const Interval& tangent_reach, const Interval& share) {
+  const CovarianceBand<Interval>& band = settings.over_cell.band;
+  const SteadySecant levels{Interval(level)};
+  const SteadySecant tangents = turn_tangent(settings.secants, step, levels) +
+                                SteadySecant(Interval(tangent_reach.upper())) *
+                                    SteadySecant::variable(rigor::symmetric(1.0), 0.0, kAcross);
+  const CovarianceStep<SteadySecant> image = covariance_step(settings.secants, step, levels, tangents);
+  SteadyOrder result;
+  for (const std::size_t variable : {kX, kY}) {
+    result.blur[variable] =
+        blur_of(image.low, band.below, variable) + blur_of(image.high, band.above, variable);
+  }
+  SteadyOffset middle;
+  middle.fill(Interval(0.0));
+  result.hopeless = !certainly_positive(share) || !is_within(band, moved_by(image, middle), share);
+  // Positive definite matrices are a convex set: what is affine in the variables needs to be looked at in the
+  // corners only, with whichever slopes there are.
+  result.kept = !result.hopeless && std::all_of(corners.begin(), corners.end(), [&](SteadyOffset corner) {
+    return std::all_of(kEnds.begin(), kEnds.end(), [&](double across) {
+      corner[kAcross] = Interval(across);
+      return is_within(band, moved_by(image, corner), share);
+    });
+  });
+  return result;
+}
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,115 @@
+#include "analysis/quadrature/leak/steady_report.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "analysis/rigor/decimal.hpp"
+
+namespace veritrack::quadrature {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+namespace {
+
+std::string at_most(double x) {
+  return rigor::to_decimal(x, 4, rigor::Direction::up);
+}
+
+}  // namespace
+
+SteadyReport::SteadyReport(const sets::ContractionQuestion& question, const sets::LockBranch& branch,
+                           const SteadySet& set)
+    : set_(set), starts_(follow_to_steady_set(question, branch.cells, set)), start_(joined(starts_)) {
+  biases_.reserve(branch.cells.size());
+  for (const auto& cell : branch.cells) {
+    biases_.push_back(magnitude(sets::steady_state_error(cell).frequency_error));
+  }
+  bias_ = *std::max_element(biases_.begin(), biases_.end());
+  if (!(question.slew == Interval(0.0))) {
+    std::fill(biases_.begin(), biases_.end(), bias_);  // the frequency may move from cell to cell
+  }
+}
+
+theorems::Condition SteadyReport::start_in_set() const {
+  theorems::Condition condition{"start-in-set",
+                                "|T (e - e^*)| \\le 1,\\ -\\Delta_{lo} \\le P - P^* \\le \\Delta_{hi}",
+                                start_.reached ? Verdict::proved : Verdict::undecided,
+                                start_.level ? Interval(*start_.level) : Interval::empty(),
+                                Interval(1.0),
+                                {}};
+  if (start_.reached && start_.samples == 0) {
+    condition.reason =
+        "every assumed start lies in the certified set around the steady state of its frequency.";
+  } else if (start_.reached) {
+    condition.lhs = Interval(start_.level_when_reached);
+    condition.reason =
+        "every assumed start comes into the certified set around the steady state of its "
+        "frequency, within " +
+        std::to_string(start_.samples) + " samples, in which the frequency error is at most " +
+        at_most(start_.frequency_error) +
+        " rad/sample: followed in interval arithmetic, with the assumed noise.";
+  } else if (start_.level) {
+    condition.reason =
+        "the assumed starts reach " + at_most(*start_.level) +
+        " in a metric where the set ends at 1, measured from the steady state, which is up to " +
+        at_most(bias_) + " rad/sample off the truth";
+    condition.reason += start_.failure.empty() ? "" : ", and " + start_.failure;
+    condition.reason +=
+        ": a smaller leak epsilon, a narrower [assume] frequency or smaller start errors would do.";
+  } else {
+    condition.reason = "the initial covariance is not certainly between the bounds of the certified set";
+    condition.reason += start_.failure.empty() ? "." : ", and " + start_.failure + ".";
+  }
+  return condition;
+}
+
+Interval SteadyReport::radius(Eigen::Index i) const {
+  return error_bounds(set_, Interval(1.0))[i];
+}
+
+std::optional<Interval> SteadyReport::bound() const {
+  if (!start_.reached) {
+    return std::nullopt;
+  }
+  Interval worst(start_.frequency_error);
+  for (std::size_t i = 0; i < starts_.size(); ++i) {
+    // After the start, or after the sample at which it comes in, the states are in the next level.
+    const double level = starts_[i].level_when_reached;
+    const std::size_t next = std::min(last_level_with(level) + 1, set_.levels.size() - 1);
+    worst = rigor::max(worst, bound_at(std::max(level, set_.levels[next]), biases_[i]));
+  }
+  return worst;
+}
+
+Interval SteadyReport::settling() const {
+  const std::size_t from = start_.reached ? last_level_with(start_.level_when_reached) : 0;
+  const std::size_t steps = set_.levels.size() - 1 - from;
+  return Interval(static_cast<double>(steps) + (start_.reached ? start_.samples : 0));
+}
+
+Interval SteadyReport::rate() const {
+  Interval slowest(0.0);
+  for (std::size_t j = 1; j < set_.levels.size(); ++j) {
+    slowest = rigor::max(slowest, Interval(set_.levels[j]) / Interval(set_.levels[j - 1]));
+  }
+  return Interval(slowest.upper());
+}
+
+std::optional<Interval> SteadyReport::capture_samples() const {
+  return start_.reached ? std::optional(Interval(start_.samples)) : std::nullopt;
+}
+
+std::size_t SteadyReport::last_level_with(double level) const {
+  std::size_t j = 0;
+  while (j + 1 < set_.levels.size() && set_.levels[j + 1] >= level) {
+    ++j;
+  }
+  return j;
+}
+
+Interval SteadyReport::bound_at(double level, double bias) const {
+  return Interval((Interval(bias) + error_bounds(set_, Interval(level))[2]).upper());
+}
+
+}  // namespace veritrack::quadrature

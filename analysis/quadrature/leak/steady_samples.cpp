@@ -1,0 +1,229 @@
+#include "analysis/quadrature/leak/steady_samples.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analysis/quadrature/leak/steady_rate.hpp"
+#include "analysis/quadrature/leak/steady_setting.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using rigor::Matrix;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Symmetric<double> symmetric(const Matrix<3>& m) {
+  return Symmetric<double>::from_matrix(m);
+}
+
+/// The largest x with x a + b singular: the smallest x such that x a + b >= 0.
+double smallest_share(const Eigen::LLT<Matrix<3>>& a, const Matrix<3>& b) {
+  const Matrix<3> half = a.matrixL().solve(b);
+  const Matrix<3> whole = a.matrixL().solve(half.transpose());
+  Eigen::SelfAdjointEigenSolver<Matrix<3>> eigen;
+  eigen.computeDirect(whole, Eigen::EigenvaluesOnly);
+  return -eigen.eigenvalues()[0];
+}
+
+struct Sample {
+  SteadyStep<double> step;
+  SteadyBounds<double> bounds;
+};
+
+bool usable(const Sample& sample) {
+  constexpr double kLeast = 0.05;
+  return sample.bounds.least_along > kLeast && sample.step.along > kLeast &&
+         std::fabs(sample.step.swing) < 1.4;
+}
+
+Sample sample_at(const SteadySetting<double>& setting, double level, double noise, double share, int angle,
+                 int angles) {
+  const double beta = 2.0 * std::numbers::pi * angle / angles;
+  const SteadyStep<double> step =
+      steady_step(setting, {level, share * std::cos(beta), share * std::sin(beta)});
+  return {step, steady_bounds(step, setting, level, noise)};
+}
+
+/// Calls `use` with (P+ - P*)/s of both bounds for samples on the rim, a few inside and the middle, at both
+/// ends of the turn.
+template <typename Use>
+bool for_each_image(const SteadySetting<double>& setting, double level, double noise, int angles,
+                    const Use& use) {
+  const int inside = angles / 4;
+  for (int j = 0; j <= angles + inside; ++j) {
+    const double share = j < angles ? 1.0 : j < angles + inside ? 0.5 : 0.0;
+    const Sample sample = sample_at(setting, level, noise, share, j, j < angles ? angles : inside);
+    if (!usable(sample)) {
+      return false;
+    }
+    const double tangent = turn_tangent(setting, sample.step, level);
+    for (const double side : {-1.0, 1.0}) {
+      const auto image =
+          covariance_step(setting, sample.step, level, tangent + side * sample.bounds.tangent_reach);
+      use(image.low.matrix(), image.high.matrix());
+    }
+  }
+  return true;
+}
+
+/// bound + the positive part of (x - bound).
+void grow(Matrix<3>& bound, const Matrix<3>& x) {
+  Eigen::SelfAdjointEigenSolver<Matrix<3>> eigen;
+  eigen.computeDirect(x - bound);
+  for (int i = 0; i < 3; ++i) {
+    if (eigen.eigenvalues()[i] > 0.0) {
+      bound += eigen.eigenvalues()[i] * eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
+    }
+  }
+}
+
+}  // namespace
+
+SteadySamples::SteadySamples(const SteadyRequest& request) : request_(request) {
+  const auto& middle = request.steady[request.steady.size() / 2].covariance;
+  root_ = Eigen::LLT<Matrix<3>>(middle.matrix()).matrixL();
+  inverse_root_ = root_.inverse();
+}
+
+rigor::Matrix<3> SteadySamples::metric(const Eigen::VectorXd& x) const {
+  Matrix<3> change;
+  change << std::exp(x[0]), x[3], x[4], 0.0, 1.0, x[2], 0.0, 0.0, std::exp(x[1]);
+  const Matrix<3> information = request_.steady.back().covariance.matrix().inverse();
+  const Matrix<3> base = Eigen::LLT<Matrix<3>>(information).matrixU();
+  return change * base;
+}
+
+std::vector<SteadySetting<double>> SteadySamples::settings(const Matrix<3>& t) const {
+  const Matrix<3> inverse = t.inverse();
+  Eigen::Matrix<double, 2, 3> rows;
+  rows << inverse.row(0), inverse.row(1) + inverse.row(2);
+  const Eigen::Matrix2d directions = Eigen::LLT<Eigen::Matrix2d>(rows * rows.transpose()).matrixL();
+  std::vector<SteadySetting<double>> result;
+  result.reserve(request_.steady.size());
+  for (const auto& steady : request_.steady) {
+    SteadySetting<double> setting;
+    setting.design = request_.design;
+    setting.steady = steady;
+    setting.metric = {t(0, 0), t(0, 1), t(0, 2), t(1, 1), t(1, 2), t(2, 2)};
+    setting.a11 = directions(0, 0);
+    setting.a21 = directions(1, 0);
+    setting.a22 = directions(1, 1);
+    fill_turns(setting);
+    result.push_back(setting);
+  }
+  return result;
+}
+
+bool SteadySamples::find_band(std::vector<SteadySetting<double>>& settings, double noise, double goal,
+                              int angles) const {
+  constexpr int kMostSteps = 30;
+  constexpr double kStandstill = 0.003;
+  constexpr double kSmallest = 0.02;
+  Matrix<3> below = kSmallest * Matrix<3>::Identity();
+  Matrix<3> above = below;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Matrix<3> old_below = below;
+    const Matrix<3> old_above = above;
+    for (auto& setting : settings) {
+      setting.band = {symmetric(root_ * old_below * root_.transpose()),
+                      symmetric(root_ * old_above * root_.transpose())};
+      const bool usable =
+          for_each_image(setting, 1.0, noise, angles, [&](const Matrix<3>& low, const Matrix<3>& high) {
+            grow(above, enter(high) / goal);
+            grow(below, enter(low) / -goal);
+          });
+      if (!usable) {
+        return false;
+      }
+    }
+    const double moved =
+        (above - old_above).norm() / above.norm() + (below - old_below).norm() / below.norm();
+    if (!(above.norm() < 30.0) || !(below.norm() < 30.0)) {
+      return false;
+    }
+    if (moved < kStandstill) {
+      break;
+    }
+  }
+  for (auto& setting : settings) {
+    setting.band = {symmetric(root_ * below * root_.transpose()),
+                    symmetric(root_ * above * root_.transpose())};
+    const Matrix<3> least = setting.steady.covariance.matrix() - setting.band.below.matrix();
+    if (Eigen::LLT<Matrix<3>>(least).info() != Eigen::Success) {
+      return false;
+    }
+  }
+  return true;
+}
+
+double SteadySamples::rate(const std::vector<SteadySetting<double>>& settings, double level, double noise,
+                           int angles) const {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < settings.size(); ++k) {
+    const auto& setting = settings[k];
+    for (int j = 0; j < angles; ++j) {
+      for (const double share : {1.0, 0.5}) {
+        const Sample sample = sample_at(setting, level, noise, share, j, angles);
+        if (!usable(sample)) {
+          return kInfinity;
+        }
+        const double motion = request_.slew > 0.0 && !request_.slopes.empty() ? motion_of(setting, k) : 0.0;
+        worst = std::max(worst, std::sqrt(propose_rate(sample.step, sample.bounds, 0.0).rate_squared) +
+                                    (1.1 * sample.bounds.noise_gain * noise + motion) / level);
+        if (!(worst < 2.0)) {
+          return kInfinity;
+        }
+      }
+    }
+    const Eigen::LLT<Matrix<3>> below(setting.band.below.matrix());
+    const Eigen::LLT<Matrix<3>> above(setting.band.above.matrix());
+    const double motion =
+        covariance_motion(setting.band.below.matrix(), setting.band.above.matrix(), k) / level;
+    const bool fine =
+        for_each_image(setting, level, noise, angles, [&](const Matrix<3>& low, const Matrix<3>& high) {
+          worst =
+              std::max({worst, smallest_share(above, -high) + motion, smallest_share(below, low) + motion});
+        });
+    if (!fine) {
+      return kInfinity;
+    }
+  }
+  return worst;
+}
+
+rigor::Matrix<3> SteadySamples::enter(const Matrix<3>& p) const {
+  return inverse_root_ * p * inverse_root_.transpose();
+}
+
+double SteadySamples::motion_of(const SteadySetting<double>& setting, std::size_t k) const {
+  const auto& t = setting.metric;
+  const rigor::Vector<9>& x = request_.slopes[k];
+  const double frequency = 1.0 + x[2];
+  return 1.02 * request_.slew *
+         std::hypot(t.t11 * x[0] + t.t12 * x[1] + t.t13 * frequency, t.t22 * x[1] + t.t23 * frequency,
+                    t.t33 * frequency);
+}
+
+double SteadySamples::covariance_motion(const Matrix<3>& below_bound, const Matrix<3>& above_bound,
+                                        std::size_t k) const {
+  if (!(request_.slew > 0.0) || request_.slopes.empty()) {
+    return 0.0;
+  }
+  const Eigen::LLT<Matrix<3>> below(below_bound);
+  const Eigen::LLT<Matrix<3>> above(above_bound);
+  const auto& x = request_.slopes[k];
+  Matrix<3> slope;
+  slope << x[3], x[4], x[5], x[4], x[6], x[7], x[5], x[7], x[8];
+  // The verification raises its guess by halves until it holds.
+  return 1.55 * request_.slew *
+         std::max({smallest_share(above, slope), smallest_share(above, -slope), smallest_share(below, slope),
+                   smallest_share(below, -slope)});
+}
+
+}  // namespace veritrack::quadrature

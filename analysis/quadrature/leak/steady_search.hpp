@@ -1,0 +1,29 @@
+// Sets around the steady state: proposed and verified, the largest first. With a leak.
+#pragma once
+
+#include <optional>
+
+#include "analysis/quadrature/leak/steady_verification.hpp"
+#include "analysis/sets/contraction_question.hpp"
+
+namespace veritrack::quadrature {
+
+/// What was found for a question.
+struct SteadySearch {
+  bool shaped = false;                    ///< sampling found a shape to try at all
+  std::optional<SteadyVerification> set;  ///< PROVED for the assumed noise and slew, or the last attempt
+  std::optional<SteadySet> noise_set;     ///< certified for more noise than `set`, without slew, of one level
+  std::optional<SteadySet> slew_set;      ///< certified for more slew than `set`, without noise, of one level
+  [[nodiscard]] bool found() const;       ///< `set` is PROVED
+  /// Certified without slew, relative to the amplitude; zero when none is.
+  [[nodiscard]] double largest_noise() const;
+  /// Certified without noise, rad/sample per sample; zero when none is.
+  [[nodiscard]] double largest_slew() const;
+};
+
+/// Tries sets from the largest that sampling can imagine down. The branch must be PROVED. Opens its own
+/// rounding scopes; deterministic.
+[[nodiscard]] SteadySearch search_steady_sets(const sets::ContractionQuestion& question,
+                                              const sets::LockBranch& branch);
+
+}  // namespace veritrack::quadrature

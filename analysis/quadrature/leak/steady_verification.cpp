@@ -1,0 +1,246 @@
+#include "analysis/quadrature/leak/steady_verification.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "analysis/quadrature/leak/steady_contraction.hpp"
+#include "analysis/quadrature/leak/steady_motion.hpp"
+#include "analysis/quadrature/leak/steady_rate.hpp"
+#include "analysis/quadrature/leak/steady_setting.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/small_definiteness.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+using Tube = sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>;
+using Design = trackers::QuadratureEkfDesign<Interval>;
+
+bool is_symmetric(const rigor::Matrix<3>& p) {
+  return p(0, 1) == p(1, 0) && p(0, 2) == p(2, 0) && p(1, 2) == p(2, 1) && rigor::is_finite(p);
+}
+
+bool certainly_not_negative(const Interval& x) {
+  return certainly_less_equal(Interval(0.0), x);
+}
+
+/// The first hypothesis on the proposal that does not hold, as a sentence; empty when all hold.
+std::string objection(const Design& design, const SteadySet& set) {
+  const auto& t = set.metric;
+  if (!certainly_positive(design.r) || !certainly_not_negative(design.q1) ||
+      !certainly_not_negative(design.q2) || !certainly_not_negative(design.epsilon) ||
+      !certainly_less(design.epsilon, Interval(1.0))) {
+    return "the design is not one with q1 >= 0, q2 >= 0, r > 0 and 0 <= epsilon < 1.";
+  }
+  if (!rigor::is_finite(t) || t(1, 0) != 0.0 || t(2, 0) != 0.0 || t(2, 1) != 0.0 ||
+      !certainly_positive(Interval(t(0, 0))) || !certainly_positive(Interval(t(1, 1))) ||
+      !certainly_positive(Interval(t(2, 2)))) {
+    return "the metric does not have the form that the proof needs.";
+  }
+  if (!certainly_not_negative(Interval(set.noise)) || !certainly_not_negative(Interval(set.slew))) {
+    return "noise or slew are no bounds.";
+  }
+  if (!is_symmetric(set.below) || !is_symmetric(set.above) ||
+      !certainly_positive_definite(to_symmetric(set.below)) ||
+      !certainly_positive_definite(to_symmetric(set.above))) {
+    return "the covariance bounds are not certainly positive definite.";
+  }
+  double last = 1.0;
+  for (std::size_t j = 0; j < set.levels.size(); ++j) {
+    const double level = set.levels[j];
+    const bool falls = level > 0.0 && (j == 0 ? level == 1.0 : level < last);
+    if (!falls) {
+      return "the levels do not fall from 1.";
+    }
+    last = level;
+  }
+  return set.levels.empty() ? "there are no levels." : std::string();
+}
+
+TriangularMetric<Interval> metric_of(const SteadySet& set) {
+  const auto& t = set.metric;
+  return {Interval(t(0, 0)), Interval(t(0, 1)), Interval(t(0, 2)),
+          Interval(t(1, 1)), Interval(t(1, 2)), Interval(t(2, 2))};
+}
+
+/// Sets a11, a21, a22 such that A A' - M M' > 0 for the rows M = ((1,0,0), (0,1,1)) T^-1 of alpha and c:
+/// then every M u with |u| <= 1 is an A w with |w| <= 1. False when that is not certain.
+bool cover_directions(SteadySetting<Interval>& setting) {
+  const auto& t = setting.metric;
+  const Interval one(1.0);
+  const Interval alpha1 = one / t.t11;
+  const Interval alpha2 = -(t.t12 / (t.t11 * t.t22));
+  const Interval alpha3 = (t.t12 * t.t23 - t.t13 * t.t22) / (t.t11 * t.t22 * t.t33);
+  const Interval c2 = one / t.t22;
+  const Interval c3 = (one - t.t23 / t.t22) / t.t33;
+  const Interval m11 = square(alpha1) + square(alpha2) + square(alpha3);
+  const Interval m12 = alpha2 * c2 + alpha3 * c3;
+  const Interval m22 = square(c2) + square(c3);
+  constexpr double kMargin = 1.0 + 1e-9;
+  const double a11 = kMargin * std::sqrt(midpoint(m11));
+  const double a21 = kMargin * midpoint(m12) / std::sqrt(midpoint(m11));
+  const double a22 =
+      kMargin * std::sqrt(std::max(0.0, midpoint(m22) - midpoint(m12) * midpoint(m12) / midpoint(m11)));
+  setting.a11 = Interval(a11);
+  setting.a21 = Interval(a21);
+  setting.a22 = Interval(a22);
+  rigor::LowerTriangle<2> gap;
+  gap[0][0] = square(setting.a11) - m11;
+  gap[1][0] = setting.a11 * setting.a21 - m12;
+  gap[1][1] = square(setting.a21) + square(setting.a22) - m22;
+  return rigor::certainly_positive_definite<2>(gap) && a11 > 0.0;
+}
+
+struct CellResult {
+  std::size_t steps = 0;  ///< from level to level that are proved
+  std::string reason;     ///< why no more of them
+  double noise_gain = 0.0;
+  std::int64_t cells = 0;
+};
+
+/// X* = center + (p - p0) slope + tight.
+SteadyState<SteadySecant> steady_secants(const Tube& tube) {
+  const rigor::IntervalVector<sets::QuadraturePolarLoop::kStates> box = tube.box();
+  const rigor::IntervalVector<sets::QuadraturePolarLoop::kStates> middle =
+      tube.at(Interval(tube.parameter_center));
+  const auto entry = [&](Eigen::Index i, const Interval& shift) {
+    return SteadySecant::affine(middle[i] + shift, box[i] + shift, Interval(tube.slope[i]), kFrequency);
+  };
+  const Interval none(0.0);
+  return {entry(0, Interval(1.0)),
+          entry(1, none),
+          entry(2, none),
+          {entry(3, none), entry(4, none), entry(5, none), entry(6, none), entry(7, none), entry(8, none)}};
+}
+
+/// Tries `steps` steps, from level to level.
+CellResult verify_cell(const Design& design, const Tube& tube, const SteadySet& set,
+                       const SteadyMotion& motion, std::size_t steps) {
+  const rigor::UpwardRounding upward;
+  CellResult result;
+  SteadySettings settings;
+  SteadySetting<Interval>& setting = settings.over_cell;
+  setting.design = design;
+  setting.steady = steady_state(tube, tube.parameter);
+  setting.metric = metric_of(set);
+  setting.band = {to_symmetric(set.below), to_symmetric(set.above)};
+  fill_turns(setting);
+  const Symmetric<Interval> least = plus(setting.steady.covariance, setting.band.below, Interval(-1.0));
+  if (!certainly_positive_definite(least) ||
+      !certainly_positive_definite(setting.steady.covariance)) {
+    result.reason = "the lower covariance bound is not certainly positive definite.";
+    return result;
+  }
+  if (!cover_directions(setting)) {
+    result.reason = "the directions of the set could not be covered.";
+    return result;
+  }
+  settings.frequencies = tube.parameter - Interval(tube.parameter_center);
+  settings.secants = convert<SteadySecant>(setting);
+  settings.secants.steady = steady_secants(tube);
+  fill_turns(settings.secants);
+  const SteadyDisturbance disturbance{Interval(set.noise), motion.errors, motion.covariance};
+  // A set with many levels must not take for ever.
+  constexpr std::int64_t kMostCells = 150;
+  constexpr std::int64_t kMostCellsOfOne = 600;
+  const std::int64_t most_cells = set.levels.size() == 1 ? kMostCellsOfOne : kMostCells;
+  while (result.steps < steps) {
+    const double level = set.levels[result.steps];
+    const double next = set.levels.size() == 1 ? level : set.levels[result.steps + 1];
+    const SteadyContraction contraction = prove_contraction(settings, level, next, disturbance, most_cells);
+    result.cells += contraction.cells;
+    result.noise_gain = std::max(result.noise_gain, contraction.noise_gain);
+    if (!contraction.proved) {
+      result.reason = contraction.reason;
+      return result;
+    }
+    ++result.steps;
+  }
+  return result;
+}
+
+constexpr std::size_t kSpread = 6;
+
+/// 0 to size - 1, beginning with the ends and some between.
+std::vector<std::size_t> spread_first(std::size_t size) {
+  std::vector<std::size_t> order;
+  order.reserve(size);
+  for (const std::size_t sixth : {0U, 6U, 5U, 3U, 1U, 4U}) {
+    const std::size_t i = size * sixth / kSpread;
+    order.push_back(std::min(i, size - 1));
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    order.push_back(i);
+  }
+  std::vector<std::size_t> once;
+  once.reserve(size);
+  for (const std::size_t i : order) {
+    if (std::find(once.begin(), once.end(), i) == once.end()) {
+      once.push_back(i);
+    }
+  }
+  return once;
+}
+
+}  // namespace
+
+SteadyState<Interval> steady_state(const Tube& cell, const Interval& part) {
+  const rigor::IntervalVector<sets::QuadraturePolarLoop::kStates> x = cell.at(part);
+  return {Interval(1.0) + x[0], x[1], x[2], {x[3], x[4], x[5], x[6], x[7], x[8]}};
+}
+
+SteadyVerification verify_steady_set(const Design& design, const std::vector<Tube>& branch,
+                                     const SteadySet& proposal) {
+  const rigor::UpwardRounding upward;
+  SteadyVerification result;
+  result.set = proposal;
+  result.reason = objection(design, proposal);
+  if (!result.reason.empty()) {
+    return result;
+  }
+  const auto motion = steady_motion(design, branch, proposal);
+  if (branch.empty() || !motion) {
+    result.reason = "how the steady state moves with the frequency could not be enclosed.";
+    return result;
+  }
+  // In blocks, so that a failure is found early, and the same one whatever the number of threads; cells
+  // spread over the band come first.
+  const std::vector<std::size_t> order = spread_first(branch.size());
+  constexpr std::size_t kFirst = 2;
+  constexpr std::size_t kBlock = 8;
+  std::vector<CellResult> results(branch.size());
+  std::size_t steps = std::max<std::size_t>(proposal.levels.size(), 2) - 1;
+  std::size_t end = 0;
+  for (std::size_t begin = 0; begin < branch.size(); begin = end) {
+    end = std::min(begin + (begin < kSpread ? kFirst : kBlock), branch.size());
+    tbb::parallel_for(begin, end, [&](std::size_t i) {
+      results[i] = verify_cell(design, branch[order[i]], proposal, *motion, steps);
+    });
+    for (std::size_t i = begin; i < end; ++i) {
+      steps = std::min(steps, results[i].steps);
+      result.cells += results[i].cells;
+      result.noise_gain = std::max(result.noise_gain, results[i].noise_gain);
+      if (steps == 0) {
+        result.failed_frequency = branch[order[i]].parameter;
+        result.reason = "for frequencies near " +
+                        rigor::to_decimal(midpoint(result.failed_frequency), 4, rigor::Direction::down) +
+                        " rad/sample: " + results[i].reason;
+        return result;
+      }
+    }
+  }
+  if (proposal.levels.size() > 1) {
+    result.set.levels.resize(steps + 1);
+  }
+  result.verdict = Verdict::proved;
+  result.reason = "every step from the set leads back into it and contracts.";
+  return result;
+}
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,43 @@
+// Verification of a set around the steady state: the proof, from nothing but the design, the verified lock
+// branch and the proposal. docs/leak.md.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "analysis/quadrature/leak/steady_gain.hpp"
+#include "analysis/quadrature/leak/steady_set.hpp"
+#include "analysis/sets/fixed_point_bias.hpp"
+
+namespace veritrack::quadrature {
+
+/// What verify_steady_set found.
+struct SteadyVerification {
+  /// PROVED: the promise of SteadySet over all cells of the branch. Otherwise UNDECIDED: that a set was not
+  /// certified refutes nothing.
+  rigor::Verdict verdict = rigor::Verdict::undecided;
+  std::string reason;                ///< one sentence
+  SteadySet set;                     ///< the proposal, without the last levels if those fail
+  rigor::Interval failed_frequency;  ///< the cell where it failed, rad/sample; empty when it did not
+  double noise_gain = 0.0;           ///< L_v at level 1, an upper bound, in the metric
+  std::int64_t cells = 0;            ///< examined
+};
+
+/// Is the promise of SteadySet true over these neighbouring cells of a lock branch? Proved are
+///   1. T invertible, below > 0, above > 0, P* - below > 0, and the ranges of all inputs;
+///   2. from each level the errors come to the next one (steady_contraction.hpp), and
+///   3. so does the covariance (steady_order.hpp), for every cell of frequencies. From the last but one level
+///      a step leads to the last, and so it does from the last, which is a part of it.
+/// Levels from the first that does not lead to the next one on are dropped, as long as one step remains.
+/// Cells run in parallel; the result does not depend on how many threads there are. Opens its own
+/// UpwardRounding scope; never throws for odd numbers.
+[[nodiscard]] SteadyVerification verify_steady_set(
+    const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+    const std::vector<sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>>& branch,
+    const SteadySet& proposal);
+
+/// The steady state over a part of a cell. Needs the upward mode.
+[[nodiscard]] SteadyState<rigor::Interval> steady_state(
+    const sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>& cell, const rigor::Interval& part);
+
+}  // namespace veritrack::quadrature

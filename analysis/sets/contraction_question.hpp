@@ -1,0 +1,38 @@
+// What is asked of the contraction certificate.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/matrix.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
+
+namespace veritrack::sets {
+
+/// What is asked, for a signal of amplitude 1: design, noise and amplitudes relative to the true one
+/// (trackers::at_unit_amplitude).
+struct ContractionQuestion {
+  trackers::QuadratureEkfDesign<rigor::Interval> design;
+  rigor::Interval noise = rigor::Interval(0.0);  ///< |v(k)| <= noise
+  rigor::Interval slew = rigor::Interval(0.0);   ///< |omega(k+1) - omega(k)| <= slew, rad/sample per sample
+  rigor::Interval initial_amplitude_error = rigor::Interval(0.0);  ///< bounds on absolute values
+  rigor::Interval initial_phase_error = rigor::Interval(0.0);      ///< rad
+  rigor::Interval initial_frequency_error = rigor::Interval(0.0);  ///< rad/sample
+  /// P(0|0) in the frame of the estimated phase; none: the filter's steady state.
+  std::optional<rigor::IntervalMatrix<3>> initial_covariance;
+  int search_evaluations = 40;  ///< per set
+  bool with_samples = true;     ///< also what a search finds, which proves nothing
+};
+
+/// True only when r, q2 are certainly positive and every bound is a number certainly not negative: other
+/// questions have no answer. Needs the upward mode.
+[[nodiscard]] bool is_well_posed(const ContractionQuestion& question);
+
+/// Why no set bears the assumed noise and slew: which of the two is beyond the largest that was certified
+/// without the other, and by how much; a clause. Needs the upward mode.
+[[nodiscard]] std::string beyond_the_limits(const ContractionQuestion& question,
+                                            const std::optional<double>& largest_noise,
+                                            const std::optional<double>& largest_slew);
+
+}  // namespace veritrack::sets

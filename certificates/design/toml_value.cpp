@@ -1,0 +1,211 @@
+#include "certificates/design/toml_value.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+#include <string>
+#include <system_error>
+
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "certificates/design/input_error.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+constexpr std::size_t kShownLimit = 60;  // bytes of a value that are worth showing
+
+/// The double nearest to a decimal that parse_decimal has accepted.
+double nearest_double(std::string_view decimal) {
+  const rigor::NearestRounding nearest;
+  if (decimal.starts_with('+')) {
+    decimal.remove_prefix(1);
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
+  if (error == std::errc::result_out_of_range) {
+    return decimal.starts_with('-') ? -0.0 : 0.0;  // parse_decimal has refused what is too large
+  }
+  const bool read_whole = error == std::errc() && end == decimal.data() + decimal.size();
+  return read_whole ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string_view kind_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number with a fraction";
+    case toml::node_type::boolean:
+      return "a boolean";
+    case toml::node_type::date:
+    case toml::node_type::time:
+    case toml::node_type::date_time:
+      return "a date or time";
+    case toml::node_type::none:
+      break;
+  }
+  return "nothing";
+}
+
+}  // namespace
+
+Position TomlValue::position() const {
+  return to_position(node_->source().begin);
+}
+
+void TomlValue::refuse(std::string_view found) const {
+  source_->fail(position(), fmt::format("{} is {}; allowed: {}", path_, found, allowed_));
+}
+
+void TomlValue::refuse_kind() const {
+  std::string found(kind_name(*node_));
+  if (const auto* text = node_->as_string()) {
+    found += fmt::format(" (\"{}\")", printable(text->get(), kShownLimit));
+  }
+  refuse(found);
+}
+
+std::string_view TomlValue::number_text() const {
+  const std::string_view text = source_->text_from(position());
+  constexpr std::string_view kNumberCharacters =
+      "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_+-.";
+  return text.substr(0, text.find_first_not_of(kNumberCharacters));
+}
+
+Number TomlValue::real(RealPredicate is_allowed) const {
+  if (!node_->is_number()) {
+    refuse_kind();
+  }
+  Number number;
+  number.text = number_text();
+  number.position = source_->origin() == TomlSource::Origin::file ? position() : Position{};
+  std::string decimal = number.text;
+  std::erase(decimal, '_');
+  const std::string shown = printable(number.text, kShownLimit);
+  try {
+    number.value = rigor::parse_decimal(decimal);
+  } catch (const rigor::NumberFormatError&) {
+    refuse(shown + ", not a decimal number in the range of double precision");
+  }
+  number.nearest = nearest_double(decimal);
+  // The text was cut out by position: it must be the number that the parser saw there.
+  const double parsed = node_->is_integer() ? nearest_double(std::to_string(node_->as_integer()->get()))
+                                            : node_->as_floating_point()->get();
+  if (parsed != number.nearest || !rigor::contains(number.value, number.nearest)) {
+    refuse(shown + ", which two readers understand differently");
+  }
+  if (!is_allowed(number.value)) {
+    const bool is_borderline = is_allowed(rigor::Interval(number.value.lower())) ||
+                               is_allowed(rigor::Interval(number.value.upper()));
+    refuse(is_borderline ? shown + ", too near to the limit to tell in double precision" : shown);
+  }
+  return number;
+}
+
+Number TomlValue::whole_number(RealPredicate is_allowed) const {
+  if (node_->is_floating_point()) {
+    refuse(printable(number_text(), kShownLimit));
+  }
+  return real(is_allowed);
+}
+
+std::int64_t TomlValue::integer(std::int64_t lowest, std::int64_t highest) const {
+  if (node_->is_floating_point()) {
+    refuse(printable(number_text(), kShownLimit));
+  }
+  const auto* value = node_->as_integer();
+  if (value == nullptr) {
+    refuse_kind();
+  }
+  if (value->get() < lowest || value->get() > highest) {
+    refuse(printable(number_text(), kShownLimit));
+  }
+  return value->get();
+}
+
+std::string TomlValue::line_of_text(std::size_t limit) const {
+  const auto* value = node_->as_string();
+  if (value == nullptr) {
+    refuse_kind();
+  }
+  const std::string& text = value->get();
+  if (text.empty()) {
+    refuse("empty");
+  }
+  if (text.size() > limit) {
+    refuse(fmt::format("{} bytes long", text.size()));
+  }
+  // A character that has to be escaped has no place on one line of a document.
+  if (printable(text, 8 * limit) != text) {
+    refuse(fmt::format("\"{}\", with control characters", printable(text, kShownLimit)));
+  }
+  return text;
+}
+
+std::vector<TomlValue> TomlValue::entries(std::span<const std::string_view> names) const {
+  const toml::table* table = node_->as_table();
+  if (table == nullptr) {
+    refuse_kind();
+  }
+  std::vector<TomlValue> entries;
+  entries.reserve(names.size());
+  for (const std::string_view name : names) {
+    const toml::node* node = table->get(name);
+    if (node == nullptr || table->size() != names.size()) {
+      refuse("a table with other keys");
+    }
+    entries.emplace_back(*source_, *node, fmt::format("{}.{}", path_, name), allowed_);
+  }
+  return entries;
+}
+
+std::vector<TomlValue> TomlValue::elements(std::size_t count) const {
+  return elements(count, count);
+}
+
+std::vector<TomlValue> TomlValue::elements(std::size_t fewest, std::size_t most) const {
+  const toml::array* array = node_->as_array();
+  if (array == nullptr) {
+    refuse_kind();
+  }
+  if (array->size() < fewest || array->size() > most) {
+    refuse(fmt::format("an array of {}", array->size()));
+  }
+  std::vector<TomlValue> elements;
+  elements.reserve(array->size());
+  for (std::size_t index = 0; index < array->size(); ++index) {
+    elements.emplace_back(*source_, *array->get(index), fmt::format("{}[{}]", path_, index), allowed_);
+  }
+  return elements;
+}
+
+std::optional<std::vector<TomlValue>> TomlValue::fields(const std::vector<std::string_view>& keys) const {
+  const toml::table* table = node_->as_table();
+  if (table == nullptr) {
+    refuse_kind();
+  }
+  if (table->size() != keys.size()) {
+    return std::nullopt;
+  }
+  std::vector<TomlValue> values;
+  values.reserve(keys.size());
+  for (const std::string_view key : keys) {
+    const toml::node* node = table->get(key);
+    if (node == nullptr) {
+      return std::nullopt;
+    }
+    values.emplace_back(*source_, *node, fmt::format("{}.{}", path_, key), allowed_);
+  }
+  return values;
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,189 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <variant>
+
+#include "analysis/theorems/other_results.hpp"
+#include "analysis/theorems/theorem_2_9.hpp"
+#include "analysis/theorems/theorem_2_9_feasibility.hpp"
+#include "analysis/theorems/theorem_2_9_gaps.hpp"
+#include "analysis/theorems/theorem_2_9_repaired.hpp"
+#include "certificates/design/design_reader.hpp"
+#include "certificates/document/certificate.hpp"
+#include "certificates/kkl_observer/kkl_observer.hpp"
+#include "certificates/quadrature/capture.hpp"
+#include "certificates/quadrature/comparison_table.hpp"
+#include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/theorem_claims.hpp"
+#include "certificates/sets/guarantee_sentence.hpp"
+#include "certificates/sets/required_claims.hpp"
+#include "certificates/sets/simulation.hpp"
+#include "certificates/single_channel/single_channel.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+/// The theorem is stated for unit amplitude. The filter (q1, r, noise v) at amplitude A is the filter
+/// (q1/A^2, r/A^2, v/A) at amplitude 1.
+theorems::Theorem29Input theorem_input(const QuadratureEkfTables& tables) {
+  const Assumptions& assume = tables.assume;
+  const Interval amplitude_squared = rigor::square(assume.amplitude.value);
+  theorems::Theorem29Input input;
+  input.q1 = tables.design.q1.value / amplitude_squared;
+  input.q2 = tables.design.q2.value;
+  input.r = tables.design.r.value / amplitude_squared;
+  input.epsilon = tables.design.epsilon.value;
+  input.state_bound = tables.theorem_2_9.state_bound.value;
+  input.sigma = tables.theorem_2_9.sigma.value;
+  input.gamma_fraction = tables.theorem_2_9.gamma_fraction.value;
+  input.c1 = tables.theorem_2_9.c1.value;
+  input.c2 = tables.theorem_2_9.c2.value;
+  input.q1_equals_q2 =
+      assume.amplitude.value == Interval(1.0) && same_number(tables.design.q1, tables.design.q2);
+  // |w(k)| = |omega(k+1) - (1 - epsilon) omega(k)|: at most the slew plus epsilon |omega|, and at constant
+  // frequency the latter.
+  const Interval largest_frequency =
+      rigor::max(rigor::abs(assume.frequency[0].value), rigor::abs(assume.frequency[1].value));
+  const Interval leaked = tables.design.epsilon.value * largest_frequency;
+  input.process_noise = rigor::hull(leaked, leaked + assume.slew.value);
+  input.measurement_noise = assume.noise.value / assume.amplitude.value;
+  input.largest_state = rigor::sqrt(Interval(1.0) + rigor::square(largest_frequency));
+  input.initial_error = theorems::largest_initial_error(
+      Interval(1.0), assume.initial_amplitude_error.value / assume.amplitude.value,
+      assume.initial_phase_error.value, assume.initial_frequency_error.value);
+  return input;
+}
+
+/// What the other results are evaluated for, also at unit amplitude.
+theorems::TrackerInput tracker_input(const QuadratureEkfTables& tables,
+                                     const theorems::Theorem29Input& theorem) {
+  theorems::TrackerInput input{theorem, std::nullopt};
+  if (const auto& covariance = tables.assume.initial_covariance) {
+    rigor::IntervalMatrix<3>& start = input.initial_covariance.emplace();
+    const std::array<Interval, 3> unit = {tables.assume.amplitude.value, tables.assume.amplitude.value,
+                                          Interval(1.0)};
+    for (std::size_t row = 0; row < unit.size(); ++row) {
+      for (std::size_t column = 0; column < unit.size(); ++column) {
+        start(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
+            covariance->at(row).at(column).value / (unit.at(row) * unit.at(column));
+      }
+    }
+  }
+  return input;
+}
+
+/// "Theorem 2.9 applies", one claim a reading: the conditions, not what the theorem concludes from them.
+Claim applicability_claim(const theorems::Derivation& derivation) {
+  Claim claim;
+  claim.id = derivation.id + "/conditions";
+  claim.statement =
+      fmt::format("All conditions of {} hold for the design and the assumed start.", derivation.title);
+  claim.verdict = derivation.verdict;
+  claim.reason = "All conditions are PROVED.";
+  for (const theorems::Condition& condition : derivation.conditions) {
+    if (condition.verdict != Verdict::proved && (claim.verdict == condition.verdict)) {
+      claim.reason = fmt::format("({}): {}", condition.id, condition.reason);
+      break;
+    }
+  }
+  return claim;
+}
+
+/// Everything that can be said of a design of the quadrature tracker.
+void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
+                    const CertifyProgress& progress) {
+  const theorems::Theorem29Input input = theorem_input(tables);
+  certificate.simulation = simulate(certificate.design);
+  const Number& amplitude = tables.assume.amplitude;
+  const theorems::Trajectory trajectory =
+      at_unit_amplitude(certificate.simulation.trajectory, amplitude.nearest);
+  for (const auto variant : {theorems::Theorem29Variant::printed, theorems::Theorem29Variant::errata}) {
+    const theorems::Theorem29 theorem = theorems::evaluate_theorem_2_9(variant, input);
+    certificate.derivations.push_back(theorem.derivation);
+    certificate.derivations.back().feasibility = theorems::theorem_2_9_feasibility(variant, input);
+    certificate.audits.push_back(
+        {theorem.derivation.id, theorems::audit_theorem_2_9(theorem, input, trajectory)});
+    certificate.claims.push_back(applicability_claim(theorem.derivation));
+  }
+  certificate.derivations.push_back(theorems::derive_repaired_theorem(tracker_input(tables, input)));
+  certificate.claims.push_back(applicability_claim(certificate.derivations.back()));
+  for (const theorems::Statement& statement : theorems::theorem_2_9_gaps(input)) {
+    certificate.claims.push_back(to_claim(statement));
+  }
+  for (theorems::Derivation& result : theorems::evaluate_other_results(tracker_input(tables, input))) {
+    certificate.claims.push_back(applicability_claim(result));
+    certificate.derivations.push_back(std::move(result));
+  }
+  if (!(amplitude.value == Interval(1.0))) {
+    for (theorems::Derivation& derivation : certificate.derivations) {
+      derivation.notes.push_back(
+          fmt::format("The theorem is stated for a signal of amplitude 1. Its constants are those of the "
+                      "filter that does at amplitude 1 what this one does at amplitude {}: q1, r and the "
+                      "noise scaled by the amplitude.",
+                      amplitude.text));
+    }
+  }
+  add_contraction(certificate);
+  add_capture(certificate, progress);
+  add_comparison(certificate);
+  add_required_claims(certificate, tables.require, tables.assume);
+  certificate.claims.push_back(guarantee_claim(
+      certificate, {tables.assume, tables.require, !(tables.design.epsilon.value == Interval(0.0))}));
+}
+
+void certify_tables(Certificate& certificate, const KklObserverTables& /*tables*/,
+                    const CertifyProgress& /*progress*/) {
+  certify_kkl_observer(certificate);
+}
+
+/// The same of the single-channel tracker.
+void certify_tables(Certificate& certificate, const SingleChannelEkfTables& tables,
+                    const CertifyProgress& /*progress*/) {
+  certify_single_channel(certificate, tables);
+}
+
+}  // namespace
+
+std::vector<theorems::Derivation> derivations_of(const Certificate& certificate, std::string_view prefix) {
+  std::vector<theorems::Derivation> found;
+  for (const theorems::Derivation& derivation : certificate.derivations) {
+    if (derivation.id.starts_with(prefix)) {
+      found.push_back(derivation);
+    }
+  }
+  return found;
+}
+
+const theorems::Derivation* find_derivation(const Certificate& certificate, std::string_view id) {
+  const auto found = std::find_if(certificate.derivations.begin(), certificate.derivations.end(),
+                                  [&](const theorems::Derivation& each) { return each.id == id; });
+  return found == certificate.derivations.end() ? nullptr : &*found;
+}
+
+std::string verdict_text(const Certificate& certificate) {
+  return certificate.verdict ? std::string(rigor::to_string(*certificate.verdict)) : "nothing-required";
+}
+
+Certificate certify(const Design& design, const std::string& design_file, const std::string& design_text,
+                    const CertifyProgress& progress) {
+  const rigor::UpwardRounding upward;
+  Certificate certificate;
+  certificate.design = design;
+  certificate.design_file = design_file;
+  certificate.design_text = design_text;
+  std::visit([&](const auto& tables) { certify_tables(certificate, tables, progress); }, design.tables);
+  return certificate;
+}
+
+Certificate certify_file(const std::filesystem::path& path, const CertifyProgress& progress) {
+  const std::string text = read_design_text(path);
+  return certify(read_design(text, path.string()), path.filename().string(), text, progress);
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,101 @@
+#include "certificates/document/coq_numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+#include "analysis/rigor/decimal.hpp"
+
+namespace veritrack::certificates::coq {
+
+namespace {
+
+/// base^exponent: written out where that is readable and lets Coq's lra see a constant.
+std::string power(int base, int exponent) {
+  constexpr int kWrittenOut = 30;
+  if (base == 10 && exponent <= kWrittenOut) {
+    return "1" + std::string(static_cast<std::size_t>(exponent), '0');
+  }
+  return fmt::format("{} ^ {}", base, exponent);
+}
+
+/// digits base^exponent, with a sign.
+std::string scaled(bool negative, const std::string& digits, int base, int exponent) {
+  std::string term = digits;
+  if (exponent < 0) {
+    term = fmt::format("({} / {})", digits, power(base, -exponent));
+  } else if (exponent > 0 && digits != "0") {
+    term = fmt::format("({} * {})", digits, power(base, exponent));
+  }
+  return negative ? "(- " + term + ")" : term;
+}
+
+}  // namespace
+
+std::string decimal(std::string_view text) {
+  std::string plain(text);
+  std::erase(plain, '_');
+  static_cast<void>(rigor::parse_decimal(plain));  // throws for what is no decimal
+  std::string digits;
+  int exponent = 0;
+  bool negative = false;
+  bool after_point = false;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const char at = plain[i];
+    if (at == 'e' || at == 'E') {
+      const char* first = plain.data() + i + 1;
+      first += *first == '+' ? 1 : 0;
+      int given = 0;
+      if (std::from_chars(first, plain.data() + plain.size(), given).ec != std::errc()) {
+        throw rigor::NumberFormatError("an exponent out of range");
+      }
+      exponent += given;
+      break;
+    }
+    if (at == '.') {
+      after_point = true;
+    } else if (at == '-' || at == '+') {
+      negative = at == '-';
+    } else {
+      digits += at;
+      exponent -= after_point ? 1 : 0;
+    }
+  }
+  digits.erase(0, digits.find_first_not_of('0'));
+  while (digits.size() > 1 && digits.back() == '0' && exponent < 0) {
+    digits.pop_back();
+    ++exponent;
+  }
+  return digits.empty() ? "0" : scaled(negative, digits, 10, exponent);
+}
+
+std::string exactly(double value) {
+  if (!std::isfinite(value)) {
+    throw std::invalid_argument("only finite numbers are terms of Coq");
+  }
+  if (value == 0.0) {
+    return "0";
+  }
+  int exponent = 0;
+  auto significand = static_cast<std::int64_t>(
+      std::ldexp(std::frexp(std::fabs(value), &exponent), std::numeric_limits<double>::digits));
+  exponent -= std::numeric_limits<double>::digits;
+  while (significand % 2 == 0) {
+    significand /= 2;
+    ++exponent;
+  }
+  return scaled(value < 0.0, std::to_string(significand), 2, exponent);
+}
+
+std::string encloses(const rigor::Interval& value, const std::string& term) {
+  constexpr int kDigits = 17;
+  return fmt::format("{} <= {} <= {}",
+                     decimal(rigor::to_decimal(value.lower(), kDigits, rigor::Direction::down)), term,
+                     decimal(rigor::to_decimal(value.upper(), kDigits, rigor::Direction::up)));
+}
+
+}  // namespace veritrack::certificates::coq

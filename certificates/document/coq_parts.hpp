@@ -1,0 +1,48 @@
+// What certificate.v consists of: a text for all designs (the files of certificates/coq/), and what follows
+// for the design at hand.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certificates/document/certificate.hpp"
+#include "certificates/document/formal_proof.hpp"
+
+namespace veritrack::certificates::coq {
+
+/// The files of certificates/coq/, which the build makes part of the program.
+extern const std::string_view kKklObserver;
+extern const std::string_view kTheorem29;
+extern const std::string_view kProposition1;
+
+/// Appends to the text and lists what is proved.
+class Proofs {
+ public:
+  explicit Proofs(std::string_view for_all_designs) { proofs_.text = for_all_designs; }
+
+  /// Text that proves nothing by itself: a definition, say.
+  void write(std::string_view text) { proofs_.text += text; }
+
+  /// Lists a lemma that stands in the text for all designs.
+  void cite(std::string lemma, std::string of, std::string statement) {
+    proofs_.proofs.push_back({std::move(lemma), std::move(of), std::move(statement)});
+  }
+
+  /// Writes the lemma with its proof, and lists it.
+  void prove(const std::string& lemma, const std::string& proposition, const std::string& proof,
+             std::string of, std::string statement);
+
+  /// All of it, with a list of the axioms it rests on as Coq's last word.
+  [[nodiscard]] FormalProofs finished() const;
+
+ private:
+  FormalProofs proofs_;
+};
+
+/// All need the upward mode.
+[[nodiscard]] FormalProofs kkl_observer_proofs(const Certificate& certificate);
+[[nodiscard]] FormalProofs theorem_2_9_proofs(const Certificate& certificate);
+[[nodiscard]] FormalProofs proposition_1_proofs(const Certificate& certificate);
+
+}  // namespace veritrack::certificates::coq

@@ -1,0 +1,31 @@
+// certificate.md: the certificate for people. The answer first, then the ground for it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// A figure that stands beside the document, drawn elsewhere (reports/ draws, certificates/ only refers to
+/// it).
+struct FigureReference {
+  std::string path;     ///< relative to the document, e.g. "figures/error.svg"
+  std::string caption;  ///< what is seen, with units
+};
+
+struct MarkdownOptions {
+  std::vector<FigureReference> figures;
+  std::string
+      drawn_with;  ///< name and version of the program that drew the figures; empty when there are none
+};
+
+/// The whole document. Same certificate and options, same bytes: no times, hosts or paths.
+[[nodiscard]] std::string to_markdown(const Certificate& certificate, const MarkdownOptions& options);
+
+/// The document's first line, without mark-up: what was required, the verdict on it, and what the published
+/// theorem gives.
+[[nodiscard]] std::string headline(const Certificate& certificate);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,107 @@
+#include "certificates/document/markdown_text.hpp"
+
+#include <algorithm>
+
+#include "analysis/rigor/decimal.hpp"
+
+namespace veritrack::certificates::markdown {
+
+std::string math(std::string_view latex) {
+  std::string text = "$`";
+  for (std::size_t i = 0; i < latex.size(); ++i) {
+    if (latex.substr(i, 2) == "\\|") {
+      text += "\\Vert ";
+      ++i;
+    } else if (latex[i] == '|') {
+      text += "\\vert ";
+    } else {
+      text += latex[i];
+    }
+  }
+  return text + "`$";
+}
+
+std::string enclosure(const rigor::Interval& value, int digits) {
+  if (rigor::is_empty(value)) {
+    return "unknown";
+  }
+  const std::string lower = rigor::to_decimal(value.lower(), digits, rigor::Direction::down);
+  const std::string upper = rigor::to_decimal(value.upper(), digits, rigor::Direction::up);
+  return lower == upper ? "= " + lower : "∈ [" + lower + ", " + upper + "]";
+}
+
+std::string at_most(const rigor::Interval& value, int digits) {
+  return rigor::is_empty(value) ? "unknown"
+                                : "at most " + rigor::to_decimal(value.upper(), digits, rigor::Direction::up);
+}
+
+std::string at_least(const rigor::Interval& value, int digits) {
+  return rigor::is_empty(value)
+             ? "unknown"
+             : "at least " + rigor::to_decimal(value.lower(), digits, rigor::Direction::down);
+}
+
+std::string verdict(rigor::Verdict value) {
+  std::string word(rigor::to_string(value));
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](char letter) { return static_cast<char>(letter - 'a' + 'A'); });
+  return "**" + word + "**";
+}
+
+std::string escaped(std::string_view text) {
+  static constexpr std::string_view kSpecial = "\\`*_{}[]()<>#+-!|$~&";
+  std::string result;
+  for (const char letter : text) {
+    if (letter == '\n' || letter == '\r') {
+      result += ' ';
+      continue;
+    }
+    // a hyphen or a parenthesis is special only where it would start something, which escaping cannot harm
+    // but which makes the source hard to read
+    if (kSpecial.find(letter) != std::string_view::npos && letter != '-' && letter != '(' && letter != ')') {
+      result += '\\';
+    }
+    result += letter;
+  }
+  return result;
+}
+
+namespace {
+
+std::string table_row(const std::vector<std::string>& cells) {
+  std::string row = "|";
+  for (const std::string& cell : cells) {
+    row += " ";
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      const bool ends_the_cell = cell[i] == '|' && (i == 0 || cell[i - 1] != '\\');
+      row += ends_the_cell ? "\\|" : cell.substr(i, 1);
+    }
+    row += " |";
+  }
+  return row + "\n";
+}
+
+}  // namespace
+
+std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
+  std::string text = table_row(header);
+  text += table_row(std::vector<std::string>(header.size(), "---"));
+  for (const auto& row : rows) {
+    text += table_row(row);
+  }
+  return text;
+}
+
+std::string fenced(std::string_view text, std::string_view language) {
+  std::string fence = "```";
+  while (text.find(fence) != std::string_view::npos) {
+    fence += '`';
+  }
+  std::string block = fence + std::string(language) + "\n" + std::string(text);
+  if (block.back() != '\n') {
+    block += '\n';
+  }
+  return block + fence + "\n";
+}
+
+}  // namespace veritrack::certificates::markdown

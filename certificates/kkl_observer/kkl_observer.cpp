@@ -1,0 +1,171 @@
+#include "certificates/kkl_observer/kkl_observer.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "analysis/kkl_observer/kkl_claims.hpp"
+#include "analysis/kkl_observer/kkl_ell.hpp"
+#include "analysis/kkl_observer/kkl_section_v.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/sets/required_claims.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+constexpr const char* kRobustness = "kkl-robustness";
+constexpr std::size_t kFilters = 4;
+
+Interval hull_of(const std::array<Number, 2>& range) {
+  return rigor::hull(range[0].value, range[1].value);
+}
+
+kkl_observer::Disturbance disturbance_of(const KklAssumptions& assume) {
+  if (!assume.disturbance) {
+    return kkl_observer::NoDisturbance{};
+  }
+  const KklDisturbance& given = *assume.disturbance;
+  if (given.bound) {
+    return kkl_observer::BoundedDisturbance{given.bound->value};
+  }
+  return kkl_observer::SinusoidalDisturbance{given.amplitude->value, given.frequency->value};
+}
+
+/// A requirement on a proved bound: `statement` says what is required of the quantity of that name.
+Claim bound_claim(const Certificate& certificate, const std::string& id, const std::string& name,
+                  const std::string& statement, const std::string& unit, const Number& required) {
+  Claim claim;
+  claim.id = id;
+  claim.statement = statement;
+  claim.required = true;
+  claim.position = required.position;
+  const std::optional<Interval> bound = proved_kkl_bound(certificate, name);
+  if (!bound) {
+    claim.reason = "No bound is certified for the assumed range and disturbance";
+    if (const theorems::Derivation* derivation = find_derivation(certificate, kRobustness)) {
+      for (const theorems::Condition& condition : derivation->conditions) {
+        if (condition.verdict != Verdict::proved) {
+          claim.reason += fmt::format(" ({}: {})", condition.id, condition.reason);
+          break;
+        }
+      }
+    }
+    claim.reason += ".";
+    return claim;
+  }
+  const std::string shown = rigor::to_decimal(bound->upper(), 4, rigor::Direction::up);
+  if (rigor::certainly_less(Interval(bound->upper()), required.value)) {
+    claim.verdict = Verdict::proved;
+    claim.reason = fmt::format("The proved bound is {} {}.", shown, unit);
+    claim.evidence = {theorems::find_quantity(*find_derivation(certificate, kRobustness), name)};
+  } else {
+    claim.reason = fmt::format("The proved bound is {} {}, which is not below it.", shown, unit);
+  }
+  return claim;
+}
+
+void add_required_claims(Certificate& certificate, const KklRequirements& require) {
+  if (require.frequency_error_below) {
+    const Number& required = *require.frequency_error_below;
+    certificate.claims.push_back(
+        bound_claim(certificate, "kkl/frequency-error-bound", "frequency_error_bound",
+                    fmt::format("the frequency error stays below {} rad/s once settled", required.text),
+                    "rad/s", required));
+  }
+  if (require.amplitude_error_below) {
+    const Number& required = *require.amplitude_error_below;
+    certificate.claims.push_back(bound_claim(
+        certificate, "kkl/amplitude-error-bound", "amplitude_error_bound",
+        fmt::format("the amplitude error stays below {} signal units once settled", required.text),
+        "signal units", required));
+  }
+  if (require.settles_within) {
+    const Number& required = *require.settles_within;
+    certificate.claims.push_back(bound_claim(
+        certificate, "kkl/settling-time", "settling_time",
+        fmt::format("the proved bounds hold within {} s of the start", required.text), "s", required));
+  }
+  conclude_requirements(certificate);
+}
+
+}  // namespace
+
+kkl_observer::KklRange kkl_range(const KklObserverTables& tables) {
+  kkl_observer::KklRange range;
+  for (std::size_t i = 0; i < kFilters; ++i) {
+    range.lambda(static_cast<Eigen::Index>(i)) = tables.design.lambda.at(i).value;
+  }
+  range.frequency = hull_of(tables.assume.frequency);
+  return range;
+}
+
+kkl_observer::KklRobustnessQuestion kkl_robustness_question(const KklObserverTables& tables,
+                                                            const Interval& ell) {
+  kkl_observer::KklRobustnessQuestion question;
+  question.range = kkl_range(tables);
+  question.amplitude = hull_of(tables.assume.amplitude);
+  question.ell = ell;
+  question.disturbance = disturbance_of(tables.assume);
+  return question;
+}
+
+std::optional<Interval> proved_kkl_bound(const Certificate& certificate, const std::string& name) {
+  const theorems::Derivation* derivation = find_derivation(certificate, kRobustness);
+  if (derivation == nullptr || derivation->verdict != Verdict::proved) {
+    return std::nullopt;
+  }
+  const theorems::Quantity& quantity = theorems::find_quantity(*derivation, name);
+  return rigor::is_finite(quantity.value) ? std::optional(quantity.value) : std::nullopt;
+}
+
+std::optional<Eigen::Vector4d> section_v_rates(const KklObserverTables& tables) {
+  const Eigen::Vector4d printed(1.0, 2.0, 3.0, 4.0);
+  if (tables.design.lambda.size() != kFilters) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < kFilters; ++i) {
+    if (!(tables.design.lambda[i].value == Interval(printed(static_cast<Eigen::Index>(i))))) {
+      return std::nullopt;
+    }
+  }
+  return printed;
+}
+
+double kkl_ell_in_use(const Certificate& certificate) {
+  const KklObserverTables& tables = certificate.design.kkl_observer();
+  if (tables.design.ell) {
+    return tables.design.ell->nearest;
+  }
+  const theorems::Derivation* ell = find_derivation(certificate, "kkl-ell");
+  return ell != nullptr ? theorems::find_quantity(*ell, "ell").value.lower()
+                        : std::numeric_limits<double>::quiet_NaN();
+}
+
+void certify_kkl_observer(Certificate& certificate) {
+  const KklObserverTables& tables = certificate.design.kkl_observer();
+  kkl_observer::KklClaimsQuestion claims;
+  for (const Number& rate : tables.design.lambda) {
+    claims.lambda.push_back(rate.value);
+  }
+  claims.frequency = hull_of(tables.assume.frequency);
+  claims.amplitude = hull_of(tables.assume.amplitude);
+  if (claims.lambda.size() == kFilters) {
+    certificate.derivations.push_back(kkl_observer::derive_kkl_ell(kkl_range(tables)));
+    const Interval proved = theorems::find_quantity(certificate.derivations.back(), "ell").value;
+    claims.ell = tables.design.ell ? tables.design.ell->value : Interval(proved.lower());
+    certificate.derivations.push_back(
+        kkl_observer::derive_kkl_robustness(kkl_robustness_question(tables, claims.ell)));
+  }
+  certificate.derivations.push_back(kkl_observer::derive_kkl_claims(claims));
+  if (const auto lambda = section_v_rates(tables)) {
+    certificate.derivations.push_back(
+        kkl_observer::derive_kkl_section_v(*lambda, kkl_ell_in_use(certificate)));
+  }
+  add_required_claims(certificate, tables.require);
+}
+
+}  // namespace veritrack::certificates

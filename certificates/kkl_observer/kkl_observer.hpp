@@ -1,0 +1,33 @@
+// What is certified of a design of the KKL observer.
+#pragma once
+
+#include "analysis/kkl_observer/kkl_robustness.hpp"
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// Adds the derivations "kkl-ell", "kkl-paper" and "kkl-robustness" (and "kkl-section-v" for the paper's
+/// rates), the required claims and their verdict to a certificate whose design is one of the KKL observer;
+/// with more than four filters "kkl-paper" alone. Needs the upward mode.
+void certify_kkl_observer(Certificate& certificate);
+
+/// The range of the signal, for four filters. Needs the upward mode.
+[[nodiscard]] kkl_observer::KklRange kkl_range(const KklObserverTables& tables);
+
+/// What is asked of the observer's robustness, for four filters and an ell in use. Needs the upward mode.
+[[nodiscard]] kkl_observer::KklRobustnessQuestion kkl_robustness_question(const KklObserverTables& tables,
+                                                                          const rigor::Interval& ell);
+
+/// The rates of a design that has those of the paper's section V, (1, 2, 3, 4) 1/s.
+[[nodiscard]] std::optional<Eigen::Vector4d> section_v_rates(const KklObserverTables& tables);
+
+/// The ell that the observer runs with: the design's, or the lower end of the proved one; NaN when there is
+/// none.
+[[nodiscard]] double kkl_ell_in_use(const Certificate& certificate);
+
+/// The proved bound of that name ("frequency_error_bound", "amplitude_error_bound", "settling_time"); none
+/// when nothing was proved.
+[[nodiscard]] std::optional<rigor::Interval> proved_kkl_bound(const Certificate& certificate,
+                                                              const std::string& name);
+
+}  // namespace veritrack::certificates

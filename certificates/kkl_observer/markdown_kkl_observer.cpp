@@ -1,0 +1,160 @@
+#include "certificates/kkl_observer/markdown_kkl_observer.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/document/markdown_derivation.hpp"
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/kkl_observer/kkl_observer.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using markdown::escaped;
+using markdown::math;
+
+std::string code(const Number& number) {
+  return "`" + number.text + "`";
+}
+
+std::string range(const std::array<Number, 2>& bounds) {
+  return fmt::format("[{}, {}]", code(bounds[0]), code(bounds[1]));
+}
+
+/// A number of a solver or a simulation.
+std::string about(const rigor::Interval& value, int digits) {
+  return fmt::format("≈ {:.{}g} (not proved)", rigor::midpoint(value), digits);
+}
+
+/// How a quantity is shown to people.
+markdown::QuantityText description(const std::string& name) {
+  using markdown::at_least;
+  using markdown::at_most;
+  using markdown::enclosure;
+  struct Entry {
+    std::string_view name, text;
+    std::string (*value)(const rigor::Interval&, int);
+  };
+  static constexpr std::array<Entry, 16> kEntries{{
+      {"ell", "the constant of (10)", enclosure},
+      {"ell_ipopt", "what Ipopt finds for (10)", about},
+      {"ell_nlopt", "what NLopt finds locally", about},
+      {"ell_nlopt_global", "what NLopt finds globally", about},
+      {"argmin_omega", "the frequencies that can attain it, rad/s", enclosure},
+      {"frequency_error_bound", "frequency error once settled, rad/s", at_most},
+      {"amplitude_error_bound", "amplitude error once settled, signal units", at_most},
+      {"settling_time", "settled after, s", at_most},
+      {"largest_ell", "an ell up to which the disturbed inverse is exact", at_least},
+      {"frequency_error_simulated", "largest frequency error seen in simulation, rad/s", about},
+      {"amplitude_error_simulated", "largest amplitude error seen in simulation, signal units", about},
+      {"vandermonde_singular_value", "smallest singular value of the Vandermonde matrix", enclosure},
+      {"injectivity_constant", "constant of the injectivity of T", at_most},
+      {"continuity_modulus", "bound on the slope of the inverse", at_most},
+      {"captions_reproduced", "captions of Figures 1 to 6 reproduced to the last digit, of twelve", about},
+      {"captions_within_one_unit", "within one unit of the last digit, of twelve", about},
+  }};
+  for (const Entry& entry : kEntries) {
+    if (entry.name == name) {
+      return {std::string(entry.text), entry.value};
+    }
+  }
+  return {name, about};
+}
+
+std::string design_section(const Certificate& certificate, const KklObserverTables& tables) {
+  const Design& design = certificate.design;
+  std::string text = "## The design and what is assumed\n\n";
+  text += fmt::format("{} — tracker `{}`", escaped(design.name), design.tracker);
+  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
+  std::string rates;
+  for (const Number& rate : tables.design.lambda) {
+    rates += (rates.empty() ? "" : ", ") + code(rate);
+  }
+  std::vector<std::vector<std::string>> rows{
+      {"filter rates", math("\\lambda"), rates, "1/s"},
+      {"constant of (9)", math("\\ell"),
+       tables.design.ell ? code(*tables.design.ell) : "the lower end of the proved one", "—"},
+      {"frequency of the signal, always within", math("\\omega"), range(tables.assume.frequency), "rad/s"},
+      {"amplitude of the signal, always within", math("A"), range(tables.assume.amplitude), "signal units"}};
+  if (const auto& disturbance = tables.assume.disturbance; disturbance && disturbance->bound) {
+    rows.push_back(
+        {"disturbance, at all times", math("|d(t)| \\le"), code(*disturbance->bound), "signal units"});
+  } else if (disturbance) {
+    rows.push_back(
+        {"sinusoidal disturbance, amplitude", math("a ="), code(*disturbance->amplitude), "signal units"});
+    rows.push_back({"its frequency, at least", math("\\Omega \\ge"), code(*disturbance->frequency), "rad/s"});
+  } else {
+    rows.push_back({"disturbance", "—", "none", "—"});
+  }
+  return text + markdown::table({"Value", "Symbol", "Is", "Unit"}, rows) + "\n";
+}
+
+std::string derivation_section(const Certificate& certificate, const std::string& id,
+                               const std::string& title, bool has_verdict) {
+  std::string text;
+  for (const theorems::Derivation& derivation : derivations_of(certificate, id)) {
+    text += "## " + title + (has_verdict ? ": " + markdown::verdict(derivation.verdict) : "") + "\n\n";
+    text += derivation.title +
+            ". What is computed, and why it is a proof, is in `docs/kkl-observer.md` of the "
+            "program's sources.\n\n";
+    if (!derivation.conditions.empty()) {
+      text += markdown::conditions_table(derivation) + "\n";
+    }
+    text += markdown::quantities_table(derivation, description) + "\n";
+    text += markdown::notes_list(derivation) + "\n";
+  }
+  return text;
+}
+
+std::string figures_section(const MarkdownOptions& options) {
+  std::string text;
+  for (const FigureReference& figure : options.figures) {
+    text += fmt::format("![{}]({})\n\n*{}*\n\n", escaped(figure.caption), figure.path, figure.caption);
+  }
+  return text.empty() ? text : "## In simulation\n\n" + text;
+}
+
+std::string coverage_section() {
+  return "## What this certificate covers, and what it does not\n\n"
+         "- Covered: the observer in continuous time and exact arithmetic, for every signal of constant "
+         "amplitude and frequency within the assumed range, with any disturbance that keeps to the "
+         "assumption. "
+         "Not covered: sampling of the input, and rounding errors in double precision.\n"
+         "- Every enclosure was computed with outward-rounded interval arithmetic. What solvers and "
+         "simulation "
+         "say is marked as not proved, and no verdict rests on it.\n\n";
+}
+
+}  // namespace
+
+std::string kkl_observer_headline(const Certificate& certificate) {
+  const auto frequency = proved_kkl_bound(certificate, "frequency_error_bound");
+  const auto time = proved_kkl_bound(certificate, "settling_time");
+  if (!frequency || !time) {
+    return "Nothing is required of this design, and no bound on its errors is certified";
+  }
+  const auto shown = [](const rigor::Interval& value) {
+    return rigor::to_decimal(value.upper(), 3, rigor::Direction::up);
+  };
+  return fmt::format(
+      "Nothing is required of this design; PROVED of it: after {} s the frequency error stays at or below {} "
+      "rad/s",
+      shown(*time), shown(*frequency));
+}
+
+std::string kkl_observer_sections(const Certificate& certificate, const KklObserverTables& tables,
+                                  const MarkdownOptions& options) {
+  return design_section(certificate, tables) +
+         derivation_section(certificate, "kkl-robustness", "What a disturbance does to it", true) +
+         figures_section(options) + derivation_section(certificate, "kkl-ell", "The constant of (10)", true) +
+         derivation_section(certificate, "kkl-paper", "The paper's claims", false) +
+         derivation_section(certificate, "kkl-section-v", "The simulations of section V", false) +
+         coverage_section();
+}
+
+}  // namespace veritrack::certificates

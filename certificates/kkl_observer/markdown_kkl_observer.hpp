@@ -1,0 +1,19 @@
+// certificate.md of a KKL observer.
+#pragma once
+
+#include <string>
+
+#include "certificates/document/certificate.hpp"
+#include "certificates/document/markdown.hpp"
+
+namespace veritrack::certificates {
+
+/// The first line when nothing is required: what is proved all the same.
+[[nodiscard]] std::string kkl_observer_headline(const Certificate& certificate);
+
+/// Design, assumptions, what is certified of them, the paper's claims, figures and coverage.
+[[nodiscard]] std::string kkl_observer_sections(const Certificate& certificate,
+                                                const KklObserverTables& tables,
+                                                const MarkdownOptions& options);
+
+}  // namespace veritrack::certificates

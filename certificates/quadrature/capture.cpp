@@ -1,0 +1,137 @@
+#include "certificates/quadrature/capture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "analysis/quadrature/capture/capture_starts.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/quadrature/guarantee.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using quadrature::StartCapture;
+using rigor::Interval;
+using rigor::Verdict;
+using sets::ContractionQuestion;
+
+// Chosen for less than a minute on two cores, together.
+constexpr std::size_t kMostCells = 4000;
+constexpr std::size_t kMostCellsWithoutNoise = 2000;
+constexpr std::size_t kMostCellsAtReducedNoise = 600;
+
+bool starts_are_outside(const Certificate& certificate) {
+  const theorems::Derivation& contraction = *find_derivation(certificate, "contraction");
+  return std::any_of(contraction.conditions.begin(), contraction.conditions.end(),
+                     [](const theorems::Condition& condition) {
+                       return condition.id == "start-in-set" && condition.verdict != Verdict::proved;
+                     });
+}
+
+Claim claim_of(const StartCapture& capture, std::string id, std::string statement) {
+  Claim claim;
+  claim.id = std::move(id);
+  claim.statement = std::move(statement);
+  claim.verdict = capture.derivation.verdict;
+  for (const theorems::Condition& condition : capture.derivation.conditions) {
+    if (condition.verdict == claim.verdict) {
+      claim.reason = condition.reason;  // of the last: that of the starts, when the set is as it must be
+    }
+  }
+  for (const theorems::Quantity& quantity : capture.derivation.quantities) {
+    if (!quantity.not_applicable) {
+      claim.evidence.push_back(quantity);
+    }
+  }
+  return claim;
+}
+
+/// Adds the derivation and the claim that all starts are captured under less noise and slew, for the first
+/// share of a few that will do; nothing otherwise.
+void add_capture_at_reduced_noise(Certificate& certificate, const quadrature::CertifiedSet& set,
+                                  const std::function<bool(const quadrature::RegionProgress&)>& progress) {
+  const ContractionQuestion question = contraction_question(certificate.design);
+  for (const double share : {0.5, 0.25, 0.125}) {
+    ContractionQuestion reduced = question;
+    reduced.noise = Interval(share) * question.noise;
+    reduced.slew = Interval(share) * question.slew;
+    StartCapture capture =
+        quadrature::capture_starts(reduced, set, "capture/reduced-noise", kMostCellsAtReducedNoise, progress);
+    if (capture.derivation.verdict == Verdict::proved) {
+      const auto text = [](const Interval& value) {
+        return rigor::to_decimal(value.lower(), 3, rigor::Direction::down);
+      };
+      certificate.claims.push_back(claim_of(
+          capture, "ekf/capture-at-reduced-noise",
+          fmt::format("From every assumed start, with noise of at most {} of the amplitude and slew of at "
+                      "most {} rad/sample per sample, the tracker comes into the certified set, which it "
+                      "never leaves.",
+                      text(reduced.noise), text(reduced.slew))));
+      certificate.derivations.push_back(std::move(capture.derivation));
+      return;
+    }
+  }
+}
+
+quadrature::SimulatedBasin basin_of_starts(const ContractionQuestion& question) {
+  constexpr int kGrid = 48;
+  constexpr int kSamples = 500;
+  const std::optional<quadrature::CaptureProblem> problem = quadrature::capture_problem(question);
+  return problem ? quadrature::simulate_basin(*problem, quadrature::assumed_starts(question), kGrid, kGrid,
+                                              kSamples)
+                 : quadrature::SimulatedBasin{};
+}
+
+}  // namespace
+
+void add_capture(Certificate& certificate, const CertifyProgress& progress) {
+  const auto set = std::find_if(certificate.certified_sets.begin(), certificate.certified_sets.end(),
+                                [](const NamedSet& named) { return named.purpose == "start-error"; });
+  if (set == certificate.certified_sets.end() || !starts_are_outside(certificate)) {
+    return;
+  }
+  const auto report = [&progress](const quadrature::RegionProgress& so_far) {
+    if (progress) {
+      progress(so_far);
+    }
+    return true;
+  };
+  ContractionQuestion question = contraction_question(certificate.design);
+  StartCapture capture = quadrature::capture_starts(question, set->set, "capture", kMostCells, report);
+  Claim claim = claim_of(capture, "ekf/capture",
+                         "From every assumed start, with the assumed noise and slew, the tracker comes into "
+                         "the certified set, which it never leaves.");
+  const bool is_disturbed = !(question.noise == Interval(0.0) && question.slew == Interval(0.0));
+  std::optional<StartCapture> noise_free;
+  if (claim.verdict == Verdict::undecided && is_disturbed) {
+    question.noise = Interval(0.0);
+    question.slew = Interval(0.0);
+    noise_free =
+        quadrature::capture_starts(question, set->set, "capture/noise-free", kMostCellsWithoutNoise, report);
+    if (noise_free->derivation.verdict == Verdict::refuted) {
+      claim.verdict = Verdict::refuted;
+      claim.reason = "Without noise and slew, which is allowed: " + claim_of(*noise_free, "", "").reason;
+    }
+  }
+  certificate.claims.push_back(std::move(claim));
+  certificate.derivations.push_back(std::move(capture.derivation));
+  if (noise_free) {
+    certificate.claims.push_back(
+        claim_of(*noise_free, "ekf/capture-noise-free",
+                 "From every assumed start, without noise and slew, the tracker comes into the certified "
+                 "set, which it never leaves."));
+    const bool captured = noise_free->derivation.verdict == Verdict::proved;
+    certificate.derivations.push_back(std::move(noise_free->derivation));
+    if (captured) {
+      add_capture_at_reduced_noise(certificate, set->set, report);
+    }
+  }
+  certificate.followed_starts =
+      FollowedStarts{std::move(capture.region), basin_of_starts(question), std::move(capture.frequency_tube)};
+}
+
+}  // namespace veritrack::certificates

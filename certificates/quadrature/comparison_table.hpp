@@ -1,0 +1,18 @@
+// One table for the reader: what each result certifies for the design, and the same from simulation.
+#pragma once
+
+#include <string>
+
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// Fills certificate.comparison from the derivations and a simulation: a row for each derivation that bounds
+/// a start error, a noise or a rate, and for each reading of Theorem 2.9. Call after all derivations are
+/// there.
+void add_comparison(Certificate& certificate);
+
+/// The table. Empty when there is nothing to compare.
+[[nodiscard]] std::string comparison_section(const Certificate& certificate);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,79 @@
+#include "certificates/quadrature/markdown_other_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "certificates/document/markdown_derivation.hpp"
+#include "certificates/document/markdown_text.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+/// The derivations that have sections of their own elsewhere.
+constexpr std::array<std::string_view, 3> kElsewhere = {"theorem-2.9/", "contraction", "capture"};
+
+std::vector<theorems::Derivation> other_results(const Certificate& certificate) {
+  std::vector<theorems::Derivation> found;
+  std::copy_if(certificate.derivations.begin(), certificate.derivations.end(), std::back_inserter(found),
+               [](const theorems::Derivation& derivation) {
+                 return std::none_of(kElsewhere.begin(), kElsewhere.end(), [&](std::string_view prefix) {
+                   return derivation.id.starts_with(prefix);
+                 });
+               });
+  return found;
+}
+
+markdown::QuantityText description(const std::string& name) {
+  if (name == "initial_frequency_error_bound") {
+    return {"largest certified initial error, rad/sample", markdown::at_least};
+  }
+  if (name == "noise_bound") {
+    return {"largest certified noise, over the amplitude", markdown::at_least};
+  }
+  return {"`" + name + "`", [](const rigor::Interval& value, int) { return markdown::enclosure(value); }};
+}
+
+}  // namespace
+
+std::string other_results_section(const Certificate& certificate) {
+  const std::vector<theorems::Derivation> results = other_results(certificate);
+  if (results.empty()) {
+    return "";
+  }
+  std::string text =
+      "## Other published results for it\n\n"
+      "Results that Theorem 2.9 builds on or competes with, evaluated for this design at amplitude 1. Where "
+      "a "
+      "result "
+      "was printed with a slip, the reading that can be proved stands beside it. No requirement rests on "
+      "them.\n\n";
+  for (const theorems::Derivation& derivation : results) {
+    text += fmt::format("### {}: {}\n\n", derivation.title, markdown::verdict(derivation.verdict));
+    text += markdown::conditions_table(derivation) + "\n";
+    const std::string notes = markdown::notes_list(derivation);
+    text += notes.empty() ? "" : notes + "\n";
+  }
+  return text;
+}
+
+std::string other_constants_section(const Certificate& certificate) {
+  const std::vector<theorems::Derivation> results = other_results(certificate);
+  if (results.empty()) {
+    return "";
+  }
+  std::string text = "## Constants of the other results\n\n";
+  for (const theorems::Derivation& derivation : results) {
+    if (derivation.quantities.empty()) {
+      continue;
+    }
+    text += fmt::format("### `{}`\n\n", derivation.id);
+    text += markdown::quantities_table(derivation, description) + "\n";
+  }
+  return text;
+}
+
+}  // namespace veritrack::certificates

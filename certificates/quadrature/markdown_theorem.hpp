@@ -1,0 +1,22 @@
+// The part of certificate.md that shows a published theorem, in its several readings side by side.
+#pragma once
+
+#include <string>
+
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// The theorem and the simulated run in a few lines of numbers.
+[[nodiscard]] std::string summary_section(const Certificate& certificate);
+
+/// Conditions with verdicts, reading by reading, and their notes.
+[[nodiscard]] std::string conditions_section(const Certificate& certificate);
+
+/// Every constant: symbol, formula, enclosure in each reading, source.
+[[nodiscard]] std::string constants_section(const Certificate& certificate);
+
+/// What the constants bound, tried along the simulated trajectory.
+[[nodiscard]] std::string audit_section(const Certificate& certificate);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,61 @@
+#include "certificates/quadrature/region.hpp"
+
+#include <variant>
+
+#include "analysis/quadrature/capture/capture_starts.hpp"
+#include "analysis/quadrature/capture/capture_target.hpp"
+#include "analysis/quadrature/contraction/quadrature_certificate.hpp"
+#include "certificates/quadrature/guarantee.hpp"
+
+namespace veritrack::certificates {
+
+using rigor::Interval;
+
+RegionResult prove_region_of_attraction(
+    const Design& design, const RegionRequest& request,
+    const std::function<bool(const quadrature::RegionProgress&)>& progress) {
+  if (!std::holds_alternative<QuadratureEkfTables>(design.tables)) {
+    return {std::nullopt, "A map needs the tracker quadrature-ekf."};
+  }
+  const rigor::UpwardRounding upward;
+  sets::ContractionQuestion question = contraction_question(design);
+  if (!request.with_noise) {
+    question.noise = Interval(0.0);
+    question.slew = Interval(0.0);
+  }
+  if (!(question.design.epsilon == Interval(0.0))) {
+    return {std::nullopt,
+            "A map needs a design without leak (epsilon = 0): with a leak the set that starts are followed "
+            "into moves with the frequency, which the map does not do yet."};
+  }
+  const quadrature::ContractionCertificate certificate = quadrature::certify_contraction(question);
+  if (!certificate.set || certificate.set->verdict != rigor::Verdict::proved) {
+    std::string reason = "No set could be certified in which starts might be captured.";
+    for (const theorems::Condition& condition : certificate.derivation.conditions) {
+      if (condition.verdict != rigor::Verdict::proved) {
+        reason += " " + condition.id + ": " + condition.reason;
+        break;
+      }
+    }
+    return {std::nullopt, reason};
+  }
+  std::optional<quadrature::CaptureProblem> problem = quadrature::capture_problem(question);
+  if (!problem) {
+    return {std::nullopt, "The steady-state covariance could not be verified."};
+  }
+  // The set was certified for this noise and slew; it is invariant for no more.
+  problem->noise = certificate.set->set.noise;
+  problem->slew = certificate.set->set.slew;
+  const quadrature::CertifiedSetTarget target(certificate.set->set, true);
+  const quadrature::StartBox starts{rigor::symmetric(question.initial_amplitude_error.upper()),
+                                    rigor::symmetric(request.phase_error),
+                                    rigor::symmetric(request.frequency_error)};
+  constexpr int kGrid = 64;
+  RegionOfAttraction found;
+  found.region = quadrature::prove_region(*problem, target, starts, {}, progress);
+  found.basin = quadrature::simulate_basin(*problem, starts, kGrid, kGrid, 2000);
+  found.shares = quadrature::shares_of_basin(found.region, found.basin);
+  return {std::move(found), ""};
+}
+
+}  // namespace veritrack::certificates

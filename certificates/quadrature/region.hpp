@@ -1,0 +1,43 @@
+// The proved region of attraction of a design: which starts the tracker is certain to recover from.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "analysis/quadrature/capture/capture_basin.hpp"
+#include "analysis/quadrature/capture/capture_region.hpp"
+#include "certificates/design/design.hpp"
+
+namespace veritrack::certificates {
+
+/// The rectangle of starts that is looked at, around the exact start.
+struct RegionRequest {
+  double frequency_error = 1.0;  ///< up to, rad/sample
+  double phase_error = 1.5;      ///< up to, rad
+  bool with_noise = false;       ///< with the noise and slew of [assume]; without, the signal is free of both
+};
+
+/// The region, and the simulated basin beside it.
+struct RegionOfAttraction {
+  quadrature::Region region;
+  quadrature::SimulatedBasin basin;  ///< without noise, by simulation: proves nothing
+  quadrature::BasinShares shares;    ///< of the simulated basin
+};
+
+/// What was found, or why nothing could be.
+struct RegionResult {
+  std::optional<RegionOfAttraction> found;
+  std::string reason;  ///< one sentence when nothing was found
+};
+
+/// Certifies a set that the tracker never leaves and follows every start of the rectangle until it lies in
+/// that set (PROVED), locks elsewhere (REFUTED), or cannot be followed (UNDECIDED). The start is exact in
+/// amplitude up to initial_amplitude_error of [assume]; its covariance is the initial_covariance of [assume].
+/// Needs epsilon = 0. Runs in parallel; the result does not depend on the number of threads. Opens its own
+/// rounding scope.
+[[nodiscard]] RegionResult prove_region_of_attraction(
+    const Design& design, const RegionRequest& request,
+    const std::function<bool(const quadrature::RegionProgress&)>& progress = {});
+
+}  // namespace veritrack::certificates

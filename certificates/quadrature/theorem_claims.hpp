@@ -1,0 +1,19 @@
+// What was found of the published theorems themselves, as claims of a certificate and as a table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/theorems/statement.hpp"
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// A statement about a theorem as a claim that nothing requires.
+[[nodiscard]] Claim to_claim(const theorems::Statement& statement);
+
+/// The claims with ids "theorem-2.9/<place>" or "theorem-2.9/<place>/<reading>" that test the theorem's
+/// proof, a row a place, its readings side by side. Empty when there are none.
+[[nodiscard]] std::string proof_section(const Certificate& certificate);
+
+}  // namespace veritrack::certificates

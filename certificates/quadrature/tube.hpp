@@ -1,0 +1,26 @@
+// Simulated runs beside the certified bound of every sample: what the figure of the certificate shows.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// |frequency error|, rad/sample, after 0, 1, ... samples.
+struct Tube {
+  /// The starts: all assumed ones, which had to be captured; otherwise all of the certified set.
+  bool from_assumed_starts = false;
+  std::vector<double> bound;  ///< certified, for every such start and all noise and slew assumed
+  /// The same for the assumed starts, where `bound` is about all of the set; as long, or empty.
+  std::vector<double> bound_of_assumed_starts;
+  /// Of the tracker in double precision, from the rim of the starts, without disturbances and with noise and
+  /// slew chosen at each sample to push the frequency error out. As long as the bound. They prove nothing.
+  std::vector<std::vector<double>> runs;
+};
+
+/// None when no set is certified or no bound is proved. Opens its own rounding scopes.
+[[nodiscard]] std::optional<Tube> certified_tube(const Certificate& certificate);
+
+}  // namespace veritrack::certificates

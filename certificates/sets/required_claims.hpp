@@ -1,0 +1,15 @@
+// The claims that stand in [require] of a design of an extended Kalman filter, and the certificate's verdict.
+#pragma once
+
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// Adds a claim for each key of [require], decided by the derivations "contraction" and "capture" of the
+/// certificate, and the certificate's verdict. Needs the upward mode.
+void add_required_claims(Certificate& certificate, const Requirements& require, const Assumptions& assume);
+
+/// Sets the certificate's verdict: all required claims together, none when nothing is required.
+void conclude_requirements(Certificate& certificate);
+
+}  // namespace veritrack::certificates

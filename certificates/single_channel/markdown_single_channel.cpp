@@ -1,0 +1,234 @@
+#include "certificates/single_channel/markdown_single_channel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "certificates/document/markdown_derivation.hpp"
+#include "certificates/document/markdown_text.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using markdown::enclosure;
+using markdown::math;
+using rigor::Interval;
+using rigor::Verdict;
+using theorems::Derivation;
+
+/// The bias in the middle of the band.
+Derivation middle_bias(const Certificate& certificate) {
+  return *std::find_if(certificate.derivations.begin(), certificate.derivations.end(),
+                       [](const Derivation& one) { return one.id == "single-channel-bias"; });
+}
+
+Interval value_of(const Derivation& derivation, const char* name) {
+  return find_quantity(derivation, name).value;
+}
+
+/// The frequency of a bias, as the decimal that it is.
+std::string frequency_text(const Derivation& bias) {
+  return find_quantity(bias, "frequency").formula;
+}
+
+/// By frequency.
+std::vector<Derivation> biases(const Certificate& certificate) {
+  std::vector<Derivation> found = derivations_of(certificate, "single-channel-bias");
+  std::stable_sort(found.begin(), found.end(), [](const Derivation& a, const Derivation& b) {
+    return value_of(a, "frequency").lower() < value_of(b, "frequency").lower();
+  });
+  return found;
+}
+
+std::string bias_sentence(const Derivation& bias) {
+  const std::string frequency = frequency_text(bias);
+  if (bias.verdict != Verdict::proved) {
+    return fmt::format("The steady-state frequency error on a noise-free tone of {} rad/sample is {}: {}",
+                       frequency, markdown::verdict(bias.verdict), bias.conditions.front().reason);
+  }
+  if (value_of(bias, "min_error") == Interval(0.0) && value_of(bias, "max_error") == Interval(0.0)) {
+    return fmt::format(
+        "{}: on a noise-free tone of {} rad/sample the steady-state frequency error is exactly "
+        "zero.",
+        markdown::verdict(bias.verdict), frequency);
+  }
+  return fmt::format(
+      "{}: on a noise-free tone of {} rad/sample the steady-state frequency error has the mean {} "
+      "rad/sample; with the phase it ripples between the minimum {} and the maximum {} rad/sample.",
+      markdown::verdict(bias.verdict), frequency, enclosure(value_of(bias, "mean_bias"), 6),
+      enclosure(value_of(bias, "min_error"), 4), enclosure(value_of(bias, "max_error"), 4));
+}
+
+/// The bias of the quadrature tracker of the same design values.
+std::string quadrature_cell(const Derivation& bias) {
+  const theorems::Quantity& quantity = find_quantity(bias, "quadrature_bias");
+  return quantity.not_applicable ? "not verified" : enclosure(quantity.value, 4);
+}
+
+markdown::QuantityText quantity_text(const std::string& name) {
+  const auto enclosed = [](const std::string& description) {
+    return markdown::QuantityText{description, markdown::enclosure};
+  };
+  if (name == "gain_1") {
+    return enclosed("gain of the measured channel");
+  }
+  if (name == "gain_2") {
+    return enclosed("gain of the other channel");
+  }
+  if (name == "zero_angle") {
+    return enclosed("angle of the zeros, rad/sample");
+  }
+  return enclosed(name == "pole_radius" ? "largest modulus of a pole" : name);
+}
+
+std::string process_noise_words(const SingleChannelEkfDesign& design) {
+  switch (design.process_noise) {
+    case SingleChannelEkfDesign::ProcessNoise::frequency_only:
+      return math("Q = q\\,\\mathrm{diag}(0, 0, 1)") + ", as the paper prints it";
+    case SingleChannelEkfDesign::ProcessNoise::identity:
+      return math("Q = q\\,\\mathrm{diag}(1, 1, 1)");
+    case SingleChannelEkfDesign::ProcessNoise::diagonal:
+      break;
+  }
+  return math("Q = \\mathrm{diag}(q_1, q_1, q_2)");
+}
+
+}  // namespace
+
+std::string single_channel_headline(const Certificate& certificate) {
+  const Derivation bias = middle_bias(certificate);
+  if (bias.verdict != Verdict::proved) {
+    return "Nothing is required of this design, and its steady state on a noise-free tone is not verified: " +
+           bias.conditions.front().reason;
+  }
+  return fmt::format(
+      "Nothing is required of this design; PROVED of it: on a noise-free tone of {} rad/sample the "
+      "steady-state frequency error has the mean {} rad/sample",
+      frequency_text(bias), enclosure(value_of(bias, "mean_bias"), 6));
+}
+
+std::string single_channel_summary(const Certificate& certificate) {
+  std::string text = "- " + bias_sentence(middle_bias(certificate)) + "\n";
+  for (const Claim& claim : certificate.claims) {
+    if (claim.id == "single-channel/exponentially-stable-steady-state") {
+      text += fmt::format("- {}: {} {}\n", markdown::verdict(claim.verdict), claim.statement, claim.reason);
+    }
+  }
+  int proved = 0;
+  int undecided = 0;
+  std::string refuted;
+  for (const Claim& claim : certificate.claims) {
+    if (claim.id.starts_with("proposition-")) {
+      proved += claim.verdict == Verdict::proved ? 1 : 0;
+      undecided += claim.verdict == Verdict::undecided ? 1 : 0;
+      if (claim.verdict == Verdict::refuted) {
+        refuted += fmt::format("{}`{}`", refuted.empty() ? "" : ", ", claim.id);
+      }
+    }
+  }
+  return text + fmt::format(
+                    "- Of the statements on the paper's Propositions 1 and 2 {} are **PROVED**, {} "
+                    "**UNDECIDED**; **REFUTED**: {} (see *What was found of the paper*).\n\n",
+                    proved, undecided, refuted.empty() ? "none" : refuted);
+}
+
+std::string single_channel_design_section(const Certificate& certificate) {
+  const SingleChannelEkfDesign& chosen = certificate.design.single_channel_ekf().design;
+  std::string text = "## The design\n\n";
+  text += fmt::format("{} — tracker `{}`", markdown::escaped(certificate.design.name),
+                      certificate.design.tracker);
+  text += certificate.design.source.empty()
+              ? ".\n\n"
+              : fmt::format(", from: {}.\n\n", markdown::escaped(certificate.design.source));
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const char* what, const char* symbol, const std::optional<Number>& number,
+                       const char* unit) {
+    if (number) {
+      rows.push_back({what, math(symbol), "`" + number->text + "`", unit});
+    }
+  };
+  rows.push_back({"process noise covariance", "", process_noise_words(chosen), ""});
+  add("process noise variance", "q", chosen.q, "signal units² and (rad/sample)²");
+  if (chosen.variances) {
+    add("process noise variance, in-phase and quadrature", "q_1", (*chosen.variances)[0], "signal units²");
+    add("process noise variance, frequency", "q_2", (*chosen.variances)[1], "(rad/sample)²");
+  }
+  add("measurement noise variance", "r", chosen.r, "signal units²");
+  add("ratio of the variances, with q = 1", "\\lambda = r/q", chosen.lambda, "—");
+  add("leak of the frequency state", "\\epsilon", chosen.epsilon, "—");
+  return text + markdown::table({"Design value", "Symbol", "Value", "Unit"}, rows) + "\n";
+}
+
+std::string bias_section(const Certificate& certificate) {
+  std::string text = "## The bias\n\n";
+  text +=
+      "On a noise-free tone of constant frequency the tracker settles on a periodic function of the signal's "
+      "phase. Its frequency error there (estimate less truth, rad/sample) is enclosed by an invariant curve "
+      "that is verified in interval arithmetic; every start near the curve converges to it, by the factor in "
+      "the last column a sample. The mean is over the phase, and over time wherever the frequency is no "
+      "rational multiple of $`\\pi`$. Beside it: an enclosure of the means at all frequencies within 0.002 "
+      "rad/sample.\n\n";
+  std::vector<std::vector<std::string>> rows;
+  for (const Derivation& bias : biases(certificate)) {
+    const bool proved = bias.verdict == Verdict::proved;
+    const auto cell = [&](const char* name, int digits) {
+      return proved ? enclosure(value_of(bias, name), digits) : std::string("—");
+    };
+    const theorems::Quantity& around = find_quantity(bias, "mean_bias_around");
+    rows.push_back({frequency_text(bias), cell("mean_bias", 6), cell("min_error", 4), cell("max_error", 4),
+                    around.not_applicable ? "not verified" : enclosure(around.value, 4),
+                    markdown::verdict(bias.verdict), quadrature_cell(bias),
+                    proved ? cell("contraction_rate", 3) : bias.conditions.front().reason});
+  }
+  return text +
+         markdown::table(
+             {"Frequency, rad/sample", "Mean bias", "Smallest error", "Largest error",
+              "Mean bias within 0.002 rad/sample of it", "Verdict", "Quadrature tracker", "Rate, or why not"},
+             rows) +
+         "\n";
+}
+
+std::string transfer_function_section(const Certificate& certificate) {
+  const Derivation derivation = derivations_of(certificate, "single-channel/transfer-function").at(0);
+  return "## The frozen filter\n\n" + derivation.title + ": " + markdown::verdict(derivation.verdict) +
+         ".\n\n" + markdown::quantities_table(derivation, quantity_text) + "\n" +
+         markdown::conditions_table(derivation) + "\n" + markdown::notes_list(derivation) + "\n";
+}
+
+std::string proposition_section(const Certificate& certificate) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Claim& claim : certificate.claims) {
+    if (!claim.required) {
+      rows.push_back({"`" + claim.id + "`", claim.statement, markdown::verdict(claim.verdict), claim.reason});
+    }
+  }
+  return "## What was found of the paper\n\nS. Bittanti and S. M. Savaresi, *On the Parameterization and "
+         "Design of an Extended Kalman Filter Frequency Tracker*, IEEE Trans. Automatic Control 45(9), "
+         "2000.\n\n" +
+         markdown::table({"Claim", "Statement", "Verdict", "Ground"}, rows) + "\n";
+}
+
+std::string single_channel_coverage_section() {
+  return "## What this certificate covers, and what it does not\n\n"
+         "- Covered: every enclosure was computed with outward-rounded interval arithmetic from the design "
+         "values; the true value lies in it. A verdict PROVED or REFUTED follows from the enclosures; "
+         "UNDECIDED "
+         "means that neither could be shown.\n"
+         "- The contraction certificate holds at every phase, for every frequency that stays in the band, "
+         "and "
+         "for any noise and any change of frequency within the bounds, whatever their statistics. It covers "
+         "a "
+         "tracker without a leak, started with the steady-state covariance, and a signal of constant "
+         "amplitude.\n"
+         "- The bias is that of the steady state which the tracker reaches from the exact estimate, on a "
+         "tone "
+         "without noise at the frequencies of the table, and around them where the table says so. Elsewhere "
+         "it is not enclosed.\n"
+         "- Covered is the tracker in exact arithmetic. Not covered: its rounding errors in double "
+         "precision.\n"
+         "- The figures of the run are one simulation in double precision and prove nothing.\n\n";
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,30 @@
+// The parts of certificate.md that only a single-channel tracker has.
+#pragma once
+
+#include <string>
+
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// What the document begins with when nothing is required.
+[[nodiscard]] std::string single_channel_headline(const Certificate& certificate);
+
+/// The answers in a few sentences.
+[[nodiscard]] std::string single_channel_summary(const Certificate& certificate);
+
+[[nodiscard]] std::string single_channel_design_section(const Certificate& certificate);
+
+/// The bias with its ripple, at the frequencies of the band.
+[[nodiscard]] std::string bias_section(const Certificate& certificate);
+
+/// The frozen filter: gains, poles, Jury conditions.
+[[nodiscard]] std::string transfer_function_section(const Certificate& certificate);
+
+/// What was found of the paper's propositions: every claim that nothing requires.
+[[nodiscard]] std::string proposition_section(const Certificate& certificate);
+
+/// What the certificate covers.
+[[nodiscard]] std::string single_channel_coverage_section();
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,212 @@
+#include "certificates/single_channel/single_channel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/sets/fixed_point_bias.hpp"
+#include "analysis/single_channel/frozen_observer.hpp"
+#include "analysis/single_channel/invariant_curve.hpp"
+#include "analysis/single_channel/phase_certificate.hpp"
+#include "analysis/single_channel/propositions.hpp"
+#include "analysis/theorems/derivation_builder.hpp"
+#include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/theorem_claims.hpp"
+#include "certificates/sets/guarantee_sentence.hpp"
+#include "certificates/sets/required_claims.hpp"
+#include "trackers/quadrature/quadrature_rotating_frame.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+using single_channel::SteadyStateBias;
+
+/// A frequency of the band, rad/sample, with its decimal.
+struct Frequency {
+  std::string text;
+  Interval value;
+};
+
+/// Frequencies of the band at which the bias is enclosed: both ends and points between them.
+std::vector<Frequency> frequencies_of(const Assumptions& assume) {
+  const auto& [low, high] = assume.frequency;
+  if (rigor::identical(low.value, high.value)) {
+    return {{low.text, low.value}};
+  }
+  constexpr int kCount = 9;  // odd: the middle is one of them
+  std::vector<Frequency> frequencies;
+  frequencies.reserve(kCount);
+  frequencies.push_back({low.text, low.value});
+  for (int i = 1; i + 1 < kCount; ++i) {
+    const double part = static_cast<double>(i) / (kCount - 1);
+    const std::string text = fmt::format("{:.6f}", low.nearest + part * (high.nearest - low.nearest));
+    frequencies.push_back({text.substr(0, text.find_last_not_of('0') + 1), rigor::parse_decimal(text)});
+  }
+  frequencies.push_back({high.text, high.value});
+  return frequencies;
+}
+
+/// The bias of the quadrature tracker with the same design values, for comparison; empty when it is not
+/// verified at that frequency.
+Interval quadrature_bias(const sets::LockBranch& branch, const Interval& frequency) {
+  for (const auto& cell : branch.cells) {
+    const sets::SteadyStateError error = sets::steady_state_error(cell);
+    if (rigor::is_subset(frequency, error.frequency)) {
+      return error.frequency_error;
+    }
+  }
+  return Interval::empty();
+}
+
+/// The frequencies around one, rad/sample, over which the bias is enclosed as well.
+constexpr double kBiasHalfWidth = 0.002;
+
+/// The bias over the frequencies around that of `bias`, when there is one and it is not zero.
+SteadyStateBias bias_around(const trackers::QuadratureEkfDesign<Interval>& design,
+                            const SteadyStateBias& bias) {
+  constexpr std::size_t kMostCells = 128;  // more would take too long
+  SteadyStateBias around;
+  around.reason = bias.reason;
+  if (bias.verdict == Verdict::proved) {
+    around = bias;
+    if (!(design.epsilon == Interval(0.0))) {
+      const Interval interval = Interval(midpoint(bias.frequency)) + rigor::symmetric(kBiasHalfWidth);
+      around = single_channel::steady_state_bias(design, interval, kMostCells);
+    }
+  }
+  return around;
+}
+
+theorems::Derivation bias_derivation(const SteadyStateBias& bias, const SteadyStateBias& around,
+                                     const std::string& frequency, std::string id,
+                                     const Interval& quadrature) {
+  const std::string source = "this program: invariant curve over the phase";
+  theorems::Derivation derivation;
+  derivation.id = std::move(id);
+  derivation.title = "Steady-state frequency error on a noise-free tone";
+  const auto add = [&](const char* name, const char* symbol, const char* formula, const Interval& value) {
+    theorems::add_quantity(derivation, {name, symbol, formula, source}, value, bias.reason + ".");
+  };
+  add("frequency", "\\omega", frequency.c_str(), bias.frequency);
+  add("mean_bias", "\\bar\\nu", "\\frac1\\pi \\int_0^\\pi \\nu_*(\\varphi)\\,d\\varphi", bias.mean_bias);
+  add("min_error", "\\min_\\varphi \\nu_*", "", bias.min_error);
+  add("max_error", "\\max_\\varphi \\nu_*", "", bias.max_error);
+  const auto add_around = [&](const char* name, const Interval& value) {
+    theorems::add_quantity(derivation, {name, "", "", source}, value, around.reason + ".");
+  };
+  add_around("mean_bias_around", around.mean_bias);
+  add_around("min_error_around", around.min_error);
+  add_around("max_error_around", around.max_error);
+  if (bias.verdict == Verdict::proved) {
+    add("contraction_rate", "\\kappa", "", Interval::from_bounds(0.0, bias.rate));
+  }
+  theorems::add_quantity(derivation,
+                         {"quadrature_bias", "\\nu_*", "",
+                          "this program: lock branch of the quadrature tracker, same q1, q2, r, \u03b5"},
+                         quadrature, "It is not verified at this frequency.");
+  theorems::Condition condition;
+  condition.id = "invariant-curve";
+  condition.statement = "X_*(\\varphi + \\omega) = G_\\varphi(X_*(\\varphi))";
+  condition.verdict = bias.verdict;
+  condition.reason = bias.reason + ".";
+  derivation.conditions.push_back(condition);
+  theorems::conclude(derivation);
+  return derivation;
+}
+
+/// Frequency-only process noise without a leak: no exponentially stable steady state, with the witness.
+Claim stability_claim(const Interval& r) {
+  Claim claim;
+  claim.id = "single-channel/exponentially-stable-steady-state";
+  claim.statement = "The tracker has an exponentially stable steady state on a noise-free tone.";
+  claim.verdict = rigor::certainly_positive(r) ? Verdict::refuted : Verdict::undecided;
+  claim.reason =
+      "The amplitude is an uncontrollable mode on the unit circle. In the frame of the signal F has the rows "
+      "(1, 0, 0), (0, 1, 1), (0, 0, 1), and w = (1, 0, 0) has w F = w and w Q w' = 0. Each sample adds at "
+      "most 1/r to the information on the amplitude, so that with r > 0 its variance falls no faster than "
+      "1/k.";
+  return claim;
+}
+
+}  // namespace
+
+trackers::QuadratureEkfDesign<Interval> enclosed_values(const SingleChannelEkfDesign& design) {
+  using ProcessNoise = SingleChannelEkfDesign::ProcessNoise;
+  const Interval r = design.lambda ? design.lambda->value : design.r->value;
+  if (design.process_noise == ProcessNoise::diagonal) {
+    return {(*design.variances)[0].value, (*design.variances)[1].value, r, design.epsilon.value};
+  }
+  const Interval q = design.q ? design.q->value : Interval(1.0);
+  const bool identity = design.process_noise == ProcessNoise::identity;
+  return {identity ? q : Interval(0.0), q, r, design.epsilon.value};
+}
+
+trackers::QuadratureEkfDesign<double> nearest_values(const SingleChannelEkfDesign& design) {
+  using ProcessNoise = SingleChannelEkfDesign::ProcessNoise;
+  const double r = design.lambda ? design.lambda->nearest : design.r->nearest;
+  if (design.process_noise == ProcessNoise::diagonal) {
+    return {(*design.variances)[0].nearest, (*design.variances)[1].nearest, r, design.epsilon.nearest};
+  }
+  const double q = design.q ? design.q->nearest : 1.0;
+  const bool identity = design.process_noise == ProcessNoise::identity;
+  return {identity ? q : 0.0, q, r, design.epsilon.nearest};
+}
+
+void certify_single_channel(Certificate& certificate, const SingleChannelEkfTables& tables) {
+  certificate.simulation = simulate_single_channel(tables);
+  const trackers::QuadratureEkfDesign<Interval> design =
+      trackers::at_unit_amplitude(enclosed_values(tables.design), tables.assume.amplitude.value);
+  const std::vector<Frequency> frequencies = frequencies_of(tables.assume);
+  const std::size_t middle = frequencies.size() / 2;
+
+  const bool has_steady_state = !(design.q1 == Interval(0.0)) || !(design.epsilon == Interval(0.0));
+  if (!has_steady_state) {
+    certificate.claims.push_back(stability_claim(design.r));
+  }
+  const Interval band = rigor::hull(tables.assume.frequency[0].value, tables.assume.frequency[1].value);
+  const sets::LockBranch quadrature = sets::verify_lock_branch(design, band);
+  SteadyStateBias at_middle;
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    SteadyStateBias bias;
+    bias.frequency = frequencies[i].value;
+    bias.reason = "there is no exponentially stable steady state, see the claims";
+    if (has_steady_state) {
+      bias = single_channel::steady_state_bias(design, frequencies[i].value);
+    }
+    if (i == middle) {
+      at_middle = bias;
+    }
+    certificate.derivations.push_back(
+        bias_derivation(bias, bias_around(design, bias), frequencies[i].text,
+                        i == middle ? "single-channel-bias" : "single-channel-bias/" + frequencies[i].text,
+                        quadrature_bias(quadrature, frequencies[i].value)));
+  }
+  certificate.derivations.push_back(
+      single_channel::certify_over_phases({contraction_question(design, tables.assume), band}).derivation);
+  certificate.derivations.push_back(single_channel::transfer_function(single_channel::mean_gain(
+      trackers::at_unit_amplitude(nearest_values(tables.design), tables.assume.amplitude.nearest),
+      midpoint(frequencies[middle].value))));
+
+  trackers::QuadratureEkfDesign<Interval> without_leak = design;
+  without_leak.epsilon = Interval(0.0);
+  SteadyStateBias exact = at_middle;
+  if (!(design.epsilon == Interval(0.0))) {
+    exact = single_channel::steady_state_bias(without_leak, frequencies[middle].value);
+  }
+  const auto add_all = [&](const std::vector<theorems::Statement>& statements) {
+    std::transform(statements.begin(), statements.end(), std::back_inserter(certificate.claims), to_claim);
+  };
+  add_all(single_channel::proposition_1_formulas());
+  add_all(
+      single_channel::proposition_1_conclusion(at_middle, exact, design.epsilon, frequencies[middle].text));
+  add_all(single_channel::proposition_2());
+  add_required_claims(certificate, tables.require, tables.assume);
+  certificate.claims.push_back(guarantee_claim(certificate, {tables.assume, tables.require, true}));
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,27 @@
+// What can be said of a design of the single-channel tracker.
+#pragma once
+
+#include "analysis/rigor/interval.hpp"
+#include "certificates/document/certificate.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
+
+namespace veritrack::certificates {
+
+/// Q = diag(q1, q1, q2), r and epsilon of [design], whatever keys they came from: the intervals that the
+/// decimals stand for, in the units of the design file.
+[[nodiscard]] trackers::QuadratureEkfDesign<rigor::Interval> enclosed_values(
+    const SingleChannelEkfDesign& design);
+
+/// The same as the nearest doubles.
+[[nodiscard]] trackers::QuadratureEkfDesign<double> nearest_values(const SingleChannelEkfDesign& design);
+
+/// Evaluates everything: the simulated run, the bias at frequencies of the band, the transfer function, the
+/// propositions, and the claims of [require]. Needs the upward mode.
+void certify_single_channel(Certificate& certificate, const SingleChannelEkfTables& tables);
+
+/// The simulated run, from the edge of the assumed start errors along the signal that [simulate] names, of
+/// which the tracker sees the in-phase channel. Throws trackers::ZeroInnovationVariance. Holds
+/// round-to-nearest.
+[[nodiscard]] Simulation simulate_single_channel(const SingleChannelEkfTables& tables);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,54 @@
+#include "checker/kkl_observer/kkl_design.hpp"
+
+namespace veritrack::checker {
+
+KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
+  const auto positive = [&](const Tree& number) {
+    Ball value = read_number(number, objections);
+    if (!certainly_positive(value)) {
+      objections.push_back(number.at("text").text() + " is not positive");
+    }
+    return value;
+  };
+  const Tree& chosen = tree.at("design");
+  const Tree& assume = tree.at("assume");
+  KklDesign design;
+  for (const Tree& rate : chosen.at("lambda").elements()) {
+    design.lambda.push_back(positive(rate));
+  }
+  if (const Tree* ell = chosen.find("ell")) {
+    design.ell = positive(*ell);
+  }
+  // A range is the hull of the two enclosures, which hold the decimals.
+  const auto range = [&](const Tree& ends, Ball& low, Ball& high) {
+    positive(ends.at(0));
+    positive(ends.at(1));
+    low = from_hexadecimal(ends.at(0).at("lo").text());
+    high = from_hexadecimal(ends.at(1).at("hi").text());
+    if (!certainly_positive(low) || !certainly_at_most(low, high)) {
+      objections.emplace_back("a range goes from low to high, above zero");
+    }
+  };
+  range(assume.at("frequency"), design.frequency_low, design.frequency_high);
+  range(assume.at("amplitude"), design.amplitude_low, design.amplitude_high);
+  if (const Tree* disturbance = assume.find("disturbance")) {
+    for (const auto& [key, value] : disturbance->members()) {
+      auto& number = key == "bound"       ? design.bound
+                     : key == "amplitude" ? design.disturbance_amplitude
+                                          : design.disturbance_frequency;
+      number = positive(value);
+    }
+    const bool sinusoid =
+        disturbance->find("amplitude") != nullptr && disturbance->find("frequency") != nullptr;
+    const bool bounded = disturbance->find("bound") != nullptr;
+    if (disturbance->members().size() != (bounded ? 1 : 2) || bounded == sinusoid) {
+      objections.emplace_back("the disturbance has a bound, or an amplitude and a frequency");
+    }
+  }
+  if (design.lambda.size() < 4) {
+    objections.emplace_back("four rates or more are needed");
+  }
+  return design;
+}
+
+}  // namespace veritrack::checker

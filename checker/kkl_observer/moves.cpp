@@ -1,0 +1,143 @@
+#include "checker/kkl_observer/moves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "checker/numbers/slope.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+const Ball zero(0.0);
+const Ball one(1.0);
+constexpr int kPeriods = 8;
+constexpr int kTimes = 120;
+
+/// 1 / (lambda r + j) for the period r = 1/W: the response 1 / (lambda + j W) is r times this.
+template <typename S>
+std::array<S, 2> response(const Ball& lambda, const S& period) {
+  const S over = reciprocal(square(lambda * period) + S(one));
+  return {lambda * period * over, -over};
+}
+
+Ball length(const std::array<Ball, 2>& x) {
+  return root_of_non_negative(square(x[0]) + square(x[1]));
+}
+
+/// The sum of q_i x_i.
+Ball dot(const Filters& q, const Filters& x) {
+  Ball sum(0.0);
+  for (std::size_t i = 0; i < kFilters; ++i) {
+    sum += q[i] * x[i];
+  }
+  return sum;
+}
+
+}  // namespace
+
+Moves::Moves(const KklDesign& design, const Ball& settling_time) {
+  std::copy_n(design.lambda.begin(), kFilters, lambda_.begin());
+  sinusoid_ = design.disturbance_amplitude.value_or(zero) / design.amplitude_low;
+  bound_ = design.bound.value_or(zero) / design.amplitude_low;
+  if (design.disturbance_frequency) {
+    cut_periods(design);
+  } else if (design.bound) {
+    cut_time();
+  }
+  const auto gain = [](const Ball& rate, const Ball& frequency) {
+    return one / sqrt(square(rate) + square(frequency));
+  };
+  for (std::size_t i = 0; i < kFilters; ++i) {
+    Ball start = gain(lambda_[i], design.frequency_low);
+    if (design.disturbance_frequency) {
+      start += sinusoid_ * gain(lambda_[i], *design.disturbance_frequency);
+    }
+    left_[i] = exp(-(lambda_[i] * settling_time)) * start;
+  }
+}
+
+void Moves::cut_periods(const KklDesign& design) {
+  const Ball longest = one / *design.disturbance_frequency;
+  for (int k = 0; k < kPeriods; ++k) {
+    const Ball begin = longest * Ball(k) / Ball(kPeriods);
+    const Ball end = longest * Ball(k + 1) / Ball(kPeriods);
+    const Ball middle = Ball(0.5) * (begin + end);
+    Cell cell{end, end - middle, {}, {}, {}};
+    for (std::size_t i = 0; i < kFilters; ++i) {
+      const auto at_middle = response(lambda_[i], middle);
+      const auto over = response(lambda_[i], Slope::variable(Ball::hull(begin, end), 0));
+      for (std::size_t part = 0; part < 2; ++part) {
+        cell.middle[part][i] = at_middle[part];
+        cell.slope[part][i] = over[part].along[0];
+      }
+    }
+    cells_.push_back(std::move(cell));
+  }
+}
+
+void Moves::cut_time() {
+  const auto nearer = [](const Ball& x, const Ball& y) { return x.near() < y.near(); };
+  const auto [slowest, fastest] = std::minmax_element(lambda_.begin(), lambda_.end(), nearer);
+  // Dense at first, where fast filters still move: a proposal, as every partition is valid.
+  const double bend = 1.0 / fastest->near();
+  const double growth = std::log1p(18.0 / slowest->near() / bend);
+  const auto decay = [&](std::size_t i, const Ball& time) { return exp(-(lambda_[i] * time)); };
+  Ball begin(0.0);
+  for (int k = 0; k < kTimes; ++k) {
+    const Ball end(bend * std::expm1(growth * (k + 1) / kTimes));
+    const Ball middle = Ball(0.5) * (begin + end);
+    Cell cell{end - begin, end - middle, {}, {}, {}};
+    for (std::size_t i = 0; i < kFilters; ++i) {
+      const Ball before = decay(i, begin);
+      const Ball after = decay(i, end);
+      cell.middle[0][i] = decay(i, middle);
+      cell.slope[0][i] = -(lambda_[i] * Ball::hull(before, after));
+      cell.integral[i] = (before - after) / lambda_[i];
+    }
+    cells_.push_back(std::move(cell));
+    begin = end;
+  }
+  for (std::size_t i = 0; i < kFilters; ++i) {
+    tail_[i] = decay(i, begin) / lambda_[i];
+  }
+}
+
+Ball Moves::largest_response(const Filters& q) const {
+  Ball largest(0.0);
+  for (const Cell& cell : cells_) {
+    const Ball middle = length({dot(q, cell.middle[0]), dot(q, cell.middle[1])});
+    const Ball slope = length({dot(q, cell.slope[0]), dot(q, cell.slope[1])});
+    largest = max(largest, cell.weight * (middle + cell.half_width * slope)).upper();
+  }
+  return largest;
+}
+
+Ball Moves::kernel_integral(const Filters& q) const {
+  Ball sum(0.0);
+  for (const Cell& cell : cells_) {
+    const Ball kernel = dot(q, cell.middle[0]) + Ball::within(cell.half_width * dot(q, cell.slope[0]));
+    const bool one_sign = certainly_positive(kernel) || certainly_positive(-kernel);
+    sum += one_sign ? abs(dot(q, cell.integral)) : cell.weight * abs(kernel).upper();
+  }
+  for (std::size_t i = 0; i < kFilters; ++i) {
+    sum += abs(q[i]) * tail_[i];
+  }
+  return sum;
+}
+
+Size Moves::size(const Filters& q) const {
+  Size size{zero, zero};
+  if (certainly_positive(sinusoid_)) {
+    size.driven = (sinusoid_ * largest_response(q)).upper();
+  } else if (certainly_positive(bound_)) {
+    size.driven = (bound_ * kernel_integral(q)).upper();
+  }
+  for (std::size_t i = 0; i < kFilters; ++i) {
+    size.left += abs(q[i]) * left_[i];
+  }
+  size.left = size.left.upper();
+  return size;
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,52 @@
+// What a disturbance, and the start at rest, do to the four filters of a KKL observer.
+#pragma once
+
+#include <array>
+
+#include "checker/kkl_observer/kkl_design.hpp"
+
+namespace veritrack::checker {
+
+constexpr std::size_t kFilters = 4;
+/// A number for each filter.
+using Filters = std::array<Ball, kFilters>;
+
+/// How large a linear function of the filters' moves can get, relative to the amplitude of the signal: by the
+/// disturbance (at the lowest amplitude), and by what is left of the start.
+struct Size {
+  Ball driven, left;
+  [[nodiscard]] Ball sum() const { return driven + left; }
+};
+
+/// The filters xi_i' = -lambda_i xi_i + y start at rest. After the settling time they are at A (T(x) + u), A
+/// the amplitude and T the response to the signal alone; u is what the disturbance has driven, and the rest
+/// of the start, |.| <= exp(-lambda_i t_s) times what the responses to signal and disturbance were at 0. All
+/// such u together are a convex set that is symmetric about 0.
+class Moves {
+ public:
+  /// Needs four filters.
+  Moves(const KklDesign& design, const Ball& settling_time);
+
+  /// At least sup |q'u|, for every q of the balls.
+  [[nodiscard]] Size size(const Filters& q) const;
+
+ private:
+  /// A cell of periods 1/W (s), on which the filters' responses to exp(jWt) are `weight` (at most) times h,
+  /// real and imaginary part; or a cell of the time t (s) for the filters' kernels exp(-lambda_i t).
+  struct Cell {
+    Ball weight, half_width;
+    std::array<Filters, 2> middle, slope;  ///< h and h' over the cell; of a kernel only the real part
+    Filters integral;                      ///< of the kernels
+  };
+  void cut_periods(const KklDesign& design);
+  void cut_time();
+  [[nodiscard]] Ball largest_response(const Filters& q) const;
+  [[nodiscard]] Ball kernel_integral(const Filters& q) const;
+
+  Filters lambda_, left_;
+  Ball sinusoid_, bound_;  ///< over the lowest amplitude; 0 when the disturbance is not of that kind
+  std::vector<Cell> cells_;
+  Filters tail_;  ///< integrals of the kernels behind the last cell
+};
+
+}  // namespace veritrack::checker

@@ -1,0 +1,14 @@
+// What the assumed disturbance does to the estimates of a KKL observer: the derivation "kkl-robustness".
+#pragma once
+
+#include "checker/kkl_observer/kkl_design.hpp"
+
+namespace veritrack::checker {
+
+/// Holds every bound of the derivation against cells of all signals of the range: from the settling time on,
+/// for filters that start at rest, and `ell` in use in (9). The mathematics is that of docs/kkl-observer.md,
+/// section Robustness.
+void check_kkl_robustness(const Tree& derivation, const KklDesign& design, const Ball& ell,
+                          Objections& objections);
+
+}  // namespace veritrack::checker

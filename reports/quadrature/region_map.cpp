@@ -1,0 +1,180 @@
+#include "reports/quadrature/region_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "reports/gnuplot.hpp"
+
+namespace veritrack::reports {
+
+namespace {
+
+using quadrature::BasinShares;
+using quadrature::Region;
+using quadrature::RegionCell;
+using quadrature::SimulatedBasin;
+using rigor::Verdict;
+
+using Side = double MapRectangle::*;
+
+/// Joins rectangles that agree in [kept_lower, kept_upper] and follow each other in the other direction.
+void join_along(std::vector<MapRectangle>& rectangles, Side lower, Side upper, Side kept_lower,
+                Side kept_upper) {
+  const auto key = [&](const MapRectangle& r) {
+    return std::array{r.*kept_lower, r.*kept_upper, r.*lower, r.*upper};
+  };
+  std::sort(rectangles.begin(), rectangles.end(),
+            [&](const MapRectangle& a, const MapRectangle& b) { return key(a) < key(b); });
+  std::vector<MapRectangle> result;
+  for (const MapRectangle& next : rectangles) {
+    const bool follows = !result.empty() && result.back().*kept_lower == next.*kept_lower &&
+                         result.back().*kept_upper == next.*kept_upper && result.back().*upper == next.*lower;
+    if (follows) {
+      result.back().*upper = next.*upper;
+    } else {
+      result.push_back(next);
+    }
+  }
+  rectangles = std::move(result);
+}
+
+std::vector<MapRectangle> rectangles_of(const Region& region, Verdict verdict) {
+  std::vector<MapRectangle> rectangles;
+  for (const RegionCell& cell : region.cells) {
+    if (cell.verdict == verdict) {
+      rectangles.push_back({cell.starts.frequency_error.lower(), cell.starts.frequency_error.upper(),
+                            cell.starts.phase_error.lower(), cell.starts.phase_error.upper()});
+    }
+  }
+  return joined(std::move(rectangles));
+}
+
+/// A gnuplot data block for `with boxxyerror`; NaN alone when there is nothing to draw.
+std::string boxes(std::string_view name, const std::vector<MapRectangle>& rectangles) {
+  std::string block = fmt::format("${} << END\n", name);
+  for (const MapRectangle& r : rectangles) {
+    block += fmt::format("{:.7g} {:.7g} {:.7g} {:.7g} {:.7g} {:.7g}\n",
+                         0.5 * (r.frequency_lower + r.frequency_upper), 0.5 * (r.phase_lower + r.phase_upper),
+                         r.frequency_lower, r.frequency_upper, r.phase_lower, r.phase_upper);
+  }
+  return block + (rectangles.empty() ? "NaN NaN NaN NaN NaN NaN\n" : "") + "END\n";
+}
+
+/// The lines between grid rectangles that lock and those that do not (or lie outside), as a data block.
+std::string outline(const SimulatedBasin& basin) {
+  const auto locks = [&](int i, int j) {
+    return i >= 0 && j >= 0 && i < basin.phases && j < basin.frequencies && basin.locks_at(i, j);
+  };
+  const double phase_step = (basin.phase_error.upper() - basin.phase_error.lower()) / basin.phases;
+  const double frequency_step =
+      (basin.frequency_error.upper() - basin.frequency_error.lower()) / basin.frequencies;
+  const auto point = [&](int i, int j) {
+    return fmt::format("{:.6g} {:.6g}\n", basin.frequency_error.lower() + frequency_step * j,
+                       basin.phase_error.lower() + phase_step * i);
+  };
+  std::string block = "$outline << END\n";
+  // Runs of edges in one line are drawn as one.
+  for (int i = 0; i <= basin.phases; ++i) {
+    for (int j = 0; j < basin.frequencies; ++j) {
+      const auto edge = [&](int k) { return k < basin.frequencies && locks(i - 1, k) != locks(i, k); };
+      if (edge(j)) {
+        block += point(i, j);
+        while (edge(j)) {
+          ++j;
+        }
+        block += point(i, j) + "\n";
+      }
+    }
+  }
+  for (int j = 0; j <= basin.frequencies; ++j) {
+    for (int i = 0; i < basin.phases; ++i) {
+      const auto edge = [&](int k) { return k < basin.phases && locks(k, j - 1) != locks(k, j); };
+      if (edge(i)) {
+        block += point(i, j);
+        while (edge(i)) {
+          ++i;
+        }
+        block += point(i, j) + "\n";
+      }
+    }
+  }
+  return block + "NaN NaN\nEND\n";
+}
+
+/// A percentage that never says 100 (or 0) unless it is all (or nothing).
+std::string percent(double share) {
+  if (share > 0.0 && share < 1.0) {
+    return fmt::format("{:.1f} %", std::clamp(100.0 * share, 0.1, 99.9));
+  }
+  return share >= 1.0 ? "100 %" : "0 %";
+}
+
+std::string caption(const Region& region, const SimulatedBasin& basin) {
+  const BasinShares shares = shares_of_basin(region, basin);
+  if (shares.points == 0) {
+    return "Region of attraction over the start's frequency error (rad/sample) and phase error (rad). In "
+           "simulation none of these starts locks.";
+  }
+  return fmt::format(
+      "Region of attraction over the start's frequency error (rad/sample) and phase error (rad): starts "
+      "proved to be captured (dark), proved to lock at a wrong frequency (hatched) and undecided (light), "
+      "with the outline of the basin found by simulating {} x {} starts. Proved: {} of the simulated basin; "
+      "undecided: {}.",
+      basin.frequencies, basin.phases, percent(shares.proved), percent(shares.undecided));
+}
+
+}  // namespace
+
+std::vector<MapRectangle> joined(std::vector<MapRectangle> rectangles) {
+  using R = MapRectangle;
+  std::size_t before = 0;
+  do {
+    before = rectangles.size();
+    join_along(rectangles, &R::frequency_lower, &R::frequency_upper, &R::phase_lower, &R::phase_upper);
+    join_along(rectangles, &R::phase_lower, &R::phase_upper, &R::frequency_lower, &R::frequency_upper);
+  } while (rectangles.size() < before);
+  return rectangles;
+}
+
+Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
+  std::string script = gnuplot_style(560) +
+                       "set tics out\n"
+                       "unset grid\n"
+                       "set xlabel 'frequency error at the start, rad/sample'\n"
+                       "set ylabel 'phase error at the start, rad'\n";
+  script +=
+      fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n", basin.frequency_error.lower(),
+                  basin.frequency_error.upper(), basin.phase_error.lower(), basin.phase_error.upper());
+  script += boxes("proved", rectangles_of(region, Verdict::proved));
+  script += boxes("refuted", rectangles_of(region, Verdict::refuted));
+  script += boxes("undecided", rectangles_of(region, Verdict::undecided));
+  script += outline(basin);
+  // Solid boxes carry a thin border of their own colour, or seams would show between them.
+  const auto solid = [](std::string_view colour) {
+    return fmt::format("boxxyerror fillcolor rgb '{0}' fs solid 1.0 border lc rgb '{0}' lw 0.5", colour);
+  };
+  constexpr std::string_view kHatched =
+      "boxxyerror fillcolor rgb '#000000' fs transparent pattern 4 noborder";
+  constexpr std::string_view kDark = "#5b8296";
+  constexpr std::string_view kMiddle = "#d9cfbf";
+  constexpr std::string_view kLight = "#eeeeee";
+  script += "plot $proved using 1:2:3:4:5:6 with " + solid(kDark) + " notitle";
+  script += ", $refuted using 1:2:3:4:5:6 with " + solid(kMiddle) + " notitle";
+  script += fmt::format(", '' using 1:2:3:4:5:6 with {} notitle", kHatched);
+  script += ", $undecided using 1:2:3:4:5:6 with " + solid(kLight) + " notitle";
+  script += ", $outline using 1:2 with lines lw 4 lc rgb '#ffffff' notitle";
+  script += ", '' using 1:2 with lines lw 1.8 lc rgb '#000000' title 'basin in simulation'";
+  const auto key = [&](std::string_view style, std::string_view title) {
+    script += fmt::format(", keyentry with boxes {} title '{}'", style, title);
+  };
+  key(fmt::format("fillcolor rgb '{}' fs solid 1.0 noborder", kDark), "proved captured");
+  key("fillcolor rgb '#000000' fs pattern 4 noborder", "proved to lock elsewhere");
+  key(fmt::format("fillcolor rgb '{}' fs solid 1.0 border lc rgb '#888888'", kLight), "undecided");
+  script += '\n';
+  return {"region.svg", caption(region, basin), run_gnuplot(script)};
+}
+
+}  // namespace veritrack::reports

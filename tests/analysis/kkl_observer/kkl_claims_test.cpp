@@ -1,0 +1,163 @@
+#include "analysis/kkl_observer/kkl_claims.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "analysis/kkl_observer/kkl_identities.hpp"
+#include "tests/support/random.hpp"
+
+namespace veritrack::kkl_observer {
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+KklClaimsQuestion question(const std::vector<double>& rates, double ell) {
+  KklClaimsQuestion q;
+  for (const double rate : rates) {
+    q.lambda.emplace_back(rate);
+  }
+  q.frequency = Interval::from_bounds(1.0, 5.0);
+  q.amplitude = Interval::from_bounds(1.0, 2.0);
+  q.ell = Interval(ell);
+  return q;
+}
+
+Verdict verdict_of(const theorems::Derivation& derivation, const std::string& id) {
+  for (const auto& condition : derivation.conditions) {
+    if (condition.id == id) {
+      return condition.verdict;
+    }
+  }
+  throw std::out_of_range(id);
+}
+
+TEST_CASE("the identities are proved on their grids, and a false one is refuted") {
+  CHECK(transform_is_invariant() == Verdict::proved);
+  CHECK(transform_is_invariant_with_other_sign() == Verdict::refuted);
+  CHECK(determinant_is_excitation() == Verdict::proved);
+  CHECK(null_space_holds_lambda_and_one() == Verdict::proved);
+  // x (x - 1) (x - 2) vanishes on {0, 1, 2}: the degree matters.
+  const auto cubic = [](const std::array<std::int64_t, 1>& x) { return x[0] * (x[0] - 1) * (x[0] - 2); };
+  CHECK(is_zero_polynomial<1>(cubic, 3) == Verdict::refuted);
+}
+
+TEST_CASE("claims about the inverse follow the ell in use") {
+  for (const auto& [ell, expected] : {std::pair{5.0, Verdict::refuted},
+                                      {7.1e-4, Verdict::refuted},
+                                      {7.0e-4, Verdict::proved},
+                                      {1e-6, Verdict::proved}}) {
+    CAPTURE(ell);
+    const auto claims = derive_kkl_claims(question({1.0, 2.0, 3.0, 4.0}, ell));
+    CHECK(verdict_of(claims, "mu-vanishes") == expected);
+    CHECK(verdict_of(claims, "left-inverse") == expected);
+    CHECK(verdict_of(claims, "positive-definite") == Verdict::proved);
+    CHECK(verdict_of(claims, "continuity") == Verdict::proved);
+    CHECK(verdict_of(claims, "injectivity") == Verdict::proved);
+    CHECK(verdict_of(claims, "section-v-ell") == Verdict::refuted);
+  }
+}
+
+TEST_CASE("a witness against the inverse is one in double, too") {
+  const rigor::UpwardRounding upward;
+  const Eigen::Vector4d lambda(1.0, 2.0, 3.0, 4.0);
+  const auto witness =
+      find_inverse_witness({rigor::to_interval(lambda), Interval::from_bounds(1.0, 5.0)}, Interval(0.01));
+  REQUIRE(witness);
+  const rigor::NearestRounding nearest;
+  const Eigen::Vector3d x(witness->x1, witness->x2, witness->frequency * witness->frequency);
+  const Eigen::Vector4d xi = trackers::kkl_transform<double, 4>(x, lambda);
+  CHECK(trackers::kkl_regularization<double, 4>(xi, {lambda, 0.01}) > 0.0);
+  CHECK((trackers::kkl_inverse<double, 4>(xi, {lambda, 0.01}) - x).norm() > 1e-3);
+}
+
+TEST_CASE("the injectivity inequality holds for random pairs of states and random filters") {
+  test::Random random(51);
+  for (std::int64_t trial = 0; trial < test::effort(20); ++trial) {
+    std::vector<double> rates;
+    double rate = 0.0;
+    const std::uint64_t filters = 4 + random.below(3);
+    for (std::uint64_t i = 0; i < filters; ++i) {
+      rate += random.uniform(0.3, 1.5);
+      rates.push_back(rate);
+    }
+    const double d = theorems::find_quantity(derive_kkl_claims(question(rates, 1e-6)), "injectivity_constant")
+                         .value.upper();
+    for (int pair = 0; pair < 200; ++pair) {
+      const auto state = [&] {
+        return trackers::oscillator_state(random.uniform(1.0, 2.0), random.uniform(0.0, 6.3),
+                                          random.uniform(1.0, 5.0));
+      };
+      const Eigen::Vector3d a = state();
+      const Eigen::Vector3d b =
+          pair % 2 == 0
+              ? state()
+              : Eigen::Vector3d(a + 1e-3 * Eigen::Vector3d(random.uniform(), random.uniform(), 0.0));
+      double squared = 0.0;
+      for (const double l : rates) {
+        const double difference = (l * a(0) + a(1)) / (l * l + a(2)) - (l * b(0) + b(1)) / (l * l + b(2));
+        squared += difference * difference;
+      }
+      const double c = 0.5 * (std::fabs(a(0)) + std::fabs(a(1)) + std::fabs(b(0)) + std::fabs(b(1)));
+      const double left = std::fabs(a(0) - b(0)) + std::fabs(a(1) - b(1)) + c * std::fabs(a(2) - b(2));
+      CHECK(left <= d * std::sqrt(squared) * (1.0 + 1e-9));
+    }
+  }
+}
+
+TEST_CASE("the modulus of continuity bounds differences of gamma") {
+  test::Random random(52);
+  const Eigen::Vector4d lambda(1.0, 2.0, 3.0, 4.0);
+  const double ell = 0.5;
+  double modulus = 0.0;
+  {
+    const rigor::UpwardRounding upward;
+    modulus =
+        continuity_modulus(rigor::to_interval(lambda), Interval(ell), Interval(0.5), Interval(1.0)).upper();
+  }
+  REQUIRE(std::isfinite(modulus));
+  for (std::int64_t trial = 0; trial < test::effort(500); ++trial) {
+    const auto point = [&] {
+      const Eigen::Vector4d direction =
+          Eigen::Vector4d::NullaryExpr([&] { return random.uniform(-1.0, 1.0); });
+      return Eigen::Vector4d(direction.normalized() * random.uniform(0.5, 1.0));
+    };
+    const Eigen::Vector4d a = point();
+    const Eigen::Vector4d b = point();
+    const double change = (trackers::kkl_inverse<double, 4>(a, {lambda, ell}) -
+                           trackers::kkl_inverse<double, 4>(b, {lambda, ell}))
+                              .norm();
+    CHECK(change <= 0.5 * std::numbers::pi * modulus * (a - b).norm());
+  }
+}
+
+TEST_CASE("fewer than four filters are refused") {
+  CHECK_THROWS_AS((void)derive_kkl_claims(question({1.0, 2.0, 3.0}, 1.0)), std::invalid_argument);
+}
+
+TEST_CASE("the least excited signal of a frequency is excited as little as the branch and bound says") {
+  test::Random random(49);
+  for (std::int64_t i = 0; i < test::effort(100); ++i) {
+    CAPTURE(i);
+    const Eigen::Vector4d lambda(random.uniform(0.5, 1.2), random.uniform(1.5, 2.2), random.uniform(2.5, 3.2),
+                                 random.uniform(3.5, 4.2));
+    const double frequency = random.uniform(0.5, 5.0);
+    const SignalWitness signal = propose_least_excited(lambda, frequency);
+    const rigor::UpwardRounding upward;
+    const KklRange range{rigor::to_interval(lambda), Interval(frequency)};
+    const rigor::IntervalVector<4> xi = trackers::kkl_transform<Interval, 4>(signal.state(), range.lambda);
+    Interval squares(0.0);
+    for (const Interval& filter : xi) {
+      squares += square(filter);
+    }
+    const Interval ratio = trackers::kkl_excitation<Interval, 4>(xi, range.lambda) / squares;
+    CHECK(ratio.upper() <= enclose_ell(range).upper * (1.0 + 1e-10));
+    CHECK(ratio.upper() >= enclose_ell(range).lower);
+  }
+}
+
+}  // namespace
+}  // namespace veritrack::kkl_observer

@@ -1,0 +1,114 @@
+#include "analysis/kkl_observer/kkl_ell.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/kkl_observer/kkl_excitation_ratio.hpp"
+#include "tests/support/random.hpp"
+#include "trackers/kkl_observer/kkl_observer.hpp"
+
+namespace veritrack::kkl_observer {
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+KklRange range(const Eigen::Vector4d& lambda, double low, double high) {
+  return {rigor::to_interval(lambda), Interval::from_bounds(low, high)};
+}
+
+/// The oracle: the plain ratio of (10), sampled over the phase of the signal.
+double sampled_ratio(const Eigen::Vector4d& lambda, double frequency, int phases) {
+  double smallest = 1e300;
+  for (int k = 0; k < phases; ++k) {
+    const double phase = std::numbers::pi * k / phases;
+    const auto x = trackers::oscillator_state(1.0, phase, frequency);
+    const Eigen::Vector4d transformed = trackers::kkl_transform<double, 4>(x, lambda);
+    Eigen::Matrix<double, 4, 3> l;
+    l << lambda, Eigen::Vector4d::Ones(), -transformed;
+    smallest = std::min(smallest, (l.transpose() * l).determinant() / transformed.squaredNorm());
+  }
+  return smallest;
+}
+
+TEST_CASE("the reduced problem has the values of the original one") {
+  test::Random random(1);
+  for (std::int64_t trial = 0; trial < test::effort(200); ++trial) {
+    CAPTURE(trial);
+    Eigen::Vector4d lambda;
+    for (int i = 0; i < 4; ++i) {
+      lambda(i) = 0.5 + i + random.uniform(0.0, 0.8);
+    }
+    const double frequency = random.uniform(0.3, 5.0);
+    const double reduced = ExcitationRatio<double>(lambda).at(frequency);
+    const double sampled = sampled_ratio(lambda, frequency, 4000);
+    CHECK(reduced <= sampled * (1.0 + 1e-7));
+    CHECK(reduced >= sampled * (1.0 - 1e-3));
+  }
+}
+
+TEST_CASE("the paper's filters over [1, 5] rad/s: the minimum is at the end, to a relative 1e-9") {
+  const auto minimum = enclose_ell(range({1.0, 2.0, 3.0, 4.0}, 1.0, 5.0));
+  CHECK(minimum.converged);
+  CHECK(minimum.upper - minimum.lower <= 1e-9 * minimum.lower);
+  CHECK(minimum.upper == doctest::Approx(3.50368265e-4).epsilon(1e-7));
+  CHECK(rigor::identical(minimum.where(0), Interval(5.0)));
+  CHECK(minimum.cells < 200);
+}
+
+TEST_CASE("the minimum is enclosed, and no sample lies below, for random filters and ranges") {
+  test::Random random(2);
+  for (std::int64_t trial = 0; trial < test::effort(40); ++trial) {
+    CAPTURE(trial);
+    Eigen::Vector4d lambda;
+    double rate = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      rate += std::exp(random.uniform(-2.0, 1.5));
+      lambda(i) = rate;
+    }
+    const double low = std::exp(random.uniform(-4.0, 0.0));
+    const double high = low * std::exp(random.uniform(0.1, 6.0));
+    const auto minimum = enclose_ell(range(lambda, low, high));
+    REQUIRE(minimum.converged);
+    double smallest = 1e300;
+    constexpr int kSamples = 60;
+    for (int k = 0; k <= kSamples; ++k) {
+      const double frequency = std::min(high, low * std::pow(high / low, static_cast<double>(k) / kSamples));
+      smallest = std::min(smallest, sampled_ratio(lambda, frequency, 400));
+    }
+    // The oracle loses digits where the determinant is small.
+    CHECK(smallest >= minimum.lower * (1.0 - 1e-3) - 1e-13);
+    CHECK(minimum.lower >= 0.5 * smallest - 1e-13);
+  }
+}
+
+TEST_CASE("the three values agree, and what lies outside is called a failure") {
+  const auto derivation = derive_kkl_ell(range({1.0, 2.0, 3.0, 4.0}, 1.0, 5.0));
+  CHECK(derivation.verdict == Verdict::proved);
+  const Interval ell = theorems::find_quantity(derivation, "ell").value;
+  for (const char* name : {"ell_ipopt", "ell_nlopt", "ell_nlopt_global"}) {
+    CAPTURE(name);
+    const auto& quantity = theorems::find_quantity(derivation, name);
+    CHECK_FALSE(quantity.proved);
+    CHECK(rigor::midpoint(quantity.value) == doctest::Approx(rigor::midpoint(ell)).epsilon(1e-6));
+  }
+  for (const auto& condition : derivation.conditions) {
+    CAPTURE(condition.id);
+    CHECK(condition.verdict == Verdict::proved);
+  }
+}
+
+TEST_CASE("ranges over many decades are enclosed, or left undecided") {
+  for (const double high : {1e3, 1e6, 1e12, 1e60, 1e150}) {
+    CAPTURE(high);
+    const auto minimum = enclose_ell(range({1.0, 2.0, 3.0, 4.0}, 1.0 / high, high));
+    const double at_end = ExcitationRatio<double>(Eigen::Vector4d(1.0, 2.0, 3.0, 4.0)).at(high);
+    CHECK(!(minimum.lower > at_end * (1.0 + 1e-9)));
+  }
+}
+
+}  // namespace
+}  // namespace veritrack::kkl_observer

@@ -1,0 +1,113 @@
+#include "analysis/kkl_observer/kkl_robustness.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "analysis/kkl_observer/kkl_worst_case.hpp"
+#include "tests/support/random.hpp"
+#include "trackers/kkl_observer/kkl_observer.hpp"
+
+namespace veritrack::kkl_observer {
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+KklRobustnessQuestion question(const Disturbance& disturbance, double low = 3.0, double high = 3.0) {
+  KklRobustnessQuestion q;
+  q.range = {rigor::to_interval(Eigen::Vector4d(1.0, 2.0, 3.0, 4.0)), Interval::from_bounds(low, high)};
+  q.amplitude = Interval(2.0);
+  q.ell = Interval(3e-4);
+  q.disturbance = disturbance;
+  q.cells = 40'000;
+  return q;
+}
+
+/// The largest errors of the running observer, from rest, at all samples after the settling time.
+SampledErrors largest_in_run(const KklRobustness& bounds, double frequency, double phase, double disturbance,
+                             double disturbance_frequency, double disturbance_phase) {
+  constexpr double kInterval = 2e-3;
+  trackers::KklObserver<double> observer({Eigen::Vector4d(1.0, 2.0, 3.0, 4.0), 3e-4}, kInterval);
+  const auto signal = [&](double t) {
+    return 2.0 * std::sin(frequency * t + phase) +
+           disturbance * std::sin(disturbance_frequency * t + disturbance_phase);
+  };
+  SampledErrors largest;
+  const double settled = bounds.settling_time.upper();
+  for (int k = 0; k * kInterval < settled + 15.0; ++k) {
+    observer.step_interpolated(signal(k * kInterval), signal((k + 1) * kInterval));
+    if (k * kInterval > settled) {
+      const auto estimate = observer.estimate();
+      largest.frequency = std::max(largest.frequency, std::fabs(estimate.frequency - frequency));
+      largest.amplitude = std::max(largest.amplitude, std::fabs(estimate.amplitude - 2.0));
+    }
+  }
+  return largest;
+}
+
+TEST_CASE("a sinusoidal disturbance: simulated runs from rest stay within the bounds once settled") {
+  const auto q = question(SinusoidalDisturbance{Interval(0.2), Interval(50.0)});
+  const KklRobustness bounds = bound_kkl_errors(q);
+  REQUIRE(rigor::is_finite(bounds.frequency_error_bound));
+  REQUIRE(rigor::is_finite(bounds.amplitude_error_bound));
+  const SampledErrors sampled = sample_errors(q);
+  CHECK(sampled.frequency <= bounds.frequency_error_bound.upper());
+  CHECK(sampled.amplitude <= bounds.amplitude_error_bound.upper());
+  CHECK(bounds.frequency_error_bound.upper() <= 1.15 * sampled.frequency);
+  test::Random random(41);
+  // Interpolation of the input between samples costs a little: 50 rad/s is sampled 63 times a period.
+  for (std::int64_t trial = 0; trial < test::effort(10); ++trial) {
+    CAPTURE(trial);
+    const SampledErrors run = largest_in_run(bounds, 3.0, random.uniform(0.0, 6.3), 0.2,
+                                             random.uniform(50.0, 60.0), random.uniform(0.0, 6.3));
+    CHECK(run.frequency <= bounds.frequency_error_bound.upper() * 1.01);
+    CHECK(run.amplitude <= bounds.amplitude_error_bound.upper() * 1.01);
+  }
+}
+
+TEST_CASE("a bounded disturbance: the bang-bang input stays within the bounds, and comes near") {
+  const auto q = question(BoundedDisturbance{Interval(0.002)});
+  const KklRobustness bounds = bound_kkl_errors(q);
+  REQUIRE(rigor::is_finite(bounds.frequency_error_bound));
+  REQUIRE(rigor::is_finite(bounds.amplitude_error_bound));
+  const SampledErrors sampled = sample_errors(q);
+  CHECK(sampled.frequency <= bounds.frequency_error_bound.upper());
+  CHECK(sampled.amplitude <= bounds.amplitude_error_bound.upper());
+  CHECK(bounds.frequency_error_bound.upper() <= 1.5 * sampled.frequency);
+}
+
+TEST_CASE("without a disturbance what is left is a thousandth of the frequency") {
+  const KklRobustness bounds = bound_kkl_errors(question(NoDisturbance{}, 2.0, 4.0));
+  CHECK(bounds.frequency_error_bound.upper() < 0.004);
+  const SampledErrors run = largest_in_run(bounds, 2.5, 0.3, 0.0, 1.0, 0.0);
+  CHECK(run.frequency <= bounds.frequency_error_bound.upper());
+}
+
+TEST_CASE("the same question has the same answer, bit by bit") {
+  const auto q = question(SinusoidalDisturbance{Interval(0.2), Interval(100.0)}, 2.9, 3.1);
+  const KklRobustness first = bound_kkl_errors(q);
+  const KklRobustness second = bound_kkl_errors(q);
+  CHECK(rigor::identical(first.frequency_error_bound, second.frequency_error_bound));
+  CHECK(rigor::identical(first.amplitude_error_bound, second.amplitude_error_bound));
+  CHECK(first.cells == second.cells);
+}
+
+TEST_CASE("an ell for which mu does not vanish, or a disturbance too large, leaves everything undecided") {
+  auto q = question(SinusoidalDisturbance{Interval(0.2), Interval(100.0)});
+  q.ell = Interval(5.0);
+  const auto with_large_ell = derive_kkl_robustness(q);
+  CHECK(with_large_ell.verdict == Verdict::undecided);
+  CHECK(theorems::find_quantity(with_large_ell, "frequency_error_bound").not_applicable);
+  // At 3 rad/s and the phase 0.785 rad the observer with ell = 5 estimates x3 as -0.144.
+  for (const theorems::Condition& condition : with_large_ell.conditions) {
+    CHECK_MESSAGE(condition.verdict == Verdict::undecided, condition.id);
+  }
+  auto large = question(BoundedDisturbance{Interval(1.0)});
+  large.cells = 3'000;
+  CHECK(derive_kkl_robustness(large).verdict == Verdict::undecided);
+}
+
+}  // namespace
+}  // namespace veritrack::kkl_observer

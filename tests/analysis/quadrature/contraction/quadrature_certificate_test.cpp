@@ -1,0 +1,123 @@
+#include "analysis/quadrature/contraction/quadrature_certificate.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace veritrack::quadrature {
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+using theorems::find_quantity;
+
+sets::ContractionQuestion question(double q, double r) {
+  sets::ContractionQuestion question;
+  question.design = {Interval(q), Interval(q), Interval(r), Interval(0.0)};
+  return question;
+}
+
+const theorems::Condition& condition(const ContractionCertificate& certificate, const std::string& id) {
+  const auto& all = certificate.derivation.conditions;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.id == id; });
+  REQUIRE(found != all.end());
+  return *found;
+}
+
+constexpr std::array<std::array<double, 2>, 4> kDesigns{
+    {{0.0005, 0.01}, {0.0013, 0.01}, {0.0065, 0.01}, {0.0023, 0.05}}};
+constexpr std::array<double, 4> kAims{0.077, 0.155, 0.29, 0.064};
+
+TEST_CASE("the four designs: radius, noise and slew, and evidence that verifies again") {
+  for (std::size_t i = 0; i < kDesigns.size(); ++i) {
+    sets::ContractionQuestion asked = question(kDesigns[i][0], kDesigns[i][1]);
+    asked.initial_frequency_error = Interval(0.01);
+    asked.initial_phase_error = Interval(0.02);
+    asked.initial_amplitude_error = Interval(0.01);
+    asked.noise = Interval(0.001);
+    const ContractionCertificate found = certify_contraction(asked);
+    const auto value = [&](const char* name) { return find_quantity(found.derivation, name).value; };
+    CHECK(found.derivation.verdict == Verdict::proved);
+    CHECK(value("frequency_error_radius").lower() >= kAims[i]);
+    CHECK(value("largest_noise").lower() > 0.005);
+    CHECK(value("largest_slew").lower() > 0.001);
+    CHECK(value("contraction_rate").upper() < 1.0);
+    CHECK(value("frequency_error_bound").upper() < value("frequency_error_radius").upper());
+    CHECK(value("ultimate_frequency_error").upper() < value("frequency_error_radius").upper());
+    CHECK(value("settling_samples").lower() >= 0.0);
+    for (const auto& set : {found.set, found.noise_set, found.slew_set}) {
+      REQUIRE(set.has_value());
+      CHECK(verify_certified_set(asked.design, set->set).verdict == Verdict::proved);
+    }
+    MESSAGE("q " << kDesigns[i][0] << " r " << kDesigns[i][1] << ": frequency "
+                 << value("frequency_error_radius").lower() << ", phase "
+                 << value("phase_error_radius").lower() << ", amplitude "
+                 << value("amplitude_error_radius").lower() << ", rate " << value("contraction_rate").upper()
+                 << ", noise " << value("largest_noise").lower() << ", slew " << value("largest_slew").lower()
+                 << ", cells " << found.set->cells << " " << found.noise_set->cells << " "
+                 << found.slew_set->cells);
+  }
+}
+
+TEST_CASE("q1 = 0 is refuted with a witness, a leak is left undecided") {
+  sets::ContractionQuestion without_q1 = question(0.001, 0.01);
+  without_q1.design.q1 = Interval(0.0);
+  const ContractionCertificate refuted = certify_contraction(without_q1);
+  CHECK(refuted.derivation.verdict == Verdict::refuted);
+  CHECK(condition(refuted, "controllable-amplitude").verdict == Verdict::refuted);
+  CHECK_FALSE(refuted.set.has_value());
+  CHECK(find_quantity(refuted.derivation, "largest_noise").not_applicable.has_value());
+
+  sets::ContractionQuestion leaking = question(0.001, 0.01);
+  leaking.design.epsilon = Interval(0.01);
+  CHECK(certify_contraction(leaking).derivation.verdict == Verdict::undecided);
+}
+
+TEST_CASE("starts beyond the set and noise beyond the limit are undecided, with the reason") {
+  sets::ContractionQuestion far = question(0.0023, 0.05);
+  far.initial_frequency_error = Interval(1.0);
+  far.search_evaluations = 10;
+  const ContractionCertificate outside = certify_contraction(far);
+  CHECK(outside.derivation.verdict == Verdict::undecided);
+  CHECK(condition(outside, "invariant-set").verdict == Verdict::proved);
+  CHECK(condition(outside, "start-in-set").verdict == Verdict::undecided);
+  CHECK(find_quantity(outside.derivation, "frequency_error_bound").not_applicable.has_value());
+
+  sets::ContractionQuestion noisy = question(0.0023, 0.05);
+  noisy.noise = Interval(0.5);
+  noisy.search_evaluations = 10;
+  const ContractionCertificate loud = certify_contraction(noisy);
+  CHECK(loud.derivation.verdict == Verdict::undecided);
+  CHECK(condition(loud, "invariant-set").reason.find("largest certified noise") != std::string::npos);
+
+  sets::ContractionQuestion wide = question(0.0023, 0.05);
+  wide.search_evaluations = 10;
+  wide.initial_covariance = rigor::to_interval(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+  CHECK(condition(certify_contraction(wide), "start-in-set").verdict == Verdict::undecided);
+}
+
+TEST_CASE("what is not finite proves nothing and crashes nothing") {
+  for (const Interval& bad : {Interval::empty(), Interval::entire(), Interval(-1.0)}) {
+    for (int i = 0; i < 9; ++i) {
+      sets::ContractionQuestion asked = question(0.0013, 0.01);
+      asked.search_evaluations = 1;
+      std::array<Interval*, 9> numbers{&asked.design.q1,
+                                       &asked.design.q2,
+                                       &asked.design.r,
+                                       &asked.design.epsilon,
+                                       &asked.noise,
+                                       &asked.slew,
+                                       &asked.initial_amplitude_error,
+                                       &asked.initial_phase_error,
+                                       &asked.initial_frequency_error};
+      *numbers[static_cast<std::size_t>(i)] = bad;
+      CHECK(certify_contraction(asked).derivation.verdict != Verdict::proved);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace veritrack::quadrature

@@ -1,0 +1,66 @@
+#include "analysis/quadrature/leak/steady_start.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "analysis/quadrature/leak/steady_certificate.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "tests/analysis/quadrature/polar_simulation.hpp"
+#include "tests/support/random.hpp"
+
+using namespace veritrack;
+using namespace veritrack::quadrature;
+using rigor::Interval;
+using rigor::Verdict;
+
+TEST_CASE(
+    "starts that are followed into the set keep to the bounds: the textbook filter from their corners") {
+  const rigor::UpwardRounding upward;
+  LeakQuestion question;
+  question.tracker.design = {rigor::parse_decimal("0.0023"), rigor::parse_decimal("0.0023"),
+                             rigor::parse_decimal("0.05"), rigor::parse_decimal("0.01")};
+  question.tracker.noise = rigor::parse_decimal("0.001");
+  question.tracker.initial_amplitude_error = question.tracker.initial_phase_error =
+      question.tracker.initial_frequency_error = rigor::parse_decimal("0.005");
+  question.tracker.with_samples = false;
+  question.band = Interval::from_bounds(2.9, 3.0);
+  const LeakCertificate certificate = certify_with_leak(question);
+  REQUIRE(certificate.derivation.verdict == Verdict::proved);
+  const auto upper = [&](const char* name) {
+    return theorems::find_quantity(certificate.derivation, name).value.upper();
+  };
+  REQUIRE(upper("capture_samples") >= 1.0);  // the truth is outside the set, as the bias is larger
+  const double bound = upper("frequency_error_bound");
+  const double ultimate = upper("ultimate_frequency_error");
+  const double settled = upper("settling_samples");
+  const sets::LockBranch branch = sets::verify_lock_branch(question.tracker.design, question.band);
+
+  const rigor::NearestRounding nearest;
+  test::Random random(61);
+  const auto runs = test::effort(40);
+  for (int run = 0; run < runs; ++run) {
+    test::Simulation simulation(question.tracker.design, test::Polar::Zero(), random.uniform(2.9, 3.0));
+    test::Polar start = test::steady_state(simulation, branch.cells, question.tracker.design);
+    for (int i = 0; i < 3; ++i) {
+      start[i] = ((run >> i) % 2 == 0 ? -0.005 : 0.005) * (run < 8 ? 1.0 : random.uniform());
+    }
+    simulation = test::Simulation(question.tracker.design, start, simulation.frequency);
+    for (int k = 1; k <= 120; ++k) {
+      const double angle = random.uniform(0.0, 6.28);
+      simulation.step(0.001 * Eigen::Vector2d(std::cos(angle), std::sin(angle)), 0.0);
+      const double error = std::fabs(simulation.state()[2]);
+      CAPTURE(run);
+      CAPTURE(k);
+      CHECK(error <= bound * (1.0 + 1e-9));
+      if (k >= settled) {
+        CHECK(error <= ultimate * (1.0 + 1e-9));
+      }
+    }
+  }
+}
+
+TEST_CASE("no frequencies, no starts") {
+  CHECK_THROWS_AS(static_cast<void>(joined({})), std::invalid_argument);
+}

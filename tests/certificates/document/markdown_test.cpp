@@ -1,0 +1,81 @@
+#include "certificates/document/markdown.hpp"
+
+#include <doctest/doctest.h>
+
+#include <regex>
+
+#include "tests/certificates/test_design.hpp"
+#include "tests/support/golden.hpp"
+
+namespace {
+
+using namespace veritrack;
+
+const certificates::MarkdownOptions kOptions{{{"figures/error.svg", "a caption"}}, "a program 1.0"};
+
+/// Versions of software are as they are; and what is approximate may differ in its last digit between
+/// machines.
+std::string comparable(const std::string& document) {
+  const std::string without_versions = std::regex_replace(
+      document, std::regex("(\\| Software \\| Version \\|\n)(\\|[^\n]*\n)*"), "$1(versions)\n");
+  return std::regex_replace(without_versions, std::regex("≈ [-+.0-9e]+"), "≈ (number)");
+}
+
+TEST_CASE("the document is the one that was looked at") {
+  const std::string document = certificates::to_markdown(test::certificate(), kOptions);
+  test::check_golden(comparable(document),
+                     VERITRACK_SOURCE_DIR "/tests/certificates/golden/nothing-required.md");
+}
+
+TEST_CASE("the first line is the answer") {
+  const auto first_line = [](const certificates::Certificate& certificate) {
+    const std::string document = certificates::to_markdown(certificate, kOptions);
+    return document.substr(0, document.find('\n'));
+  };
+  // A leak so strong that the tracker has no steady state at the upper frequencies.
+  CHECK(first_line(test::certificate({{"epsilon = 0.0", "epsilon = 0.5"}})) ==
+        "# Nothing is required of this design, nothing is certified for the assumed start, and Theorem 2.9 "
+        "guarantees nothing for it: its conditions are REFUTED");
+  CHECK(first_line(test::certificate()).starts_with("# Nothing is required of this design; PROVED of it: "));
+  CHECK(first_line(test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.0051"}})) ==
+        "# NOT PROVED. UNDECIDED: the frequency error stays below 0.0051 rad/sample for ever");
+  CHECK(first_line(test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05"}})) ==
+        "# PROVED: the frequency error stays below 0.05 rad/sample for ever");
+}
+
+TEST_CASE("the name of a design cannot forge a verdict") {
+  certificates::Design design = test::design();
+  design.name = "x\n# PROVED <b>everything</b>";
+  const auto certificate = certificates::certify(design, "design.toml", test::design_text());
+  const std::string document = certificates::to_markdown(certificate, kOptions);
+  CHECK(document.find("\n# PROVED") == std::string::npos);
+  CHECK(document.find("x \\# PROVED \\<b\\>everything") != std::string::npos);
+}
+
+TEST_CASE("every table is rectangular") {
+  for (const auto& certificate : {test::certificate(), test::certificate({{"q1 = 0.0023", "q1 = 0"}}),
+                                  test::certificate({{"[require]", "[require]\nsettles_within = 9"}})}) {
+    const std::string document = certificates::to_markdown(certificate, kOptions);
+    std::size_t columns = 0;
+    std::size_t start = 0;
+    while (start < document.size()) {
+      const std::size_t end = document.find('\n', start);
+      const std::string line = document.substr(start, end - start);
+      start = end + 1;
+      std::size_t bars = 0;
+      for (std::size_t i = 0; i < line.size(); ++i) {
+        const bool separates = line[i] == '|' && (i == 0 || line[i - 1] != '\\');
+        bars += separates ? std::size_t{1} : std::size_t{0};
+      }
+      if (line.empty() || line[0] != '|') {
+        columns = 0;
+      } else if (columns == 0) {
+        columns = bars;
+      } else {
+        CHECK_MESSAGE(bars == columns, line);
+      }
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,92 @@
+// The infimum (10) and where it is attained, against the tracker's own code.
+#include "checker/kkl_observer/kkl_ell.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tests/support/random.hpp"
+#include "trackers/kkl_observer/kkl_observer.hpp"
+
+namespace {
+
+using namespace veritrack;
+using checker::Ball;
+
+/// The least |M T|^2 / |T|^2 over many phases of one frequency.
+double sampled_ratio(const Eigen::Vector4d& lambda, double frequency) {
+  constexpr int kPhases = 4000;
+  double least = HUGE_VAL;
+  for (int k = 0; k < kPhases; ++k) {
+    const auto x = trackers::oscillator_state(1.0, 3.15 * k / kPhases, frequency);
+    const Eigen::Vector4d transformed = trackers::kkl_transform<double, 4>(x, lambda);
+    least =
+        std::min(least, trackers::kkl_excitation<double, 4>(transformed, lambda) / transformed.squaredNorm());
+  }
+  return least;
+}
+
+/// Objections to the enclosure and to where the infimum is said to be attained, of rates 1 to 4 and 2 to 4
+/// rad/s.
+std::string objections_to(const std::string& low, const std::string& high, const std::string& first,
+                          const std::string& last) {
+  checker::KklDesign design;
+  for (const double rate : {1.0, 2.0, 3.0, 4.0}) {
+    design.lambda.emplace_back(rate);
+  }
+  design.frequency_low = Ball(2.0);
+  design.frequency_high = Ball(4.0);
+  const auto enclosure = [](const std::string& lo, const std::string& hi) {
+    return R"({"lo": ")" + lo + R"(", "hi": ")" + hi + R"(", "decimal": "[-1e9, 1e9]"})";
+  };
+  const checker::Tree derivation =
+      checker::read_json(R"({"title": "", "verdict": "undecided", "conditions": [], "quantities": {"ell": )" +
+                         enclosure(low, high) + R"(, "argmin_omega": )" + enclosure(first, last) + "}}");
+  checker::Objections objections;
+  checker::check_kkl_ell(derivation, design, objections);
+  std::string text;
+  for (const std::string& objection : objections) {
+    text += objection + "\n";
+  }
+  return text;
+}
+
+bool mentions(const std::string& text, const std::string& word) {
+  return text.find(word) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("the least ratio of a frequency is the least over its phases") {
+  test::Random random(144);
+  for (std::int64_t i = 0; i < test::effort(50); ++i) {
+    CAPTURE(i);
+    Eigen::Vector4d lambda;
+    std::vector<Ball> rates;
+    for (int j = 0; j < 4; ++j) {
+      lambda(j) = j + random.uniform(0.5, 1.3);
+      rates.emplace_back(lambda(j));
+    }
+    const double frequency = random.uniform(0.5, 6.0);
+    const double sampled = sampled_ratio(lambda, frequency);
+    const double found = checker::excitation_ratio(rates, Ball(frequency)).near();
+    CHECK(found <= sampled * (1.0 + 1e-9));
+    CHECK(found >= sampled * (1.0 - 1e-2));
+  }
+}
+
+TEST_CASE("where the infimum is attained must be where it is, to the last bit") {
+  const std::string low = "0x1.6a49ba732a35ep-11";
+  const std::string high = "0x1.6a49ba7807062p-11";
+  const std::string accepted = objections_to(low, high, "0x1p+2", "0x1p+2");
+  CHECK(!mentions(accepted, "ell is"));
+  CHECK(!mentions(accepted, "argmin_omega"));
+  // 4e-12 rad/s below 4: the ratio there is still within the enclosure, but it is not the least.
+  CHECK(mentions(objections_to(low, high, "0x1.fffffffff7p+1", "0x1.fffffffff7p+1"), "argmin_omega"));
+  CHECK(!mentions(objections_to(low, high, "0x1.fffffffff7p+1", "0x1p+2"), "argmin_omega"));
+  // Enclosures that lie above and below the infimum.
+  CHECK(mentions(objections_to("0x1.6a49bap-11", "0x1.6a49ba7p-11", "0x1p+2", "0x1p+2"), "ell is"));
+  CHECK(mentions(objections_to("0x1.6a49ba77p-11", high, "0x1p+2", "0x1p+2"), "ell is"));
+}

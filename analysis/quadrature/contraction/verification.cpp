@@ -67,8 +67,8 @@ std::string objection(const Design& design, const CertifiedSet& set) {
   const BlockCovariance<Interval> low = block(set.covariance_lower);
   const BlockCovariance<Interval> high = block(set.covariance_upper);
   if (!certainly_positive_definite(low) ||
-      !certainly_positive_definite(BlockCovariance<Interval>{
-          high.p11 - low.p11, high.p22 - low.p22, high.p23 - low.p23, high.p33 - low.p33})) {
+      !certainly_positive_definite(BlockCovariance<Interval>{high.p11 - low.p11, high.p22 - low.p22,
+                                                             high.p23 - low.p23, high.p33 - low.p33})) {
     return "the covariance bounds are not certainly positive definite and in order.";
   }
   return {};

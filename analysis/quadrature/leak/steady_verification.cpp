@@ -132,8 +132,7 @@ CellResult verify_cell(const Design& design, const Tube& tube, const SteadySet& 
   setting.band = {to_symmetric(set.below), to_symmetric(set.above)};
   fill_turns(setting);
   const Symmetric<Interval> least = plus(setting.steady.covariance, setting.band.below, Interval(-1.0));
-  if (!certainly_positive_definite(least) ||
-      !certainly_positive_definite(setting.steady.covariance)) {
+  if (!certainly_positive_definite(least) || !certainly_positive_definite(setting.steady.covariance)) {
     result.reason = "the lower covariance bound is not certainly positive definite.";
     return result;
   }

@@ -9,8 +9,8 @@
 #include "tests/support/random.hpp"
 
 using namespace veritrack;
-using Secant;
 using rigor::Interval;
+using rigor::Secant;
 
 namespace {
 
@@ -19,8 +19,8 @@ using Two = Secant<2>;
 /// Something that uses every operation; over double and over secants.
 template <typename Scalar>
 Scalar everything(const Scalar& x, const Scalar& y) {
-  using arctangent_ratio;
-  using sine_ratio;
+  using rigor::arctangent_ratio;
+  using rigor::sine_ratio;
   using std::cos;
   using std::sin;
   using std::sqrt;

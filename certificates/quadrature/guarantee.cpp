@@ -2,6 +2,9 @@
 
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 #include "analysis/quadrature/leak/steady_certificate.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/sets/assumptions.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
 
 namespace veritrack::certificates {
@@ -12,16 +15,16 @@ using rigor::Interval;
 using rigor::Verdict;
 
 trackers::QuadratureEkfDesign<Interval> design_at_unit_amplitude(const Design& design) {
-  const QuadratureEkfDesign& chosen = design.quadrature_ekf().design;
+  const QuadratureDesignTable& chosen = quadrature_tables(design).design;
   return trackers::at_unit_amplitude<Interval>(
       {chosen.q1.value, chosen.q2.value, chosen.r.value, chosen.epsilon.value},
-      design.quadrature_ekf().assume.amplitude.value);
+      quadrature_tables(design).assume.amplitude.value);
 }
 
 }  // namespace
 
 sets::ContractionQuestion contraction_question(const Design& design) {
-  return contraction_question(design_at_unit_amplitude(design), design.quadrature_ekf().assume);
+  return contraction_question(design_at_unit_amplitude(design), quadrature_tables(design).assume);
 }
 
 sets::ContractionQuestion contraction_question(const trackers::QuadratureEkfDesign<Interval>& design,
@@ -64,13 +67,13 @@ std::optional<Interval> proved_frequency_bound(const Certificate& certificate) {
 }
 
 void add_contraction(Certificate& certificate) {
-  if (certificate.design.quadrature_ekf().design.epsilon.value == Interval(0.0)) {
+  if (quadrature_tables(certificate.design).design.epsilon.value == Interval(0.0)) {
     quadrature::ContractionCertificate found =
         quadrature::certify_contraction(contraction_question(certificate.design));
     certificate.derivations.push_back(std::move(found.derivation));
     const auto keep = [&](const char* purpose, const std::optional<quadrature::Verification>& verification) {
       if (verification && verification->verdict == Verdict::proved) {
-        certificate.certified_sets.push_back({purpose, verification->set});
+        quadrature_particulars(certificate).certified_sets.push_back({purpose, verification->set});
       }
     };
     keep("start-error", found.set);
@@ -80,7 +83,7 @@ void add_contraction(Certificate& certificate) {
     keep("ultimate-error", found.ultimate_set);
     keep("settling", found.settling_set);
   } else {
-    const Assumptions& assume = certificate.design.quadrature_ekf().assume;
+    const Assumptions& assume = quadrature_tables(certificate.design).assume;
     certificate.derivations.push_back(
         quadrature::certify_with_leak({contraction_question(certificate.design),
                                        rigor::hull(assume.frequency[0].value, assume.frequency[1].value)})

@@ -3,6 +3,7 @@
 
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/sets/simulation.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
 
@@ -24,7 +25,7 @@ constexpr int kSamples = 300;
 class ClosedLoop {
  public:
   explicit ClosedLoop(const Design& design) {
-    const QuadratureEkfTables& tables = design.quadrature_ekf();
+    const QuadratureEkfTables& tables = quadrature_tables(design);
     const double amplitude = tables.assume.amplitude.nearest;
     design_ = trackers::at_unit_amplitude<double>({tables.design.q1.nearest, tables.design.q2.nearest,
                                                    tables.design.r.nearest, tables.design.epsilon.nearest},

@@ -7,6 +7,7 @@
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/quadrature/guarantee.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
 
@@ -169,6 +170,17 @@ std::string guarantee_section(const Certificate& certificate) {
         down(noise->value), down(slew->value));
   }
   return text;
+}
+
+std::optional<std::string> proved_bound_headline(const Certificate& certificate) {
+  const std::optional<Interval> bound = proved_frequency_bound(certificate);
+  if (!bound) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "Nothing is required of this design; PROVED of it: the frequency error stays at or below {} "
+      "rad/sample for ever",
+      up(*bound));
 }
 
 }  // namespace veritrack::certificates

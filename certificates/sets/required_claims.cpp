@@ -4,6 +4,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/quadrature/guarantee.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
 

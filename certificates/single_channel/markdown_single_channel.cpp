@@ -7,6 +7,7 @@
 
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 
 namespace veritrack::certificates {
 
@@ -83,13 +84,13 @@ markdown::QuantityText quantity_text(const std::string& name) {
   return enclosed(name == "pole_radius" ? "largest modulus of a pole" : name);
 }
 
-std::string process_noise_words(const SingleChannelEkfDesign& design) {
+std::string process_noise_words(const SingleChannelDesignTable& design) {
   switch (design.process_noise) {
-    case SingleChannelEkfDesign::ProcessNoise::frequency_only:
+    case SingleChannelDesignTable::ProcessNoise::frequency_only:
       return math("Q = q\\,\\mathrm{diag}(0, 0, 1)") + ", as the paper prints it";
-    case SingleChannelEkfDesign::ProcessNoise::identity:
+    case SingleChannelDesignTable::ProcessNoise::identity:
       return math("Q = q\\,\\mathrm{diag}(1, 1, 1)");
-    case SingleChannelEkfDesign::ProcessNoise::diagonal:
+    case SingleChannelDesignTable::ProcessNoise::diagonal:
       break;
   }
   return math("Q = \\mathrm{diag}(q_1, q_1, q_2)");
@@ -135,7 +136,7 @@ std::string single_channel_summary(const Certificate& certificate) {
 }
 
 std::string single_channel_design_section(const Certificate& certificate) {
-  const SingleChannelEkfDesign& chosen = certificate.design.single_channel_ekf().design;
+  const SingleChannelDesignTable& chosen = single_channel_tables(certificate.design).design;
   std::string text = "## The design\n\n";
   text += fmt::format("{} — tracker `{}`", markdown::escaped(certificate.design.name),
                       certificate.design.tracker);

@@ -14,8 +14,10 @@
 #include "analysis/theorems/derivation_builder.hpp"
 #include "certificates/quadrature/guarantee.hpp"
 #include "certificates/quadrature/theorem_claims.hpp"
+#include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
 
 namespace veritrack::certificates {
@@ -135,8 +137,8 @@ Claim stability_claim(const Interval& r) {
 
 }  // namespace
 
-trackers::QuadratureEkfDesign<Interval> enclosed_values(const SingleChannelEkfDesign& design) {
-  using ProcessNoise = SingleChannelEkfDesign::ProcessNoise;
+trackers::QuadratureEkfDesign<Interval> enclosed_values(const SingleChannelDesignTable& design) {
+  using ProcessNoise = SingleChannelDesignTable::ProcessNoise;
   const Interval r = design.lambda ? design.lambda->value : design.r->value;
   if (design.process_noise == ProcessNoise::diagonal) {
     return {(*design.variances)[0].value, (*design.variances)[1].value, r, design.epsilon.value};
@@ -146,8 +148,8 @@ trackers::QuadratureEkfDesign<Interval> enclosed_values(const SingleChannelEkfDe
   return {identity ? q : Interval(0.0), q, r, design.epsilon.value};
 }
 
-trackers::QuadratureEkfDesign<double> nearest_values(const SingleChannelEkfDesign& design) {
-  using ProcessNoise = SingleChannelEkfDesign::ProcessNoise;
+trackers::QuadratureEkfDesign<double> nearest_values(const SingleChannelDesignTable& design) {
+  using ProcessNoise = SingleChannelDesignTable::ProcessNoise;
   const double r = design.lambda ? design.lambda->nearest : design.r->nearest;
   if (design.process_noise == ProcessNoise::diagonal) {
     return {(*design.variances)[0].nearest, (*design.variances)[1].nearest, r, design.epsilon.nearest};
@@ -157,7 +159,8 @@ trackers::QuadratureEkfDesign<double> nearest_values(const SingleChannelEkfDesig
   return {identity ? q : 0.0, q, r, design.epsilon.nearest};
 }
 
-void certify_single_channel(Certificate& certificate, const SingleChannelEkfTables& tables) {
+void certify_single_channel(Certificate& certificate, const CertifyProgress& /*progress*/) {
+  const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
   certificate.simulation = simulate_single_channel(tables);
   const trackers::QuadratureEkfDesign<Interval> design =
       trackers::at_unit_amplitude(enclosed_values(tables.design), tables.assume.amplitude.value);

@@ -13,6 +13,10 @@
 #include <variant>
 
 #include "certificates/design/design_reader.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/sets/assumptions.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 
 namespace {
 
@@ -76,7 +80,7 @@ void check(const KklObserverTables& tables) {
 }
 
 void check(const SingleChannelEkfTables& tables) {
-  const SingleChannelEkfDesign& design = tables.design;
+  const SingleChannelDesignTable& design = tables.design;
   require(design.lambda.has_value() != (design.q && design.r), "neither lambda nor q and r, or both");
   for (const std::optional<Number>& number : {design.q, design.r, design.lambda}) {
     if (number) {

@@ -17,6 +17,9 @@
 #include "certificates/document/json.hpp"
 #include "certificates/document/markdown_formal_proofs.hpp"
 #include "certificates/kkl_observer/kkl_observer.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/sets/assumptions.hpp"
 #include "tests/certificates/test_design.hpp"
 #include "tests/support/golden.hpp"
 
@@ -61,7 +64,7 @@ Certificate observer(const std::string& ell = "") {
   Certificate certificate;
   certificate.design = read_design(text, "design.toml");
   const rigor::UpwardRounding upward;
-  const kkl_observer::KklRange range = kkl_range(certificate.design.kkl_observer());
+  const kkl_observer::KklRange range = kkl_range(kkl_observer_tables(certificate.design));
   certificate.derivations.push_back(kkl_observer::derive_kkl_ell(range));
   const rigor::Interval proved = find_quantity(certificate.derivations.front(), "ell").value;
   certificate.derivations.push_back(kkl_observer::derive_kkl_claims(
@@ -80,7 +83,7 @@ Certificate quadrature() {
   input.q1 = input.q2 = rigor::parse_decimal("0.0023");
   input.r = rigor::parse_decimal("0.05");
   input.epsilon = rigor::Interval(0.0);
-  const Theorem29Parameters& free = certificate.design.quadrature_ekf().theorem_2_9;
+  const Theorem29Parameters& free = quadrature_tables(certificate.design).theorem_2_9;
   input.state_bound = free.state_bound.value;
   input.sigma = free.sigma.value;
   input.gamma_fraction = free.gamma_fraction.value;

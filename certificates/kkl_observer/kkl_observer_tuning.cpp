@@ -1,11 +1,10 @@
-#include "certificates/kkl_observer/tuning.hpp"
+#include "certificates/document/tuning.hpp"
 
 #include <fmt/format.h>
 
-#include <variant>
-
 #include "analysis/kkl_observer/kkl_tuning.hpp"
 #include "certificates/kkl_observer/kkl_observer.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
 
 namespace veritrack::certificates {
 
@@ -35,7 +34,7 @@ std::string disturbance_text(const std::optional<KklDisturbance>& disturbance) {
 }
 
 std::string design_text(const Design& design, const Eigen::Vector4d& lambda) {
-  const auto& [chosen, assume, require] = design.kkl_observer();
+  const auto& [chosen, assume, require] = kkl_observer_tables(design);
   std::string text = fmt::format(
       "# Rates chosen by `veritrack tune`.\nname = {}\ntracker = \"kkl-observer\"\n", quoted(design.name));
   text += design.source.empty() ? "" : fmt::format("source = {}\n", quoted(design.source));
@@ -58,22 +57,22 @@ std::string design_text(const Design& design, const Eigen::Vector4d& lambda) {
 
 }  // namespace
 
-TuningResult tune(const Design& design) {
-  const auto* tables = std::get_if<KklObserverTables>(&design.tables);
-  if (tables == nullptr || tables->design.lambda.size() != 4) {
+TuningResult tune_kkl_observer(const Design& design) {
+  const KklObserverTables& tables = kkl_observer_tables(design);
+  if (tables.design.lambda.size() != 4) {
     return {std::nullopt, "Tuning needs the tracker kkl-observer with four filters."};
   }
-  if (!tables->assume.disturbance) {
+  if (!tables.assume.disturbance) {
     return {std::nullopt, "Tuning needs a disturbance in [assume]: without one there is nothing to weigh."};
   }
   kkl_observer::KklTuningLimits limits;
-  if (tables->require.settles_within) {
-    limits.settling_time = tables->require.settles_within->nearest;
+  if (tables.require.settles_within) {
+    limits.settling_time = tables.require.settles_within->nearest;
   }
   kkl_observer::KklRobustnessQuestion question;
   {
     const rigor::UpwardRounding upward;
-    question = kkl_robustness_question(*tables, rigor::Interval(0.0));
+    question = kkl_robustness_question(tables, rigor::Interval(0.0));
   }
   return {design_text(design, kkl_observer::propose_rates(question, limits)), ""};
 }

@@ -1,26 +1,25 @@
+#include "certificates/quadrature/quadrature_certificate.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
-#include <variant>
 
 #include "analysis/theorems/other_results.hpp"
 #include "analysis/theorems/theorem_2_9.hpp"
 #include "analysis/theorems/theorem_2_9_feasibility.hpp"
 #include "analysis/theorems/theorem_2_9_gaps.hpp"
 #include "analysis/theorems/theorem_2_9_repaired.hpp"
-#include "certificates/design/design_reader.hpp"
-#include "certificates/document/certificate.hpp"
-#include "certificates/kkl_observer/kkl_observer.hpp"
 #include "certificates/quadrature/capture.hpp"
 #include "certificates/quadrature/comparison_table.hpp"
 #include "certificates/quadrature/guarantee.hpp"
-#include "certificates/quadrature/theorem_claims.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
 #include "certificates/sets/simulation.hpp"
-#include "certificates/single_channel/single_channel.hpp"
 
 namespace veritrack::certificates {
 
@@ -95,9 +94,11 @@ Claim applicability_claim(const theorems::Derivation& derivation) {
   return claim;
 }
 
-/// Everything that can be said of a design of the quadrature tracker.
-void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
-                    const CertifyProgress& progress) {
+}  // namespace
+
+void certify_quadrature(Certificate& certificate, const CertifyProgress& progress) {
+  certificate.particulars = QuadratureParticulars{};
+  const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
   const theorems::Theorem29Input input = theorem_input(tables);
   certificate.simulation = simulate(certificate.design);
   const Number& amplitude = tables.assume.amplitude;
@@ -107,8 +108,8 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
     const theorems::Theorem29 theorem = theorems::evaluate_theorem_2_9(variant, input);
     certificate.derivations.push_back(theorem.derivation);
     certificate.derivations.back().feasibility = theorems::theorem_2_9_feasibility(variant, input);
-    certificate.audits.push_back(
-        {theorem.derivation.id, theorems::audit_theorem_2_9(theorem, input, trajectory)});
+    quadrature_particulars(certificate)
+        .audits.push_back({theorem.derivation.id, theorems::audit_theorem_2_9(theorem, input, trajectory)});
     certificate.claims.push_back(applicability_claim(theorem.derivation));
   }
   certificate.derivations.push_back(theorems::derive_repaired_theorem(tracker_input(tables, input)));
@@ -135,55 +136,6 @@ void certify_tables(Certificate& certificate, const QuadratureEkfTables& tables,
   add_required_claims(certificate, tables.require, tables.assume);
   certificate.claims.push_back(guarantee_claim(
       certificate, {tables.assume, tables.require, !(tables.design.epsilon.value == Interval(0.0))}));
-}
-
-void certify_tables(Certificate& certificate, const KklObserverTables& /*tables*/,
-                    const CertifyProgress& /*progress*/) {
-  certify_kkl_observer(certificate);
-}
-
-/// The same of the single-channel tracker.
-void certify_tables(Certificate& certificate, const SingleChannelEkfTables& tables,
-                    const CertifyProgress& /*progress*/) {
-  certify_single_channel(certificate, tables);
-}
-
-}  // namespace
-
-std::vector<theorems::Derivation> derivations_of(const Certificate& certificate, std::string_view prefix) {
-  std::vector<theorems::Derivation> found;
-  for (const theorems::Derivation& derivation : certificate.derivations) {
-    if (derivation.id.starts_with(prefix)) {
-      found.push_back(derivation);
-    }
-  }
-  return found;
-}
-
-const theorems::Derivation* find_derivation(const Certificate& certificate, std::string_view id) {
-  const auto found = std::find_if(certificate.derivations.begin(), certificate.derivations.end(),
-                                  [&](const theorems::Derivation& each) { return each.id == id; });
-  return found == certificate.derivations.end() ? nullptr : &*found;
-}
-
-std::string verdict_text(const Certificate& certificate) {
-  return certificate.verdict ? std::string(rigor::to_string(*certificate.verdict)) : "nothing-required";
-}
-
-Certificate certify(const Design& design, const std::string& design_file, const std::string& design_text,
-                    const CertifyProgress& progress) {
-  const rigor::UpwardRounding upward;
-  Certificate certificate;
-  certificate.design = design;
-  certificate.design_file = design_file;
-  certificate.design_text = design_text;
-  std::visit([&](const auto& tables) { certify_tables(certificate, tables, progress); }, design.tables);
-  return certificate;
-}
-
-Certificate certify_file(const std::filesystem::path& path, const CertifyProgress& progress) {
-  const std::string text = read_design_text(path);
-  return certify(read_design(text, path.string()), path.filename().string(), text, progress);
 }
 
 }  // namespace veritrack::certificates

@@ -1,17 +1,17 @@
-#include "reports/figures.hpp"
+#include "reports/quadrature/quadrature_figures.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
-#include <variant>
 
 #include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/quadrature/tube.hpp"
 #include "reports/gnuplot.hpp"
-#include "reports/kkl_observer/kkl_figures.hpp"
 #include "reports/quadrature/region_map.hpp"
-#include "reports/single_channel/single_channel_figures.hpp"
+#include "reports/simulated_run.hpp"
 
 namespace veritrack::reports {
 
@@ -19,55 +19,6 @@ namespace {
 
 using certificates::Certificate;
 using theorems::TrajectoryRecord;
-
-constexpr std::size_t kLargestNumberOfPoints = 2000;
-
-/// Every how many samples a point is drawn.
-std::size_t stride(const Certificate& certificate) {
-  return (certificate.simulation.trajectory.size() + kLargestNumberOfPoints - 1) / kLargestNumberOfPoints;
-}
-
-std::string stride_remark(const Certificate& certificate) {
-  const std::size_t every = stride(certificate);
-  return every == 1 ? "" : fmt::format(" One sample in {} is drawn.", every);
-}
-
-/// A gnuplot data block: step, then the columns that `values` gives.
-template <typename Values>
-std::string data_block(const Certificate& certificate, Values values) {
-  std::string block = "$run << END\n";
-  const theorems::Trajectory& trajectory = certificate.simulation.trajectory;
-  for (std::size_t k = 0; k < trajectory.size(); k += stride(certificate)) {
-    block += std::to_string(k);
-    for (const double value : values(trajectory[k])) {
-      block += std::isfinite(value) ? fmt::format(" {:.9g}", value) : " NaN";
-    }
-    block += '\n';
-  }
-  return block + "END\n";
-}
-
-/// The style of a figure over the samples.
-std::string over_samples(std::size_t height) {
-  return gnuplot_style(height) + "set xlabel 'sample k'\n";
-}
-
-Figure frequency_figure(const Certificate& certificate) {
-  std::string script = over_samples(340);
-  script += data_block(certificate, [](const TrajectoryRecord& record) {
-    return std::array{record.true_state[2], record.filtered_state[2]};
-  });
-  script +=
-      "set ylabel 'frequency, rad/sample'\n"
-      "set offsets 0, 0, graph 0.08, graph 0.08\n"
-      "plot $run using 1:2 with lines lw 3 lc rgb '#aaaaaa' title 'signal', "
-      "'' using 1:3 with lines lw 1.4 dt 1 lc rgb '#000000' title 'tracker'\n";
-  return {"frequency.svg",
-          "Frequency of the signal (broad grey) and of the tracker (thin black), rad/sample, along the "
-          "simulated run." +
-              stride_remark(certificate),
-          run_gnuplot(script)};
-}
 
 /// Dash patterns that can be told apart in grey.
 constexpr std::array kDashes{"'-'", "'_'", "'.'", "'-.'", "'-..'"};
@@ -81,9 +32,10 @@ struct Level {
 /// Everything that the error is to be compared with, as far as it is a positive number.
 std::vector<Level> error_levels(const Certificate& certificate) {
   std::vector<Level> levels;
-  if (certificate.design.quadrature_ekf().require.frequency_error_below) {
-    levels.push_back({"required of the frequency error",
-                      certificate.design.quadrature_ekf().require.frequency_error_below->nearest});
+  if (certificates::quadrature_tables(certificate.design).require.frequency_error_below) {
+    levels.push_back(
+        {"required of the frequency error",
+         certificates::quadrature_tables(certificate.design).require.frequency_error_below->nearest});
   }
   if (const auto bound = certificates::proved_frequency_bound(certificate)) {
     levels.push_back({"certified bound of the frequency error", bound->upper()});
@@ -102,7 +54,7 @@ std::vector<Level> error_levels(const Certificate& certificate) {
 }
 
 Figure error_figure(const Certificate& certificate) {
-  const double amplitude = certificate.design.quadrature_ekf().assume.amplitude.nearest;
+  const double amplitude = certificates::quadrature_tables(certificate.design).assume.amplitude.nearest;
   std::string script = over_samples(420);
   script += data_block(certificate, [amplitude](const TrajectoryRecord& record) {
     const auto positive = [](double value) { return value > 0.0 ? value : std::nan(""); };
@@ -165,7 +117,8 @@ Figure tube_figure(const Certificate& certificate, const certificates::Tube& tub
         fmt::format(", {:.9g} with lines lw 1.8 dt 4 lc rgb '#000000' title 'certified, assumed starts'",
                     tube.bound_of_assumed_starts.front());
   }
-  if (const auto& required = certificate.design.quadrature_ekf().require.frequency_error_below) {
+  if (const auto& required =
+          certificates::quadrature_tables(certificate.design).require.frequency_error_below) {
     script +=
         fmt::format(", {:.9g} with lines lw 1.8 dt 2 lc rgb '#000000' title 'required'", required->nearest);
   }
@@ -181,24 +134,17 @@ Figure tube_figure(const Certificate& certificate, const certificates::Tube& tub
 
 }  // namespace
 
-std::vector<Figure> draw_figures(const Certificate& certificate) {
-  if (std::holds_alternative<certificates::KklObserverTables>(certificate.design.tables)) {
-    return draw_kkl_figures(certificate);
-  }
+std::vector<Figure> draw_quadrature_figures(const Certificate& certificate) {
   if (certificate.simulation.trajectory.empty()) {
     return {};
-  }
-  if (std::holds_alternative<certificates::SingleChannelEkfTables>(certificate.design.tables)) {
-    std::vector<Figure> figures = draw_single_channel_figures(certificate);
-    figures.insert(figures.begin(), frequency_figure(certificate));
-    return figures;
   }
   std::vector<Figure> figures = {frequency_figure(certificate), error_figure(certificate)};
   if (const auto tube = certificates::certified_tube(certificate)) {
     figures.push_back(tube_figure(certificate, *tube));
   }
-  if (certificate.followed_starts && certificate.followed_starts->region.cells.size() > 1) {
-    Figure map = draw_region_map(certificate.followed_starts->region, certificate.followed_starts->basin);
+  const auto& followed_starts = certificates::quadrature_particulars(certificate).followed_starts;
+  if (followed_starts && followed_starts->region.cells.size() > 1) {
+    Figure map = draw_region_map(followed_starts->region, followed_starts->basin);
     map.file = "capture.svg";
     map.caption = "The assumed starts, followed under the assumed noise and slew. " + map.caption;
     figures.push_back(std::move(map));

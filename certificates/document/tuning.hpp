@@ -14,9 +14,9 @@ struct TuningResult {
   std::string reason;                      ///< one sentence when there is none
 };
 
-/// Chooses the rates of a KKL observer with four filters for a small frequency error under the assumed
-/// disturbance and a settling time of at most settles_within (without it: that of the given rates). The ell
-/// is left to the certificate. What the file is worth `certify` says. Opens its own rounding scopes.
+/// Chooses the free values of a design for a small frequency error under what is assumed. A kind of tracker
+/// that has nothing to choose is answered with a sentence. What the file is worth `certify` says. Opens its
+/// own rounding scopes.
 [[nodiscard]] TuningResult tune(const Design& design);
 
 }  // namespace veritrack::certificates

@@ -119,9 +119,10 @@ void check_golden_proofs(const FormalProofs& proofs, std::string_view for_all_de
 }
 
 TEST_CASE("the proofs of a design of each kind") {
-  check_golden_proofs(coq_proofs(observer()), coq::kKklObserver, "kkl-observer.v");
-  check_golden_proofs(coq_proofs(quadrature()), coq::kTheorem29, "theorem-2.9.v");
-  check_golden_proofs(coq_proofs(single_channel()), coq::kProposition1, "proposition-1.v");
+  check_golden_proofs(coq_proofs(observer()), coq::text_for_all_designs("kkl_observer"), "kkl-observer.v");
+  check_golden_proofs(coq_proofs(quadrature()), coq::text_for_all_designs("theorem_2_9"), "theorem-2.9.v");
+  check_golden_proofs(coq_proofs(single_channel()), coq::text_for_all_designs("proposition_1"),
+                      "proposition-1.v");
 }
 
 TEST_CASE("an ell that is too large: a signal that gamma does not give back") {

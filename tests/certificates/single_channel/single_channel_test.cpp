@@ -31,7 +31,7 @@ std::string text_of(const std::string& design, const std::string& assume, const 
 constexpr const char* kExample1 = "q = 0.005\nr = 0.01\nepsilon = 0.05\nprocess_noise = \"identity\"";
 
 certificates::SingleChannelDesignTable design_of(const std::string& design) {
-  return certificates::read_design(text_of(design, ""), "d.toml").single_channel_ekf().design;
+  return certificates::single_channel_tables(certificates::read_design(text_of(design, ""), "d.toml")).design;
 }
 
 Certificate certificate_of(const std::string& design, const std::string& assume = "",
@@ -147,7 +147,8 @@ TEST_CASE("what is required is undecided, never a silent success") {
 TEST_CASE(
     "the simulated run settles within the enclosed error, and stops at an innovation without variance") {
   const auto tables = certificates::read_design(text_of(kExample1, "amplitude = 2.0"), "d.toml");
-  const certificates::Simulation simulation = simulate_single_channel(single_channel_tables(tables));
+  const certificates::Simulation simulation =
+      simulate_single_channel(certificates::single_channel_tables(tables));
   REQUIRE(simulation.trajectory.size() == 300);
   CHECK(simulation.trajectory.front().filtered_state(2) == doctest::Approx(0.91));
   CHECK(std::fabs(simulation.trajectory.back().filtered_state(2) - 0.9) < 0.25);
@@ -155,7 +156,7 @@ TEST_CASE(
       text_of("lambda = 0\nprocess_noise = \"frequency-only\"",
               "initial_covariance = [[1e-300, 0, 0], [0, 1e-300, 0], [0, 0, 1e-300]]"),
       "d.toml");
-  CHECK_NOTHROW(simulate_single_channel(single_channel_tables(certain)));
+  CHECK_NOTHROW(simulate_single_channel(certificates::single_channel_tables(certain)));
 }
 
 TEST_CASE("the documents hold the same bytes for the same design") {

@@ -58,16 +58,6 @@ std::string cell(const std::vector<Voices>& voices) {
 
 }  // namespace
 
-Claim to_claim(const theorems::Statement& statement) {
-  Claim claim;
-  claim.id = statement.id;
-  claim.statement = statement.sentence;
-  claim.verdict = statement.verdict;
-  claim.reason = statement.witness;
-  claim.evidence = statement.evidence;
-  return claim;
-}
-
 std::string proof_section(const Certificate& certificate) {
   std::vector<Row> found;
   for (const Claim& claim : certificate.claims) {

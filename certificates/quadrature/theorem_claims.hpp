@@ -4,13 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/theorems/statement.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/sets/statement_claim.hpp"
 
 namespace veritrack::certificates {
-
-/// A statement about a theorem as a claim that nothing requires.
-[[nodiscard]] Claim to_claim(const theorems::Statement& statement);
 
 /// The claims with ids "theorem-2.9/<place>" or "theorem-2.9/<place>/<reading>" that test the theorem's
 /// proof, a row a place, its readings side by side. Empty when there are none.

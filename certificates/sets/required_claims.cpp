@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/rigor/decimal.hpp"
-#include "certificates/quadrature/guarantee.hpp"
+#include "certificates/sets/contraction.hpp"
 
 namespace veritrack::certificates {
 

@@ -14,7 +14,7 @@ namespace veritrack::certificates {
 namespace {
 
 using trackers::RotatingFrameState;
-using TrackerDesign = trackers::QuadratureEkfDesign<double>;
+using TrackerDesign = trackers::ToneModel<double>;
 
 TrackerDesign tracker_design(const Design& design) {
   const QuadratureEkfDesign& chosen = design.quadrature_ekf().design;

@@ -39,7 +39,7 @@ const std::vector<Sample>& signal() {
 
 /// The design of Table 3.2, Figure 3.5.
 template <typename Scalar>
-QuadratureEkfDesign<Scalar> design() {
+ToneModel<Scalar> design() {
   return {Scalar(0.0023), Scalar(0.0023), Scalar(0.05), Scalar(0.01)};
 }
 

@@ -6,14 +6,14 @@
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/matrix.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::sets {
 
 /// What is asked, for a signal of amplitude 1: design, noise and amplitudes relative to the true one
 /// (trackers::at_unit_amplitude).
 struct ContractionQuestion {
-  trackers::QuadratureEkfDesign<rigor::Interval> design;
+  trackers::ToneModel<rigor::Interval> design;
   rigor::Interval noise = rigor::Interval(0.0);  ///< |v(k)| <= noise
   rigor::Interval slew = rigor::Interval(0.0);   ///< |omega(k+1) - omega(k)| <= slew, rad/sample per sample
   rigor::Interval initial_amplitude_error = rigor::Interval(0.0);  ///< bounds on absolute values

@@ -21,7 +21,7 @@ bool is_exactly_zero(const Eigen::MatrixBase<Derived>& matrix) {
 
 }  // namespace
 
-UncontrollableMode find_uncontrollable_mode(const trackers::QuadratureEkfDesign<Interval>& design) {
+UncontrollableMode find_uncontrollable_mode(const trackers::ToneModel<Interval>& design) {
   const rigor::UpwardRounding upward;
   const Interval zero(0.0);
   const Interval one(1.0);

@@ -12,7 +12,7 @@
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/rigor/verdict.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::sets {
 
@@ -37,7 +37,6 @@ struct UncontrollableMode {
 /// S^-1, M = F P F' + Q, and P+ = M - M H' S^-1 H M. With w'F = lambda w', w'Q = 0 and |lambda| = 1 one has
 /// w'M w = w'P w. At a fixed point P+ = P then w'M H' S^-1 H M w = 0, so H M w = 0 and w'K = 0, and w'(I - K
 /// H) F = w'F = lambda w': lambda is an eigenvalue of the errors' own propagation, whatever P is.
-[[nodiscard]] UncontrollableMode find_uncontrollable_mode(
-    const trackers::QuadratureEkfDesign<rigor::Interval>& design);
+[[nodiscard]] UncontrollableMode find_uncontrollable_mode(const trackers::ToneModel<rigor::Interval>& design);
 
 }  // namespace veritrack::sets

@@ -103,7 +103,7 @@ std::string explain_end(double reached, const char* side) {
 
 }  // namespace
 
-LockBranch verify_lock_branch(const trackers::QuadratureEkfDesign<Interval>& design, const Interval& band,
+LockBranch verify_lock_branch(const trackers::ToneModel<Interval>& design, const Interval& band,
                               const BranchSteps& steps) {
   const rigor::UpwardRounding upward;
   LockBranch branch;

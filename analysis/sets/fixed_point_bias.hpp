@@ -41,7 +41,7 @@ struct LockBranch {
 
 /// Verifies the lock branch over `band` (rad/sample), for every design in `design` and amplitude 1. Holds its
 /// own rounding mode.
-[[nodiscard]] LockBranch verify_lock_branch(const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+[[nodiscard]] LockBranch verify_lock_branch(const trackers::ToneModel<rigor::Interval>& design,
                                             const rigor::Interval& band, const BranchSteps& steps = {});
 
 /// The steady state of one cell. Needs the upward mode.

@@ -30,8 +30,7 @@ struct Embedding<rigor::Dual<Scalar, N>> {
 };
 
 template <typename Scalar>
-[[nodiscard]] trackers::QuadratureEkfDesign<Scalar> embed(
-    const trackers::QuadratureEkfDesign<rigor::Interval>& design) {
+[[nodiscard]] trackers::ToneModel<Scalar> embed(const trackers::ToneModel<rigor::Interval>& design) {
   return {Embedding<Scalar>::of(design.q1), Embedding<Scalar>::of(design.q2), Embedding<Scalar>::of(design.r),
           Embedding<Scalar>::of(design.epsilon)};
 }
@@ -44,7 +43,7 @@ struct QuadratureRotatingLoop {
   static constexpr int kStates = 9;
   static constexpr int kNoises = 2;
 
-  trackers::QuadratureEkfDesign<rigor::Interval> design;
+  trackers::ToneModel<rigor::Interval> design;
 
   template <typename Scalar>
   [[nodiscard]] Column<Scalar, kStates> operator()(const Column<Scalar, kStates>& state,
@@ -61,7 +60,7 @@ struct QuadraturePolarLoop {
   static constexpr int kStates = 9;
   static constexpr int kNoises = 2;
 
-  trackers::QuadratureEkfDesign<rigor::Interval> design;
+  trackers::ToneModel<rigor::Interval> design;
 
   template <typename Scalar>
   [[nodiscard]] Column<Scalar, kStates> operator()(const Column<Scalar, kStates>& state,

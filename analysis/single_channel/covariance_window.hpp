@@ -13,8 +13,8 @@
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/taylor_model.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/scalar_functions.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::single_channel {
 
@@ -42,7 +42,7 @@ template <typename Scalar>
 template <typename Scalar>
 [[nodiscard]] PhaseCovariance<Scalar> predicted(const PhaseCovariance<Scalar>& p, const Scalar& keep,
                                                 const Scalar& added,
-                                                const trackers::QuadratureEkfDesign<Scalar>& design) {
+                                                const trackers::ToneModel<Scalar>& design) {
   const Scalar p23 = p.p23 + p.p33;
   return {keep * p.p11 + design.q1 + added,
           keep * (p.p12 + p.p13),
@@ -140,7 +140,7 @@ inline double advanced(double phase, double frequency, int samples, double /*dri
 /// samples make of any covariance, from zero on; predicted_lower bounds the prediction from `lower` on. Stops
 /// when visit returns false. Needs the upward mode.
 template <typename Scalar, typename Visit>
-void follow_window(const trackers::QuadratureEkfDesign<Scalar>& design, const WindowAssumption& assumption,
+void follow_window(const trackers::ToneModel<Scalar>& design, const WindowAssumption& assumption,
                    const WindowLength& length, const Scalar& phase, const Scalar& frequency,
                    const Visit& visit) {
   using rigor::Interval;

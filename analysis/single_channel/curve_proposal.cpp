@@ -18,7 +18,7 @@ namespace veritrack::single_channel {
 
 namespace {
 
-using trackers::QuadratureEkfDesign;
+using trackers::ToneModel;
 using State = RotatingFrameState<double>;
 
 constexpr int kSettlingSteps = 2000;
@@ -26,13 +26,13 @@ constexpr int kSettlingSteps = 2000;
 /// The image of X at `phase` after one sample without noise.
 template <typename Scalar>
 RotatingFrameState<Scalar> image(const RotatingFrameState<Scalar>& state, double phase, double frequency,
-                                 const QuadratureEkfDesign<Scalar>& design) {
+                                 const ToneModel<Scalar>& design) {
   return trackers::single_channel_map(
       state, {Scalar(phase + frequency), Scalar(0.0), Scalar(0.0), Scalar(frequency)}, design);
 }
 
 /// Where the simulated tracker is at `phase` after it started from the exact estimate.
-State settled_state(const QuadratureEkfDesign<double>& design, double frequency, double phase) {
+State settled_state(const ToneModel<double>& design, double frequency, double phase) {
   State state = State::Zero();
   state(trackers::kP11) = state(trackers::kP22) = design.r + design.q1;
   state(trackers::kP33) = design.q2;
@@ -43,16 +43,15 @@ State settled_state(const QuadratureEkfDesign<double>& design, double frequency,
 }
 
 rigor::Matrix<9> jacobian(const State& state, double phase, double frequency,
-                          const QuadratureEkfDesign<double>& design) {
+                          const ToneModel<double>& design) {
   using Dual = rigor::Dual<double, 9>;
-  const QuadratureEkfDesign<Dual> lifted{Dual(design.q1), Dual(design.q2), Dual(design.r),
-                                         Dual(design.epsilon)};
+  const ToneModel<Dual> lifted{Dual(design.q1), Dual(design.q2), Dual(design.r), Dual(design.epsilon)};
   return rigor::linearize([&](const auto& x) { return image<Dual>(x, phase, frequency, lifted); }, state)
       .jacobian;
 }
 
 /// How the product of the Jacobians along an orbit grows or shrinks per step.
-double observed_rate(const QuadratureEkfDesign<double>& design, double frequency, const PhaseSeries& curve) {
+double observed_rate(const ToneModel<double>& design, double frequency, const PhaseSeries& curve) {
   constexpr int kSteps = 400;
   rigor::Matrix<9> product = rigor::Matrix<9>::Identity();
   double logarithm = 0.0;
@@ -80,8 +79,7 @@ State weights_of(const PhaseSeries& curve) {
 }
 
 /// The settled states as a trigonometric polynomial with so many harmonics.
-PhaseSeries settled_curve(const QuadratureEkfDesign<double>& design, double frequency,
-                          std::size_t harmonics) {
+PhaseSeries settled_curve(const ToneModel<double>& design, double frequency, std::size_t harmonics) {
   const std::size_t nodes = 4 * harmonics;
   std::vector<State> states(nodes);
   const auto phase_of = [nodes](std::size_t node) {
@@ -121,8 +119,7 @@ bool needs_more_harmonics(const PhaseSeries& curve) {
 
 }  // namespace
 
-std::optional<PhaseSeries> propose_invariant_curve(const QuadratureEkfDesign<double>& design,
-                                                   double frequency) {
+std::optional<PhaseSeries> propose_invariant_curve(const ToneModel<double>& design, double frequency) {
   const rigor::NearestRounding outer;
   PhaseSeries curve = settled_curve(design, frequency, kFewHarmonics);
   if (needs_more_harmonics(curve)) {
@@ -134,7 +131,7 @@ std::optional<PhaseSeries> propose_invariant_curve(const QuadratureEkfDesign<dou
   return curve;
 }
 
-std::optional<PhaseFamily> propose_invariant_curves(const QuadratureEkfDesign<double>& design,
+std::optional<PhaseFamily> propose_invariant_curves(const ToneModel<double>& design,
                                                     const rigor::Interval& frequency) {
   const rigor::NearestRounding outer;
   const double center = midpoint(frequency);
@@ -182,8 +179,8 @@ std::optional<PhaseFamily> propose_invariant_curves(const QuadratureEkfDesign<do
   return family;
 }
 
-std::optional<CurveCoordinates> propose_coordinates(const QuadratureEkfDesign<double>& design,
-                                                    double frequency, const PhaseSeries& curve,
+std::optional<CurveCoordinates> propose_coordinates(const ToneModel<double>& design, double frequency,
+                                                    const PhaseSeries& curve,
                                                     const std::vector<double>& phases) {
   const rigor::NearestRounding outer;
   CurveCoordinates coordinates;

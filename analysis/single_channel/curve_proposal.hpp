@@ -17,12 +17,12 @@ inline constexpr std::size_t kFewHarmonics = 28;
 
 /// The steady state that a simulation settles on from the exact estimate, in double: a proposal, no proof.
 /// Nothing when it does not come out finite. `frequency` in rad/sample.
-[[nodiscard]] std::optional<PhaseSeries> propose_invariant_curve(
-    const trackers::QuadratureEkfDesign<double>& design, double frequency);
+[[nodiscard]] std::optional<PhaseSeries> propose_invariant_curve(const trackers::ToneModel<double>& design,
+                                                                 double frequency);
 
 /// The same for an interval of frequencies, by interpolation; a single curve for a very narrow one.
-[[nodiscard]] std::optional<PhaseFamily> propose_invariant_curves(
-    const trackers::QuadratureEkfDesign<double>& design, const rigor::Interval& frequency);
+[[nodiscard]] std::optional<PhaseFamily> propose_invariant_curves(const trackers::ToneModel<double>& design,
+                                                                  const rigor::Interval& frequency);
 
 /// Coordinates along a curve: X = C(phi) + V u, one V for each phase that was asked for.
 struct CurveCoordinates {
@@ -33,8 +33,8 @@ struct CurveCoordinates {
 /// V = M(phi)^(-1/2), by Cholesky, with M(phi) = sum_k rate^(-2k) Phi_k' D Phi_k over the products Phi_k of
 /// the Jacobians along the orbit of phi: then DG' M(phi + omega) DG <= rate^2 M(phi). Nothing when the sum
 /// does not converge, or too slowly. `frequency` in rad/sample, `phases` in rad.
-[[nodiscard]] std::optional<CurveCoordinates> propose_coordinates(
-    const trackers::QuadratureEkfDesign<double>& design, double frequency, const PhaseSeries& curve,
-    const std::vector<double>& phases);
+[[nodiscard]] std::optional<CurveCoordinates> propose_coordinates(const trackers::ToneModel<double>& design,
+                                                                  double frequency, const PhaseSeries& curve,
+                                                                  const std::vector<double>& phases);
 
 }  // namespace veritrack::single_channel

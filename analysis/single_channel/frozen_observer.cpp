@@ -50,7 +50,7 @@ Interval response_magnitude(const FrozenGain<Interval>& gain, const Interval& th
   return numerator / rigor::sqrt(rigor::square(real) + rigor::square(imaginary));
 }
 
-FrozenGain<double> mean_gain(const trackers::QuadratureEkfDesign<double>& design, double frequency) {
+FrozenGain<double> mean_gain(const trackers::ToneModel<double>& design, double frequency) {
   const rigor::NearestRounding nearest;
   constexpr int kSettling = 4000;
   constexpr int kMeanOver = 4000;

@@ -13,7 +13,7 @@
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/theorems/derivation.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::single_channel {
 
@@ -32,8 +32,7 @@ struct FrozenGain {
 
 /// The mean gain of the filter (2) in the frame of the signal plane, over the phases of a noise-free tone of
 /// this frequency (rad/sample), after it has settled: a choice, made in double, at which to freeze it.
-[[nodiscard]] FrozenGain<double> mean_gain(const trackers::QuadratureEkfDesign<double>& design,
-                                           double frequency);
+[[nodiscard]] FrozenGain<double> mean_gain(const trackers::ToneModel<double>& design, double frequency);
 
 /// "single-channel/transfer-function": zeros, poles and the Jury conditions of the corrected G, at a gain
 /// that is taken exactly. Needs the upward mode.

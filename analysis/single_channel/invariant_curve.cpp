@@ -15,7 +15,7 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using trackers::QuadratureEkfDesign;
+using trackers::ToneModel;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr auto kError = trackers::kFrequencyError;
@@ -82,7 +82,7 @@ void read_off(const InvariantTube& tube, SteadyStateBias& bias) {
 
 }  // namespace
 
-SteadyStateBias steady_state_bias(const QuadratureEkfDesign<Interval>& design, const Interval& frequency,
+SteadyStateBias steady_state_bias(const ToneModel<Interval>& design, const Interval& frequency,
                                   std::size_t most_cells) {
   const rigor::UpwardRounding upward;
   SteadyStateBias bias;

@@ -32,7 +32,7 @@
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/verdict.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::single_channel {
 
@@ -57,7 +57,7 @@ struct SteadyStateBias {
 /// (rad/sample, in [0, pi]): a decimal's enclosure, or an interval of some thousandths, over which the
 /// enclosures hold for each frequency. At most that many cells of phase
 /// are tried. Deterministic. Holds its own rounding modes.
-[[nodiscard]] SteadyStateBias steady_state_bias(const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+[[nodiscard]] SteadyStateBias steady_state_bias(const trackers::ToneModel<rigor::Interval>& design,
                                                 const rigor::Interval& frequency,
                                                 std::size_t most_cells = 2048);
 

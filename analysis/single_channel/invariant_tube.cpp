@@ -12,7 +12,7 @@ namespace veritrack::single_channel {
 using rigor::Interval;
 using rigor::IntervalMatrix;
 using rigor::IntervalVector;
-using trackers::QuadratureEkfDesign;
+using trackers::ToneModel;
 
 namespace {
 
@@ -60,11 +60,10 @@ double length(const IntervalVector<9>& x) {
   return rigor::is_finite(root) ? root.upper() : std::numeric_limits<double>::infinity();
 }
 
-std::optional<InvariantTube> propose_tube(const QuadratureEkfDesign<Interval>& design,
-                                          const Interval& frequency, const PhaseFamily& curve,
-                                          std::size_t count) {
-  const QuadratureEkfDesign<double> nearest{midpoint(design.q1), midpoint(design.q2), midpoint(design.r),
-                                            midpoint(design.epsilon)};
+std::optional<InvariantTube> propose_tube(const ToneModel<Interval>& design, const Interval& frequency,
+                                          const PhaseFamily& curve, std::size_t count) {
+  const ToneModel<double> nearest{midpoint(design.q1), midpoint(design.q2), midpoint(design.r),
+                                  midpoint(design.epsilon)};
   const std::vector<Interval> cover = cover_of_period(count);
   std::vector<double> phases;
   phases.reserve(count);

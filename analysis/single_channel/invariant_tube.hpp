@@ -27,7 +27,7 @@ struct TubeCell {
 
 /// {(phi, C(phi; omega) + V_i u) : phi in cell i, |u| <= R}, R to be chosen.
 struct InvariantTube {
-  trackers::QuadratureEkfDesign<rigor::Interval> design;
+  trackers::ToneModel<rigor::Interval> design;
   rigor::Interval frequency;  ///< rad/sample
   PhaseFamily curve;
   std::vector<TubeCell> cells;
@@ -36,9 +36,9 @@ struct InvariantTube {
 
 /// Coordinates for `count` cells along the curve in the middle of the interval; nothing when there are none
 /// or a matrix could not be inverted.
-[[nodiscard]] std::optional<InvariantTube> propose_tube(
-    const trackers::QuadratureEkfDesign<rigor::Interval>& design, const rigor::Interval& frequency,
-    const PhaseFamily& curve, std::size_t count);
+[[nodiscard]] std::optional<InvariantTube> propose_tube(const trackers::ToneModel<rigor::Interval>& design,
+                                                        const rigor::Interval& frequency,
+                                                        const PhaseFamily& curve, std::size_t count);
 
 /// |x| from above; infinite when x is not finite. Needs the upward mode.
 [[nodiscard]] double length(const rigor::IntervalVector<9>& x);

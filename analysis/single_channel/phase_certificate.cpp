@@ -36,7 +36,7 @@ Condition leak(const Interval& epsilon) {
                  "does not cover that: without the leak it may."};
 }
 
-Condition controllable_amplitude(const trackers::QuadratureEkfDesign<Interval>& design) {
+Condition controllable_amplitude(const trackers::ToneModel<Interval>& design) {
   const sets::UncontrollableMode mode = sets::find_uncontrollable_mode(design);
   const bool driven = certainly_positive(design.q1);
   return {"controllable-amplitude",

@@ -17,7 +17,7 @@ namespace {
 using rigor::Interval;
 using rigor::IntervalMatrix;
 using rigor::IntervalVector;
-using trackers::QuadratureEkfDesign;
+using trackers::ToneModel;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -36,7 +36,7 @@ Model frequency_of(const InvariantTube& tube) {
 }
 
 template <typename Scalar>
-QuadratureEkfDesign<Scalar> lifted(const QuadratureEkfDesign<Interval>& design) {
+ToneModel<Scalar> lifted(const ToneModel<Interval>& design) {
   const auto lift = [](const Interval& value) {
     if constexpr (requires(Scalar s) { s.derivative(0); }) {
       return Scalar(std::decay_t<decltype(std::declval<Scalar>().value())>(value));

@@ -20,7 +20,7 @@ namespace veritrack::single_channel {
 namespace {
 
 using rigor::Interval;
-using trackers::QuadratureEkfDesign;
+using trackers::ToneModel;
 using Model = detail::OverPhaseAndFrequency;
 using Bound = PhaseCovariance<Model>;
 
@@ -55,7 +55,7 @@ std::vector<Cell> cells_of(const Interval& band) {
   return cells;
 }
 
-QuadratureEkfDesign<Model> lifted(const QuadratureEkfDesign<Interval>& design) {
+ToneModel<Model> lifted(const ToneModel<Interval>& design) {
   return {Model(design.q1), Model(design.q2), Model(design.r), Model(design.epsilon)};
 }
 
@@ -133,8 +133,7 @@ bool holds_for_all(const std::vector<Cell>& cells, const Check& check) {
   return all;
 }
 
-bool is_sensible(const QuadratureEkfDesign<Interval>& design, const Interval& band,
-                 const WindowClaim& claim) {
+bool is_sensible(const ToneModel<Interval>& design, const Interval& band, const WindowClaim& claim) {
   const auto positive = [](double x) { return x > 0.0 && x < kInfinity; };
   const WindowAssumption& assumption = claim.assumption;
   return rigor::certainly_positive(design.q1) && rigor::certainly_positive(design.q2) &&
@@ -148,7 +147,7 @@ bool is_sensible(const QuadratureEkfDesign<Interval>& design, const Interval& ba
 }
 
 template <typename Visit>
-void follow(const QuadratureEkfDesign<Interval>& design, const WindowClaim& claim, const Cell& cell,
+void follow(const ToneModel<Interval>& design, const WindowClaim& claim, const Cell& cell,
             const Visit& visit) {
   follow_window<Model>(lifted(design), claim.assumption,
                        {claim.settling, static_cast<int>(claim.shares.size()), claim.slew},
@@ -157,7 +156,7 @@ void follow(const QuadratureEkfDesign<Interval>& design, const WindowClaim& clai
 
 }  // namespace
 
-std::optional<WindowFloor> verify_window(const QuadratureEkfDesign<Interval>& design, const Interval& band,
+std::optional<WindowFloor> verify_window(const ToneModel<Interval>& design, const Interval& band,
                                          const WindowClaim& claim) {
   const rigor::UpwardRounding outer;
   if (!is_sensible(design, band, claim)) {
@@ -196,8 +195,8 @@ std::optional<WindowFloor> verify_window(const QuadratureEkfDesign<Interval>& de
   return floor;
 }
 
-bool certainly_holds_start(const QuadratureEkfDesign<Interval>& design, const Interval& band,
-                           const WindowClaim& claim, const StartBox& box, double level, double weight) {
+bool certainly_holds_start(const ToneModel<Interval>& design, const Interval& band, const WindowClaim& claim,
+                           const StartBox& box, double level, double weight) {
   const rigor::UpwardRounding outer;
   const bool free_parameters_are_sensible = level > 0.0 && weight > 0.0 && weight < 1.0;
   if (!is_sensible(design, band, claim) || !free_parameters_are_sensible) {

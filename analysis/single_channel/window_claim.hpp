@@ -43,13 +43,12 @@ struct StartBox {
 ///   (b) shares, curvature and signal_uncertainty are as they say.
 /// Cells of phase and frequency, in parallel; the result does not depend on the number of threads. Opens its
 /// own rounding modes.
-[[nodiscard]] std::optional<WindowFloor> verify_window(
-    const trackers::QuadratureEkfDesign<rigor::Interval>& design, const rigor::Interval& band,
-    const WindowClaim& claim);
+[[nodiscard]] std::optional<WindowFloor> verify_window(const trackers::ToneModel<rigor::Interval>& design,
+                                                       const rigor::Interval& band, const WindowClaim& claim);
 
 /// True only when every e in `box` has e' P^-1 e <= level^2 for every lower bound on P that the window gives,
 /// at every phase and frequency; `weight` in (0, 1) is a free parameter. Needs the same claim to be verified.
-[[nodiscard]] bool certainly_holds_start(const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+[[nodiscard]] bool certainly_holds_start(const trackers::ToneModel<rigor::Interval>& design,
                                          const rigor::Interval& band, const WindowClaim& claim,
                                          const StartBox& box, double level, double weight);
 

@@ -10,7 +10,7 @@ namespace veritrack::single_channel {
 
 using rigor::Interval;
 
-WindowErrors::WindowErrors(const trackers::QuadratureEkfDesign<Interval>& design, const WindowClaim& claim,
+WindowErrors::WindowErrors(const trackers::ToneModel<Interval>& design, const WindowClaim& claim,
                            const Interval& noise, const Interval& slew)
     : radius_(claim.assumption.radius) {
   const Interval zero(0.0);

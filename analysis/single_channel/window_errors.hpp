@@ -19,7 +19,7 @@ class WindowErrors {
  public:
   /// Of a claim that is verified for this design, under noise |v| <= V (relative to the amplitude) and slew
   /// |w| <= W (rad/sample per sample).
-  WindowErrors(const trackers::QuadratureEkfDesign<rigor::Interval>& design, const WindowClaim& claim,
+  WindowErrors(const trackers::ToneModel<rigor::Interval>& design, const WindowClaim& claim,
                const rigor::Interval& noise, const rigor::Interval& slew);
 
   /// True only when errors of at most R for a window are followed by errors of at most R for ever.

@@ -10,7 +10,7 @@ namespace veritrack::single_channel {
 
 /// What a window is wanted for; amplitude 1, epsilon = 0.
 struct WindowRequest {
-  trackers::QuadratureEkfDesign<double> design;
+  trackers::ToneModel<double> design;
   double lowest_frequency = 0.0;   ///< rad/sample
   double highest_frequency = 0.0;  ///< rad/sample
   double slew = 0.0;               ///< rad/sample per sample

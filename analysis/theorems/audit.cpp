@@ -212,8 +212,8 @@ void audit_homogeneous(const Context& context) {
   if (trajectory.empty() || !is_finite(c.initial_error_bound) || !certainly_positive(c.initial_error_bound)) {
     return;
   }
-  const trackers::QuadratureEkfDesign<Interval> design{context.input.q1, context.input.q2, context.input.r,
-                                                       context.input.epsilon};
+  const trackers::ToneModel<Interval> design{context.input.q1, context.input.q2, context.input.r,
+                                             context.input.epsilon};
   const TrajectoryRecord& start = trajectory.front();
   HomogeneousState z = start_homogeneous(start.true_state - start.filtered_state,
                                          0.5 * c.initial_error_bound.lower(), start.filtered_covariance);

@@ -95,7 +95,7 @@ Interval magnitude_of(const HomogeneousState& state) {
 }
 
 HomogeneousStep step_homogeneous(const HomogeneousState& state, const Eigen::Vector3d& true_state,
-                                 const trackers::QuadratureEkfDesign<Interval>& design) {
+                                 const trackers::ToneModel<Interval>& design) {
   const IntervalVector<3> x = rigor::to_interval(true_state);
   const IntervalVector<3> z = rigor::to_interval(state.direction);  // in units of 2^exponent
   const Covariance covariance = to_interval(state.covariance);

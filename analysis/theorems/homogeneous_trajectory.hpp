@@ -33,7 +33,7 @@ struct HomogeneousStep {
 /// NaN, when something was not finite.
 [[nodiscard]] HomogeneousStep step_homogeneous(const HomogeneousState& state,
                                                const Eigen::Vector3d& true_state,
-                                               const trackers::QuadratureEkfDesign<rigor::Interval>& design);
+                                               const trackers::ToneModel<rigor::Interval>& design);
 
 /// |z|. Needs the held rounding mode.
 [[nodiscard]] rigor::Interval magnitude_of(const HomogeneousState& state);

@@ -94,7 +94,7 @@ Statement concluded_recursion_statement(const Readings& readings) {
 /// xhat(1|1), |z| = 1, but another |z(0|0)|.
 Interval second_gain(const Interval& magnitude_before, const Theorem29Input& input) {
   using Covariance = trackers::PolarCovariance<Interval>;
-  const trackers::QuadratureEkfDesign<Interval> design{input.q1, input.q2, input.r, input.epsilon};
+  const trackers::ToneModel<Interval> design{input.q1, input.q2, input.r, input.epsilon};
   const Interval zero(0.0);
   const Covariance start{input.r, zero, zero, input.r, zero, input.r};
   const Covariance first = trackers::predicted_covariance(start, magnitude_before, design);

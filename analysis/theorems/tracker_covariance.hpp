@@ -17,7 +17,7 @@
 
 namespace veritrack::theorems {
 
-using IntervalDesign = trackers::QuadratureEkfDesign<rigor::Interval>;
+using IntervalDesign = trackers::ToneModel<rigor::Interval>;
 
 /// How far estimates stray, relative to a signal of amplitude 1.
 struct EstimateTube {

@@ -8,16 +8,6 @@
 
 namespace veritrack::certificates {
 
-Claim to_claim(const theorems::Statement& statement) {
-  Claim claim;
-  claim.id = statement.id;
-  claim.statement = statement.sentence;
-  claim.verdict = statement.verdict;
-  claim.reason = statement.witness;
-  claim.evidence = statement.evidence;
-  return claim;
-}
-
 std::vector<theorems::Derivation> derivations_of(const Certificate& certificate, std::string_view prefix) {
   std::vector<theorems::Derivation> found;
   for (const theorems::Derivation& derivation : certificate.derivations) {

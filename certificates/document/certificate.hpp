@@ -12,7 +12,6 @@
 
 #include "analysis/rigor/verdict.hpp"
 #include "analysis/theorems/derivation.hpp"
-#include "analysis/theorems/statement.hpp"
 #include "certificates/design/design.hpp"
 #include "certificates/document/formal_proof.hpp"
 #include "certificates/sets/simulation.hpp"
@@ -42,9 +41,6 @@ struct Certificate {
   std::any particulars;   ///< what only this kind of tracker has; its column knows the type
   std::optional<FormalProofs> formal_proofs;  ///< when asked for: see coq_document.hpp
 };
-
-/// A statement about a theorem as a claim that nothing requires.
-[[nodiscard]] Claim to_claim(const theorems::Statement& statement);
 
 /// The derivations whose id begins with that prefix.
 [[nodiscard]] std::vector<theorems::Derivation> derivations_of(const Certificate& certificate,

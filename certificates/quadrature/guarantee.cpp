@@ -14,7 +14,7 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-trackers::QuadratureEkfDesign<Interval> design_at_unit_amplitude(const Design& design) {
+trackers::ToneModel<Interval> design_at_unit_amplitude(const Design& design) {
   const QuadratureDesignTable& chosen = quadrature_tables(design).design;
   return trackers::at_unit_amplitude<Interval>(
       {chosen.q1.value, chosen.q2.value, chosen.r.value, chosen.epsilon.value},
@@ -25,45 +25,6 @@ trackers::QuadratureEkfDesign<Interval> design_at_unit_amplitude(const Design& d
 
 sets::ContractionQuestion contraction_question(const Design& design) {
   return contraction_question(design_at_unit_amplitude(design), quadrature_tables(design).assume);
-}
-
-sets::ContractionQuestion contraction_question(const trackers::QuadratureEkfDesign<Interval>& design,
-                                               const Assumptions& assume) {
-  const Interval& amplitude = assume.amplitude.value;
-  sets::ContractionQuestion question;
-  question.design = design;
-  question.noise = assume.noise.value / amplitude;
-  question.slew = assume.slew.value;
-  question.initial_amplitude_error = assume.initial_amplitude_error.value / amplitude;
-  question.initial_phase_error = assume.initial_phase_error.value;
-  question.initial_frequency_error = assume.initial_frequency_error.value;
-  if (assume.initial_covariance) {
-    rigor::IntervalMatrix<3> covariance;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        const auto& entry =
-            (*assume.initial_covariance)[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].value;
-        const Interval scale = (i < 2 ? amplitude : Interval(1.0)) * (j < 2 ? amplitude : Interval(1.0));
-        covariance(i, j) = entry / scale;
-      }
-    }
-    question.initial_covariance = covariance;
-  }
-  return question;
-}
-
-const theorems::Derivation* deciding_derivation(const Certificate& certificate) {
-  const theorems::Derivation* capture = find_derivation(certificate, "capture");
-  return capture != nullptr ? capture : find_derivation(certificate, "contraction");
-}
-
-std::optional<Interval> proved_frequency_bound(const Certificate& certificate) {
-  const theorems::Derivation* derivation = deciding_derivation(certificate);
-  if (derivation == nullptr || derivation->verdict != Verdict::proved) {
-    return std::nullopt;
-  }
-  const theorems::Quantity* bound = theorems::applicable_quantity(*derivation, "frequency_error_bound");
-  return bound != nullptr && rigor::is_finite(bound->value) ? std::optional(bound->value) : std::nullopt;
 }
 
 void add_contraction(Certificate& certificate) {

@@ -54,7 +54,7 @@ class ClosedLoop {
   }
 
  private:
-  trackers::QuadratureEkfDesign<double> design_{};
+  trackers::ToneModel<double> design_{};
   double frequency_ = 0.0;
   State start_;
 };

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "certificates/document/certificate.hpp"
+#include "certificates/sets/statement_claim.hpp"
 
 namespace veritrack::certificates {
 

@@ -26,7 +26,7 @@ constexpr std::size_t kLongest = 300;
 
 /// The tracker, its signal, and what may be done to it.
 struct Loop {
-  trackers::QuadratureEkfDesign<double> design;
+  trackers::ToneModel<double> design;
   double noise = 0.0;
   double slew = 0.0;
 

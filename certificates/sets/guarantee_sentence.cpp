@@ -6,8 +6,8 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
-#include "certificates/quadrature/guarantee.hpp"
 #include "certificates/sets/assumptions.hpp"
+#include "certificates/sets/contraction.hpp"
 
 namespace veritrack::certificates {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "analysis/rigor/decimal.hpp"
-#include "certificates/quadrature/guarantee.hpp"
 #include "certificates/sets/assumptions.hpp"
+#include "certificates/sets/contraction.hpp"
 
 namespace veritrack::certificates {
 

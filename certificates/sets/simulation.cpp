@@ -16,7 +16,7 @@ namespace veritrack::certificates {
 namespace {
 
 using trackers::RotatingFrameState;
-using TrackerDesign = trackers::QuadratureEkfDesign<double>;
+using TrackerDesign = trackers::ToneModel<double>;
 
 TrackerDesign tracker_design(const Design& design) {
   const QuadratureDesignTable& chosen = quadrature_tables(design).design;

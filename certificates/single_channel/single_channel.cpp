@@ -12,13 +12,13 @@
 #include "analysis/single_channel/phase_certificate.hpp"
 #include "analysis/single_channel/propositions.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
-#include "certificates/quadrature/guarantee.hpp"
-#include "certificates/quadrature/theorem_claims.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
-#include "trackers/quadrature/quadrature_rotating_frame.hpp"
+#include "certificates/sets/contraction.hpp"
+#include "certificates/sets/statement_claim.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::certificates {
 
@@ -69,8 +69,7 @@ Interval quadrature_bias(const sets::LockBranch& branch, const Interval& frequen
 constexpr double kBiasHalfWidth = 0.002;
 
 /// The bias over the frequencies around that of `bias`, when there is one and it is not zero.
-SteadyStateBias bias_around(const trackers::QuadratureEkfDesign<Interval>& design,
-                            const SteadyStateBias& bias) {
+SteadyStateBias bias_around(const trackers::ToneModel<Interval>& design, const SteadyStateBias& bias) {
   constexpr std::size_t kMostCells = 128;  // more would take too long
   SteadyStateBias around;
   around.reason = bias.reason;
@@ -137,7 +136,7 @@ Claim stability_claim(const Interval& r) {
 
 }  // namespace
 
-trackers::QuadratureEkfDesign<Interval> enclosed_values(const SingleChannelDesignTable& design) {
+trackers::ToneModel<Interval> enclosed_values(const SingleChannelDesignTable& design) {
   using ProcessNoise = SingleChannelDesignTable::ProcessNoise;
   const Interval r = design.lambda ? design.lambda->value : design.r->value;
   if (design.process_noise == ProcessNoise::diagonal) {
@@ -148,7 +147,7 @@ trackers::QuadratureEkfDesign<Interval> enclosed_values(const SingleChannelDesig
   return {identity ? q : Interval(0.0), q, r, design.epsilon.value};
 }
 
-trackers::QuadratureEkfDesign<double> nearest_values(const SingleChannelDesignTable& design) {
+trackers::ToneModel<double> nearest_values(const SingleChannelDesignTable& design) {
   using ProcessNoise = SingleChannelDesignTable::ProcessNoise;
   const double r = design.lambda ? design.lambda->nearest : design.r->nearest;
   if (design.process_noise == ProcessNoise::diagonal) {
@@ -162,7 +161,7 @@ trackers::QuadratureEkfDesign<double> nearest_values(const SingleChannelDesignTa
 void certify_single_channel(Certificate& certificate, const CertifyProgress& /*progress*/) {
   const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
   certificate.simulation = simulate_single_channel(tables);
-  const trackers::QuadratureEkfDesign<Interval> design =
+  const trackers::ToneModel<Interval> design =
       trackers::at_unit_amplitude(enclosed_values(tables.design), tables.assume.amplitude.value);
   const std::vector<Frequency> frequencies = frequencies_of(tables.assume);
   const std::size_t middle = frequencies.size() / 2;
@@ -195,7 +194,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
       trackers::at_unit_amplitude(nearest_values(tables.design), tables.assume.amplitude.nearest),
       midpoint(frequencies[middle].value))));
 
-  trackers::QuadratureEkfDesign<Interval> without_leak = design;
+  trackers::ToneModel<Interval> without_leak = design;
   without_leak.epsilon = Interval(0.0);
   SteadyStateBias exact = at_middle;
   if (!(design.epsilon == Interval(0.0))) {

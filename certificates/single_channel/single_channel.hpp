@@ -4,17 +4,16 @@
 #include "analysis/rigor/interval.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::certificates {
 
 /// Q = diag(q1, q1, q2), r and epsilon of [design], whatever keys they came from: the intervals that the
 /// decimals stand for, in the units of the design file.
-[[nodiscard]] trackers::QuadratureEkfDesign<rigor::Interval> enclosed_values(
-    const SingleChannelDesignTable& design);
+[[nodiscard]] trackers::ToneModel<rigor::Interval> enclosed_values(const SingleChannelDesignTable& design);
 
 /// The same as the nearest doubles.
-[[nodiscard]] trackers::QuadratureEkfDesign<double> nearest_values(const SingleChannelDesignTable& design);
+[[nodiscard]] trackers::ToneModel<double> nearest_values(const SingleChannelDesignTable& design);
 
 /// Evaluates everything: the simulated run, the bias at frequencies of the band, the transfer function, the
 /// propositions, and the claims of [require]. Needs the upward mode.

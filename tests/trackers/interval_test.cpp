@@ -26,7 +26,7 @@ namespace {
 using rigor::Interval;
 using test::Random;
 
-QuadratureEkfDesign<Interval> over_intervals(const QuadratureEkfDesign<double>& design) {
+ToneModel<Interval> over_intervals(const ToneModel<double>& design) {
   return {Interval(design.q1), Interval(design.q2), Interval(design.r), Interval(design.epsilon)};
 }
 
@@ -143,7 +143,7 @@ TEST_CASE("over boxes, every tracker that starts in the box ends in the enclosur
 
 TEST_CASE("a tracker fed with nothing known knows nothing") {
   const rigor::UpwardRounding upward;
-  const QuadratureEkfDesign<Interval> design = over_intervals({0.0023, 0.0023, 0.05, 0.01});
+  const ToneModel<Interval> design = over_intervals({0.0023, 0.0023, 0.05, 0.01});
   const FactoredCovariance<Interval> p{Interval(0.01), Interval(0.0), Interval(0.01),
                                        Interval(0.0),  Interval(0.0), Interval(0.01)};
   const QuadratureEstimate<Interval> start{Interval(1.0), Interval(0.0), Interval(0.5), p};
@@ -241,7 +241,7 @@ TEST_CASE("the tracker runs on nested duals over intervals") {
   using Number = rigor::Dual<rigor::Dual<Interval, 1>, 1>;
   const rigor::UpwardRounding upward;
   const auto constant = [](double x) { return Number(x); };
-  const QuadratureEkfDesign<Number> design{constant(0.0023), constant(0.0023), constant(0.05), constant(0.0)};
+  const ToneModel<Number> design{constant(0.0023), constant(0.0023), constant(0.05), constant(0.0)};
   const FactoredCovariance<Number> p{constant(0.01), constant(0.0), constant(0.01),
                                      constant(0.0),  constant(0.2), constant(0.01)};
   const rigor::Dual<Interval, 1> inner(Interval(0.5), {Interval(1.0)});

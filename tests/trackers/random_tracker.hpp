@@ -15,7 +15,7 @@ inline double random_power(Random& random, double low, double high) {
 }
 
 /// q1, q2, r over five decades; a quarter without leak, a quarter without q1.
-inline trackers::QuadratureEkfDesign<double> random_design(Random& random) {
+inline trackers::ToneModel<double> random_design(Random& random) {
   return {random.below(4) == 0 ? 0.0 : random_power(random, -5.0, 0.0), random_power(random, -5.0, 0.0),
           random_power(random, -4.0, 1.0), random.below(4) == 0 ? 0.0 : random.uniform(0.0, 0.2)};
 }

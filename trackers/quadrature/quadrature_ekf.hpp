@@ -36,49 +36,15 @@
 // all finite.
 #pragma once
 
-#include <Eigen/Core>
-
 #include "trackers/factored_covariance.hpp"
 #include "trackers/scalar_functions.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::trackers {
 
-/// What the engineer chooses.
-template <typename Scalar>
-struct QuadratureEkfDesign {
-  Scalar q1;       ///< process noise variance of in-phase and quadrature part, signal units squared; >= 0
-  Scalar q2;       ///< process noise variance of the frequency, (rad/sample)^2; > 0
-  Scalar r;        ///< measurement noise variance of each channel, signal units squared; > 0
-  Scalar epsilon;  ///< leak of the frequency towards zero per sample; in [0, 1)
-};
-
 /// A state estimate with its covariance: filtered, (k|k), or predicted, (k+1|k).
 template <typename Scalar>
-struct QuadratureEstimate {
-  Scalar in_phase;    ///< x1, signal units
-  Scalar quadrature;  ///< x2, signal units
-  Scalar frequency;   ///< x3, rad/sample
-  FactoredCovariance<Scalar> covariance;
-
-  /// (x1, x2, x3).
-  [[nodiscard]] Eigen::Matrix<Scalar, 3, 1> state() const {
-    Eigen::Matrix<Scalar, 3, 1> result;
-    result(0) = in_phase;
-    result(1) = quadrature;
-    result(2) = frequency;
-    return result;
-  }
-};
-
-/// The estimate turned about the origin of the plane by an angle given as its sine and cosine: z becomes e^{i
-/// angle} z, and P becomes U P U' with U = diag(Rot(angle), 1).
-template <typename Scalar>
-[[nodiscard]] inline QuadratureEstimate<Scalar> turned(const QuadratureEstimate<Scalar>& estimate,
-                                                       const Scalar& sine, const Scalar& cosine) {
-  return {estimate.in_phase * cosine - estimate.quadrature * sine,
-          estimate.in_phase * sine + estimate.quadrature * cosine, estimate.frequency,
-          turned(estimate.covariance, sine, cosine)};
-}
+using QuadratureEstimate = ToneEstimate<Scalar>;
 
 namespace detail {
 
@@ -86,7 +52,7 @@ namespace detail {
 /// quarter turn.
 template <typename Scalar>
 [[nodiscard]] inline QuadratureEstimate<Scalar> predicted_in_own_frame(
-    const QuadratureEstimate<Scalar>& filtered, const QuadratureEkfDesign<Scalar>& design) {
+    const QuadratureEstimate<Scalar>& filtered, const ToneModel<Scalar>& design) {
   const FactoredCovariance<Scalar>& p = filtered.covariance;
   const Scalar retention = Scalar(1.0) - design.epsilon;
 
@@ -113,7 +79,7 @@ template <typename Scalar>
 /// From (k|k) to (k+1|k): equations (2.5) and (2.6) with F of (3.8).
 template <typename Scalar>
 [[nodiscard]] inline QuadratureEstimate<Scalar> time_update(const QuadratureEstimate<Scalar>& filtered,
-                                                            const QuadratureEkfDesign<Scalar>& design) {
+                                                            const ToneModel<Scalar>& design) {
   using detail::sin_cos;
   const auto [sine, cosine] = sin_cos(filtered.frequency);
   return turned(detail::predicted_in_own_frame(filtered, design), sine, cosine);
@@ -124,7 +90,7 @@ template <typename Scalar>
 template <typename Scalar>
 [[nodiscard]] inline QuadratureEstimate<Scalar> measurement_update(
     const QuadratureEstimate<Scalar>& predicted, const Scalar& in_phase, const Scalar& quadrature,
-    const QuadratureEkfDesign<Scalar>& design) {
+    const ToneModel<Scalar>& design) {
   using detail::square;
   const FactoredCovariance<Scalar>& p = predicted.covariance;
   const Scalar& r = design.r;
@@ -174,7 +140,7 @@ struct QuadratureStep {
 template <typename Scalar>
 [[nodiscard]] inline QuadratureStep<Scalar> step(const QuadratureEstimate<Scalar>& filtered,
                                                  const Scalar& in_phase, const Scalar& quadrature,
-                                                 const QuadratureEkfDesign<Scalar>& design) {
+                                                 const ToneModel<Scalar>& design) {
   using detail::sin_cos;
   const auto [sine, cosine] = sin_cos(filtered.frequency);
   const QuadratureEstimate<Scalar> predicted = detail::predicted_in_own_frame(filtered, design);
@@ -189,7 +155,7 @@ template <typename Scalar>
 template <typename Scalar = double>
 class QuadratureEkf {
  public:
-  QuadratureEkf(const QuadratureEkfDesign<Scalar>& design, const QuadratureEstimate<Scalar>& start)
+  QuadratureEkf(const ToneModel<Scalar>& design, const QuadratureEstimate<Scalar>& start)
       : design_(design), current_{start, start} {}
 
   /// predicted() becomes (k+1|k), from filtered() at (k|k).
@@ -205,12 +171,12 @@ class QuadratureEkf {
     current_ = trackers::step(current_.filtered, in_phase, quadrature, design_);
   }
 
-  [[nodiscard]] const QuadratureEkfDesign<Scalar>& design() const { return design_; }
+  [[nodiscard]] const ToneModel<Scalar>& design() const { return design_; }
   [[nodiscard]] const QuadratureEstimate<Scalar>& predicted() const { return current_.predicted; }
   [[nodiscard]] const QuadratureEstimate<Scalar>& filtered() const { return current_.filtered; }
 
  private:
-  QuadratureEkfDesign<Scalar> design_;
+  ToneModel<Scalar> design_;
   QuadratureStep<Scalar> current_;
 };
 

@@ -70,7 +70,7 @@ struct PolarInput {
 template <typename Scalar>
 [[nodiscard]] PolarCovariance<Scalar> predicted_covariance(const PolarCovariance<Scalar>& p,
                                                            const Scalar& rho,
-                                                           const QuadratureEkfDesign<Scalar>& design) {
+                                                           const ToneModel<Scalar>& design) {
   using detail::square;
   const Scalar retention = Scalar(1.0) - design.epsilon;
   return {p.p11 + design.q1,
@@ -172,7 +172,7 @@ struct PolarFrameState {
 template <typename Scalar>
 [[nodiscard]] PolarFrameState<Scalar> polar_frame_map(const PolarFrameState<Scalar>& state,
                                                       const PolarInput<Scalar>& input,
-                                                      const QuadratureEkfDesign<Scalar>& design) {
+                                                      const ToneModel<Scalar>& design) {
   const Scalar rho = Scalar(1.0) + state.error.amplitude;
   const PolarCovariance<Scalar> predicted = predicted_covariance(state.covariance, rho, design);
   const PolarGain<Scalar> k = gain(predicted, design.r);

@@ -2,41 +2,20 @@
 //
 // The filter of quadrature_ekf.hpp commutes with rotations of the plane: turn z and y by an angle, and P with
 // them, and the estimates turn too. Let the true signal be s(k) = e^{i phi(k)}, phi(k+1) = phi(k) + omega(k),
-// and write the filter in the frame that turns with phi(k). What remains is a map of nine numbers,
-//     X = (Re delta, Im delta, nu, P11, P12, P13, P22, P23, P33),
-//     delta = e^{-i phi(k)} z(k|k) - 1,  nu = x3(k|k) - omega(k),  P = U(-phi(k)) P(k|k) U(-phi(k))',
-// U(angle) = diag(Rot(angle), 1): always the *filtered* estimate and covariance, in the frame of the *true*
-// phase at the same time k. A certificate about this map is a certificate about the tracker; tests hold the
-// two together.
+// and write the filter in the frame that turns with phi(k) (rotating_frame.hpp). What remains is a map of
+// nine numbers X. A certificate about this map is a certificate about the tracker; tests hold the two
+// together.
 //
 // This is the filter of quadrature_ekf.hpp in other coordinates and in another order of evaluation: there,
 // what keeps its digits in floating point; here, what repeats few variables, so that it stays narrow over
 // boxes and makes sense for any P with det S != 0, definite or not.
 #pragma once
 
-#include <Eigen/Core>
-
 #include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/rotating_frame.hpp"
 #include "trackers/scalar_functions.hpp"
 
 namespace veritrack::trackers {
-
-/// X, see the top of this file. delta is relative to the amplitude 1, nu in rad/sample.
-template <typename Scalar>
-using RotatingFrameState = Eigen::Matrix<Scalar, 9, 1>;
-
-/// Where the entries of X stand.
-enum RotatingFrameIndex : Eigen::Index {
-  kDeltaInPhase = 0,
-  kDeltaQuadrature = 1,
-  kFrequencyError = 2,
-  kP11 = 3,
-  kP12 = 4,
-  kP13 = 5,
-  kP22 = 6,
-  kP23 = 7,
-  kP33 = 8
-};
 
 /// What drives X(k) to X(k+1).
 template <typename Scalar>
@@ -53,7 +32,7 @@ struct RotatingFrameInput {
 template <typename Scalar>
 [[nodiscard]] RotatingFrameState<Scalar> rotating_frame_map(const RotatingFrameState<Scalar>& state,
                                                             const RotatingFrameInput<Scalar>& input,
-                                                            const QuadratureEkfDesign<Scalar>& design) {
+                                                            const ToneModel<Scalar>& design) {
   using detail::sin_cos;
   using detail::square;
   const Scalar one(1.0);
@@ -116,45 +95,6 @@ template <typename Scalar>
   next(kP23) = r * (d1 * sine + d2 * cosine);
   next(kP33) = square(retention) * p33 + design.q2 - (c1 * d1 + c2 * d2);
   return next;
-}
-
-/// The design whose filter at amplitude 1 does what `design` does at `amplitude` (signal units, > 0), with
-/// the noise bound divided by the amplitude too: z scales by A, so q1 and r scale by A^2 and q2 stays.
-template <typename Scalar>
-[[nodiscard]] QuadratureEkfDesign<Scalar> at_unit_amplitude(const QuadratureEkfDesign<Scalar>& design,
-                                                            const Scalar& amplitude) {
-  using detail::square;
-  const Scalar power = square(amplitude);
-  return {design.q1 / power, design.q2, design.r / power, design.epsilon};
-}
-
-/// X of a filtered estimate, when the true signal is amplitude * e^{i phase} with this frequency
-/// (rad/sample). P is scaled to amplitude 1 as well.
-template <typename Scalar>
-[[nodiscard]] RotatingFrameState<Scalar> to_rotating_frame(const QuadratureEstimate<Scalar>& filtered,
-                                                           const Scalar& amplitude, const Scalar& phase,
-                                                           const Scalar& frequency) {
-  using detail::sin_cos;
-  const auto [sine_raw, cosine_raw] = sin_cos(phase);
-  const Scalar sine = sine_raw / amplitude;
-  const Scalar cosine = cosine_raw / amplitude;
-  const Eigen::Matrix<Scalar, 3, 3> p = filtered.covariance.matrix();
-  // Row by row of the turn Rot(-phase) / amplitude applied from both sides.
-  const Scalar a11 = cosine * p(0, 0) + sine * p(0, 1);
-  const Scalar a12 = cosine * p(0, 1) + sine * p(1, 1);
-  const Scalar a21 = cosine * p(0, 1) - sine * p(0, 0);
-  const Scalar a22 = cosine * p(1, 1) - sine * p(0, 1);
-  RotatingFrameState<Scalar> state;
-  state(kDeltaInPhase) = cosine * filtered.in_phase + sine * filtered.quadrature - Scalar(1.0);
-  state(kDeltaQuadrature) = cosine * filtered.quadrature - sine * filtered.in_phase;
-  state(kFrequencyError) = filtered.frequency - frequency;
-  state(kP11) = a11 * cosine + a12 * sine;
-  state(kP12) = a12 * cosine - a11 * sine;
-  state(kP22) = a22 * cosine - a21 * sine;
-  state(kP13) = cosine * p(0, 2) + sine * p(1, 2);
-  state(kP23) = cosine * p(1, 2) - sine * p(0, 2);
-  state(kP33) = p(2, 2);
-  return state;
 }
 
 }  // namespace veritrack::trackers

@@ -25,7 +25,7 @@
 //       use(tracker.filtered().frequency);
 //     }
 //
-// A template over the scalar, as the quadrature tracker is: the code that tracks in double is the code that
+// A template over the scalar: the code that tracks in double is the code that
 // encloses over intervals and differentiates over dual numbers. It does not allocate. The one thing that can
 // go wrong in a step is an innovation variance of exactly zero, with which the gain is 0/0: that is
 // ZeroInnovationVariance. It takes r = 0 and a prediction that is certain of x1, such as P(0|0) = 0 with the
@@ -42,8 +42,8 @@
 #include <stdexcept>
 
 #include "trackers/factored_covariance.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/scalar_functions.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::trackers {
 
@@ -80,9 +80,9 @@ template <typename Scalar>
   return {unit_process_noise, lambda, Scalar(0.0)};
 }
 
-/// A state estimate with its covariance, in the units of the quadrature tracker's.
+/// A state estimate with its covariance: filtered, (k|k), or predicted, (k+1|k).
 template <typename Scalar>
-using SingleChannelEstimate = QuadratureEstimate<Scalar>;
+using SingleChannelEstimate = ToneEstimate<Scalar>;
 
 /// Thrown by a measurement update whose innovation variance H P H' + r is exactly zero.
 class ZeroInnovationVariance : public std::domain_error {

@@ -1,16 +1,15 @@
 // The single-channel tracker and its signal as one map over the phase.
 //
 // Let the true signal be s(k) = cos phi(k), phi(k+1) = phi(k) + omega(k), and write the filter of
-// single_channel_ekf.hpp in the frame that turns with phi(k), as quadrature_rotating_frame.hpp does for the
-// quadrature tracker: the same nine numbers X, and Q = diag(q1, q1, q2), which a turn leaves alone. The
-// measured direction h = (1, 0) becomes (cos phi, -sin phi), so that X(k+1) depends on the phase: a skew
-// product over phi(k+1) = phi(k) + omega(k). Turned by pi, h changes its sign, and so do innovation and gain:
-// the map is pi-periodic in phi.
+// single_channel_ekf.hpp in the frame that turns with phi(k): the nine numbers X of rotating_frame.hpp, and
+// Q = diag(q1, q1, q2), which a turn leaves alone. The measured direction h = (1, 0) becomes (cos phi, -sin
+// phi), so that X(k+1) depends on the phase: a skew product over phi(k+1) = phi(k) + omega(k). Turned by pi,
+// h changes its sign, and so do innovation and gain: the map is pi-periodic in phi.
 //
 // Tests hold this against the filter.
 #pragma once
 
-#include "trackers/quadrature/quadrature_rotating_frame.hpp"
+#include "trackers/rotating_frame.hpp"
 #include "trackers/scalar_functions.hpp"
 #include "trackers/single_channel/single_channel_ekf.hpp"
 
@@ -25,10 +24,9 @@ struct SingleChannelInput {
   Scalar frequency;   ///< omega(k), rad/sample; without effect when epsilon = 0
 };
 
-/// The single-channel filter with Q = diag(q1, q1, q2) and a quadrature tracker's other values.
+/// The single-channel filter of a model: Q = diag(q1, q1, q2).
 template <typename Scalar>
-[[nodiscard]] inline SingleChannelEkfDesign<Scalar> single_channel_design(
-    const QuadratureEkfDesign<Scalar>& design) {
+[[nodiscard]] inline SingleChannelEkfDesign<Scalar> single_channel_design(const ToneModel<Scalar>& design) {
   return {diagonal_process_noise(design.q1, design.q2), design.r, design.epsilon};
 }
 
@@ -38,7 +36,7 @@ template <typename Scalar>
 template <typename Scalar>
 [[nodiscard]] RotatingFrameState<Scalar> single_channel_map(const RotatingFrameState<Scalar>& state,
                                                             const SingleChannelInput<Scalar>& input,
-                                                            const QuadratureEkfDesign<Scalar>& design) {
+                                                            const ToneModel<Scalar>& design) {
   using detail::sin_cos;
   using detail::square;
   const Scalar one(1.0);

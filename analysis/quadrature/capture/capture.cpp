@@ -25,7 +25,7 @@ constexpr int kSlopeDegrees[] = {0, 3, 3, 2};
 constexpr double kLargestDeviation = 0.5;
 
 template <typename Scalar, typename Constant = Scalar>
-trackers::QuadratureEkfDesign<Scalar> embedded(const trackers::QuadratureEkfDesign<Interval>& design) {
+trackers::ToneModel<Scalar> embedded(const trackers::ToneModel<Interval>& design) {
   return {Scalar(Constant(design.q1)), Scalar(Constant(design.q2)), Scalar(Constant(design.r)),
           Scalar(Constant(design.epsilon))};
 }
@@ -122,7 +122,7 @@ class FollowedStarts {
   }
 
   /// One sample on.
-  void step(const CaptureProblem& problem, const trackers::QuadratureEkfDesign<Model>& design) {
+  void step(const CaptureProblem& problem, const trackers::ToneModel<Model>& design) {
     const StateVector deviation = rest_.radii();
     trackers::RotatingFrameState<TaylorModel<kVariables, kSlopeDegree>> states;
     for (int i = 0; i < kStateSize; ++i) {

@@ -16,7 +16,7 @@
 #include "analysis/quadrature/capture/capture_target.hpp"
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/matrix.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::quadrature {
 
@@ -27,9 +27,9 @@ struct StartBox {
   rigor::Interval frequency_error;  ///< rad/sample
 };
 
-/// The closed loop, at amplitude 1 (trackers/quadrature/quadrature_rotating_frame.hpp: at_unit_amplitude).
+/// The closed loop, at amplitude 1 (trackers/tone_model.hpp: at_unit_amplitude).
 struct CaptureProblem {
-  trackers::QuadratureEkfDesign<rigor::Interval> design;
+  trackers::ToneModel<rigor::Interval> design;
   /// P(0|0) in the frame of the estimated phase (amplitude, phase, frequency): the same for every start.
   /// Symmetric; the upper triangle is read.
   rigor::IntervalMatrix<3> initial_covariance;

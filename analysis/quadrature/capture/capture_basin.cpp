@@ -19,7 +19,7 @@ using rigor::Verdict;
 constexpr double kLockedWithin = 1e-3;  // rad/sample
 
 struct Run {
-  trackers::QuadratureEkfDesign<double> design;
+  trackers::ToneModel<double> design;
   rigor::Matrix<3> initial_covariance;
   double frequency = 0.0;
   int samples = 0;

@@ -22,7 +22,7 @@ struct BlockMetric {
 /// What the steps of a whole set have in common.
 template <typename Scalar>
 struct StepSetting {
-  trackers::QuadratureEkfDesign<Scalar> design;  ///< epsilon = 0
+  trackers::ToneModel<Scalar> design;  ///< epsilon = 0
   BlockMetric<Scalar> metric;
   BlockCovariance<Scalar> covariance_lower, covariance_upper;
   Scalar largest_amplitude;  ///< A

@@ -8,7 +8,7 @@ namespace veritrack::quadrature {
 namespace {
 
 using Block = BlockCovariance<double>;
-using Design = trackers::QuadratureEkfDesign<double>;
+using Design = trackers::ToneModel<double>;
 
 Block plus(const Block& a, const Block& b, double factor) {
   return {a.p11 + factor * b.p11, a.p22 + factor * b.p22, a.p23 + factor * b.p23, a.p33 + factor * b.p33};

@@ -11,7 +11,7 @@ namespace veritrack::quadrature {
 /// The steady state of riccati_update at |z| = 1; nothing when there is none that is positive definite (q1 =
 /// 0: the amplitude's variance falls like 1/k for ever) or it was not reached.
 [[nodiscard]] std::optional<BlockCovariance<double>> steady_covariance(
-    const trackers::QuadratureEkfDesign<double>& design);
+    const trackers::ToneModel<double>& design);
 
 /// Two covariances in the Loewner order.
 struct CovarianceRange {
@@ -35,8 +35,8 @@ class CovarianceBounds {
   void include(const CovarianceRange& range, double margin);
   /// Moves both bounds to bounds of their images under the samples, with a margin (in units of the steady
   /// state). Returns how far they moved.
-  double iterate(const std::array<TurnSample, 9>& samples,
-                 const trackers::QuadratureEkfDesign<double>& design, double margin);
+  double iterate(const std::array<TurnSample, 9>& samples, const trackers::ToneModel<double>& design,
+                 double margin);
   /// Finite, ordered, and of a size that can be of use.
   [[nodiscard]] bool usable() const;
 
@@ -44,8 +44,7 @@ class CovarianceBounds {
   [[nodiscard]] BlockCovariance<double> enter(const BlockCovariance<double>& p) const;
   [[nodiscard]] BlockCovariance<double> leave(const BlockCovariance<double>& p) const;
   [[nodiscard]] BlockCovariance<double> image(const BlockCovariance<double>& p, const TurnSample& sample,
-                                              const trackers::QuadratureEkfDesign<double>& design,
-                                              double sign) const;
+                                              const trackers::ToneModel<double>& design, double sign) const;
 
   double l11_, l22_, l32_, l33_;  ///< Cholesky factor of the steady state
   BlockCovariance<double> low_, high_;

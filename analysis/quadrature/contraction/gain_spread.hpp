@@ -19,7 +19,7 @@ struct GainSpread {
 template <typename Scalar>
 [[nodiscard]] GainSpread<Scalar> gain_spread(const BlockCovariance<Scalar>& lower,
                                              const BlockCovariance<Scalar>& upper, const Scalar& rho,
-                                             const trackers::QuadratureEkfDesign<Scalar>& design) {
+                                             const trackers::ToneModel<Scalar>& design) {
   const Scalar half(0.5);
   const BlockUpdate<Scalar> low = riccati_update(lower, rho, design);
   const BlockUpdate<Scalar> high = riccati_update(upper, rho, design);
@@ -39,14 +39,13 @@ template <typename Scalar>
 template <int N>
 [[nodiscard]] GainSpread<rigor::Dual<rigor::Interval, N>> gain_spread(
     const BlockCovariance<rigor::Interval>& lower, const BlockCovariance<rigor::Interval>& upper,
-    const rigor::Dual<rigor::Interval, N>& rho,
-    const trackers::QuadratureEkfDesign<rigor::Interval>& design) {
+    const rigor::Dual<rigor::Interval, N>& rho, const trackers::ToneModel<rigor::Interval>& design) {
   using Slope = rigor::Dual<rigor::Interval, 1>;
   const auto constant = [](const BlockCovariance<rigor::Interval>& p) {
     return BlockCovariance<Slope>{Slope(p.p11), Slope(p.p22), Slope(p.p23), Slope(p.p33)};
   };
-  const trackers::QuadratureEkfDesign<Slope> constants{Slope(design.q1), Slope(design.q2), Slope(design.r),
-                                                       Slope(design.epsilon)};
+  const trackers::ToneModel<Slope> constants{Slope(design.q1), Slope(design.q2), Slope(design.r),
+                                             Slope(design.epsilon)};
   const GainSpread<Slope> f = gain_spread<Slope>(constant(lower), constant(upper),
                                                  Slope(rho.value(), {rigor::Interval(1.0)}), constants);
   const auto at = [&](const Slope& slope) { return rho.chain(slope.value(), slope.derivative(0)); };

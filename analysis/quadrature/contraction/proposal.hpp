@@ -7,7 +7,7 @@
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/quadrature/contraction/covariance_proposal.hpp"
 #include "analysis/quadrature/contraction/step_inequality.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::quadrature {
 
@@ -24,7 +24,7 @@ enum class Objective {
 
 /// What is asked of a proposal. The design has epsilon = 0 and belongs to amplitude 1.
 struct ProposalRequest {
-  trackers::QuadratureEkfDesign<double> design;
+  trackers::ToneModel<double> design;
   Objective objective = Objective::start_error;
   double noise = 0.0;  ///< relative to the amplitude; without meaning for Objective::noise and slew
   double slew = 0.0;   ///< rad/sample per sample; without meaning for Objective::noise and slew

@@ -8,7 +8,7 @@ namespace {
 
 using rigor::Interval;
 using Block = BlockCovariance<Interval>;
-using Design = trackers::QuadratureEkfDesign<Interval>;
+using Design = trackers::ToneModel<Interval>;
 
 /// sign * (P - U Phi U') as a lower triangle, U the turn with this tangent (and positive cosine).
 rigor::LowerTriangle<3> difference(const Block& p, const Block& phi, const Interval& tangent, double sign) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/rigor/interval.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::quadrature {
 
@@ -35,7 +35,7 @@ struct BlockUpdate {
 /// covariances stay block covariances.
 template <typename Scalar>
 [[nodiscard]] BlockUpdate<Scalar> riccati_update(const BlockCovariance<Scalar>& p, const Scalar& rho,
-                                                 const trackers::QuadratureEkfDesign<Scalar>& design) {
+                                                 const trackers::ToneModel<Scalar>& design) {
   using trackers::detail::square;
   const Scalar p11 = p.p11 + design.q1;
   const Scalar p23 = p.p23 + rho * p.p33;
@@ -65,8 +65,9 @@ struct TurnBound {
 /// True only when P_lo <= U Phi(P_lo, rho) U' and U Phi(P_hi, rho) U' <= P_hi for every rho and every turn
 /// with |tan| <= tangent (and cosine > 0) of every element of `turns`, U = diag(Rot(angle), 1). Then, by
 /// monotonicity, P_lo <= P <= P_hi is kept by every step with such a rho and turn. Needs the upward mode.
-[[nodiscard]] bool certainly_keeps_covariance_between(
-    const BlockCovariance<rigor::Interval>& lower, const BlockCovariance<rigor::Interval>& upper,
-    const trackers::QuadratureEkfDesign<rigor::Interval>& design, const std::vector<TurnBound>& turns);
+[[nodiscard]] bool certainly_keeps_covariance_between(const BlockCovariance<rigor::Interval>& lower,
+                                                      const BlockCovariance<rigor::Interval>& upper,
+                                                      const trackers::ToneModel<rigor::Interval>& design,
+                                                      const std::vector<TurnBound>& turns);
 
 }  // namespace veritrack::quadrature

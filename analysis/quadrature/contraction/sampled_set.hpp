@@ -18,7 +18,7 @@ struct SampledSet {
 
 /// The set to sample. The rate in `constants` is not read.
 struct SampleRequest {
-  trackers::QuadratureEkfDesign<double> design;
+  trackers::ToneModel<double> design;
   BlockMetric<double> metric;
   double radius = 0.0;
   double noise = 0.0;  ///< relative to the amplitude

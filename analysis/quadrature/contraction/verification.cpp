@@ -12,7 +12,7 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using Design = trackers::QuadratureEkfDesign<Interval>;
+using Design = trackers::ToneModel<Interval>;
 
 BlockCovariance<Interval> block(const rigor::Matrix<3>& p) {
   return {Interval(p(0, 0)), Interval(p(1, 1)), Interval(p(1, 2)), Interval(p(2, 2))};

@@ -6,7 +6,7 @@
 
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/rigor/verdict.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::quadrature {
 
@@ -28,7 +28,7 @@ struct Verification {
 ///   4. rate^2 R^2 + L_v^2 V^2 + L_w^2 W^2 <= R^2.
 /// By 3 and 4 a step does not leave the set, so that 2 applies to the next; docs/contraction.md has the
 /// proof. epsilon must be zero. Opens its own UpwardRounding scope; never throws for odd numbers.
-[[nodiscard]] Verification verify_certified_set(const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+[[nodiscard]] Verification verify_certified_set(const trackers::ToneModel<rigor::Interval>& design,
                                                 const CertifiedSet& proposal);
 
 }  // namespace veritrack::quadrature

@@ -233,7 +233,7 @@ class Search {
 
 }  // namespace
 
-Falsification try_to_break(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double>& design,
+Falsification try_to_break(const CertifiedSet& set, const trackers::ToneModel<double>& design,
                            const FalsifierOptions& options) {
   const rigor::NearestRounding nearest;
   return try_to_break(Claim(set, design), options);

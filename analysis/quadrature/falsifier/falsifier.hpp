@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/quadrature/contraction/certified_set.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::quadrature {
 
@@ -66,8 +66,7 @@ struct Falsification {
 /// Deterministic. The set is taken at its word: gains included, as verify_certified_set returns them. epsilon
 /// must be zero. Opens its own NearestRounding scope. Throws std::invalid_argument when steps < 1 or the set
 /// is not one (covariance bounds not in order, metric not invertible, a number not finite).
-[[nodiscard]] Falsification try_to_break(const CertifiedSet& set,
-                                         const trackers::QuadratureEkfDesign<double>& design,
+[[nodiscard]] Falsification try_to_break(const CertifiedSet& set, const trackers::ToneModel<double>& design,
                                          const FalsifierOptions& options = {});
 
 }  // namespace veritrack::quadrature

@@ -44,7 +44,7 @@ std::string told(const char* what, double found, double certified) {
 
 }  // namespace
 
-Claim::Claim(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double>& design)
+Claim::Claim(const CertifiedSet& set, const trackers::ToneModel<double>& design)
     : set_(set), design_(design) {
   {
     const rigor::UpwardRounding upward;
@@ -55,8 +55,8 @@ Claim::Claim(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double
   complete(design.epsilon == 0.0);
 }
 
-Claim::Claim(const SteadySet& set, const trackers::QuadratureEkfDesign<double>& design,
-             const PolarState& steady, double frequency)
+Claim::Claim(const SteadySet& set, const trackers::ToneModel<double>& design, const PolarState& steady,
+             double frequency)
     : design_(design),
       center_(as_vector(steady.error)),
       center_covariance_(steady.covariance.matrix()),

@@ -19,17 +19,17 @@ using PolarState = trackers::PolarFrameState<double>;
 class Claim {
  public:
   /// Without a leak. Throws std::invalid_argument when the set is not one.
-  Claim(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double>& design);
+  Claim(const CertifiedSet& set, const trackers::ToneModel<double>& design);
   /// With a leak, at this frequency (rad/sample) and for slew zero; `steady` is the steady state there, to
   /// rounding. Throws as above.
-  Claim(const SteadySet& set, const trackers::QuadratureEkfDesign<double>& design, const PolarState& steady,
+  Claim(const SteadySet& set, const trackers::ToneModel<double>& design, const PolarState& steady,
         double frequency);
 
   /// With a leak: {|T (e - centre)| <= 1} x {P* - below <= P <= P* + above}, rates and gains without meaning.
   [[nodiscard]] const CertifiedSet& set() const { return set_; }
   [[nodiscard]] const Eigen::Vector3d& center() const { return center_; }
   [[nodiscard]] double frequency() const { return frequency_; }
-  [[nodiscard]] const trackers::QuadratureEkfDesign<double>& design() const { return design_; }
+  [[nodiscard]] const trackers::ToneModel<double>& design() const { return design_; }
   [[nodiscard]] const Eigen::Matrix3d& inverse_metric() const { return inverse_metric_; }
   [[nodiscard]] double level(const Eigen::Vector3d& error) const {
     return (set_.metric * (error - center_)).norm();
@@ -55,7 +55,7 @@ class Claim {
   [[nodiscard]] bool covariance_is_inside(const Eigen::Matrix3d& covariance, double share, double room) const;
 
   CertifiedSet set_;
-  trackers::QuadratureEkfDesign<double> design_;
+  trackers::ToneModel<double> design_;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d center_covariance_ = Eigen::Matrix3d::Zero();
   double frequency_ = 0.7;      ///< without a leak it does not matter; this one is as good as any

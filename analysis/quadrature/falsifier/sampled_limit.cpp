@@ -70,7 +70,7 @@ class Escape {
 
 }  // namespace
 
-double sampled_radius_limit(const CertifiedSet& set, const trackers::QuadratureEkfDesign<double>& design) {
+double sampled_radius_limit(const CertifiedSet& set, const trackers::ToneModel<double>& design) {
   const rigor::NearestRounding nearest;
   return sampled_radius_limit(Claim(set, design));
 }

@@ -3,7 +3,7 @@
 
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/quadrature/falsifier/falsifier_run.hpp"
-#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::quadrature {
 
@@ -12,8 +12,7 @@ namespace veritrack::quadrature {
 /// metric and the covariance bounds are the set's own. The radius at which the ellipsoid reaches amplitude
 /// zero when no such start is found before. Deterministic; takes some hundredths of a second. Opens its own
 /// NearestRounding scope. epsilon must be zero.
-[[nodiscard]] double sampled_radius_limit(const CertifiedSet& set,
-                                          const trackers::QuadratureEkfDesign<double>& design);
+[[nodiscard]] double sampled_radius_limit(const CertifiedSet& set, const trackers::ToneModel<double>& design);
 
 /// The same for a claim, about its centre.
 [[nodiscard]] double sampled_radius_limit(const Claim& claim);

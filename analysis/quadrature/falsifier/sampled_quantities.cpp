@@ -11,8 +11,8 @@ using rigor::Interval;
 void add_sampled_quantities(const sets::ContractionQuestion& question,
                             const ContractionCertificate& certificate, theorems::Derivation& derivation) {
   const auto& intervals = question.design;
-  const trackers::QuadratureEkfDesign<double> design{midpoint(intervals.q1), midpoint(intervals.q2),
-                                                     midpoint(intervals.r), 0.0};
+  const trackers::ToneModel<double> design{midpoint(intervals.q1), midpoint(intervals.q2),
+                                           midpoint(intervals.r), 0.0};
   const auto add = [&](const char* name, const char* symbol, const char* formula, double value) {
     theorems::add_quantity(derivation, {name, symbol, formula, "docs/contraction.md"}, Interval(value));
     derivation.quantities.back().proved = false;

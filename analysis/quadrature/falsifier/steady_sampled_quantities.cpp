@@ -10,11 +10,11 @@ namespace veritrack::quadrature {
 
 using rigor::Interval;
 
-std::vector<Claim> claims_of(const trackers::QuadratureEkfDesign<Interval>& design,
-                             const sets::LockBranch& branch, const SteadySet& set) {
+std::vector<Claim> claims_of(const trackers::ToneModel<Interval>& design, const sets::LockBranch& branch,
+                             const SteadySet& set) {
   const rigor::NearestRounding nearest;
-  const trackers::QuadratureEkfDesign<double> middle{midpoint(design.q1), midpoint(design.q2),
-                                                     midpoint(design.r), midpoint(design.epsilon)};
+  const trackers::ToneModel<double> middle{midpoint(design.q1), midpoint(design.q2), midpoint(design.r),
+                                           midpoint(design.epsilon)};
   const auto& cells = branch.cells;
   std::vector<Claim> claims;
   claims.reserve(3);

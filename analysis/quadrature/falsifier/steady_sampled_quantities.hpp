@@ -11,7 +11,7 @@ namespace veritrack::quadrature {
 
 /// The claims that a PROVED set makes at the lowest, a middle and the highest cell of the branch, in floating
 /// point; none where no steady state is found. Opens its own NearestRounding scope.
-[[nodiscard]] std::vector<Claim> claims_of(const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+[[nodiscard]] std::vector<Claim> claims_of(const trackers::ToneModel<rigor::Interval>& design,
                                            const sets::LockBranch& branch, const SteadySet& set);
 
 /// Appends, marked as not proved, what is worst at those frequencies:

@@ -78,7 +78,7 @@ template <typename Scalar>
 [[nodiscard]] CovarianceImage<Scalar> covariance_image(const SteadyState<Scalar>& steady, const Scalar& sine,
                                                        const Scalar& cosine,
                                                        const CovarianceBand<Scalar>& band,
-                                                       const trackers::QuadratureEkfDesign<Scalar>& design,
+                                                       const trackers::ToneModel<Scalar>& design,
                                                        const Scalar& level, const Scalar& alpha) {
   const Scalar zero(0.0);
   const Scalar one(1.0);
@@ -86,7 +86,7 @@ template <typename Scalar>
   const Symmetric<Scalar>& p = steady.covariance;
   const Scalar rho = steady.rho + level * alpha;
   const Scalar retention = one - design.epsilon;
-  const trackers::QuadratureEkfDesign<Scalar> quiet{zero, zero, design.r, design.epsilon};
+  const trackers::ToneModel<Scalar> quiet{zero, zero, design.r, design.epsilon};
   const auto predict = [&](const Symmetric<Scalar>& deviation) {
     return trackers::turned(trackers::predicted_covariance(deviation, rho, quiet), sine, cosine);
   };

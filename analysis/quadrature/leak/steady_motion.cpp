@@ -32,7 +32,7 @@ std::optional<Interval> covering_share(const Symmetric<Interval>& bound, const S
 }  // namespace
 
 std::optional<SteadyMotion> steady_motion(
-    const trackers::QuadratureEkfDesign<Interval>& design,
+    const trackers::ToneModel<Interval>& design,
     const std::vector<sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>>& branch,
     const SteadySet& set) {
   SteadyMotion motion;

@@ -12,7 +12,7 @@ namespace veritrack::quadrature {
 
 /// What is asked of a proposal; amplitude 1.
 struct SteadyRequest {
-  trackers::QuadratureEkfDesign<double> design;
+  trackers::ToneModel<double> design;
   /// The steady states that the set is fitted to, in the order of their frequencies.
   std::vector<SteadyState<double>> steady;
   /// dX*/domega there, in the order of the polar frame; used for the slew only.

@@ -15,7 +15,7 @@ struct TriangularMetric {
 /// What the steps of a whole set have in common.
 template <typename Scalar>
 struct SteadySetting {
-  trackers::QuadratureEkfDesign<Scalar> design;
+  trackers::ToneModel<Scalar> design;
   SteadyState<Scalar> steady;
   TriangularMetric<Scalar> metric;
   CovarianceBand<Scalar> band;

@@ -20,7 +20,7 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 using Tube = sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>;
-using Design = trackers::QuadratureEkfDesign<Interval>;
+using Design = trackers::ToneModel<Interval>;
 
 bool is_symmetric(const rigor::Matrix<3>& p) {
   return p(0, 1) == p(1, 0) && p(0, 2) == p(2, 0) && p(1, 2) == p(2, 1) && rigor::is_finite(p);

@@ -32,7 +32,7 @@ struct SteadyVerification {
 /// Cells run in parallel; the result does not depend on how many threads there are. Opens its own
 /// UpwardRounding scope; never throws for odd numbers.
 [[nodiscard]] SteadyVerification verify_steady_set(
-    const trackers::QuadratureEkfDesign<rigor::Interval>& design,
+    const trackers::ToneModel<rigor::Interval>& design,
     const std::vector<sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>>& branch,
     const SteadySet& proposal);
 

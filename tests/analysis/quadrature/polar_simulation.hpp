@@ -26,7 +26,7 @@ struct Simulation {
   double phase = 0.0;
   double frequency;
 
-  Simulation(const trackers::QuadratureEkfDesign<rigor::Interval>& design, const Polar& start, double omega)
+  Simulation(const trackers::ToneModel<rigor::Interval>& design, const Polar& start, double omega)
       : filter{midpoint(design.q1),      midpoint(design.q2),     midpoint(design.r),
                midpoint(design.epsilon), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()},
         frequency(omega) {
@@ -57,7 +57,7 @@ struct Simulation {
 
 /// X*(omega) in double, on the branch's cells.
 inline Polar steady_state(const Simulation& simulation, const std::vector<sets::FixedPointTube<9>>& cells,
-                          const trackers::QuadratureEkfDesign<rigor::Interval>& design) {
+                          const trackers::ToneModel<rigor::Interval>& design) {
   for (const auto& cell : cells) {
     if (cell.parameter.lower() <= simulation.frequency && simulation.frequency <= cell.parameter.upper()) {
       const Polar guess = cell.center + cell.slope * (simulation.frequency - cell.parameter_center);

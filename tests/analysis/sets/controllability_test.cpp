@@ -17,7 +17,7 @@ using sets::find_uncontrollable_mode;
 
 namespace {
 
-trackers::QuadratureEkfDesign<Interval> design_of(double q1, double q2, double r, double epsilon) {
+trackers::ToneModel<Interval> design_of(double q1, double q2, double r, double epsilon) {
   return {Interval(q1), Interval(q2), Interval(r), Interval(epsilon)};
 }
 

@@ -20,8 +20,8 @@ using rigor::Verdict;
 
 namespace {
 
-trackers::QuadratureEkfDesign<Interval> design_of(const std::string& q1, const std::string& q2,
-                                                  const std::string& r, const std::string& epsilon) {
+trackers::ToneModel<Interval> design_of(const std::string& q1, const std::string& q2, const std::string& r,
+                                        const std::string& epsilon) {
   return {rigor::parse_decimal(q1), rigor::parse_decimal(q2), rigor::parse_decimal(r),
           rigor::parse_decimal(epsilon)};
 }

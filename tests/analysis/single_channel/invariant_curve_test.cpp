@@ -15,9 +15,9 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using trackers::QuadratureEkfDesign;
+using trackers::ToneModel;
 
-SteadyStateBias bias_of(const QuadratureEkfDesign<double>& design, double frequency) {
+SteadyStateBias bias_of(const ToneModel<double>& design, double frequency) {
   const rigor::UpwardRounding upward;
   return steady_state_bias(
       {Interval(design.q1), Interval(design.q2), Interval(design.r), Interval(design.epsilon)},
@@ -25,7 +25,7 @@ SteadyStateBias bias_of(const QuadratureEkfDesign<double>& design, double freque
 }
 
 /// The frequency errors of the paper's filter on cos(omega k), in extended precision, after it has settled.
-std::vector<double> settled_errors(const QuadratureEkfDesign<double>& design, double frequency) {
+std::vector<double> settled_errors(const ToneModel<double>& design, double frequency) {
   using Vector3 = Eigen::Matrix<long double, 3, 1>;
   const long double omega = frequency;
   const Vector3 q(design.q1, design.q1, design.q2);
@@ -44,7 +44,7 @@ std::vector<double> settled_errors(const QuadratureEkfDesign<double>& design, do
 
 TEST_CASE("the enclosures of the bias hold what the paper's filter settles on") {
   struct Case {
-    QuadratureEkfDesign<double> design;
+    ToneModel<double> design;
     double frequency;
   };
   for (const auto& [design, frequency] :
@@ -73,7 +73,7 @@ TEST_CASE("the enclosures of the bias hold what the paper's filter settles on") 
 }
 
 TEST_CASE("over an interval of frequencies the enclosures hold the bias at each of them") {
-  const QuadratureEkfDesign<double> design{0.005, 0.005, 0.01, 0.05};
+  const ToneModel<double> design{0.005, 0.005, 0.01, 0.05};
   for (const double frequency : {0.9, 1.5}) {
     const rigor::UpwardRounding upward;
     const Interval interval = Interval::from_bounds(frequency - 0.003, frequency + 0.003);
@@ -125,7 +125,7 @@ TEST_CASE("what is not verified is undecided, says why, and gives no number") {
 }
 
 TEST_CASE("the enclosures do not depend on the number of threads") {
-  const QuadratureEkfDesign<double> design{0.005, 0.005, 0.01, 0.05};
+  const ToneModel<double> design{0.005, 0.005, 0.01, 0.05};
   const SteadyStateBias many = bias_of(design, 0.9);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const SteadyStateBias one = bias_of(design, 0.9);

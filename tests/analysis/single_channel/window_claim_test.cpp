@@ -16,14 +16,14 @@ namespace veritrack::single_channel {
 namespace {
 
 using rigor::Interval;
-using trackers::QuadratureEkfDesign;
+using trackers::ToneModel;
 using Matrix3 = rigor::Matrix<3>;
 
 constexpr double kQ = 0.005;
 constexpr double kR = 0.01;
 const Interval kBand = Interval::from_bounds(1.1, 1.12);
 
-QuadratureEkfDesign<Interval> design() {
+ToneModel<Interval> design() {
   return {Interval(kQ), Interval(kQ), Interval(kR), Interval(0.0)};
 }
 

@@ -22,7 +22,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// The real tracker on a slowly modulated signal with bounded noise, from a start a little off.
 Trajectory simulate(const test::TestDesign& design, std::size_t steps, double noise) {
   test::Random random(2940);
-  const trackers::QuadratureEkfDesign<double> ekf{design.q1, design.q2, design.r, design.epsilon};
+  const trackers::ToneModel<double> ekf{design.q1, design.q2, design.r, design.epsilon};
   const Eigen::Matrix3d start_covariance = Eigen::Vector3d(0.02, 0.02, 0.01).asDiagonal();
   trackers::QuadratureEkf<double> tracker(
       ekf, {1.0, 0.004, 0.305, trackers::FactoredCovariance<double>::from_matrix(start_covariance)});

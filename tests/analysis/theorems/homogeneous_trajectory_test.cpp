@@ -91,8 +91,7 @@ TEST_CASE("a step of (2.34) is the textbook's, also where z is large enough to m
 }
 
 TEST_CASE("z shrinks below the smallest double without losing its direction or its decrease") {
-  const trackers::QuadratureEkfDesign<Interval> design{Interval(0.01), Interval(0.01), Interval(0.01),
-                                                       Interval(0.0)};
+  const trackers::ToneModel<Interval> design{Interval(0.01), Interval(0.01), Interval(0.01), Interval(0.0)};
   auto state =
       theorems::start_homogeneous(Eigen::Vector3d(1.0, 2.0, 0.5), 1e-10, Eigen::Matrix3d::Identity() * 0.05);
   const rigor::UpwardRounding upward;
@@ -110,8 +109,7 @@ TEST_CASE("z shrinks below the smallest double without losing its direction or i
 }
 
 TEST_CASE("NaN in, nothing out") {
-  const trackers::QuadratureEkfDesign<Interval> design{Interval(0.01), Interval(0.01), Interval(0.01),
-                                                       Interval(0.0)};
+  const trackers::ToneModel<Interval> design{Interval(0.01), Interval(0.01), Interval(0.01), Interval(0.0)};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const rigor::UpwardRounding upward;
   const auto good =

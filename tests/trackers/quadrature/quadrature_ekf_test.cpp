@@ -21,8 +21,7 @@ using test::random_estimate;
 using test::TextbookEkf;
 
 template <typename Real>
-TextbookEkf<Real> textbook_of(const QuadratureEkfDesign<double>& design,
-                              const QuadratureEstimate<double>& estimate) {
+TextbookEkf<Real> textbook_of(const ToneModel<double>& design, const QuadratureEstimate<double>& estimate) {
   return {Real(design.q1),
           Real(design.q2),
           Real(design.r),
@@ -183,7 +182,7 @@ TEST_CASE("factors and matrix are the same covariance") {
 }
 
 TEST_CASE("a start without any doubt is left alone by the first measurement and then doubted by Q") {
-  const QuadratureEkfDesign<double> design{0.01, 0.02, 0.5, 0.1};
+  const ToneModel<double> design{0.01, 0.02, 0.5, 0.1};
   QuadratureEkf<double> tracker(
       design, {1.0, 0.0, 0.3, FactoredCovariance<double>::from_matrix(Eigen::Matrix3d::Zero())});
   tracker.measurement_update(5.0, 5.0);
@@ -199,7 +198,7 @@ TEST_CASE("from P(0) as good as infinite the second measurement leaves P33 = 2r 
   // of two measurements with the noise of both, q1 and q2 between them. A covariance stored as a plain matrix
   // has lost this at 1e18.
   for (const double huge : {1e6, 1e12, 1e18, 1e30}) {
-    const QuadratureEkfDesign<double> design{0.0023, 0.0065, 0.05, 0.0};
+    const ToneModel<double> design{0.0023, 0.0065, 0.05, 0.0};
     QuadratureEkf<double> tracker(
         design, {1.0, 0.0, 0.3, FactoredCovariance<double>::from_matrix(huge * Eigen::Matrix3d::Identity())});
     tracker.measurement_update(1.0, 0.0);
@@ -219,7 +218,7 @@ bool is_positive_definite(const Eigen::Matrix3d& p) {
 
 TEST_CASE("P stays symmetric and positive definite over ten million steps") {
   struct Run {
-    QuadratureEkfDesign<double> design;
+    ToneModel<double> design;
     double initial_variance;
     std::int64_t steps;
   };

@@ -47,9 +47,8 @@ Input random_input(Random& random) {
 
 /// The closed loop as the sources have it: the textbook filter in the plane, at the true phase `phase` and
 /// `amplitude`, driven by A e^{i phi(k+1)} + v(k+1); the state goes in and comes out in polar coordinates.
-Vector9 textbook_closed_loop(const State& state, const Input& input,
-                             const QuadratureEkfDesign<double>& design, long double phase,
-                             long double amplitude) {
+Vector9 textbook_closed_loop(const State& state, const Input& input, const ToneModel<double>& design,
+                             long double phase, long double amplitude) {
   using Vector3 = Eigen::Matrix<long double, 3, 1>;
   using Matrix3 = Eigen::Matrix<long double, 3, 3>;
   const Vector3 units(amplitude, amplitude, 1.0L);
@@ -120,7 +119,7 @@ struct PolarFrame {
   static double noise_angle(const State& state, double next_phase) {
     return next_phase + state.error.phase + state.error.frequency;
   }
-  static State next(const State& state, const Input& input, const QuadratureEkfDesign<double>& design) {
+  static State next(const State& state, const Input& input, const ToneModel<double>& design) {
     return polar_frame_map(state, input, design);
   }
   static double gap(const State& a, const State& b) { return trackers::gap(entries(a), entries(b)); }
@@ -158,9 +157,9 @@ TEST_CASE("over intervals the map encloses, over dual numbers it differentiates"
         next.covariance.p33;
     return y;
   };
-  const auto with_scalar = [](const QuadratureEkfDesign<double>& d, auto zero) {
+  const auto with_scalar = [](const ToneModel<double>& d, auto zero) {
     using Scalar = decltype(zero);
-    return QuadratureEkfDesign<Scalar>{Scalar(d.q1), Scalar(d.q2), Scalar(d.r), Scalar(d.epsilon)};
+    return ToneModel<Scalar>{Scalar(d.q1), Scalar(d.q2), Scalar(d.r), Scalar(d.epsilon)};
   };
   int enclosed = 0;
   for (int k = 0; k < 500; ++k) {

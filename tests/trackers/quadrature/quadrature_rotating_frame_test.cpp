@@ -47,7 +47,7 @@ Eigen::Matrix3d covariance_of(const State& state) {
 /// The closed loop as the sources have it: the textbook filter, driven by A e^{i phi(k+1)} + v(k+1), seen
 /// from the frame of the true phase. `amplitude` scales signal, state and noise; the state goes in and comes
 /// out relative to amplitude 1.
-State textbook_closed_loop(const State& state, const Input& input, const QuadratureEkfDesign<double>& design,
+State textbook_closed_loop(const State& state, const Input& input, const ToneModel<double>& design,
                            long double phase, long double amplitude) {
   using Vector3 = Eigen::Matrix<long double, 3, 1>;
   using Matrix3 = Eigen::Matrix<long double, 3, 3>;
@@ -101,7 +101,7 @@ struct RotatingFrame {
     return to_rotating_frame(estimate, 1.0, phase, frequency);
   }
   static double noise_angle(const State& /*state*/, double next_phase) { return next_phase; }
-  static State next(const State& state, const Input& input, const QuadratureEkfDesign<double>& design) {
+  static State next(const State& state, const Input& input, const ToneModel<double>& design) {
     return rotating_frame_map(state, input, design);
   }
   static double gap(const State& a, const State& b) { return trackers::gap(a, b); }
@@ -118,7 +118,7 @@ TEST_CASE("a filter at amplitude A is the filter (q1/A^2, r/A^2, v/A) at amplitu
     const State state = random_state(random);
     const Input input = random_input(random);
     const double amplitude = random_power(random, -2.0, 2.0);
-    QuadratureEkfDesign<double> scaled = design;  // what the user runs at this amplitude
+    ToneModel<double> scaled = design;  // what the user runs at this amplitude
     scaled.q1 *= amplitude * amplitude;
     scaled.r *= amplitude * amplitude;
     const State expected =
@@ -179,7 +179,7 @@ TEST_CASE("without leak and noise a frequency error of 2 pi k stays as it is") {
 }
 
 TEST_CASE("without leak the fixed point splits into a scalar and a 2x2 Riccati equation") {
-  const QuadratureEkfDesign<double> design{0.0023, 0.0023, 0.05, 0.0};
+  const ToneModel<double> design{0.0023, 0.0023, 0.05, 0.0};
   State state = State::Zero();
   state(kP11) = state(kP22) = state(kP33) = 1.0;
   for (int k = 0; k < 2000; ++k) {

@@ -20,7 +20,7 @@ namespace {
 
 /// Sum of the squared filtered frequency errors of a tracker that starts from x(1|0), exact but for
 /// `frequency_error`, with P(1|0) = Q.
-double sum_of_squared_errors(const std::vector<Sample>& samples, const QuadratureEkfDesign<double>& design,
+double sum_of_squared_errors(const std::vector<Sample>& samples, const ToneModel<double>& design,
                              double frequency_error) {
   const Sample& first = samples.front();
   QuadratureEkf<double> tracker(design, {first.clean_in_phase,
@@ -161,7 +161,7 @@ TEST_CASE("la-scala-1994: what the sources say of the signal") {
 
 TEST_CASE("la-scala-1994: the order and the sizes of Table 3.2, for every seed") {
   struct Row {
-    QuadratureEkfDesign<double> design;
+    ToneModel<double> design;
     double published;
   };
   const std::array<Row, 4> table{{{{0.0005, 0.0005, 0.01, 0.05}, 2.9236},

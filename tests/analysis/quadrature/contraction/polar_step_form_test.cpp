@@ -17,7 +17,7 @@ namespace {
 
 using rigor::Interval;
 
-const trackers::QuadratureEkfDesign<double> kDesign{0.0013, 0.002, 0.01, 0.0};
+const trackers::ToneModel<double> kDesign{0.0013, 0.002, 0.01, 0.0};
 const BlockCovariance<double> kLow{0.003, 0.004, 0.001, 0.002};
 const BlockCovariance<double> kHigh{0.004, 0.006, 0.002, 0.003};
 

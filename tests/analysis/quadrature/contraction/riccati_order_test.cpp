@@ -23,7 +23,7 @@ Eigen::Matrix3d matrix(const BlockCovariance<double>& p) {
 
 /// Prediction and update as a textbook has them.
 Eigen::Matrix3d textbook_update(const Eigen::Matrix3d& p, double rho,
-                                const trackers::QuadratureEkfDesign<double>& design) {
+                                const trackers::ToneModel<double>& design) {
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
   f(1, 2) = rho;
   const Eigen::Matrix3d predicted =
@@ -74,7 +74,7 @@ TEST_CASE("the update keeps the Loewner order") {
 
 TEST_CASE("covariance bounds are called invariant only when no sampled turn leaves them") {
   test::Random random(73);
-  const trackers::QuadratureEkfDesign<double> design{0.0013, 0.0013, 0.01, 0.0};
+  const trackers::ToneModel<double> design{0.0013, 0.0013, 0.01, 0.0};
   BlockCovariance<double> steady{0.01, 0.01, 0.0, 0.01};
   for (int k = 0; k < 1000; ++k) {
     steady = riccati_update(steady, 1.0, design).filtered;

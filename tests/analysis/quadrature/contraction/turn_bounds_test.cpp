@@ -23,7 +23,7 @@ Eigen::Matrix3d matrix(const BlockCovariance<double>& p) {
 }
 
 TEST_CASE("no step turns the estimate further than its amplitude's bound says") {
-  const trackers::QuadratureEkfDesign<double> design{0.0013, 0.002, 0.01, 0.0};
+  const trackers::ToneModel<double> design{0.0013, 0.002, 0.01, 0.0};
   const BlockCovariance<double> low{0.003, 0.004, 0.001, 0.002};
   const BlockCovariance<double> high{0.004, 0.006, 0.002, 0.003};
   const double amplitude = 0.3;

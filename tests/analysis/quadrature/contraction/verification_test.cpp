@@ -21,10 +21,10 @@ using rigor::Interval;
 using rigor::Verdict;
 using trackers::FactoredCovariance;
 using trackers::QuadratureEkf;
-using trackers::QuadratureEkfDesign;
+using trackers::ToneModel;
 
 struct Case {
-  QuadratureEkfDesign<double> design;
+  ToneModel<double> design;
   double aim;    ///< rad/sample: half of what gradient ascent said of an earlier scheme
   double least;  ///< what a prototype certified
 };
@@ -34,7 +34,7 @@ const std::array<Case, 4> kCases{{{{0.0005, 0.0005, 0.01, 0.0}, 0.077, 0.0326},
                                   {{0.0065, 0.0065, 0.01, 0.0}, 0.29, 0.0692},
                                   {{0.0023, 0.0023, 0.05, 0.0}, 0.064, 0.0282}}};
 
-QuadratureEkfDesign<Interval> exact(const QuadratureEkfDesign<double>& d) {
+ToneModel<Interval> exact(const ToneModel<double>& d) {
   return {Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(d.epsilon)};
 }
 
@@ -56,7 +56,7 @@ Verification certify(const ProposalRequest& request) {
   return last;
 }
 
-ProposalRequest request_for(const QuadratureEkfDesign<double>& design, Objective objective) {
+ProposalRequest request_for(const ToneModel<double>& design, Objective objective) {
   ProposalRequest request;
   request.design = design;
   request.objective = objective;
@@ -75,8 +75,8 @@ Eigen::Matrix3d turn(double angle) {
 /// The tracker itself, in the plane and without any of the analysis, next to a true signal.
 class Simulation {
  public:
-  Simulation(const QuadratureEkfDesign<double>& design, const Eigen::Vector3d& error,
-             const Eigen::Matrix3d& covariance, double phase, double frequency)
+  Simulation(const ToneModel<double>& design, const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance,
+             double phase, double frequency)
       : tracker_(design, start(error, covariance, phase, frequency)), phase_(phase), frequency_(frequency) {}
 
   void step(double noise_in_phase, double noise_quadrature, double slew) {
@@ -284,7 +284,7 @@ TEST_CASE("proposals with NaN, infinities, wrong signs or a wrong form never ver
       CHECK(verify_certified_set(exact(kCases[1].design), broken).verdict == Verdict::undecided);
     }
     for (int entry = 0; entry < 4; ++entry) {
-      QuadratureEkfDesign<Interval> design = exact(kCases[1].design);
+      ToneModel<Interval> design = exact(kCases[1].design);
       (entry == 0   ? design.q1
        : entry == 1 ? design.q2
        : entry == 2 ? design.r
@@ -308,7 +308,7 @@ TEST_CASE("random designs: what is proved is never broken by simulation") {
   for (std::int64_t i = 0; i < designs; ++i) {
     const auto power = [&](double low, double high) { return std::pow(10.0, random.uniform(low, high)); };
     const double q2 = power(-5.0, -1.5);
-    const QuadratureEkfDesign<double> design{q2 * power(-1.0, 0.5), q2, power(-3.0, 0.0), 0.0};
+    const ToneModel<double> design{q2 * power(-1.0, 0.5), q2, power(-3.0, 0.0), 0.0};
     ProposalRequest request =
         request_for(design, std::array<Objective, 3>{Objective::start_error, Objective::noise,
                                                      Objective::slew}[static_cast<std::size_t>(i % 3)]);

@@ -22,9 +22,9 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using trackers::QuadratureEkfDesign;
+using trackers::ToneModel;
 
-QuadratureEkfDesign<Interval> exact(const QuadratureEkfDesign<double>& d) {
+ToneModel<Interval> exact(const ToneModel<double>& d) {
   return {Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(d.epsilon)};
 }
 
@@ -32,14 +32,14 @@ double log_uniform(test::Random& random, double lower, double upper) {
   return std::exp(random.uniform(std::log(lower), std::log(upper)));
 }
 
-QuadratureEkfDesign<double> random_design(test::Random& random) {
+ToneModel<double> random_design(test::Random& random) {
   const double q1 = log_uniform(random, 1e-4, 1e-1);
   const double q2 = log_uniform(random, 1e-4, 1e-1);
   return {q1, q2, log_uniform(random, 1e-3, 1.0), 0.0};
 }
 
 /// The certificate of a design for a random start, noise and slew.
-ContractionCertificate certificate_of(const QuadratureEkfDesign<double>& design, test::Random& random) {
+ContractionCertificate certificate_of(const ToneModel<double>& design, test::Random& random) {
   sets::ContractionQuestion question;
   question.design = exact(design);
   question.search_evaluations = 2;
@@ -55,7 +55,7 @@ ContractionCertificate certificate_of(const QuadratureEkfDesign<double>& design,
 }
 
 /// A PROVED set that bears noise and slew: large, or with tight gains.
-std::optional<CertifiedSet> proved_set(const QuadratureEkfDesign<double>& design,
+std::optional<CertifiedSet> proved_set(const ToneModel<double>& design,
                                        Objective objective = Objective::start_error) {
   sets::ContractionQuestion question;
   question.design = exact(design);
@@ -76,7 +76,7 @@ FalsifierOptions quick() {
 
 /// The largest frequency error of a run, simulated anew in the plane with the two halves of a step: the
 /// oracle for what is reported.
-double replayed(const QuadratureEkfDesign<double>& design, const Attack& attack) {
+double replayed(const ToneModel<double>& design, const Attack& attack) {
   double phase = -1.1;
   double frequency = 0.3;
   const double estimated = phase + attack.start_error[1];
@@ -124,7 +124,7 @@ TEST_CASE("nothing that is PROVED breaks, at random designs") {
   int sets = 0;
   Spread rim, zero, level;
   for (std::int64_t i = 0; i < designs; ++i) {
-    const QuadratureEkfDesign<double> design = random_design(random);
+    const ToneModel<double> design = random_design(random);
     const ContractionCertificate certificate = certificate_of(design, random);
     proved += certificate.derivation.verdict == Verdict::proved ? 1 : 0;
     for (const auto* verification :
@@ -193,7 +193,7 @@ TEST_CASE("what is false breaks, for most designs") {
   const auto designs = test::effort(25);
   int proved = 0;
   for (std::int64_t i = 0; i < designs; ++i) {
-    const QuadratureEkfDesign<double> design = random_design(random);
+    const ToneModel<double> design = random_design(random);
     const auto large = proved_set(design);
     const auto tight = proved_set(design, Objective::ultimate_error);
     if (!large || !tight) {
@@ -216,7 +216,7 @@ TEST_CASE("what is false breaks, for most designs") {
 }
 
 TEST_CASE("the same question gets the same answer, and what is no set is refused") {
-  const QuadratureEkfDesign<double> design{0.0023, 0.0023, 0.05, 0.0};
+  const ToneModel<double> design{0.0023, 0.0023, 0.05, 0.0};
   const auto set = proved_set(design);
   REQUIRE(set.has_value());
   const Falsification one = try_to_break(*set, design, quick());
@@ -240,7 +240,7 @@ TEST_CASE("the same question gets the same answer, and what is no set is refused
 }
 
 TEST_CASE("attacks stay within the limits they are given and can be repeated") {
-  const QuadratureEkfDesign<double> design{0.0013, 0.0013, 0.01, 0.0};
+  const ToneModel<double> design{0.0013, 0.0013, 0.01, 0.0};
   const auto set = proved_set(design);
   REQUIRE(set.has_value());
   const Falsification found = try_to_break(*set, design);

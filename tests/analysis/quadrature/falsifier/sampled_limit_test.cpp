@@ -17,7 +17,7 @@ namespace {
 
 using rigor::Interval;
 
-sets::ContractionQuestion question_of(const trackers::QuadratureEkfDesign<double>& d) {
+sets::ContractionQuestion question_of(const trackers::ToneModel<double>& d) {
   sets::ContractionQuestion question;
   question.design = {Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(0.0)};
   question.noise = Interval(0.001);
@@ -27,8 +27,8 @@ sets::ContractionQuestion question_of(const trackers::QuadratureEkfDesign<double
 
 TEST_CASE("the limit lies beyond the certified radius, and random starts find no step out before it") {
   test::Random random(92);
-  for (const auto& design : {trackers::QuadratureEkfDesign<double>{0.0013, 0.0013, 0.01, 0.0},
-                             trackers::QuadratureEkfDesign<double>{0.01, 0.001, 0.1, 0.0}}) {
+  for (const auto& design : {trackers::ToneModel<double>{0.0013, 0.0013, 0.01, 0.0},
+                             trackers::ToneModel<double>{0.01, 0.001, 0.1, 0.0}}) {
     const auto found = find_set(question_of(design), Objective::start_error);
     REQUIRE(found.has_value());
     const CertifiedSet& set = found->set;

@@ -17,7 +17,7 @@ using rigor::Verdict;
 namespace {
 
 struct Certified {
-  trackers::QuadratureEkfDesign<Interval> design;
+  trackers::ToneModel<Interval> design;
   sets::LockBranch branch;
   SteadySet set;
 };

@@ -23,7 +23,7 @@ using test::Simulation;
 namespace {
 
 struct Example {
-  trackers::QuadratureEkfDesign<Interval> design;
+  trackers::ToneModel<Interval> design;
   sets::LockBranch branch;
   std::optional<SteadySet> proposal;
 };

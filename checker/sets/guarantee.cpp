@@ -1,6 +1,8 @@
-#include "checker/document/guarantee.hpp"
+#include "checker/sets/guarantee.hpp"
 
 #include <algorithm>
+
+#include "checker/document/evidence.hpp"
 
 namespace veritrack::checker {
 
@@ -28,17 +30,11 @@ const std::vector<LeastSize>& least_sizes() {
 }
 
 bool is_zero(const Tree& number) {
-  return certainly_equal(from_decimal(number.at("text").text()), Ball(0.0));
-}
-
-/// Only for frequencies of the assumed band: the tracker without a leak on two channels knows no other limit
-/// than the one of sampling.
-bool in_band(const Tree& design) {
-  return design.at("tracker").text() != "quadrature-ekf" || !is_zero(design.at("design").at("epsilon"));
+  return certainly_equal(from_decimal(number.at("text").text()), zero);
 }
 
 /// "With measurement noise of at most ..., started within ..., ": in the words of the design file.
-std::string assumptions(const Tree& design) {
+std::string assumptions(const Tree& design, Frequencies frequencies) {
   const Tree& assume = design.at("assume");
   const auto words = [&](const char* name) { return assume.at(name).at("text").text(); };
   std::string text = is_zero(assume.at("noise")) ? "Without measurement noise"
@@ -46,7 +42,7 @@ std::string assumptions(const Tree& design) {
   text += is_zero(assume.at("slew"))
               ? " and at a constant frequency"
               : " and a frequency that changes by at most " + words("slew") + " rad/sample per sample";
-  if (in_band(design)) {
+  if (frequencies == Frequencies::assumed_band) {
     const Tree& band = assume.at("frequency");
     text +=
         " between " + band.at(0).at("text").text() + " and " + band.at(1).at("text").text() + " rad/sample";
@@ -76,8 +72,17 @@ std::vector<std::string> requirements(const Tree& design) {
   return ids;
 }
 
+std::optional<SettlingClaim> settling_claim(const Tree& quantities) {
+  const Tree* samples = quantities.find("settling_samples");
+  const Tree* ultimate = quantities.find("ultimate_frequency_error");
+  if (samples == nullptr || ultimate == nullptr) {
+    return std::nullopt;
+  }
+  return SettlingClaim{low_of(*samples), two * low_of(*ultimate)};
+}
+
 void check_guarantee(const Tree& claim, const Tree& certificate, const Promises& promises,
-                     Objections& objections) {
+                     Frequencies frequencies, Objections& objections) {
   const std::string& id = claim.at("id").text();
   const Tree& tables = certificate.at("design");
   const Tree& require = tables.at("require");
@@ -114,7 +119,7 @@ void check_guarantee(const Tree& claim, const Tree& certificate, const Promises&
     const Tree& asked = require.at(size->key);
     const Ball certified = (promises.*(size->size)).value_or(Ball::everything());
     // Noise is certified relative to the amplitude.
-    const Ball unit = size->quantity == "largest_noise" ? assumed("amplitude") : Ball(1.0);
+    const Ball unit = size->quantity == "largest_noise" ? assumed("amplitude") : one;
     found.statement = size->before + asked.at("text").text() + size->after;
     found.verdict = proved_if(certainly_at_most(read_number(asked, objections), certified * unit));
     // The reach is an enclosure; the other two are the numbers that a set gives.
@@ -124,7 +129,7 @@ void check_guarantee(const Tree& claim, const Tree& certificate, const Promises&
     found.statement = "the frequency error stays below " + limit + " rad/sample for ever";
     found.verdict = below;
   } else {
-    const std::string start = assumptions(tables);
+    const std::string start = assumptions(tables, frequencies);
     const std::string stays = start + "the frequency error stays below " + limit + " rad/sample for ever";
     const std::string& statement = claim.at("statement").text();
     found.statement = stays + ".";

@@ -12,6 +12,7 @@ struct SingleChannelDesign {
   Ball noise, slew;
   Ball amplitude_error, phase_error, frequency_error;  ///< of the start, bounds on absolute values
   bool starts_in_steady_state = false;
+  [[nodiscard]] bool without_leak() const { return certainly_equal(epsilon, zero); }
 };
 
 /// Objects to numbers that [lo, hi] does not contain, and to what no design can be.

@@ -1,4 +1,4 @@
-#include "checker/document/design.hpp"
+#include "checker/theorems/design.hpp"
 
 namespace veritrack::checker {
 
@@ -16,7 +16,7 @@ Design read_design(const Tree& tree, Objections& objections) {
   design.q2 = number(chosen, "q2");
   design.r = number(chosen, "r") / square(amplitude);
   design.epsilon = number(chosen, "epsilon");
-  design.q1_equals_q2 = certainly_equal(amplitude, Ball(1.0)) &&
+  design.q1_equals_q2 = certainly_equal(amplitude, one) &&
                         chosen.at("q1").at("text").text() == chosen.at("q2").at("text").text();
   const Tree& frequency = assume.at("frequency");
   design.lowest_frequency = read_number(frequency.at(0), objections);
@@ -29,7 +29,7 @@ Design read_design(const Tree& tree, Objections& objections) {
   design.frequency_error = number(assume, "initial_frequency_error");
   const Tree& covariance = assume.at("initial_covariance");
   if (covariance.kind() == Tree::Kind::array) {
-    const std::array<Ball, 3> unit{amplitude, amplitude, Ball(1.0)};
+    const std::array<Ball, 3> unit{amplitude, amplitude, one};
     auto& start = design.covariance.emplace();
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
@@ -47,13 +47,12 @@ Design read_design(const Tree& tree, Objections& objections) {
   design.gamma_fraction = number(theorem, "gamma_fraction");
   design.c1 = number(theorem, "c1");
   design.c2 = number(theorem, "c2");
-  const Ball zero(0.0);
   if (!certainly_positive(amplitude) || !certainly_positive(design.q2) || !certainly_positive(design.r)) {
     objections.emplace_back("amplitude, q2 and r must be positive");
   }
   for (const Ball* bound : {&design.q1, &design.noise, &design.slew, &design.amplitude_error,
                             &design.phase_error, &design.frequency_error}) {
-    if (!certainly_at_most(zero, *bound)) {
+    if (!certainly_not_negative(*bound)) {
       objections.emplace_back("q1, noise, slew and start errors must not be negative");
     }
   }

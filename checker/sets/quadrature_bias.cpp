@@ -1,4 +1,4 @@
-#include "checker/single_channel/quadrature_bias.hpp"
+#include "checker/sets/quadrature_bias.hpp"
 
 #include <algorithm>
 
@@ -16,19 +16,19 @@ using Model = Gradient<Ball, kToneStates + 1>;
 /// prediction, and one update after the other.
 template <typename S>
 ToneState<S> quadrature_step(const ToneState<S>& x, const S& frequency, const TrackerValues<S>& values) {
-  const S one(1.0);
-  const S kept = one - values.epsilon;
+  const S unit(1.0);
+  const S kept = unit - values.epsilon;
   const auto [sine, cosine] = sine_cosine(x[2]);
-  const S amplitude = one + x[0];
+  const S amplitude = unit + x[0];
   const S z1 = cosine * amplitude - sine * x[1];
   const S z2 = sine * amplitude + cosine * x[1];
-  std::array<S, 3> error{z1 - one, z2, kept * x[2] - values.epsilon * frequency};
+  std::array<S, 3> error{z1 - unit, z2, kept * x[2] - values.epsilon * frequency};
   using Row = std::array<S, 3>;
   const std::array<Row, 3> p{Row{x[3], x[4], x[6]}, Row{x[4], x[5], x[7]}, Row{x[6], x[7], x[8]}};
-  const S zero(0.0);
-  const std::array<Row, 3> a{Row{cosine, zero - sine, zero - z2}, Row{sine, cosine, z1},
-                             Row{zero, zero, kept}};
-  std::array<Row, 3> m{Row{values.q1, zero, zero}, Row{zero, values.q1, zero}, Row{zero, zero, values.q2}};
+  const S none(0.0);
+  const std::array<Row, 3> a{Row{cosine, none - sine, none - z2}, Row{sine, cosine, z1},
+                             Row{none, none, kept}};
+  std::array<Row, 3> m{Row{values.q1, none, none}, Row{none, values.q1, none}, Row{none, none, values.q2}};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const S ap = a[i][0] * p[0][k] + a[i][1] * p[1][k] + a[i][2] * p[2][k];
@@ -60,10 +60,10 @@ Linearized linearized(const TrackerValues<Ball>& values, const Matrix& x, const 
   ToneState<Model> state;
   for (std::size_t i = 0; i < kToneStates; ++i) {
     state[i] = Model(x(static_cast<slong>(i), 0));
-    state[i].along[i] = Ball(1.0);
+    state[i].along[i] = one;
   }
   Model omega(frequency);
-  omega.along[kFrequency] = Ball(1.0);
+  omega.along[kFrequency] = one;
   const ToneState<Model> image = quadrature_step(
       state, omega, {Model(values.q1), Model(values.q2), Model(values.r), Model(values.epsilon)});
   Linearized result;
@@ -121,9 +121,7 @@ bool positive_definite(const Matrix& x) {
 // exactly one fixed point in it, since every 1 - DG is regular. d over the cell: d at the center, and its
 // derivative times the distance.
 bool QuadratureBranch::add_cell(const Ball& frequencies) {
-  Ball center;
-  arb_get_mid_arb(center.raw(), frequencies.raw());
-  center = Ball(center.near());
+  const Ball center(frequencies.near());
   Matrix middle(kSize, 1);
   if (cells_.empty()) {
     // From the exact estimate, simulated.
@@ -154,9 +152,8 @@ bool QuadratureBranch::add_cell(const Ball& frequencies) {
   Matrix image = over.regular.solve(moved);
   constexpr int kTries = 5;
   for (int k = 0; k < kTries; ++k) {
-    Matrix box = each(image, [](const Ball& entry) {
-      return Ball::within(Ball(4.0) * abs(entry).upper() + Ball(0x1p-40));
-    });
+    Matrix box = each(
+        image, [](const Ball& entry) { return Ball::within(four * abs(entry).upper() + Ball(0x1p-40)); });
     image = linearized(values_, line + box, frequencies).regular.solve(moved);
     if (contains(box, image)) {
       cells_.push_back(
@@ -173,8 +170,7 @@ bool QuadratureBranch::add_cell(const Ball& frequencies) {
 // exact estimate with its steady covariance.
 Ball QuadratureBranch::error_at(const Ball& frequency) {
   constexpr double kWidth = 0x1p-6;  // rad/sample
-  const Ball zero(0.0);
-  if (!certainly_at_most(zero, frequency.lower()) || !certainly_less(frequency, pi() + Ball(1.0))) {
+  if (!certainly_not_negative(frequency.lower()) || !certainly_less(frequency, pi() + one)) {
     return Ball::everything();
   }
   if (cells_.empty() && !lost_) {
@@ -208,7 +204,7 @@ Ball QuadratureBranch::error_at(const Ball& frequency) {
       for (int k = 0; k < kSteps; ++k) {
         const Matrix point = rounded(x);
         const Matrix between =
-            point + each(x - point, [](const Ball& entry) { return Ball::hull(Ball(0.0), entry); });
+            point + each(x - point, [](const Ball& entry) { return Ball::hull(zero, entry); });
         x = point + linearized(values_, between, frequency)
                         .regular.solve(linearized(values_, point, frequency).moved);
       }

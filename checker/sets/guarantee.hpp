@@ -21,6 +21,9 @@ struct Promises {
   std::optional<Ball> noise, slew, reach;
 };
 
+/// The frequencies of which a guarantee speaks: those that are assumed, or every one below Nyquist.
+enum class Frequencies { assumed_band, every };
+
 bool is_guarantee(const std::string& id);
 
 /// The ids of the claims that a design's [require] asks for, in their order.
@@ -28,6 +31,13 @@ std::vector<std::string> requirements(const Tree& design);
 
 /// Objects to a claim of these that the promises do not prove.
 void check_guarantee(const Tree& claim, const Tree& certificate, const Promises& promises,
-                     Objections& objections);
+                     Frequencies frequencies, Objections& objections);
+
+/// What a derivation says of settling: after so many samples the frequency error is within twice the ultimate
+/// bound that the derivation itself states (which is checked beside it).
+struct SettlingClaim {
+  Ball samples, twice_ultimate;
+};
+std::optional<SettlingClaim> settling_claim(const Tree& quantities);
 
 }  // namespace veritrack::checker

@@ -1,14 +1,10 @@
-#include "checker/single_channel/single_channel.hpp"
+#include "checker/single_channel/proposition_claims.hpp"
 
 #include <array>
 
 namespace veritrack::checker {
 
 namespace {
-
-const Ball zero(0.0);
-const Ball one(1.0);
-const Ball two(2.0);
 
 /// z, the gains, and a point of the circle: cos x3 = c/w, sin x3 = s/w with c = 1 - t^2, s = 2t, w = 1 + t^2.
 struct Point {
@@ -75,7 +71,7 @@ Claim printed(const std::string& statement, const Ball& as_printed, const Ball& 
 }  // namespace
 
 std::map<std::string, Claim> proposition_claims() {
-  const Point at(two, Ball(0.5), Ball(0.25), Ball(0.5));
+  const Point at(two, half, Ball(0.25), half);
   std::map<std::string, Claim> claims;
   claims["proposition-1/denominator-printed"] = printed(
       "The denominator printed in (4) and (6), z² − z(K2 sin x3 + 2 cos x3) + (K1 cos x3 − K1 + 1), is the "

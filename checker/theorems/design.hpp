@@ -19,6 +19,7 @@ struct Design {
   std::optional<std::array<std::array<Ball, 3>, 3>> covariance;  ///< none: the filter's steady state
   Ball state_bound, sigma, gamma_fraction, c1, c2;               ///< of Theorem 2.9
   bool q1_equals_q2 = false;
+  [[nodiscard]] bool without_leak() const { return certainly_equal(epsilon, zero); }
 };
 
 /// Objects to numbers that [lo, hi] does not contain, and to what no design can be.

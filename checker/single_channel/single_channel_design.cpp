@@ -1,4 +1,4 @@
-#include "checker/single_channel/tracker_design.hpp"
+#include "checker/single_channel/single_channel_design.hpp"
 
 namespace veritrack::checker {
 
@@ -15,14 +15,14 @@ SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& obj
   if (by_ratio && (chosen.find("q") != nullptr || chosen.find("r") != nullptr)) {
     throw Malformed("lambda stands in place of q and r");
   }
-  const auto q = [&] { return by_ratio ? Ball(1.0) : number(chosen, "q"); };
+  const auto q = [&] { return by_ratio ? one : number(chosen, "q"); };
   design.r = number(chosen, by_ratio ? "lambda" : "r");
   design.epsilon = number(chosen, "epsilon");
   if (process_noise.kind() == Tree::Kind::object) {
     design.q1 = number(process_noise, "q1");
     design.q2 = number(process_noise, "q2");
   } else if (process_noise.text() == "identity" || process_noise.text() == "frequency-only") {
-    design.q1 = process_noise.text() == "identity" ? q() : Ball(0.0);
+    design.q1 = process_noise.text() == "identity" ? q() : zero;
     design.q2 = q();
   } else {
     throw Malformed("no process noise: " + process_noise.text());
@@ -44,13 +44,12 @@ SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& obj
   if (design.starts_in_steady_state && covariance.text() != "steady-state") {
     throw Malformed("initial_covariance is neither a matrix nor steady-state");
   }
-  const Ball zero(0.0);
   if (!certainly_positive(design.amplitude) || !certainly_positive(design.q2) || !in_order) {
     objections.emplace_back("amplitude and q2 must be positive, and the frequencies in order");
   }
   for (const Ball* bound : {&design.q1, &design.r, &design.epsilon, &design.noise, &design.slew,
                             &design.amplitude_error, &design.phase_error, &design.frequency_error}) {
-    if (!certainly_at_most(zero, *bound)) {
+    if (!certainly_not_negative(*bound)) {
       objections.emplace_back("variances, the leak, noise, slew and start errors must not be negative");
     }
   }

@@ -46,22 +46,22 @@ template <typename S>
 ToneState<S> tone_step(const ToneState<S>& x, const S& frequency, const S& phase,
                        const TrackerValues<S>& values) {
   using Row = std::array<S, 3>;
-  const S zero(0.0);
-  const S one(1.0);
-  const S kept = one - values.epsilon;
+  const S none(0.0);
+  const S unit(1.0);
+  const S kept = unit - values.epsilon;
   const auto dot = [](const Row& u, const Row& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; };
   const std::array<Row, 3> p{Row{x[3], x[4], x[6]}, Row{x[4], x[5], x[7]}, Row{x[6], x[7], x[8]}};
   const auto times_p = [&](const Row& row) { return Row{dot(row, p[0]), dot(row, p[1]), dot(row, p[2])}; };
 
   const auto [sine, cosine] = sine_cosine(x[2]);
-  const S amplitude = one + x[0];
+  const S amplitude = unit + x[0];
   const Row predicted{cosine * amplitude - sine * x[1], sine * amplitude + cosine * x[1],
                       kept * x[2] - values.epsilon * frequency};
-  const std::array<Row, 2> a{Row{cosine, zero - sine, zero - predicted[1]}, Row{sine, cosine, predicted[0]}};
+  const std::array<Row, 2> a{Row{cosine, none - sine, none - predicted[1]}, Row{sine, cosine, predicted[0]}};
 
   // w = A'h, from the angle between h and the prediction: nothing is turned forth and back.
-  const auto [h2, h1] = sine_cosine(zero - phase);
-  const auto [w2, w1] = sine_cosine(zero - phase - x[2]);
+  const auto [h2, h1] = sine_cosine(none - phase);
+  const auto [w2, w1] = sine_cosine(none - phase - x[2]);
   const Row pw = times_p({w1, w2, amplitude * w2 - x[1] * w1});
   const Row w{w1, w2, amplitude * w2 - x[1] * w1};
   const Row covariance{dot(a[0], pw) + values.q1 * h1, dot(a[1], pw) + values.q1 * h2, kept * pw[2]};
@@ -70,7 +70,7 @@ ToneState<S> tone_step(const ToneState<S>& x, const S& frequency, const S& phase
   const S error = amplitude * w1 + x[1] * w2 - h1;
 
   const std::array<Row, 2> ap{times_p(a[0]), times_p(a[1])};
-  return {predicted[0] - one - gain[0] * error,
+  return {predicted[0] - unit - gain[0] * error,
           predicted[1] - gain[1] * error,
           predicted[2] - gain[2] * error,
           dot(ap[0], a[0]) + values.q1 - gain[0] * covariance[0],

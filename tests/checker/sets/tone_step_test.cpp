@@ -1,6 +1,6 @@
 // The checker's own sample of the single-channel tracker against the tracker that runs, and its derivatives
 // against differences.
-#include "checker/single_channel/tone_step.hpp"
+#include "checker/sets/tone_step.hpp"
 
 #include <doctest/doctest.h>
 

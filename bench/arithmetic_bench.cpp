@@ -20,7 +20,7 @@ namespace {
 using veritrack::rigor::Interval;
 using BoostDefault = boost::numeric::interval<double>;
 
-// Enough that the branch predictor cannot learn the signs by heart.
+// Enough operands that the branch predictor cannot learn the signs.
 constexpr std::size_t kOperands = std::size_t{1} << 15;
 constexpr double kRelativeRadius = 0x1p-30;
 
@@ -128,7 +128,7 @@ void run_binary(benchmark::State& state) {
   report_each(state);
 }
 
-/// Interval computes with the mode held around the whole loop.
+/// Interval computes with the mode set once around the whole loop.
 template <typename Number, typename Operation>
 void binary(benchmark::State& state) {
   if constexpr (std::is_same_v<Number, Interval>) {

@@ -1,5 +1,5 @@
-// The KKL observer: one step, the enclosure of ell (wanted: 2 ms at most), and bounds on what a disturbance
-// does.
+// The KKL observer: one step, the enclosure of ell (wanted: 2 ms at most), and bounds on the error under a
+// disturbance.
 #include <benchmark/benchmark.h>
 
 #include "analysis/kkl_observer/kkl_robustness.hpp"

@@ -1,8 +1,8 @@
 // One sample of the quadrature tracker: double against the textbook's matrices, and over intervals and duals.
 //
-// The counter double_steps says how many double steps one step costs, in the same run: wanted are at
-// least 1.5 for the textbook and at most 40 for intervals. Every tracker runs through the same 1024
-// measurements of a locked signal, so that a step waits for the one before it as in use.
+// The counter double_steps is the cost of a step in double steps, measured in the same run. The aim is at
+// least 1.5 for the textbook version and at most 40 for intervals. Every tracker processes the same 1024
+// measurements of a locked signal, so that each step depends on the one before, as in use.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Dense>
@@ -84,8 +84,8 @@ double double_step() {
   return shortest;
 }
 
-/// Times `run`, which takes all samples of the signal, and says what one sample costs and how many double
-/// steps that is.
+/// Times `run`, which processes all samples of the signal, and reports the cost of one sample, also in double
+/// steps.
 template <typename Run>
 void measure(benchmark::State& state, const Run& run) {
   const double seconds = processor_time([&] {
@@ -118,8 +118,8 @@ void step_textbook(benchmark::State& state) {
 }
 BENCHMARK(step_textbook);
 
-// Over intervals a run would widen for want of contraction in boxes; what is timed is the step from a box of
-// usual width.
+// Over intervals the boxes of a run would widen, since boxes do not contract. So the step from a box of
+// typical width is timed.
 void step_interval(benchmark::State& state) {
   const veritrack::rigor::UpwardRounding upward;
   const auto d = design<Interval>();

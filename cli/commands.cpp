@@ -28,7 +28,7 @@ ExitStatus status_of(const certificates::Certificate& certificate) {
   return fine ? all_proved : not_proved;
 }
 
-/// A line on standard error that follows long work, when a person is watching and has not asked for quiet.
+/// A progress line on standard error for long work, if standard error is a terminal and --quiet is not given.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) != 0) {}

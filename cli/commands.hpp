@@ -1,5 +1,5 @@
-// What the commands of the program do once their arguments are read. Each prints its results to standard
-// output and gives the exit status; errors are thrown.
+// The commands of the program, after their arguments are read. Each prints its results to standard output and
+// returns the exit status; errors are thrown.
 #pragma once
 
 #include <string>
@@ -43,7 +43,7 @@ struct TuneOptions {
 struct ReproduceOptions {
   std::string report = kExampleReport;
   std::string directory;
-  int seeds = 0;  ///< 0: as many as the report in docs/reports was made with
+  int seeds = 0;  ///< 0: the number used for the report in docs/reports
 };
 
 [[nodiscard]] ExitStatus run_certify(const CertifyOptions& options);

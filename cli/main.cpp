@@ -1,4 +1,4 @@
-// The command line: reads arguments and leaves the work to commands.hpp.
+// The command line: reads arguments and calls commands.hpp.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -31,7 +31,7 @@ LimitPoint random_walk_point(const RandomWalkSeries& series, double decibels, in
   return {decibels, bound, errors.window_mean, errors.standard_error, errors.lost};
 }
 
-/// After the first `samples` of a run, at its last sample alone.
+/// After the first `samples` of a run, at the last of them only.
 LimitPoint constant_point(Channels channels, double decibels, int samples, int runs) {
   TrackingExperiment experiment;
   experiment.model = constant_frequency_model(channels, decibels);

@@ -1,4 +1,4 @@
-// The grid of experiments behind the report on limits: both trackers beside their bounds, over the
+// The grid of experiments for the report on limits: both trackers compared with their bounds, over the
 // signal-to-noise ratio and over the number of samples.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace veritrack::limits {
 
-/// A tracker beside the bound. Variances and mean square errors in (rad/sample)^2.
+/// A tracker compared with the bound. Variances and mean square errors in (rad/sample)^2.
 struct LimitPoint {
   double decibels = 0.0;        ///< signal-to-noise ratio
   double bound = 0.0;           ///< mean over the samples that count, as is the error
@@ -74,7 +74,7 @@ inline constexpr double kOverTimeDecibels = 20.0;
 /// For q2 = 1e-14, 1e-10, 1e-8 and 1e-6, both trackers.
 [[nodiscard]] std::vector<ErrorOverTime> study_errors_over_time(int runs);
 
-/// The signal of those: constant, the tracker's start drawn about it.
+/// The signal of these experiments: constant, with the tracker's start drawn about it.
 [[nodiscard]] TrackingModel constant_frequency_model(Channels channels, double decibels);
 
 }  // namespace veritrack::limits

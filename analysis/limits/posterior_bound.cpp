@@ -43,12 +43,12 @@ std::vector<double> posterior_frequency_bounds(const TrackingModel& model, int s
   const rigor::NearestRounding nearest;
   Eigen::Matrix3d dynamics = Eigen::Matrix3d::Identity();
   dynamics(1, 2) = 1.0;
-  // J^-1, from the start on.
+  // J^-1, beginning at the start.
   Eigen::Matrix3d bound = Eigen::Vector3d(squared(model.amplitude_deviation), squared(model.phase_deviation),
                                           squared(model.frequency_deviation))
                               .asDiagonal();
   const bool random = model.drawn == DrawnAtStart::truth;
-  double walked_phase = 0.0;  // variance of the phase that the walk has made, by walk_variance
+  double walked_phase = 0.0;  // variance of the phase due to the walk, over walk_variance
   std::vector<double> bounds;
   bounds.reserve(static_cast<std::size_t>(samples));
   for (int k = 1; k <= samples; ++k) {

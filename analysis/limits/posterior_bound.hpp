@@ -7,7 +7,7 @@
 // covariance R the terms D11 = F'Q^-1 F, D12 = D21' = -F'Q^-1, D22 = Q^-1 + E[(dh/dx)' R^-1 dh/dx], and is by
 // the matrix inversion lemma
 //     J(k+1) = (F J(k)^-1 F' + Q)^-1 + E[(dh/dx)' R^-1 dh/dx].
-// In this form Q may be singular, and it is the bound then too: x(k+1) is a linear function of the start and
+// In this form Q may be singular, and the bound is still valid: x(k+1) is a linear function of the start and
 // of the noise that does enter, for which the information is regular.
 //
 // In the coordinates (A, phi, omega) the dynamics is linear, and the expectation is over a normal phase: it
@@ -25,8 +25,9 @@ namespace veritrack::limits {
 /// in the signal's amplitude, phase and frequency at k = 0.)
 [[nodiscard]] std::vector<double> posterior_frequency_bounds(const TrackingModel& model, int samples);
 
-/// Where that settles for quadrature measurements: the steady state of the filter for phase and frequency
-/// alone, which is known in closed form (by spectral factorisation), (rad/sample)^2. walk_variance > 0.
+/// The limit of that bound for quadrature measurements: the steady state of the filter for phase and
+/// frequency alone, which is known in closed form (by spectral factorisation), (rad/sample)^2. walk_variance
+/// > 0.
 [[nodiscard]] double steady_frequency_bound(double noise_to_signal, double walk_variance);
 
 }  // namespace veritrack::limits

@@ -18,16 +18,16 @@ namespace veritrack::limits {
 /// information of (A, phase, frequency). N >= 3.
 [[nodiscard]] double real_tone_bound(double noise_to_signal, double frequency, double phase, int samples);
 
-/// What noise makes of the frequency estimate of a tracker that assumes a random walk of variance
-/// tracker_q2 where the frequency is constant: noise_to_signal^(1/4) tracker_q2^(3/4) / (2 sqrt 2),
-/// (rad/sample)^2, a quarter of the variance that it believes. `noise_to_signal` is that of a complex sample;
-/// twice that of a real one. From the steady-state filter for phase and frequency in the limit of slow
-/// loops, tracker_q2 << noise_to_signal: the closed loop is s^2 + sqrt(2) Omega s + Omega^2, Omega^4 =
-/// tracker_q2 / noise_to_signal, and the noise of the phase reaches the frequency through Omega^2 s over
-/// that.
+/// The variance, due to noise, of the frequency estimate of a tracker that assumes a random walk of variance
+/// tracker_q2 while the frequency is constant: noise_to_signal^(1/4) tracker_q2^(3/4) / (2 sqrt 2),
+/// (rad/sample)^2, a quarter of the variance that the tracker itself computes. `noise_to_signal` is that of a
+/// complex sample; twice that of a real one. From the steady-state filter for phase and frequency in the
+/// limit of slow loops, tracker_q2 << noise_to_signal: the closed loop is s^2 + sqrt(2) Omega s + Omega^2,
+/// Omega^4 = tracker_q2 / noise_to_signal, and the noise of the phase reaches the frequency through Omega^2 s
+/// over that.
 [[nodiscard]] double mistuned_variance(double noise_to_signal, double tracker_q2);
 
-/// After how many samples the bound for complex samples falls below mistuned_variance: about
+/// The number of samples after which the bound for complex samples is below mistuned_variance: about
 /// 3.2 (noise_to_signal / tracker_q2)^(1/4).
 [[nodiscard]] double samples_until_mistuned(double noise_to_signal, double tracker_q2);
 

@@ -43,13 +43,13 @@ trackers::QuadratureEstimate<double> start_estimate(const TrackingModel& model, 
                 cosine);
 }
 
-/// What a batch of runs adds up to.
+/// The sums over a batch of runs.
 struct Batch {
   std::vector<double> square;  // sums of squared errors, by sample
   int lost = 0;
 };
 
-/// One run of `tracker`; `feed` gives it a measurement.
+/// One run of `tracker`; `feed` passes it a measurement.
 template <typename Tracker, typename Feed>
 void run(const TrackingExperiment& experiment, Tracker tracker, Tone truth, trackers::RandomStream& random,
          const Feed& feed, Batch& batch) {

@@ -29,8 +29,8 @@ struct TrackingErrors {
 };
 
 /// Simulates the tracker for the model's channels, with r the model's noise variance, no leak, and the P(0)
-/// that the deviations at the start amount to. The same numbers for any number of threads. Throws
-/// std::invalid_argument when samples, first_sample or runs make no sense.
+/// that matches the deviations at the start. The result does not depend on the number of threads. Throws
+/// std::invalid_argument when samples, first_sample or runs are not valid.
 [[nodiscard]] TrackingErrors simulate_tracking(const TrackingExperiment& experiment);
 
 }  // namespace veritrack::limits

@@ -1,10 +1,10 @@
-// The experiment that the limits of this folder and the simulated trackers have in common.
+// The experiment that the bounds of this folder and the simulated trackers share.
 //
 // A sinusoid of amplitude A, phase phi(k) and frequency omega(k),
 //     phi(k+1) = phi(k) + omega(k),   omega(k+1) = omega(k) + w(k),   w(k) normal with variance
 //     walk_variance, y(k) = A e^{i phi(k)} + v(k), or its real part alone,   v(k) normal, noise_variance in
 //     each channel,
-// k = 1, 2, ..., observed after a start that is off by normal errors in amplitude, phase and frequency. All
+// k = 1, 2, ..., observed after a start with normal errors in amplitude, phase and frequency. All
 // of this folder is floating point: it proves nothing.
 #pragma once
 
@@ -13,15 +13,15 @@
 
 namespace veritrack::limits {
 
-/// What is measured of the sinusoid.
+/// The measured channels of the sinusoid.
 enum class Channels : std::uint8_t { quadrature, single };
 
 /// Which of the two is random at k = 0. With `truth` the tracker always starts in the same place and the
 /// signal is drawn about it: the prior of a posterior bound. With `start` the signal is always the same and
-/// the tracker's start is drawn about it: one more measurement of constants, for a bound on those.
+/// the tracker's start is drawn about it: a further measurement of constants, for a bound on their estimates.
 enum class DrawnAtStart : std::uint8_t { truth, start };
 
-/// Where the mean of amplitude, phase (rad) and frequency (rad/sample) is at k = 0.
+/// The means of amplitude, phase (rad) and frequency (rad/sample) at k = 0.
 inline constexpr double kMeanAmplitude = 1.0;
 inline constexpr double kMeanPhase = 0.0;
 inline constexpr double kMeanFrequency = 1.5;

@@ -13,7 +13,7 @@ namespace veritrack::rigor {
 namespace {
 
 /// What the grammar check found: (-1)^negative * 0.DIGITS * base^scale, with a first digit that is not zero.
-/// No digits stand for zero.
+/// No digits mean zero.
 struct Magnitude {
   bool negative = false;
   std::string digits;
@@ -23,8 +23,8 @@ struct Magnitude {
 constexpr long kScaleLimit = 1'000'000'000;
 
 /// No double has more than 767 significant decimal digits, so all doubles near a number lie on the grid of
-/// its first kKeptDigits digits: cutting there and writing one digit 1 for a non-zero rest keeps the order to
-/// every double.
+/// its first kKeptDigits digits: cutting there, with one digit 1 for a non-zero rest, preserves the order
+/// relative to every double.
 constexpr std::size_t kKeptDigits = 1000;
 
 constexpr int kDoublePrecision = 53;
@@ -118,13 +118,13 @@ double round(const Magnitude& magnitude, int base, const std::string& exponent, 
   MPFR_DECL_INIT(number, kDoublePrecision);
   const std::string text = (magnitude.negative ? "-0" : "0") + magnitude.digits + exponent;
   mpfr_strtofr(number, text.c_str(), nullptr, base, direction);
-  // MPFR's own exponents are unbounded for this purpose. Where the number is below or above the normal range
+  // MPFR's own exponents are unbounded in effect. Where the number is below or above the normal range
   // of double this rounds a second time, in the same direction onto a coarser grid, which is the same as
   // rounding once.
   return mpfr_get_d(number, direction);
 }
 
-/// The tightest interval around (-1)^negative * DIGITS * (10 or 2)^written_exponent; `letter` announces the
+/// The tightest interval around (-1)^negative * DIGITS * (10 or 2)^written_exponent; `letter` introduces the
 /// exponent.
 Interval enclose(const Reader& reader, const Magnitude& magnitude, int base, char letter,
                  long written_exponent) {

@@ -18,14 +18,14 @@ class NumberFormatError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// The tightest interval with double endpoints that holds the decimal number `text` stands for; since the
-/// endpoints are neighbours it also holds the double nearest to it. Grammar: [+-] digits [. digits] [(e|E)
+/// The tightest interval with double endpoints that contains the decimal number in `text`. Its endpoints are
+/// neighbours, so it also contains the double nearest to that number. Grammar: [+-] digits [. digits] [(e|E)
 /// [+-] digits], with a digit on at least one side of the point. Throws NumberFormatError for anything else,
 /// for NaN and infinities, and for magnitudes above the largest double.
 [[nodiscard]] Interval parse_decimal(std::string_view text);
 
-/// The same for a C99 hexadecimal float, [+-] 0x digits [. digits] p [+-] digits in either case of letters: a
-/// point where 53 bits suffice.
+/// The same for a C99 hexadecimal float, [+-] 0x digits [. digits] p [+-] digits in upper or lower case; a
+/// point if 53 bits suffice.
 [[nodiscard]] Interval parse_hexadecimal(std::string_view text);
 
 /// The exact value as a C99 hexadecimal float, e.g. 0x1.8p+1; "nan", "inf" and "-inf" where that is the
@@ -35,7 +35,7 @@ class NumberFormatError : public std::invalid_argument {
 enum class Direction { down, up };
 
 /// `value` as a decimal with `digits` significant digits, rounded in the given direction: plain notation for
-/// exponents from -5 to 9 and scientific (1.5e-12) beyond, without zeros at the end of the fraction; "nan",
+/// exponents from -5 to 9 and scientific (1.5e-12) beyond, without trailing zeros in the fraction; "nan",
 /// "inf" and "-inf" where that is the value. Throws std::invalid_argument unless 1 <= digits <= 40.
 [[nodiscard]] std::string to_decimal(double value, int digits, Direction direction);
 

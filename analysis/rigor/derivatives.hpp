@@ -4,8 +4,8 @@
 // A function here is anything that can be called with an Eigen column vector of fixed size over any scalar,
 // such as
 //     [](const auto& x) { using std::sin; return sin(x[0]) * x[1]; }
-// Over intervals the enclosures hold for every point of the box x, and the promise of dual.hpp applies; the
-// caller holds the rounding mode.
+// Over intervals the enclosures are valid at every point of the box x, and the promise of dual.hpp applies;
+// the caller sets the rounding mode.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// Dual numbers: a value with its first derivatives in N directions, over any scalar; nested, also the higher
-// ones.
+// Dual numbers: a value with its first derivatives in N directions, over any scalar; nested duals give higher
+// derivatives.
 //
 // Over intervals the promise of interval.hpp extends to derivatives: a result that is finite, value and
 // derivatives, certifies that the expression was defined and differentiable on its operands, and encloses its
@@ -8,8 +8,8 @@
 // as 1/x would be finite.
 //
 // Constants enter as Scalar or through the explicit constructor, which works from double at every depth of
-// nesting: Dual<Dual<Interval, 3>, 3>(1.0). A double and a Dual over intervals do not mix behind the reader's
-// back.
+// nesting: Dual<Dual<Interval, 3>, 3>(1.0). There is no implicit conversion from double to a Dual over
+// intervals.
 //
 // Over double a Dual needs no rounding mode; over Interval it needs the one that Interval needs.
 #pragma once
@@ -33,8 +33,7 @@ class Dual;
 
 namespace detail {
 
-// What the chain rules below ask of a scalar that is a plain double; Interval and Dual answer through their
-// own overloads.
+// What the chain rules below need from a plain double; Interval and Dual have their own overloads.
 inline double square(double x) {
   return x * x;
 }
@@ -64,7 +63,7 @@ void make_unknown(Dual<Scalar, N>& x) noexcept {
   x.make_unknown();
 }
 
-/// `derivative` where `value` is known, and nothing where it is not.
+/// `derivative` where `value` is known, empty where it is not.
 template <typename Scalar>
 [[nodiscard]] Scalar known_with(Scalar derivative, const Scalar& value) {
   if (!is_known(value)) {
@@ -81,7 +80,7 @@ class Dual {
  public:
   static constexpr std::size_t kSize = static_cast<std::size_t>(N);
 
-  /// Of no use until assigned: zero over double, empty over intervals.
+  /// Must be assigned before use: zero over double, empty over intervals.
   Dual() = default;
 
   /// A constant: its derivatives are zero, or unknown when it is.
@@ -143,7 +142,7 @@ class Dual {
   /// (f / g)' = (f' - (f / g) g') / g. Over intervals: empty when g contains zero.
   Dual& operator/=(const Dual& other) { return *this = *this / other; }
 
-  // With a constant of type Scalar: the same as with Dual(constant), at the price of the scalar operation.
+  // With a constant of type Scalar: the same as with Dual(constant), at the cost of the scalar operation.
   Dual& operator+=(const Scalar& constant) { return *this += Dual(constant); }
   Dual& operator-=(const Scalar& constant) { return *this -= Dual(constant); }
   Dual& operator*=(const Scalar& constant) { return *this = chain(value_ * constant, constant); }
@@ -184,7 +183,7 @@ class Dual {
   friend Dual operator/(const Scalar& a, const Dual& b) { return Dual(a) / b; }
 
   /// Equality of value and derivatives, in the sense of Scalar: certain equality over intervals. Its negation
-  /// says nothing there, so there is none.
+  /// would prove nothing there, so there is none.
   friend bool operator==(const Dual& a, const Dual& b) {
     return a.value_ == b.value_ && a.derivatives_ == b.derivatives_;
   }

@@ -1,12 +1,12 @@
-// What Eigen asks of a type before it stores it in matrices.
+// What Eigen requires of a type that is stored in matrices.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace veritrack::rigor {
 
-/// Base of Eigen::NumTraits<Scalar> for the real number types of this room. The costs only guide Eigen in
-/// when to keep an intermediate result rather than to compute it again.
+/// Base of Eigen::NumTraits<Scalar> for the real number types of this folder. The costs only tell Eigen when
+/// to store an intermediate result instead of computing it again.
 template <typename Scalar, int kReadCost, int kAddCost, int kMultiplyCost>
 struct EigenScalar : Eigen::GenericNumTraits<Scalar> {
   using Real = Scalar;
@@ -24,7 +24,7 @@ struct EigenScalar : Eigen::GenericNumTraits<Scalar> {
   };
 };
 
-/// For numbers that are themselves many numbers: nothing is computed twice.
+/// For scalars that consist of many numbers: nothing is computed twice.
 template <typename Scalar>
 using CostlyEigenScalar = EigenScalar<Scalar, Eigen::HugeCost, Eigen::HugeCost, Eigen::HugeCost>;
 

@@ -42,7 +42,7 @@ std::optional<DynamicIntervalMatrix> eigenvalues_near_diagonal(const DynamicInte
   return result;
 }
 
-/// The eigenvalues of (a, b), both holding symmetric matrices only by their mirrored entries; see the header.
+/// The eigenvalues of (a, b), where mirrored entries of a and of b are identical; see the header.
 std::optional<DynamicIntervalMatrix> eigenvalues_through_vectors(const DynamicIntervalMatrix& a,
                                                                  const DynamicIntervalMatrix& b,
                                                                  const DynamicMatrix& vectors) {

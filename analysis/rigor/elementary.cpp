@@ -37,14 +37,14 @@ Interval atan(const Interval& x) {
 Interval tan(const Interval& x) {
   require_upward_rounding();
   if (!is_finite(x)) {
-    return Interval::empty();  // empty, or a half-line, which holds poles
+    return Interval::empty();  // empty, or a half-line, which contains poles
   }
   const double lower = detail::reference_tan(x.lower(), Direction::down);
   const double upper = detail::reference_tan(x.upper(), Direction::up);
-  // No double is a pole, so a point never holds one. Were there one pole inside [a, b] with b - a < pi, then
-  // b - pi < a on the same branch, and tan b < tan a. Hence tan a <= tan b with b - a < pi excludes poles; it
-  // decides the narrow intervals, down to one unit in the last place, and the count of quarter turns decides
-  // the others.
+  // No double is a pole, so a point never contains one. Were there one pole inside [a, b] with b - a < pi,
+  // then b - pi < a on the same branch, and tan b < tan a. Hence tan a <= tan b with b - a < pi excludes
+  // poles; it decides the narrow intervals, down to one unit in the last place, and the count of quarter
+  // turns decides the others.
   const bool is_point = x.lower() == x.upper();
   const bool is_rising = width(x) <= pi().lower() && detail::reference_tan(x.lower(), Direction::up) <=
                                                          detail::reference_tan(x.upper(), Direction::down);
@@ -56,13 +56,13 @@ Interval tan(const Interval& x) {
 
 namespace {
 
-/// atan2 over a box with y >= 0 that does not hold the origin. There the angle falls with x, and rises with y
-/// where x > 0, falls where x < 0: its extremes are at corners, none of which is infinite in both
-/// coordinates.
+/// atan2 over a box with y >= 0 that does not contain the origin. There the angle decreases with x; with y it
+/// increases where x > 0 and decreases where x < 0: its extremes are at corners, none of which is infinite in
+/// both coordinates.
 Interval upper_half_plane_angle(const Interval& y, const Interval& x) {
   const double y_of_smallest = x.upper() >= 0.0 ? y.lower() : y.upper();
   const double y_of_largest = x.lower() >= 0.0 ? y.upper() : y.lower();
-  // std::fabs: a lower bound of -0.0 is the number zero, not the other bank of the branch cut.
+  // std::fabs: a lower bound of -0.0 is the number zero, not the other side of the branch cut.
   return Interval::from_bounds(detail::reference_atan2(std::fabs(y_of_smallest), x.upper(), Direction::down),
                                detail::reference_atan2(std::fabs(y_of_largest), x.lower(), Direction::up));
 }

@@ -1,4 +1,4 @@
-// Elementary functions of intervals. The promise of interval.hpp holds: a function that is undefined or
+// Elementary functions of intervals. The promise of interval.hpp applies: a function that is undefined or
 // discontinuous somewhere on its argument gives the empty interval.
 //
 // sin and cos have a fast path (see elementary.cpp for the proof of its error); the others, and sin and cos
@@ -16,7 +16,7 @@ namespace veritrack::rigor {
 
 [[nodiscard]] Interval sin(const Interval& x);  ///< x in rad
 [[nodiscard]] Interval cos(const Interval& x);  ///< x in rad
-/// (sin x, cos x) for the price of one argument reduction; the same enclosures as sin and cos.
+/// (sin x, cos x) with one argument reduction; the same enclosures as sin and cos.
 [[nodiscard]] std::pair<Interval, Interval> sin_cos(const Interval& x);
 /// Empty when x contains a pole.
 [[nodiscard]] Interval tan(const Interval& x);

@@ -22,12 +22,12 @@ Interval alternating_sum(double x, const std::array<double, Size>& divisors, std
   return sum;
 }
 
-// (2i + 1)!, which doubles hold exactly this far, and 2i + 1.
+// (2i + 1)!, which is exact in a double up to this i, and 2i + 1.
 constexpr std::array<double, 7> kFactorials = {1.0, 6.0, 120.0, 5040.0, 362880.0, 39916800.0, 6227020800.0};
 constexpr std::array<double, 7> kOddNumbers = {1.0, 3.0, 5.0, 7.0, 9.0, 11.0, 13.0};
 
 /// atan at a double >= 0. atan(x) = atan(c) + atan(u), u = (x - c)/(1 + c x), with c the multiple of 1/4
-/// nearest to x: |u| <= 1/8, where the partial sums of the series lie above and below atan(u)/u in turn.
+/// nearest to x: |u| <= 1/8, where the partial sums of the series lie alternately above and below atan(u)/u.
 Interval arctangent(double x) {
   constexpr std::size_t kMultiples = 9;
   static const std::array<Interval, kMultiples> at_multiples = [] {
@@ -49,8 +49,8 @@ Interval arctangent(double x) {
 
 }  // namespace
 
-// sin(x)/x falls on [0, pi], and the partial sums of its series, whatever x >= 0, lie above and below it in
-// turn.
+// sin(x)/x decreases on [0, pi], and for every x >= 0 the partial sums of its series lie alternately above
+// and below it.
 Interval sine_ratio(const Interval& x) {
   const Interval size = rigor::abs(x);
   if (!certainly_less_equal(size, Interval(3.0))) {
@@ -60,8 +60,8 @@ Interval sine_ratio(const Interval& x) {
                                alternating_sum(size.lower(), kFactorials, 7).upper());
 }
 
-// atan(t)/t falls for t >= 0. For t <= 1 the partial sums of its series lie above and below it in turn; the
-// function itself takes over where they part.
+// atan(t)/t decreases for t >= 0. For t <= 1 the partial sums of its series lie alternately above and below
+// it; beyond that the function itself is evaluated.
 Interval arctangent_ratio(const Interval& t) {
   constexpr double kSeriesEnd = 0.5;
   const Interval size = rigor::abs(t);
@@ -76,7 +76,8 @@ Interval arctangent_ratio(const Interval& t) {
 }
 
 // (sin x - x cos x)/x^3 = sum (-1)^i x^{2i} (2i + 2)/(2i + 3)!. By parts it is the integral of t sin(x t) / x
-// over t in [0, 1], and each sin(x t)/x falls in x on [0, pi]; it is alternating like the sine's.
+// over t in [0, 1], and each sin(x t)/x decreases in x on [0, pi]; the series alternates like that of the
+// sine.
 Interval sine_ratio_slope(const Interval& x) {
   const Interval size = rigor::abs(x);
   if (!certainly_less_equal(size, Interval(3.0))) {
@@ -89,8 +90,9 @@ Interval sine_ratio_slope(const Interval& x) {
                                alternating_sum(size.lower(), kDivisors, 7).upper());
 }
 
-// (atan(t)/t - 1/(1 + t^2))/t^2 is the integral of 2 u^2/(1 + t^2 u^2)^2 over u in [0, 1]: it falls for t >=
-// 0. For t <= 1 its series sum (-1)^i t^{2i} (2i + 2)/(2i + 3) is alternating; the formula takes over beyond.
+// (atan(t)/t - 1/(1 + t^2))/t^2 is the integral of 2 u^2/(1 + t^2 u^2)^2 over u in [0, 1]: it decreases for t
+// >= 0. For t <= 1 its series sum (-1)^i t^{2i} (2i + 2)/(2i + 3) alternates; beyond that the formula is
+// evaluated.
 Interval arctangent_ratio_slope(const Interval& t) {
   constexpr double kSeriesEnd = 0.25;
   const Interval size = rigor::abs(t);

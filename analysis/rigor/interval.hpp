@@ -4,14 +4,14 @@
 // that `is_finite` certifies that the expression was defined *and continuous* at every point of the operands.
 // An operation that is undefined or discontinuous somewhere on its operands (division by an interval that
 // contains zero, the square root of an interval that reaches below zero, the empty set, NaN, an infinite
-// point) gives the empty interval, which reads "nothing is known" and stays empty through whatever follows.
+// point) gives the empty interval, which means "nothing is known" and stays empty in every later operation.
 // Overflow gives an unbounded interval. Neither an empty nor an unbounded interval ever satisfies a
 // `certainly_...` predicate.
 //
-// Every operation needs the rounding mode held by an UpwardRounding object (rounding.hpp). Builds without
+// Every operation needs the rounding mode that an UpwardRounding object sets (rounding.hpp). Builds without
 // NDEBUG check this in each operation, all builds check it in each predicate.
 //
-// There is no conversion from double behind the reader's back: `Interval(0.1)` is the double nearest to 0.1
+// There is no implicit conversion from double: `Interval(0.1)` is the double nearest to 0.1
 // and not the number 0.1, for which there is `parse_decimal` (decimal.hpp). Integers wider than 32 bits and
 // long double do not convert at all.
 #pragma once
@@ -31,7 +31,7 @@ namespace veritrack::rigor {
 
 namespace detail {
 
-/// Boost.Interval's rounding policy, over the operations of rounding.hpp: the mode is held by the caller.
+/// Boost.Interval's rounding policy, over the operations of rounding.hpp: the caller sets the mode.
 struct HeldUpwardPolicy {
   using unprotected_rounding = HeldUpwardPolicy;
   static double conv_down(double x) { return x; }
@@ -61,7 +61,7 @@ class Interval {
   /// The empty interval, so that a forgotten value can never certify anything.
   Interval() noexcept : value_(kNaN, kNaN, true) {}
 
-  /// The single real number that this double is. NaN and the infinities are no real numbers: empty.
+  /// The single real number that this double is. NaN and the infinities are not real numbers: empty.
   explicit Interval(double point) noexcept : Interval() {
     if (std::isfinite(point)) {
       value_ = detail::BoostInterval(point, point, true);
@@ -72,8 +72,8 @@ class Interval {
   template <typename T>
   explicit Interval(T) = delete;  // wider integers and long double would be rounded silently
 
-  /// [lower, upper]. Empty unless lower <= upper, and for [+inf, +inf] and [-inf, -inf], which hold no real
-  /// number.
+  /// [lower, upper]. Empty unless lower <= upper, and for [+inf, +inf] and [-inf, -inf], which contain no
+  /// real number.
   [[nodiscard]] static Interval from_bounds(double lower, double upper) noexcept {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Interval result;
@@ -121,8 +121,8 @@ class Interval {
   friend Interval operator*(Interval a, const Interval& b) { return a *= b; }
   friend Interval operator/(Interval a, const Interval& b) { return a /= b; }
 
-  /// Certain equality of real numbers: both are the same single point. Its negation says nothing, so there is
-  /// none.
+  /// Certain equality of real numbers: both are the same single point. Its negation would prove nothing, so
+  /// there is none.
   friend bool operator==(const Interval& a, const Interval& b) noexcept {
     return a.lower() == a.upper() && b.lower() == b.upper() && a.lower() == b.lower();
   }
@@ -134,7 +134,7 @@ class Interval {
   detail::BoostInterval value_;
 };
 
-// ---- what an interval is
+// ---- properties
 
 [[nodiscard]] inline bool is_empty(const Interval& x) noexcept {
   const bool ordered = x.lower() <= x.upper();
@@ -200,8 +200,8 @@ class Interval {
 
 // ---- predicates: true only when certain
 
-// All require finite operands and the held rounding mode (RoundingModeError otherwise). None is the negation
-// of another.
+// All require finite operands and the upward rounding mode (RoundingModeError otherwise). None is the
+// negation of another.
 
 /// Every point of a is less than every point of b.
 [[nodiscard]] inline bool certainly_less(const Interval& a, const Interval& b) {
@@ -222,8 +222,8 @@ class Interval {
 
 // ---- set operations
 
-/// The smallest interval that holds both; empty when either is: what is not known is not known together with
-/// another.
+/// The smallest interval that contains both; empty when either is, because the empty interval means that
+/// nothing is known.
 [[nodiscard]] inline Interval hull(const Interval& a, const Interval& b) noexcept {
   if (is_empty(a) || is_empty(b)) {
     return Interval::empty();

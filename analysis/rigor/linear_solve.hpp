@@ -16,14 +16,14 @@ namespace detail {
 
 /// An enclosure of {A^-1 B : A in a, B in b}, and with it a proof that every matrix in `a` is nonsingular;
 /// nothing when that could not be verified, or when an entry is not finite. a is n x n, b is n x m; throws
-/// std::invalid_argument for other shapes. Holds its own rounding mode.
+/// std::invalid_argument for other shapes. Sets its own rounding mode.
 ///
 /// Krawczyk's operator with epsilon-inflation (S. M. Rump, "Verification methods", Acta Numerica 19 (2010),
 /// theorem 10.2). With any point matrices R and X, Z = R (b - a X) and C = I - R a: if an interval column y
 /// satisfies Z + C y in the interior of y, then every A in a is nonsingular and A^-1 B lies in X + Z + C y.
 /// Proof: by Brouwer x -> R (B - A X) + (I - R A) x has a fixed point in y. Were R A singular, a whole line
-/// of fixed points would pass through it and meet the boundary of y, from which the map leads into the
-/// interior. So R and A are nonsingular, and the fixed point is A^-1 B - X.
+/// of fixed points would pass through it and meet the boundary of y, which the map takes into the interior.
+/// So R and A are nonsingular, and the fixed point is A^-1 B - X.
 template <typename DerivedA, typename DerivedB>
 [[nodiscard]] auto solve(const Eigen::MatrixBase<DerivedA>& a, const Eigen::MatrixBase<DerivedB>& b)
     -> std::optional<IntervalMatrix<DerivedA::ColsAtCompileTime, DerivedB::ColsAtCompileTime>> {

@@ -17,11 +17,11 @@ namespace detail {
 }  // namespace detail
 
 /// An enclosure, with mirrored entries identical, of the solution X of X = A X A' + Q for every A in `a` and
-/// symmetric Q in `q`; it proves that this solution is unique, which is to say that no two eigenvalues of A
-/// have the product 1. Nothing when that could not be verified, when an entry is not finite, or when q holds
-/// no symmetric matrix. A is stable (spectral radius below 1) if in addition Q and X are positive definite:
-/// is_positive_definite decides. Both n x n; throws std::invalid_argument for other shapes. Holds its own
-/// rounding mode.
+/// symmetric Q in `q`; it proves that this solution is unique, that is, that no two eigenvalues of A have the
+/// product 1. Nothing when that could not be verified, when an entry is not finite, or when q
+/// contains no symmetric matrix. A is stable (spectral radius below 1) if in addition Q and X are positive
+/// definite: is_positive_definite decides. Both n x n; throws std::invalid_argument for other shapes. Sets
+/// its own rounding mode.
 ///
 /// The equation is a linear system for the n(n+1)/2 entries of X on and below the diagonal, which
 /// linear_solve.hpp encloses. The eigenvalues of that system are 1 - lambda_i lambda_j, i <= j, the same

@@ -1,7 +1,7 @@
 // Vectors and matrices of intervals: Eigen for storage, sums and products, whose results inherit the promise
 // of interval.hpp because every scalar operation in them is an interval operation. Eigen's decompositions are
-// not for intervals (they pivot on comparisons and stop on tolerances); the verified ones are in the headers
-// beside this one.
+// not valid for intervals (they pivot on comparisons and stop on tolerances); the verified ones are in the
+// other headers of this folder.
 #pragma once
 
 #include <Eigen/Core>
@@ -78,7 +78,7 @@ template <typename DerivedA, typename DerivedB>
 
 namespace detail {
 
-/// True when both have the same non-empty shape and the predicate holds for each pair of entries.
+/// True when both have the same non-empty shape and the predicate is true for each pair of entries.
 template <typename DerivedA, typename DerivedB, typename Predicate>
 [[nodiscard]] bool all_entries(const Eigen::MatrixBase<DerivedA>& a, const Eigen::MatrixBase<DerivedB>& b,
                                Predicate predicate) {

@@ -22,7 +22,7 @@ struct Monomials {
   }
   static constexpr std::size_t kTerms = count_up_to(Degree);
 
-  /// The exponents of monomial number i. Within a degree the first variable's exponent falls.
+  /// The exponents of monomial number i. Within a degree the first variable's exponent decreases.
   static constexpr std::array<Exponents, kTerms> kExponents = [] {
     std::array<Exponents, kTerms> all{};
     std::size_t next = 0;
@@ -80,8 +80,8 @@ struct Monomials {
     return counts;
   }();
 
-  /// The number of the product of two monomials, where that is of degree at most Degree (else 0, not to be
-  /// used).
+  /// The number of the product of two monomials, where that is of degree at most Degree (else 0, which must
+  /// not be used).
   static constexpr std::array<std::array<std::uint16_t, kTerms>, kTerms> kProducts = [] {
     std::array<std::array<std::uint16_t, kTerms>, kTerms> products{};
     for (std::size_t i = 0; i < kTerms; ++i) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kDoublePrecision = 53;
 
-/// MPFR keeps constants such as pi in caches of its own, one for each thread; they go when the thread goes.
+/// MPFR keeps constants such as pi in a cache for each thread; this frees it when the thread ends.
 struct ThreadCache {
   ThreadCache() = default;
   ~ThreadCache() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
@@ -23,7 +23,7 @@ thread_local const ThreadCache thread_cache;
 /// `operation(result, rounding)` computes a correctly rounded result of 53 bits with MPFR's own, practically
 /// unbounded, exponent. Where that is below or above the normal range of double, mpfr_get_d rounds a second
 /// time, in the same direction onto a coarser grid, which is the same as rounding once. MPFR computes with
-/// integers; the nearest mode is held for the few floating-point instructions of its conversions.
+/// integers; the nearest mode is set for the few floating-point instructions of its conversions.
 template <typename Operation>
 double rounded(Direction direction, Operation operation) {
   const NearestRounding mode;

@@ -44,7 +44,7 @@ double collatz_wielandt(const Action& action, Eigen::Index size) {
     if (!gained || best == 0.0) {
       return best;
     }
-    // Any positive weights are valid. The shift damps oscillation, the floor keeps them positive.
+    // Any positive weights are valid. The shift damps oscillation; the floor keeps the weights positive.
     const Eigen::VectorXd next = image + 0.25 * best * weights;
     const double largest = next.maxCoeff();
     for (Eigen::Index i = 0; i < size; ++i) {

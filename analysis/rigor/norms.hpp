@@ -32,9 +32,9 @@ namespace detail {
 
 }  // namespace detail
 
-/// An interval that holds the spectral norm (largest singular value) of every real matrix in `a`, of any
+/// An interval that contains the spectral norm (largest singular value) of every real matrix in `a`, of any
 /// shape; empty when an entry is not finite. Both ends have a relative error of about n 1e-16 for a matrix of
-/// points. Holds its own rounding mode.
+/// points. Sets its own rounding mode.
 ///
 /// Upper end, the least of three. (1) With any point matrix V, G = V'V, |G - I| <= d < 1 and W = a V: for x =
 /// V y, |A x|^2 = y'(W'W)y <= |W'W| |y|^2 and |x|^2 = y'G y >= (1 - d)|y|^2, so |A|^2 <= |W'W| / (1 - d);

@@ -1,4 +1,4 @@
-// Products of intervals without a look at signs.
+// Products of intervals without branches on signs.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 namespace veritrack::rigor {
 
-/// The same as a * b, in a quarter of the time where the signs come in no order, which a processor cannot
-/// foresee: the least and the largest of all four products of ends. Needs the upward mode.
+/// The same as a * b, in a quarter of the time when signs are irregular and branches are mispredicted: the
+/// least and the largest of all four products of ends. Needs the upward mode.
 [[nodiscard]] inline Interval product(const Interval& a, const Interval& b) {
-  // Not finite when an end is not, or the sum overflows; zero times infinity would be no number.
+  // Not finite when an end is not, or the sum overflows; zero times infinity would be NaN.
   const double ends = (a.lower() + a.upper()) + (b.lower() + b.upper());
   if (!std::isfinite(ends)) {
     return a * b;

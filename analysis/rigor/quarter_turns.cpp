@@ -11,7 +11,7 @@ namespace veritrack::rigor::detail {
 bool may_contain_quarter_turn(const Interval& x, int residue, int modulus) {
   constexpr double kExactlyConvertible = 0x1p+51;
   const Interval two_over_pi = Interval::from_bounds(kTwoOverPi.low, kTwoOverPi.high);
-  const Interval turns = x * two_over_pi;  // holds n whenever x holds n pi/2
+  const Interval turns = x * two_over_pi;  // contains n whenever x contains n pi/2
   const bool small = magnitude(turns) < kExactlyConvertible;
   if (!small) {
     return true;

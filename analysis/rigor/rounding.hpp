@@ -1,17 +1,16 @@
-// Directed rounding: the mode, who holds it, and the scalar operations that rely on it.
+// Directed rounding: the mode, the objects that set it, and the scalar operations that rely on it.
 //
-// The whole of analysis/ computes with the processor rounding towards +infinity. The mode is held for the
-// length of a computation by an UpwardRounding object, not switched per operation; lower bounds come from
-// negation,
+// The whole of analysis/ computes with the processor rounding towards +infinity. An UpwardRounding object
+// sets the mode for a whole computation, not for each operation; lower bounds are computed by negation,
 //     down(a + b) = -up(-a - b),
 // which is exact because negation is.
 //
 // A compiler does not know that the rounding mode is an operand of every operation. Each operation below
 // therefore passes its operands and its result through `opaque`, an empty assembly statement that the
 // optimiser cannot look through: it can neither fold the operation, nor reuse a result from another mode, nor
-// contract it into a fused multiply-add, nor move it across the instruction that changes the mode. This holds
-// under every flag; the flags on the CMake target (-frounding-math -ffp-contract=off) are a second line of
-// defence.
+// contract it into a fused multiply-add, nor move it across the instruction that changes the mode. This is
+// true under every flag; the flags on the CMake target (-frounding-math -ffp-contract=off) are a second line
+// of defence.
 #pragma once
 
 #include <bit>
@@ -39,7 +38,7 @@
 
 namespace veritrack::rigor {
 
-/// Thrown where a result that depends on the rounding mode is used while the mode is not held: a programming
+/// Thrown where a result that depends on the rounding mode is used while the mode is not set: a programming
 /// error.
 class RoundingModeError : public std::logic_error {
  public:
@@ -67,7 +66,7 @@ inline void write_control(unsigned int control) noexcept {
   asm volatile("ldmxcsr %0" : : "m"(control) : "memory");
 }
 
-/// The same value, of which the optimiser knows nothing, at this point of the program.
+/// The same value, made opaque to the optimiser at this point of the program.
 inline double opaque(double value) noexcept {
   asm volatile("" : "+x"(value));
   return value;
@@ -87,9 +86,9 @@ inline void require_upward_rounding() {
   }
 }
 
-/// Holds a rounding mode for this thread from construction to destruction, and restores the previous one.
-/// Clears flush-to-zero and denormals-are-zero while it stands. Nests. Threads started inside inherit nothing
-/// that may be relied on: every task makes its own.
+/// Sets a rounding mode for this thread from construction to destruction, then restores the previous one.
+/// Clears flush-to-zero and denormals-are-zero during its lifetime. May be nested. Threads started inside do
+/// not reliably inherit the mode: every task makes its own object.
 template <unsigned int Mode>
 class HeldRounding {
  public:
@@ -111,8 +110,8 @@ class HeldRounding {
 
 /// For interval computations.
 using UpwardRounding = HeldRounding<detail::kRoundUpward>;
-/// For floating-point proposals and simulations inside an interval computation: what the filter itself runs
-/// with.
+/// For floating-point proposals and simulations inside an interval computation: the mode that the filter
+/// itself runs in.
 using NearestRounding = HeldRounding<0>;
 
 // The operations. All require the upward mode; builds without NDEBUG check it in each of them.

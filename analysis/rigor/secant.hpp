@@ -1,14 +1,14 @@
 // Functions on a box with secant slopes: a value at the centre of the box, a range over it, and how much the
 // function changes per unit from the centre.
 //
-// For the functions f of the variables x in a box, with centre c, that a Secant stands for:
+// A Secant represents the functions f of the variables x in a box with centre c for which
 //     f(c) in center(),  f(x) in range(),  f(x) = f(c) + sum_k s_k (x_k - c_k) with s_k in slope(k).
 // Slopes between x and the centre are about half as wide as derivatives over the box, which a dual number
 // would give: R. Krawczyk, A. Neumaier, Interval slopes for rational functions and associated centered forms,
 // SIAM J. Numer. Anal. 22 (1985). Slopes that are zero because a function does not depend on a variable are
 // not computed with.
 //
-// As for intervals: what is finite certifies that the expression was defined on all of the box.
+// As for intervals, a finite result certifies that the expression was defined on all of the box.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ class Secant {
   static constexpr std::size_t kSize = static_cast<std::size_t>(N);
   using Slopes = std::array<Interval, kSize>;
 
-  /// Of no use until assigned: empty.
+  /// Must be assigned before use: empty.
   Secant() = default;
   explicit Secant(const Interval& constant) : center_(constant), range_(constant) {}
   explicit Secant(double constant) : Secant(Interval(constant)) {}
@@ -56,7 +56,7 @@ class Secant {
     return depends_[index] ? slopes_[index] : Interval(0.0);
   }
 
-  /// f(c) + sum_k s_k offset_k for every s in the slopes: with x - c as the offset it holds f(x). Empty
+  /// f(c) + sum_k s_k offset_k for every s in the slopes: with x - c as the offset it contains f(x). Empty
   /// unless the function was defined on all of the box.
   [[nodiscard]] Interval moved_by(const Slopes& offset) const {
     if (!is_finite(range_)) {
@@ -71,7 +71,7 @@ class Secant {
     return value;
   }
 
-  /// The same function, of which this range is known as well.
+  /// The same function, for which this range is also known.
   [[nodiscard]] Secant within(const Interval& range) const {
     Secant result = *this;
     result.range_ = intersection(range_, range);
@@ -154,7 +154,7 @@ class Secant {
     return result;
   }
 
-  /// Holds (f(x) + f(c))/2 for every x of the box.
+  /// Contains (f(x) + f(c))/2 for every x of the box.
   [[nodiscard]] Interval mean() const { return Interval(0.5) * (center_ + range_); }
 
  private:

@@ -81,8 +81,9 @@ void examine_scopes(Examiner& examiner) {
 
 // ---- what the compiler may have done
 
-// Ordinary expressions on literals, as careless code would write them. The empty statement keeps the
-// functions from being taken for pure ones, whose calls might be moved across a change of the rounding mode.
+// Ordinary expressions on literals, as careless code would write them. The empty statement prevents the
+// compiler from treating the functions as pure, whose calls might be moved across a change of the rounding
+// mode.
 [[gnu::noinline]] double literal_third() {
   asm volatile("" : : : "memory");
   return 1.0 / 3.0;

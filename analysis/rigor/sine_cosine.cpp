@@ -1,15 +1,16 @@
 // sin, cos and sin_cos.
 //
 // Points with |x| <= 2^20. For every integer k the pair (sin x, cos x) is that of r = x - k pi/2 turned by k
-// quarters. r is enclosed with directed operations, pi/2 standing as P1 + P2 + P3 where P1 and P2 are doubles
-// of 33 bits (so that their products with k < 2^20 are exact, which is good for the width and not needed for
-// the proof) and P3 lies between two neighbouring doubles. Nothing depends on how k was chosen: |r| <=
-// kLargestReduced is checked, and MPFR takes over where it fails. With u = r^2 < 1 the Taylor series are
+// quarters. r is enclosed with directed operations, pi/2 represented as P1 + P2 + P3 where P1 and P2 are
+// doubles of 33 bits (so that their products with k < 2^20 are exact, which is good for the width and not
+// needed for the proof) and P3 lies between two neighbouring doubles. Nothing depends on how k was chosen:
+// |r| <= kLargestReduced is checked, and MPFR is used where the check fails. With u = r^2 < 1 the Taylor
+// series are
 //     sin r = r S(u),  S = 1 - u (1/3! - u (1/5! - ...)),      cos r = C(u) = 1 - u (1/2! - u (1/4! - ...)).
-// Their terms alternate and fall, so that whatever follows the factor 1/n! of the last term kept, divided by
-// that term's power of u, lies between 0 and the next factor, and each parenthesis is positive. Replacing the
-// last parenthesis by [0, next factor] gives an enclosure; the others are evaluated from the inside outward,
-// all quantities being non-negative, lower bounds from lower and upper ones.
+// Their terms alternate and decrease, so that everything after the factor 1/n! of the last term kept, divided
+// by that term's power of u, lies between 0 and the next factor, and each parenthesis is positive. Replacing
+// the last parenthesis by [0, next factor] gives an enclosure; the others are evaluated from the inside
+// outward, all quantities being non-negative, lower bounds from lower and upper ones.
 //
 // Narrow intervals. With a point m of x, its middle, and the displacements d in D = x - m, all |d| <= rho <
 // 2^-10:
@@ -18,8 +19,8 @@
 // intersected with [-1, 1].
 //
 // Wide intervals: between two multiples of pi/2 both functions are monotone, so that their range is the hull
-// of the values at the endpoints and of each extremum +-1 that the interval holds. One that it only may hold
-// is counted in.
+// of the values at the endpoints and of each extremum +-1 in the interval. An extremum that may be in the
+// interval is included.
 #include <cstdint>
 
 #include "analysis/rigor/elementary.hpp"
@@ -40,7 +41,7 @@ using detail::kHalfPi3;
 using detail::kTerms;
 
 constexpr double kLargestArgument = 0x1p+20;
-constexpr double kLargestReduced = 0.8125;  // pi/4 and some slack; its square is below 1
+constexpr double kLargestReduced = 0.8125;  // pi/4 and a margin; its square is below 1
 constexpr double kNarrowRadius = 0x1p-10;
 
 /// u (c1 - u (c2 - ... - u (c8 - u t))) for 0 <= u < 1 and t in [0, c9].

@@ -1,6 +1,6 @@
-// The constants of sine_cosine.cpp and quarter_turns.cpp. An error in the last place would drown in the
-// roundings that follow, so that no test of sin and cos could see it: a test compares each constant with MPFR
-// instead.
+// The constants of sine_cosine.cpp and quarter_turns.cpp. An error in the last place would be hidden by later
+// roundings, so that no test of sin and cos could detect it. Therefore a test compares each constant with
+// MPFR instead.
 #pragma once
 
 #include <array>

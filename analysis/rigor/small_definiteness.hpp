@@ -22,8 +22,8 @@ inline bool is_pivot(const rigor::Interval& x) {
 }
 }  // namespace detail
 
-/// Eliminates the first `count` rows and columns of `a` (L D L' without interchanges): what is left in the
-/// rest is the Schur complement, or an enclosure of those of the matrices in `a`. False when a pivot is not
+/// Eliminates the first `count` rows and columns of `a` (L D L' without interchanges): the remaining block is
+/// the Schur complement, or an enclosure of those of the matrices in `a`. False when a pivot is not
 /// certainly positive. Over intervals it needs the upward mode.
 template <std::size_t Size, typename Scalar>
 [[nodiscard]] bool eliminate(LowerTriangle<Size, Scalar>& a, std::size_t count) {
@@ -45,7 +45,7 @@ template <std::size_t Size, typename Scalar>
 }
 
 /// True only when every symmetric matrix in `a` is positive definite: each real matrix in `a` has its own
-/// pivots in the enclosures, and positive pivots mean definiteness. False says nothing. Needs the upward
+/// pivots in the enclosures, and positive pivots imply definiteness. False proves nothing. Needs the upward
 /// mode.
 template <std::size_t Size>
 [[nodiscard]] bool certainly_positive_definite(LowerTriangle<Size> a) {

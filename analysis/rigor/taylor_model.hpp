@@ -1,16 +1,16 @@
-// Taylor models: a polynomial in a few variables on [-1, 1] with a bound on how far it is from the truth.
+// Taylor models: a polynomial in a few variables on [-1, 1] with a bound on its error.
 //
-// The promise. A TaylorModel f stands for a set of functions on [-1, 1]^Variables: all those that stay within
-// `remainder()` of its polynomial. An operation on Taylor models gives one that holds the result of the
-// operation on any functions that its operands hold. What is cut off (terms above Degree), what is rounded,
-// and the width of intervals that enter as constants, all of it goes into the remainder. Where that cannot be
-// bounded (a divisor whose range contains zero) the remainder is NaN, which reads "nothing is known", and
+// The promise. A TaylorModel f represents a set of functions on [-1, 1]^Variables: all those that stay within
+// `remainder()` of its polynomial. An operation on Taylor models gives one that contains the result of the
+// operation on all functions in its operands. The remainder includes truncation (terms above Degree),
+// rounding errors, and the width of interval constants. Where that cannot be
+// bounded (a divisor whose range contains zero) the remainder is NaN, which means "nothing is known", and
 // stays NaN. A NaN or infinite remainder gives an empty or unbounded range(), which never certifies.
 //
 // Why plain floating point is sound here. Each sum or product of doubles is within a relative error of 2^-52
 // (and an absolute error of 2^-1074) of the exact one in *every* rounding mode, fused or not. The errors of
 // the coefficients are bounded by that, and the bounds, sums of few non-negative terms, are enlarged by more
-// than their own relative error. So only the conversions from and to Interval need the rounding mode held.
+// than their own relative error. So only the conversions from and to Interval need the upward rounding mode.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,7 +35,7 @@ class TaylorModel {
   static constexpr std::size_t kTerms = Monomials::kTerms;
   using Coefficients = std::array<double, kTerms>;
 
-  /// Of no use until assigned: nothing is known of it.
+  /// Must be assigned before use: nothing is known of it.
   TaylorModel() noexcept : remainder_(std::numeric_limits<double>::quiet_NaN()) { coefficients_.fill(0.0); }
   /// The constant that this double is.
   explicit TaylorModel(double constant) noexcept : remainder_(0.0) {
@@ -43,7 +43,7 @@ class TaylorModel {
     coefficients_[0] = constant;
   }
   explicit TaylorModel(int constant) noexcept : TaylorModel(static_cast<double>(constant)) {}
-  /// A function of which only the range is known; nothing at all unless that is finite.
+  /// A function of which only the range is known; nothing is known of it unless the range is finite.
   explicit TaylorModel(const Interval& constant)
       : TaylorModel(is_finite(constant) ? midpoint(constant) : 0.0) {
     remainder_ = is_finite(constant) ? radius_around(constant, coefficients_[0])
@@ -71,14 +71,14 @@ class TaylorModel {
   /// At least 0; NaN when nothing is known.
   [[nodiscard]] double remainder() const noexcept { return remainder_; }
 
-  /// The same polynomial, taken to be the truth.
+  /// The same polynomial with a zero remainder.
   [[nodiscard]] TaylorModel polynomial() const {
     TaylorModel result = *this;
     result.remainder_ = 0.0;
     return result;
   }
 
-  /// The same functions in terms of fewer monomials: those of higher degree go into the remainder.
+  /// The same functions in terms of fewer monomials: those of higher degree are added to the remainder.
   template <int LowerDegree>
   [[nodiscard]] TaylorModel<Variables, LowerDegree> lowered() const {
     static_assert(LowerDegree <= Degree);
@@ -141,7 +141,7 @@ class TaylorModel {
         result.coefficients_[Monomials::kProducts[i][j]] += factor * b.coefficients_[j];
       }
     }
-    // The size of the terms of each degree bounds what falls above Degree, for |monomial| <= 1.
+    // The size of the terms of each degree bounds the terms above Degree, since |monomial| <= 1.
     const auto sizes_a = a.sizes_by_degree();
     const auto sizes_b = b.sizes_by_degree();
     double cut_off = 0.0;
@@ -179,7 +179,7 @@ class TaylorModel {
     return x.composed(slopes, rest.upper());
   }
 
-  // What Dual asks of its scalar.
+  // What Dual requires of its scalar.
   [[nodiscard]] friend bool is_known(const TaylorModel& x) noexcept { return !std::isnan(x.remainder_); }
   friend void make_unknown(TaylorModel& x) noexcept { x = TaylorModel(); }
 
@@ -210,10 +210,10 @@ class TaylorModel {
   static constexpr double kRoundingOfProduct = 0x1p-43;  // up to kTerms roundings, in terms of the operands
   static_assert(kTerms <= 256, "kRoundingOfProduct and `enlarged` count on it");
 
-  /// More than the exact value of a sum of up to 1000 non-negative terms that came out as `bound`, whatever
-  /// the rounding and the underflow.
+  /// An upper bound on the exact value of a sum of up to 1000 non-negative terms whose computed value is
+  /// `bound`, for every rounding and underflow.
   static double enlarged(double bound) { return bound * (1.0 + 0x1p-40) + 1e-300; }
-  /// Less than the exact value of one difference.
+  /// A lower bound on the exact value of one difference.
   static double below(double difference) { return difference - std::fabs(difference) * 0x1p-50 - 1e-300; }
 
   static double radius_around(const Interval& range, double center) {

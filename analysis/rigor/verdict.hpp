@@ -1,4 +1,4 @@
-// Verdict: what a finite computation with outward-rounded arithmetic can say of a statement.
+// Verdict: what a finite computation with outward-rounded arithmetic shows about a statement.
 #pragma once
 
 #include <initializer_list>
@@ -8,8 +8,8 @@
 
 namespace veritrack::rigor {
 
-/// PROVED: the computation shows the statement. REFUTED: it shows the negation. UNDECIDED: neither; the first
-/// value, so that a verdict nobody set claims nothing.
+/// PROVED: the computation shows the statement. REFUTED: it shows the negation. UNDECIDED: neither. It is the
+/// first value, so that a verdict that was never set claims nothing.
 enum class Verdict { undecided, proved, refuted };
 
 /// "proved", "refuted" or "undecided".
@@ -22,8 +22,8 @@ enum class Verdict { undecided, proved, refuted };
 /// Is a <= b, for all points of the two operands? As decide_less.
 [[nodiscard]] Verdict decide_less_equal(const Interval& a, const Interval& b);
 
-/// All of them hold: PROVED when each is, REFUTED when one is, else UNDECIDED. The empty conjunction is
-/// UNDECIDED, although logic would call it true: nothing was examined.
+/// The conjunction: PROVED when all are PROVED, REFUTED when one is REFUTED, else UNDECIDED. The empty
+/// conjunction is UNDECIDED, although logic would call it true: nothing was examined.
 [[nodiscard]] Verdict conjunction(std::initializer_list<Verdict> verdicts) noexcept;
 template <typename Range>
 [[nodiscard]] Verdict conjunction(const Range& verdicts) noexcept {

@@ -1,4 +1,4 @@
-// The libraries that stand behind the arithmetic, for a certificate's list of software.
+// The libraries that the arithmetic uses, for a certificate's list of software.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Branch and bound: the minimum of a function over a box, enclosed. What a search proposes this proves.
+// Branch and bound: encloses the minimum of a function over a box, and so proves what a search proposes.
 //
 // The function is a template over its scalar, called with vectors of Interval and of Dual<Interval, N>; where
 // its result is finite it must be defined and (for duals) differentiable, which is the promise of
@@ -20,7 +20,7 @@
 
 namespace veritrack::search {
 
-/// When to stop, and how many cells to look at between two decisions. The result depends on `batch` but not
+/// When to stop, and how many cells to examine between two decisions. The result depends on `batch` but not
 /// on the number of threads; batches above 1 are evaluated in parallel.
 template <int N>
 struct BranchAndBoundSettings {
@@ -28,24 +28,23 @@ struct BranchAndBoundSettings {
   double absolute_tolerance = 0.0;
   std::int64_t cells = 100'000;  ///< at most
   int batch = 1;
-  /// A lower bound as high as this is good enough to stop.
+  /// The search stops at a lower bound of at least this.
   double sufficient = std::numeric_limits<double>::infinity();
-  /// The function hides something unknown, for which its intervals have room even at a point: the minimum
-  /// sought is that of their lower ends, and `upper` is such a lower end.
+  /// The function depends on an unknown, so that its values are intervals even at a point. The minimum sought
+  /// is that of their lower ends, and `upper` is such a lower end.
   bool of_lower_ends = false;
-  /// Where no finite slope says in which direction a cell is to be divided: the one of the largest width
-  /// times importance.
+  /// Without finite slopes a cell is divided in the direction of the largest width times importance.
   rigor::Vector<N> importance = rigor::Vector<N>::Ones();
 };
 
-/// The minimum over a box: of all points, in [lower, upper].
+/// The minimum over a box lies in [lower, upper].
 template <int N>
 struct VerifiedMinimum {
   double lower = -std::numeric_limits<double>::infinity();  ///< no value is below it
   double upper = std::numeric_limits<double>::infinity();   ///< the value at `best` is at most this
-  rigor::Vector<N> best;           ///< inside the box, not a number when no point had a finite value
-  rigor::IntervalVector<N> where;  ///< holds every minimizer
-  std::int64_t cells = 0;          ///< looked at
+  rigor::Vector<N> best;           ///< inside the box, NaN when no point had a finite value
+  rigor::IntervalVector<N> where;  ///< contains every minimizer
+  std::int64_t cells = 0;          ///< examined
   bool converged = false;          ///< within the tolerance
   /// [lower, upper], empty unless both are finite.
   [[nodiscard]] rigor::Interval value() const {
@@ -56,7 +55,7 @@ struct VerifiedMinimum {
 
 namespace detail {
 
-/// A part of the box with what is known of the function there.
+/// A part of the box with what is known of the function on it.
 template <int N>
 struct Cell {
   rigor::IntervalVector<N> box;
@@ -94,10 +93,10 @@ template <int N>
   return box.unaryExpr([](const rigor::Interval& x) { return division(x); });
 }
 
-/// Where the function certainly rises or falls along a direction, its minimum over the cell lies on a face.
-/// When that face is inside the domain the function is lower still beyond it (it is differentiable there, and
-/// its slope is not zero), and the cell holds no minimizer; when it is on the domain's boundary the cell
-/// shrinks to it. True when something shrank.
+/// Where the function certainly increases or decreases along a direction, its minimum over the cell lies on a
+/// face. When that face is inside the domain the function is lower still beyond it (it is differentiable
+/// there, and its slope is not zero), and the cell contains no minimizer; when it is on the domain's boundary
+/// the cell shrinks to it. True when the cell changed.
 template <int N>
 bool shrink_by_slopes(const rigor::Dual<rigor::Interval, N>& value, const rigor::IntervalVector<N>& domain,
                       Cell<N>& cell) {
@@ -155,7 +154,7 @@ void examine(const Function& function, const rigor::IntervalVector<N>& domain,
   if (reached < cell.at_middle && reached > -std::numeric_limits<double>::infinity()) {
     cell.at_middle = reached;
   }
-  // NaN, which an empty enclosure has for an end, leaves the bound where it is.
+  // NaN, an end of the empty enclosure, leaves the bound unchanged.
   for (const double bound : {value.value().lower(), linear.lower()}) {
     if (bound > cell.lower) {
       cell.lower = bound;
@@ -163,7 +162,7 @@ void examine(const Function& function, const rigor::IntervalVector<N>& domain,
   }
 }
 
-/// The cells that still matter, and what follows from them all.
+/// The remaining cells, and the bounds that follow from them.
 template <int N>
 class CellHeap {
  public:
@@ -182,7 +181,7 @@ class CellHeap {
     cells_.pop_back();
     return best;
   }
-  /// The hull of the cells that may hold a value as low as `upper`; `otherwise` when there are none.
+  /// The hull of the cells that may contain a value as low as `upper`; `otherwise` when there are none.
   [[nodiscard]] rigor::IntervalVector<N> hull_below(double upper,
                                                     const rigor::IntervalVector<N>& otherwise) const {
     rigor::IntervalVector<N> hull = otherwise;
@@ -200,7 +199,7 @@ class CellHeap {
   std::vector<Cell<N>> cells_;
 };
 
-/// The two halves of a cell, appended to `batch`. False when doubles leave nothing to divide.
+/// The two halves of a cell, appended to `batch`. False when no double lies between the ends.
 template <int N>
 bool divide(const Cell<N>& cell, std::vector<Cell<N>>& batch) {
   const rigor::Interval whole = cell.box[cell.split];
@@ -238,8 +237,8 @@ void examine_all(const Function& function, const rigor::IntervalVector<N>& domai
 
 /// Encloses the minimum of `function` over `box`. Best cells first, a batch at a time; mean-value form and
 /// monotonicity test. Whatever the settings, `lower` is a bound; minus infinity means that the function could
-/// not be evaluated somewhere (or that the box is not finite). Opens its own rounding scopes; does not
-/// allocate but for the list of cells.
+/// not be evaluated somewhere (or that the box is not finite). Opens its own rounding scopes; allocates only
+/// the list of cells.
 template <int N, typename Function>
 [[nodiscard]] VerifiedMinimum<N> minimize_globally(const Function& function,
                                                    const rigor::IntervalVector<N>& box,
@@ -272,7 +271,7 @@ template <int N, typename Function>
       }
     }
     if (heap.empty()) {
-      // All that is left are points that could not be divided; or, without a finite value anywhere, nothing.
+      // Only points that could not be divided remain; or, without a finite value anywhere, nothing.
       result.lower = std::isfinite(indivisible) ? std::min(indivisible, result.upper) : result.lower;
       break;
     }

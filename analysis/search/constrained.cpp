@@ -14,7 +14,8 @@ namespace {
 using Ipopt::Index;
 using Ipopt::Number;
 
-/// The problem in Ipopt's words. Throws nothing through Ipopt: an exception is kept, and the search stops.
+/// The problem in Ipopt's interface. Throws nothing through Ipopt: an exception is stored, and the search
+/// stops.
 class IpoptProblem : public Ipopt::TNLP {
  public:
   explicit IpoptProblem(const ConstrainedProblem& problem)

@@ -23,11 +23,11 @@ struct ConstrainedProblem {
   int iterations = 500;  ///< at most
 };
 
-/// Where Ipopt ended, whatever it says of that itself.
+/// The point at which Ipopt ended, whatever its status.
 struct ConstrainedPoint {
   Eigen::VectorXd point;
   double objective = 0.0;
-  bool claims_success = false;  ///< Ipopt's own status; a courtesy to the reader, never evidence
+  bool claims_success = false;  ///< Ipopt's own status; information only, never evidence
 };
 
 /// Runs Ipopt (interior points with a filter line search, quasi-Newton second derivatives) from the start.

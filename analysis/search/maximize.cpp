@@ -21,7 +21,7 @@ struct Search {
   int evaluations_left;
   std::exception_ptr thrown;
 
-  /// Minus infinity and NaN become the lowest double, and nothing is thrown through C code.
+  /// Minus infinity and NaN become the lowest double, and no exception passes through C code.
   double value(const Eigen::VectorXd& point) {
     if (evaluations_left-- <= 0) {
       throw nlopt::forced_stop();
@@ -43,7 +43,7 @@ struct Search {
   }
 };
 
-/// What NLopt calls.
+/// The function that NLopt calls.
 double evaluate(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
   constexpr double kPart = 1e-4;
   Search& search = *static_cast<Search*>(data);
@@ -84,7 +84,7 @@ BestPoint run(nlopt::algorithm algorithm, const std::function<double(const Eigen
     double value = 0.0;
     optimizer.optimize(x, value);
   } catch (const std::exception&) {
-    // Stopped, out of range, rounded off: the best point so far stands.
+    // Stopped, out of range, or limited by rounding: the best point so far is the result.
   }
   if (search.thrown) {
     std::rethrow_exception(search.thrown);

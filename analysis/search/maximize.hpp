@@ -6,12 +6,12 @@
 
 namespace veritrack::search {
 
-/// How to look: locally with Sbplx (T. H. Rowan's variant of the Nelder-Mead method, which bears kinks and
+/// The method: locally with Sbplx (T. H. Rowan's variant of the Nelder-Mead method, which tolerates kinks and
 /// plateaus), or over the whole box with DIRECT (D. R. Jones and others, in its locally biased form), which
 /// ignores start and step.
 enum class SearchMethod { subplex, direct };
 
-/// Where to look, and how.
+/// The search region and its settings.
 struct SearchSpace {
   Eigen::VectorXd start;
   Eigen::VectorXd step;  ///< first change of each variable, > 0
@@ -27,10 +27,10 @@ struct BestPoint {
   double value;
 };
 
-/// Looks for a large value of `objective` in the box, without derivatives. Deterministic: the same calls give
-/// the same result. An objective may return anything, NaN included, which counts as -infinity; exceptions it
-/// throws pass through. Throws std::invalid_argument when sizes differ. NLopt's own status and complaints are
-/// ignored: the point is the best among those evaluated here.
+/// Searches for a large value of `objective` in the box, without derivatives. Deterministic: the same calls
+/// give the same result. An objective may return anything, NaN included, which counts as -infinity;
+/// exceptions it throws pass through. Throws std::invalid_argument when sizes differ. NLopt's own status and
+/// messages are ignored: the point is the best among those evaluated here.
 [[nodiscard]] BestPoint maximize(const std::function<double(const Eigen::VectorXd&)>& objective,
                                  const SearchSpace& space);
 

@@ -22,7 +22,7 @@ struct Row {
   std::string_view id, statement, source;
   AuditKind kind;
   std::size_t first_step;
-  std::string_view quantity;  // the bound, by its name in the derivation; empty: it always exists
+  std::string_view quantity;  // the name of the bound in the derivation; empty: it always exists
 };
 
 constexpr auto kAssumption = AuditKind::assumption;
@@ -108,7 +108,7 @@ class Records {
   std::vector<AuditRecord> records_;
 };
 
-/// Least and largest eigenvalue of the symmetric part, which is all that z'Pz sees.
+/// Least and largest eigenvalue of the symmetric part, on which alone z'Pz depends.
 struct Extremes {
   Interval smallest, largest;
 };
@@ -174,7 +174,7 @@ void audit_signal_model(const Context& context, std::size_t k) {
   if (k == 0) {
     return;
   }
-  // C(k, 1) is Q whatever the trajectory, with eigenvalues q1 and q2: both margins are min(q2 - q1, 0),
+  // C(k, 1) is Q for every trajectory, with eigenvalues q1 and q2: both margins are min(q2 - q1, 0),
   // exactly zero where these are the same number.
   const Interval margin = input.q1_equals_q2 ? Interval(0.0) : min(input.q2 - input.q1, Interval(0.0));
   records["a_1"].add(k, margin, c.a_1);
@@ -205,7 +205,7 @@ void audit_estimator(const Context& context, std::size_t k) {
   }
 }
 
-/// Theorem 2.8 along (2.34), started at half of what it allows in the direction of the initial error.
+/// Theorem 2.8 along (2.34), started at half of the allowed length in the direction of the initial error.
 void audit_homogeneous(const Context& context) {
   const Theorem29Constants& c = context.theorem.constants;
   const Trajectory& trajectory = context.trajectory;

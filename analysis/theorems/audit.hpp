@@ -1,7 +1,7 @@
-// The constants of Theorem 2.9 held against a simulated trajectory.
+// The constants of Theorem 2.9 compared with a simulated trajectory.
 //
-// A simulation proves nothing of other trajectories, but one violated inequality refutes the claim that the
-// constant bounds what it is said to bound. Every inequality is evaluated in intervals at every step: it
+// A simulation proves nothing about other trajectories, but one violated inequality refutes the claim that
+// the constant is a bound. Every inequality is evaluated in intervals at every step: it
 // counts as satisfied or as violated only when that is certain for the numbers recorded, and as undecided
 // otherwise (NaN, say).
 #pragma once
@@ -20,7 +20,7 @@ namespace veritrack::theorems {
 /// One inequality at one step.
 struct AuditPoint {
   std::size_t step = 0;
-  rigor::Verdict verdict = rigor::Verdict::undecided;  ///< of this inequality at this step, nothing more
+  rigor::Verdict verdict = rigor::Verdict::undecided;  ///< of this inequality at this step only
   rigor::Interval margin;           ///< bound - value for an upper bound, value - bound for a lower one
   rigor::Interval relative_margin;  ///< the margin over |bound|; empty when the bound may be 0
 };
@@ -42,7 +42,7 @@ struct AuditedInequality {
   /// The step with the least lower end of the margin, among the steps with a finite one.
   std::optional<AuditPoint> worst;
   std::optional<std::size_t> first_violation;
-  /// Step 0, where first_step is 1 and the proof uses the bound at step 0 all the same.
+  /// Step 0, if first_step is 1 although the proof uses the bound at step 0.
   std::optional<AuditPoint> before_first_step;
   /// Set when the bound does not exist for the design; nothing is then counted.
   std::optional<std::string> not_applicable;
@@ -55,15 +55,15 @@ struct Audit {
   /// Up to this step, exclusively, every assumption is certainly satisfied at every step.
   std::size_t steps_within_assumptions = 0;
 
-  /// True when a claim is violated at a step up to which all assumptions are satisfied: the constant does not
-  /// bound what the source says it bounds.
+  /// True when a claim is violated at a step up to which all assumptions are satisfied: the constant is not
+  /// the bound that the source claims.
   [[nodiscard]] bool refutes(const AuditedInequality& inequality) const noexcept {
     return inequality.kind == AuditKind::claim && inequality.first_violation.has_value() &&
            *inequality.first_violation < steps_within_assumptions;
   }
 };
 
-/// Audits every constant that bounds something along a trajectory. `theorem` is what evaluate_theorem_2_9
+/// Audits every constant that is a bound along a trajectory. `theorem` is what evaluate_theorem_2_9
 /// returned for `input`. The inequalities on z are along the trajectory of (2.34) that starts within (2.45),
 /// in the direction of e(0|0); it is recomputed in double, and each of its steps is evaluated in intervals
 /// from the doubles it starts from. Opens its own UpwardRounding scope. About 0.1 ms a step.

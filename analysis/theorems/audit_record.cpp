@@ -10,7 +10,8 @@ Verdict AuditRecord::add(std::size_t step, const Interval& margin, const Interva
   if (record.not_applicable) {
     return Verdict::undecided;
   }
-  // A difference rounded down is non-negative exactly when the difference is.
+  // The sign of a difference is exact under downward rounding: it is non-negative exactly when the difference
+  // is.
   const Verdict verdict = decide_less_equal(Interval(0.0), margin);
   const AuditPoint point{step, verdict, margin, margin / abs(bound)};
   if (step < record.first_step) {

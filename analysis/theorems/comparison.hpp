@@ -1,4 +1,4 @@
-// Conditions of the form left < right: the verdict, and the sentence that says what decided it.
+// Conditions of the form left < right: the verdict, and a sentence with the reason.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace veritrack::theorems {
 
-/// One side of an inequality: how the reason calls it, and what it is. A literal (0 or 1) is its own value.
+/// One side of an inequality: its name in the reason, and its value. A literal (0 or 1) is named by its
+/// value.
 struct Side {
   std::string words;
   rigor::Interval value;
@@ -25,14 +26,14 @@ struct Side {
 
 enum class Strictness { strict, weak };
 
-/// left < right, or left <= right. Needs the held rounding mode.
+/// left < right, or left <= right. Needs the upward rounding mode.
 [[nodiscard]] rigor::Verdict decide(const rigor::Interval& left, const rigor::Interval& right,
                                     Strictness strictness);
 
-/// What decided left < right (or left <= right), in one sentence.
+/// The reason for the verdict on left < right (or left <= right), in one sentence.
 [[nodiscard]] std::string explain(const Side& left, const Side& right, rigor::Verdict verdict);
 
-/// left < right (or left <= right), reported with the two sides that decided it. Needs the held rounding
+/// left < right (or left <= right), reported with its two sides. Needs the upward rounding
 /// mode.
 [[nodiscard]] Condition compare(std::string id, std::string statement, const Side& left, const Side& right,
                                 Strictness strictness = Strictness::strict);

@@ -9,9 +9,9 @@
 
 namespace veritrack::theorems {
 
-/// id "baras-bensoussan-james". The theorem's conditions are about all states, and fail; the constants are
-/// those of the states near the signal. Beside the printed (2.16), which depends on the units of the state,
-/// stands what its proof gives (docs/published-results.md): N <= q I and
+/// id "baras-bensoussan-james". The theorem's conditions concern all states, and fail; the constants are for
+/// states near the signal. The printed (2.16) depends on the units of the state; its proof gives
+/// (docs/published-results.md) N <= q I and
 ///     |x_0 - m_0| |d^2 f| < q_0 / (q^(3/2) |P_0^(1/2)|).
 /// Opens its own UpwardRounding scope.
 [[nodiscard]] Derivation evaluate_baras_bensoussan_james(const TrackerInput& input);

@@ -6,7 +6,7 @@
 //     O^-1 + B W B' = diag(r/2 + q1/4) + [[r, r/mu], [r/mu, (2r + q1)/mu^2 + q2]].
 // The second block is P(k|k) itself for an infinite prior: two measurements determine phase and frequency,
 // and no other unbiased estimator exists. For the amplitude it is r(r + q1)/(2r + q1), less than the bound.
-// The information bound is Q^-1 + H'H/r, whatever m is. All functions need the held rounding mode.
+// The information bound is Q^-1 + H'H/r for every m. All functions need the upward rounding mode.
 #pragma once
 
 #include "analysis/theorems/tracker_input.hpp"
@@ -29,9 +29,9 @@ struct CovarianceRange {
   rigor::Interval smallest, largest;
 };
 
-/// Holds for every k >= 0 as long as the filtered estimates before k have | |z| - 1 | <= radius. The steady
-/// state obeys the window bounds, being its own past, if its |z| lies in the band (it is 1 for epsilon = 0);
-/// a P(0|0) that is given widens the range by itself and by a bound on P(1|1).
+/// Valid for every k >= 0 as long as the filtered estimates before k have | |z| - 1 | <= radius. The steady
+/// state satisfies the window bounds, since its past is itself, if its |z| lies in the band (it is 1 for
+/// epsilon = 0); a given P(0|0) widens the range to include P(0|0) and a bound on P(1|1).
 [[nodiscard]] CovarianceRange covariance_range(const TrackerInput& input, const rigor::Interval& radius);
 
 }  // namespace veritrack::theorems

@@ -1,4 +1,4 @@
-// What a published theorem says of a design: named quantities with enclosures, and conditions with verdicts.
+// A published theorem evaluated for a design: named quantities with enclosures, and conditions with verdicts.
 #pragma once
 
 #include <optional>
@@ -17,12 +17,12 @@ struct Quantity {
   std::string name;     ///< as in certificate.json, e.g. "rho_1"
   std::string symbol;   ///< LaTeX, as the source writes it, e.g. "\\rho_1"
   std::string formula;  ///< LaTeX, the right-hand side, e.g. "2(R_x + \\epsilon_r)"
-  std::string source;   ///< where the formula stands, e.g. "thesis, section 3.5"
+  std::string source;   ///< the place of the formula, e.g. "thesis, section 3.5"
   rigor::Interval value;
   /// Set when the quantity does not exist for this design (a division by q1 = 0, say): the reason, as a
   /// sentence. The value is then empty.
   std::optional<std::string> not_applicable;
-  /// False for a number that a search or a simulation gave: no enclosure of anything.
+  /// False for a number from a search or a simulation, which encloses nothing.
   bool proved = true;
 };
 
@@ -33,25 +33,25 @@ struct Condition {
   rigor::Verdict verdict = rigor::Verdict::undecided;
   rigor::Interval lhs;
   rigor::Interval rhs;
-  std::string reason;  ///< one sentence: what decided it, or why it could not be decided
+  std::string reason;  ///< one sentence: the reason for the verdict, or why there is none
 };
 
-/// Is there any admissible choice of the theorem's free parameters for which its stability conditions hold?
+/// Is there any admissible choice of the theorem's free parameters that satisfies its stability conditions?
 struct Feasibility {
   /// PROVED: yes, with the point as witness. REFUTED: no, by the argument and the lower bound.
   rigor::Verdict verdict = rigor::Verdict::undecided;
   std::string argument;       ///< plain sentences
-  bool every_design = false;  ///< REFUTED for every design, not for this one alone
-  /// What the left-hand side of the condition exceeds at every admissible point.
+  bool every_design = false;  ///< REFUTED for every design, not only for this one
+  /// A lower bound on the left-hand side of the condition over all admissible points.
   std::optional<rigor::Interval> lower_bound;
   std::vector<Quantity> witness;     ///< a point that satisfies the conditions
   std::vector<Quantity> best_found;  ///< the least left-hand side that a search found, and its point
 };
 
-/// Exact numbers from which a part of a derivation can be established again without the search that found it:
-/// the names are explained in docs/certificate-format.md.
+/// Exact numbers from which a part of a derivation can be verified without the search that found it: the
+/// names are explained in docs/certificate-format.md.
 struct Evidence {
-  std::string name;  ///< what it is evidence of, e.g. "start"
+  std::string name;  ///< what it proves, e.g. "start"
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<std::pair<std::string, rigor::DynamicMatrix>> matrices;
 };
@@ -62,10 +62,10 @@ struct Derivation {
   std::string title;  ///< one line
   std::vector<Quantity> quantities;
   std::vector<Condition> conditions;
-  std::vector<std::string> notes;  ///< sentences a reader needs, e.g. which of our choices entered
-  /// All conditions together.
+  std::vector<std::string> notes;  ///< further sentences, e.g. which of our choices were used
+  /// The conjunction of all conditions.
   rigor::Verdict verdict = rigor::Verdict::undecided;
-  /// Only where a theorem has parameters that are free to choose.
+  /// Only for a theorem with free parameters.
   std::optional<Feasibility> feasibility;
   std::vector<Evidence> evidence;
 };

@@ -1,4 +1,4 @@
-// Small steps that every derivation takes.
+// Helpers for building derivations.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace veritrack::theorems {
 
-/// How a quantity is named, written and where its formula stands; see Quantity.
+/// Name, symbol, formula and source of a quantity; see Quantity.
 struct QuantityText {
   std::string name, symbol, formula, source;
 };
@@ -17,7 +17,7 @@ struct QuantityText {
 void add_quantity(Derivation& derivation, QuantityText text, const rigor::Interval& value,
                   std::string why_not = {});
 
-/// Sets the verdict: all conditions together.
+/// Sets the verdict: the conjunction of all conditions.
 void conclude(Derivation& derivation);
 
 }  // namespace veritrack::theorems

@@ -32,7 +32,8 @@ SmallMatrix propagated(const SmallMatrix& p, const SmallMatrix& k, const LinearW
   return symmetrized(moved * noise.transitions[i].transpose() + noise.process_noises[i]);
 }
 
-/// What the smallest eigenvalues of all differences of one order exceed: the order is strict where positive.
+/// A lower bound on the smallest eigenvalues of all differences of one order: the order is strict where it is
+/// positive.
 Interval smallest_gap(const std::vector<DesignedCovariances>& steps, bool over_designed) {
   Interval smallest = Interval::empty();
   for (std::size_t i = 0; i < steps.size(); ++i) {

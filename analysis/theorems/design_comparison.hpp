@@ -1,5 +1,5 @@
-// Theorem 3.2 of the thesis: what a Kalman filter achieves when it is designed for more, or less, noise than
-// there is.
+// Theorem 3.2 of the thesis: the performance of a Kalman filter that is designed for more, or less, noise
+// than the actual noise.
 #pragma once
 
 #include <vector>
@@ -18,19 +18,19 @@ struct DesignedCovariances {
 };
 
 /// k = 1, ..., N for the window's system, whose noises are the actual ones (k - N is called 0, and its
-/// outputs are the first that are used); the designed noises stand in `design`, of the same shape. All three
+/// outputs are the first that are used); `design` contains the designed noises, in the same shape. All three
 /// start from `prior` at k = 0. Empty when an innovation covariance could not be verified to be invertible.
-/// Needs the held rounding mode. Throws std::invalid_argument when the shapes do not fit.
+/// Needs the upward rounding mode. Throws std::invalid_argument when the shapes do not fit.
 [[nodiscard]] std::vector<DesignedCovariances> compare_designs(const LinearWindow& actual,
                                                                const LinearWindow& design,
                                                                const SmallMatrix& prior);
 
 /// id "theorem-3.2": the orders P^o <= P^p <= P^d and P^d <= P^o <= P^p over the first steps of the tracker's
-/// linearisation at |z| = 1, the design being held against half and against twice its noise. Opens its own
+/// linearisation at |z| = 1, with the design compared with half and with twice its noise. Opens its own
 /// UpwardRounding scope.
 [[nodiscard]] Derivation evaluate_theorem_3_2(const TrackerInput& input);
 
-/// id "theorem-3.2/any-start": the theorem as printed does not ask for an order of the starts, and fails
+/// id "theorem-3.2/any-start": the theorem as printed does not require an order of the starts, and fails
 /// without one. Opens its own UpwardRounding scope.
 [[nodiscard]] Derivation evaluate_theorem_3_2_any_start();
 

@@ -26,13 +26,13 @@ struct ErrorEquation {
   CovarianceRange covariance;       ///< p_lo, p_hi
   rigor::Interval process;          ///< q_lo
   rigor::Interval measurement;      ///< r
-  rigor::Interval one_minus_alpha;  ///< 1 - alpha: one step of F shrinks sqrt(e' P^-1 e) by alpha
+  rigor::Interval one_minus_alpha;  ///< 1 - alpha: one step of F multiplies sqrt(e' P^-1 e) by at most alpha
   rigor::Interval beta;             ///< sqrt(p_hi / p_lo)
   rigor::Interval correction;       ///< |I - KH| <= sqrt(p_hi / q_lo)
   rigor::Interval gain;             ///< |K| <= min(p_hi / r, sqrt(p_hi / r))
 };
 
-/// The constants for that radius. Empty values where q1 may be zero. Needs the held rounding mode.
+/// The constants for that radius. Empty values where q1 may be zero. Needs the upward rounding mode.
 [[nodiscard]] ErrorEquation error_equation(const TrackerInput& input, const rigor::Interval& radius);
 
 /// The radius among 1/2, 1/4, ... for which `value` has the largest lower end; every radius is valid, so that
@@ -40,23 +40,22 @@ struct ErrorEquation {
 [[nodiscard]] rigor::Interval best_radius(
     const std::function<rigor::Interval(const rigor::Interval&)>& value);
 
-/// What a reader compares results by. Any of them may be empty.
+/// The quantities by which results are compared. Any of them may be empty.
 struct Guarantee {
   rigor::Interval initial_frequency_error;  ///< the largest certified initial error, rad/sample
   rigor::Interval noise;                    ///< the largest certified |v(k)|, over the amplitude
-  rigor::Interval rate;                     ///< the factor a step in the norm of the result
+  rigor::Interval rate;                     ///< the factor per step in the norm of the result
 };
 
 /// Appends the quantities "initial_frequency_error_bound", "noise_bound" and "rate". `no_noise` says why the
-/// result bears no noise; empty when it does.
+/// result tolerates no noise; empty when it tolerates some.
 void add_guarantee(Derivation& derivation, const Guarantee& guarantee, const std::string& source,
                    const std::string& no_noise = {});
 
 /// Appends the constants of the error equation as quantities.
 void add_error_equation(Derivation& derivation, const ErrorEquation& equation);
 
-/// Is P(0|0) known to lie in the covariance range? A steady state is for epsilon = 0 only, where |z| = 1
-/// there.
+/// Is P(0|0) known to lie in the covariance range? For a steady state only if epsilon = 0, where |z| = 1.
 [[nodiscard]] Condition start_covariance(const TrackerInput& input, const ErrorEquation& equation);
 
 /// The largest |e_0| allowed against `bound`.

@@ -20,7 +20,7 @@ Interval largest_eigenvalue_of(const Eigen::MatrixBase<Derived>& matrix) {
   return eigenvalues ? (*eigenvalues)(eigenvalues->size() - 1) : Interval::empty();
 }
 
-/// The upper end, a point: where only an upper bound counts.
+/// The upper end as a point, for quantities of which only an upper bound is needed.
 Interval most(const Interval& x) {
   return Interval(x.upper());
 }

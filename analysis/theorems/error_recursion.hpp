@@ -1,10 +1,10 @@
-// How the size of the quadrature tracker's estimation error evolves, in the norm of its own covariance:
+// A recursion for the size of the quadrature tracker's estimation error, in the norm of its own covariance:
 //     W(k) = sqrt(e(k)' P(k|k)^-1 e(k)),   e(k) = x(k) - xhat(k|k).
 // For a signal of amplitude 1 with frequency noise w(k) (x3(k+1) = (1 - epsilon) x3(k) + w(k)) and
 // measurement noise v(k), as long as every estimate stays in a tube around the signal,
 //     W(k+1) <= alpha W(k) + c W(k)^2 + g_w |w(k)| + g_v |v(k+1)|.
-// The proof is docs/repaired-theorem.md. P(k|k) is the filter's actual covariance, whatever its past: it
-// enters through the bounds of tracker_covariance.hpp alone, and nothing is differentiated.
+// The proof is docs/repaired-theorem.md. P(k|k) is the filter's actual covariance for any past: only the
+// bounds of tracker_covariance.hpp on it are used, and nothing is differentiated.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace veritrack::theorems {
 
-/// The constants of the recursion, and where it holds.
+/// The constants of the recursion, and where it is valid.
 struct ErrorRecursion {
   EstimateTube tube;
   int window = 0;  ///< N of the Riccati bounds, samples; 0: the range of invariant_covariance.hpp
@@ -38,21 +38,21 @@ struct ErrorRecursion {
   /// R for ever when g_w |w| + g_v |v| <= disturbance.
   [[nodiscard]] rigor::Verdict decide_invariant(const rigor::Interval& radius,
                                                 const rigor::Interval& disturbance) const;
-  /// A point near the largest R of decide_invariant, by floating point: a proposal. Empty when there seems to
-  /// be none.
+  /// A point near the largest R of decide_invariant, by floating point: a proposal. Empty when none was
+  /// found.
   [[nodiscard]] rigor::Interval propose_radius(const rigor::Interval& disturbance) const;
-  /// The R that bears the largest disturbance, a point: (1 - alpha)/(2 c), or where the tube ends.
+  /// The R that tolerates the largest disturbance, a point: (1 - alpha)/(2 c), or the end of the tube.
   [[nodiscard]] rigor::Interval toughest_radius() const;
   /// That disturbance, (1 - alpha) R - c R^2.
   [[nodiscard]] rigor::Interval largest_disturbance() const;
-  /// What limsup W(k) is at most when W(0) is below the larger root of alpha R + c R^2 + disturbance = R: the
-  /// smaller root. Empty when there is none.
+  /// An upper bound on limsup W(k) when W(0) is below the larger root of alpha R + c R^2 + disturbance = R:
+  /// the smaller root. Empty when there is none.
   [[nodiscard]] rigor::Interval ultimate_radius(const rigor::Interval& disturbance) const;
 };
 
 /// The recursion for a tube and a window (see ErrorRecursion::window); nothing where a bound is not finite or
 /// alpha is not certainly below
-/// 1. Needs the held rounding mode.
+/// 1. Needs the upward rounding mode.
 [[nodiscard]] std::optional<ErrorRecursion> error_recursion(const IntervalDesign& design,
                                                             const EstimateTube& tube, int window);
 

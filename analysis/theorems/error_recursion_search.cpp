@@ -10,7 +10,7 @@ std::vector<ErrorRecursion> recursion_ladder(const IntervalDesign& design) {
   constexpr double kStep = 1.5;
   std::vector<ErrorRecursion> ladder;
   for (const int window : {0, 1, 2, 3, 4, 6}) {
-    // Both limits of the tube should be met at the same W.
+    // Both limits of the tube should be reached at the same W.
     double ratio = 1.0;
     double plane_error = kSmallest;
     while (plane_error < kLargest) {

@@ -1,4 +1,4 @@
-// Which tube and which window serve best: proposals for error_recursion.hpp, each of them verified.
+// A search for the best tube and window: proposals for error_recursion.hpp, each of them verified.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace veritrack::theorems {
 
-/// The recursions of a ladder of tubes, for several windows. Needs the held rounding mode.
+/// The recursions of a sequence of tubes, for several windows. Needs the upward rounding mode.
 [[nodiscard]] std::vector<ErrorRecursion> recursion_ladder(const IntervalDesign& design);
 
 /// The recursion with the largest score; nothing when none has a positive one. NaN counts as no score.

@@ -16,14 +16,14 @@ using rigor::IntervalVector;
 using Covariance = trackers::FactoredCovariance<Interval>;
 using Estimate = trackers::QuadratureEstimate<Interval>;
 
-/// 2^exponent; below the normal numbers only that it lies between 0 and the least of them.
+/// 2^exponent; below the normal range, the interval from 0 to the least normal number.
 Interval power_of_two(int exponent) {
   constexpr int kLeast = std::numeric_limits<double>::min_exponent - 1;
   return exponent >= kLeast ? Interval(std::ldexp(1.0, exponent))
                             : Interval::from_bounds(0.0, std::numeric_limits<double>::min());
 }
 
-/// Moves the size of the direction into the exponent.
+/// Moves the scale of the direction into the exponent.
 void rescale(HomogeneousState& state) {
   const double largest = state.direction.cwiseAbs().maxCoeff();
   if (std::isfinite(largest) && largest > 0.0) {
@@ -105,7 +105,7 @@ HomogeneousStep step_homogeneous(const HomogeneousState& state, const Eigen::Vec
   const Estimate zbar{x(0) - unit * z(0), x(1) - unit * z(1), x(2) - unit * z(2), covariance};
   const Covariance predicted = trackers::time_update(zbar, design).covariance;
 
-  // [I - K H] F_x z is what a measurement of zero makes of the prediction F_x z.
+  // [I - K H] F_x z is the prediction F_x z corrected by a measurement of zero.
   const IntervalVector<3> carried = linearised(x, z, design.epsilon);
   const Estimate updated = trackers::measurement_update(
       Estimate{carried(0), carried(1), carried(2), predicted}, Interval(0.0), Interval(0.0), design);

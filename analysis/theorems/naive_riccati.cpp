@@ -36,7 +36,7 @@ void add_exact_gramians(Derivation& derivation, const Theorem29Input& input) {
                 kBounds},
                attained);
 
-  // In the direction of the frequency: what an infinite prior leaves, and what O^-1 + C has.
+  // In the direction of the frequency: the variance for an infinite prior, and that of O^-1 + C.
   const Interval a_squared = square(one - input.epsilon);
   const Interval gramian = Interval(2.0) * input.r * a_squared + input.q2;
   derivation.conditions.push_back(compare(
@@ -71,7 +71,8 @@ void add_reading(Derivation& derivation, Theorem29Variant variant, const Theorem
       "p-" + name, R"(\lVert P(k \mid k) \rVert \le p \text{ for } \bigl||z| - 1\bigr| \le \epsilon_r)",
       {"the sound bound on |P(k|k)|", sound}, {"p", constants.p}, Strictness::weak);
   if (covariance.verdict != Verdict::proved) {
-    // Only what a filter attains refutes; that the bound of the amplitude is larger than p does not.
+    // Only a variance that a filter attains refutes p; a bound on the amplitude variance that exceeds p does
+    // not.
     covariance = compare(covariance.id, covariance.statement,
                          {"the largest |P(k|k)| for an infinite prior, at |z| = 1 - epsilon_r,", attained},
                          {"p", constants.p}, Strictness::weak);

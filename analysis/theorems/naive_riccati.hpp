@@ -1,4 +1,4 @@
-// Do the bounds that the thesis takes from Deyst and Price hold for a design of the quadrature tracker?
+// Are the bounds that the thesis takes from Deyst and Price true for a design of the quadrature tracker?
 #pragma once
 
 #include "analysis/theorems/derivation.hpp"

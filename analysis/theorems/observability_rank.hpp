@@ -9,11 +9,11 @@
 namespace veritrack::theorems {
 
 /// The Gram matrix J'J, J the derivative of (h(x), h(f(x)), h(f(f(x)))), by automatic differentiation.
-/// Signal units and rad/sample mixed, as in the thesis. Needs the held rounding mode.
+/// Signal units and rad/sample mixed, as in the thesis. Needs the upward rounding mode.
 [[nodiscard]] rigor::IntervalMatrix<3> observability_gram(const rigor::IntervalVector<3>& state,
                                                           const rigor::Interval& epsilon);
 
-/// The printed one, its "1 - epsilon x" read as (1 - epsilon) x. Needs the held rounding mode.
+/// The printed one, its "1 - epsilon x" read as (1 - epsilon) x. Needs the upward rounding mode.
 [[nodiscard]] rigor::IntervalMatrix<3> printed_gram(const rigor::IntervalVector<3>& state,
                                                     const rigor::Interval& epsilon);
 
@@ -21,7 +21,8 @@ namespace veritrack::theorems {
 /// UpwardRounding scope.
 [[nodiscard]] Derivation evaluate_observability_rank(const TrackerInput& input);
 
-/// id "theorem-3.1/to-the-letter": what is printed beside it and fails. Opens its own UpwardRounding scope.
+/// id "theorem-3.1/to-the-letter": the statements printed with it that fail. Opens its own UpwardRounding
+/// scope.
 [[nodiscard]] Derivation evaluate_observability_to_the_letter(const TrackerInput& input);
 
 }  // namespace veritrack::theorems

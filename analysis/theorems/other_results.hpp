@@ -8,10 +8,11 @@
 
 namespace veritrack::theorems {
 
-/// Every result beside Theorem 2.9, each with an id of its own, in the order in which a reader meets them.
-/// Where a result certifies something for the tracker, its quantities "initial_frequency_error_bound"
-/// (rad/sample), "noise_bound" (of |v(k)|, over the amplitude) and "rate" (a step) say what; they are not
-/// applicable where it certifies nothing. Opens its own UpwardRounding scope. A few milliseconds.
+/// Every result other than Theorem 2.9, each with its own id, in the order of the document.
+/// If a result certifies a start or a noise bound for the tracker, its quantities
+/// "initial_frequency_error_bound" (rad/sample), "noise_bound" (of |v(k)|, over the amplitude) and "rate"
+/// (per step) give them; otherwise these are not applicable. Opens its own UpwardRounding scope. A few
+/// milliseconds.
 [[nodiscard]] std::vector<Derivation> evaluate_other_results(const TrackerInput& input);
 
 }  // namespace veritrack::theorems

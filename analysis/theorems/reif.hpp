@@ -9,8 +9,8 @@ namespace veritrack::theorems {
 
 /// id "reif-1999": the constants as published, for the one-step filter the paper treats (it linearises at the
 /// prediction; P there is P(k|k-1)). V = e'P^-1 e decreases while |e| <= epsilon' and |e| <= alpha/(2 p_hi
-/// kappa); that |e_k| stays there the paper takes from |e_0| <= epsilon, which needs the factor sqrt(p_lo /
-/// p_hi), and noise needs a condition of its own: both are conditions here. Opens its own UpwardRounding
+/// kappa). The paper concludes from |e_0| <= epsilon that |e_k| stays there; this needs the factor sqrt(p_lo
+/// / p_hi). Noise needs a further condition. Both are conditions here. Opens its own UpwardRounding
 /// scope.
 [[nodiscard]] Derivation evaluate_reif(const TrackerInput& input);
 

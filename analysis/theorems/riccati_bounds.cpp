@@ -57,7 +57,7 @@ std::optional<SmallMatrix> symmetric_inverse(const SmallMatrix& matrix) {
   return inverse ? std::optional<SmallMatrix>(symmetrized(*inverse)) : std::nullopt;
 }
 
-/// The end of the spectrum, or nothing known.
+/// An end of the spectrum; empty when unknown.
 Interval eigenvalue(const SmallMatrix& matrix, bool largest) {
   const auto eigenvalues = rigor::symmetric_eigenvalues(matrix);
   if (!eigenvalues) {

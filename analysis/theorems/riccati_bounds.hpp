@@ -1,21 +1,21 @@
-// Bounds on the covariance P(k|k) of the Kalman filter of a linear time-varying system, from the data of a
-// window of N steps alone:
+// Bounds on the covariance P(k|k) of the Kalman filter of a linear time-varying system, from a window of N
+// steps only:
 //     x(i+1) = F(i) x(i) + w(i),   y(i) = H(i) x(i) + v(i),   cov w(i) = Q(i) >= 0,   cov v(i) = R(i) > 0.
 //
 // With Phi(k,i) = F(k-1) ... F(i), Phi(i,k) its inverse, and
 //     M_i = Phi(i,k)' H(i)' R(i)^-1 H(i) Phi(i,k),   i = k-N, ..., k,      O = sum M_i   (thesis, (2.22))
 //     W_j = Phi(k,j+1) Q(j) Phi(k,j+1)',             j = k-N, ..., k-1,    C = sum W_j   (thesis, (2.23))
 // the thesis (section 2.4.3, after Deyst and Price 1968) uses P(k|k) <= O^-1 + C and P(k|k)^-1 <= C^-1 + O.
-// The first is false for two states or more, the second for windows N >= 2. What holds instead, proved in
-// docs/riccati-bounds.md:
+// The first is false for two states or more, the second for windows N >= 2. The following bounds are proved
+// in docs/riccati-bounds.md:
 //     P(k|k)    <= O^-1 + sum_j B_j W_j B_j',          B_j = O^-1 sum_{i<=j} M_i,
 //     P(k|k)^-1 <= C^-1 + sum_i C^-1 D_i M_i D_i C^-1,  D_i = sum_{j<i} W_j.
-// The first is the error covariance of an unbiased estimator that ignores everything before the window: it
-// holds for every prior on x(k-N), once the filter has processed the N + 1 measurements y(k-N), ..., y(k). A
+// The first is the error covariance of an unbiased estimator that ignores everything before the window: it is
+// valid for every prior on x(k-N), once the filter has processed the N + 1 measurements y(k-N), ..., y(k). A
 // filter that starts with P(0|0) has done so from k = N + 1 on; one that starts with P(0|-1), from k = N. The
-// second holds for every covariance P(k-N|k-N) >= 0.
+// second is valid for every covariance P(k-N|k-N) >= 0.
 //
-// All functions need the held rounding mode. Entries that are not finite give nothing.
+// All functions need the upward rounding mode. Entries that are not finite give no result.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ inline constexpr int kMaxStates = 4;
 /// At most kMaxStates rows and columns; no allocation.
 using SmallMatrix = Eigen::Matrix<rigor::Interval, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
 
-/// The same, known to be symmetric: both enclosures of an entry hold it.
+/// The same, known to be symmetric: both enclosures of an entry contain it.
 [[nodiscard]] SmallMatrix symmetrized(const SmallMatrix& matrix);
 
 /// A window of N >= 0 steps: N transitions with their process noise, N + 1 measurements.

@@ -30,7 +30,7 @@ Interval first_derivative_norm(const Interval& m, const Interval& epsilon) {
 }
 
 // D^2 f is symmetric, so that its norm is attained with equal arguments u = (u_z, u3) (Banach 1938; for a
-// vector-valued form, by way of each of its components): |2 i u3 u_z - u3^2 z|, largest when the two terms
+// vector-valued form, apply it to each component): |2 i u3 u_z - u3^2 z|, largest when the two terms
 // are aligned. With |u_z| = sin t, u3 = cos t this is sin 2t + m (1 + cos 2t)/2, of maximum m/2 + sqrt(1 +
 // m^2/4).
 Interval second_derivative_norm(const Interval& m) {

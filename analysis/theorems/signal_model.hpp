@@ -3,7 +3,7 @@
 // through m = |z|.
 //
 // Norms are induced by the Euclidean norm (thesis, definitions 2.5 and 2.6). All functions are exact formulas
-// evaluated in intervals and need the held rounding mode; empty operands give empty results.
+// evaluated in intervals and need the upward rounding mode; empty operands give empty results.
 #pragma once
 
 #include "analysis/rigor/interval.hpp"

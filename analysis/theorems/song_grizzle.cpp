@@ -19,7 +19,7 @@ struct LocalConstants {
   Interval p, q, r;
   Interval phi;            ///< (1/2) X (pq)^2: no curvature in the output
   Interval decrease;       ///< 1/(r q^2)
-  Interval largest_error;  ///< E = q^(1/2) V_0^(1/2): half of where varphi vanishes, or less
+  Interval largest_error;  ///< E = q^(1/2) V_0^(1/2): at most half of the zero of varphi
 };
 
 LocalConstants local_constants(const TrackerInput& input, const Interval& radius) {
@@ -38,7 +38,7 @@ LocalConstants local_constants(const TrackerInput& input, const Interval& radius
   const Interval b = c.p * c.q * equation.transition;
   const Interval d = c.decrease / c.p;
   const Interval vanishing = d / (sqrt(square(b) + d) + b) / c.phi;
-  // The filtered error, at most |I - KH| E, must not leave the radius either.
+  // The filtered error, at most |I - KH| E, must stay within the radius, too.
   c.largest_error = min(vanishing / two, equation.radius / max(one, equation.correction));
   return c;
 }

@@ -8,7 +8,7 @@
 
 namespace veritrack::theorems {
 
-/// id "song-grizzle": its assumptions are about all states, and fail for the tracker: the Gramian is singular
+/// id "song-grizzle": its assumptions concern all states, and fail for the tracker: the Gramian is singular
 /// at z = 0, and |F| is not bounded. Opens its own UpwardRounding scope.
 [[nodiscard]] Derivation evaluate_song_grizzle(const TrackerInput& input);
 

@@ -8,7 +8,7 @@
 
 namespace veritrack::theorems {
 
-/// One statement with its verdict. PROVED and REFUTED speak of the sentence as it stands.
+/// One statement with its verdict. PROVED and REFUTED refer to the sentence as written.
 struct Statement {
   std::string id;        ///< e.g. "theorem-2.9/b_1/errata"
   std::string sentence;  ///< plain text, with units where there are any
@@ -18,7 +18,7 @@ struct Statement {
 };
 
 /// The statement, with evidence that is not finite marked as not applicable; the witness then says which
-/// quantity is undefined, and the verdict is UNDECIDED whatever was given.
+/// quantity is undefined, and the verdict is UNDECIDED.
 [[nodiscard]] Statement make_statement(std::string id, std::string sentence, rigor::Verdict verdict,
                                        std::string witness, std::vector<Quantity> evidence);
 

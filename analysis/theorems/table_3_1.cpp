@@ -16,7 +16,7 @@ using rigor::Interval;
 using rigor::Verdict;
 using Number = rigor::Dual<Interval, 3>;  // by q1, q2, r
 
-/// What the constants depend on beside q1, q2 and r.
+/// The parameters of the constants other than q1, q2 and r.
 struct Factors {
   Interval b1;           ///< B1
   Interval b2;           ///< B2

@@ -12,7 +12,8 @@ namespace veritrack::theorems {
 /// r_beta, where alpha and beta are stationary in r, enclosed and compared with their formulas. Opens its own
 /// UpwardRounding scope.
 ///
-/// With p = q2 + B1 r, q = 1/q1 + B2/r, s = q + rho1^2/q1 (B1 = 1/(r b1), B2 = r b2, both free of r) one has
+/// With p = q2 + B1 r, q = 1/q1 + B2/r, s = q + rho1^2/q1 (B1 = 1/(r b1), B2 = r b2, both independent of r)
+/// one has
 /// beta^2 = p q and 1 - alpha^2 = gamma/q = gamma_fraction/(s p^2 q), so the signs asked for are those of the
 /// derivatives of p q and s p^2 q. Both are sums of positive multiples of powers of r: convex in log r on a
 /// logarithmic scale, with one stationary point at most, a minimum.

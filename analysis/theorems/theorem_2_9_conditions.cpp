@@ -41,7 +41,7 @@ void add_parameter_ranges(std::vector<Condition>& conditions, Theorem29Variant v
                                {"the leak epsilon", input.epsilon}, one(), strict));
 }
 
-/// Adds to a condition on Q or R that the noise stays within the bound the theorem assumes for it.
+/// Adds to a condition on Q or R that the noise is within the bound that the theorem assumes.
 void require_noise_bound(Condition& condition, const std::optional<Interval>& noise, const std::string& name,
                          const Side& bound) {
   if (condition.verdict == Verdict::refuted) {
@@ -55,7 +55,7 @@ void require_noise_bound(Condition& condition, const std::optional<Interval>& no
   }
 }
 
-/// (2.26). On the unit circle |x(k)| is at least 1, whatever else is known of the state.
+/// (2.26). On the unit circle |x(k)| is at least 1 for every state.
 Condition bounded_state(const Theorem29Input& input, const Theorem29Constants& c) {
   const std::string statement = R"(\lvert x(k) \rvert \le R_x)";
   const bool below_the_circle = certainly_less(c.state_bound, Interval(1.0));
@@ -74,8 +74,8 @@ Condition bounded_state(const Theorem29Input& input, const Theorem29Constants& c
           state.value, c.state_bound, explain(state, {"R_x", c.state_bound}, verdict)};
 }
 
-/// The standing assumptions (2.24), (2.25), (2.26), (2.28), (2.29), as far as the constants and what is
-/// assumed of the signal decide them.
+/// The standing assumptions (2.24), (2.25), (2.26), (2.28), (2.29), as far as the constants and the
+/// assumptions on the signal decide them.
 void add_standing_assumptions(std::vector<Condition>& conditions, const Theorem29Input& input,
                               const Theorem29Constants& c) {
   const auto strict = Strictness::strict;
@@ -108,8 +108,8 @@ void add_standing_assumptions(std::vector<Condition>& conditions, const Theorem2
   conditions.push_back(std::move(measured));
 }
 
-/// (2.43) to (2.45). The first two are decided against 1 - alpha: next to 1 the left-hand sides carry no
-/// digit of it.
+/// (2.43) to (2.45). The first two are decided against 1 - alpha: relative to 1 the left-hand sides have no
+/// significant digit of it.
 void add_stability_conditions(std::vector<Condition>& conditions, const Theorem29Input& input,
                               const Theorem29Constants& c) {
   const Side gap{"1 - alpha", c.one_minus_alpha};
@@ -131,7 +131,7 @@ void add_stability_conditions(std::vector<Condition>& conditions, const Theorem2
   }
 }
 
-/// Where q1 may be zero, a condition made of what divides by it decides nothing, and says why.
+/// Where q1 may be zero, a condition that uses a quotient by q1 decides nothing, and says why.
 void explain_divisions_by_q1(std::vector<Condition>& conditions, const Theorem29Input& input) {
   for (Condition& condition : conditions) {
     const std::string quantity = condition.id == "2.43"    ? "lhs_2_43"

@@ -9,8 +9,8 @@
 namespace veritrack::theorems {
 
 /// The ranges of the free parameters, the standing assumptions and (2.43) to (2.45), each with its verdict
-/// and what decided it. (2.43) and (2.44) are decided against 1 - alpha; their lhs is what the thesis writes,
-/// their rhs 1. Needs the held rounding mode.
+/// and the reason. (2.43) and (2.44) are decided against 1 - alpha; their lhs is that of the thesis, their
+/// rhs 1. Needs the upward rounding mode.
 [[nodiscard]] std::vector<Condition> theorem_2_9_conditions(Theorem29Variant variant,
                                                             const Theorem29Input& input,
                                                             const Theorem29Constants& constants);

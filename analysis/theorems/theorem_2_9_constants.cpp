@@ -8,7 +8,7 @@ namespace {
 
 using rigor::Interval;
 
-/// epsilon_r, b_1 and b_2 are all that the errata sheet changes.
+/// The errata sheet changes only epsilon_r, b_1 and b_2.
 void set_observability(Theorem29Constants& c, Theorem29Variant variant, const Theorem29Input& input) {
   const Interval one(1.0);
   const Interval two(2.0);
@@ -58,7 +58,7 @@ void set_decay(Theorem29Constants& c, const Theorem29Input& input) {
   c.gamma = input.gamma_fraction * rate;
   c.beta = sqrt(c.p * c.q);
 
-  // alpha = sqrt(1 - gamma/q) is 1 to within 1e-17 for the thesis's designs: 1 - alpha is what carries
+  // alpha = sqrt(1 - gamma/q) is 1 to within 1e-17 for the thesis's designs: only 1 - alpha carries
   // information. The root exists for every admissible input. s >= q, and p q >= b_2 / b_1, which is at least
   // 8 in print (with t = sqrt2 sigma < 1 it is 6 (2 - t)^2 / (t^2 (1 - t^2/4)) > 8) and at least 10 with the
   // errata (10 / sigma); hence gamma/q = gamma_fraction / (s q p^2) < 1/(p q)^2 <= 1/64.
@@ -81,8 +81,8 @@ void set_perturbations(Theorem29Constants& c) {
   c.delta_k = c.delta_p * gain * (one + c.s * c.rho_5 * gain);
   c.zeta_z = c.delta_k * c.rho_5 * c.rho_1 * c.epsilon_z;  // (2.39)
 
-  // The thesis never writes delta_k2 out: the three terms of the second derivative of K in the proof of
-  // Lemma 2.5, with the bounds of the proofs of Lemmas 2.3 and 2.5 on each factor.
+  // The thesis does not give delta_k2 explicitly: the three terms of the second derivative of K in the proof
+  // of Lemma 2.5, with the bounds of the proofs of Lemmas 2.3 and 2.5 on each factor.
   const Interval delta_p2 = two * c.p * (c.rho_3 * c.rho_1 + square(c.rho_2));
   const Interval inverse_first = square(gain) * c.delta_p;
   const Interval inverse_second = two * square(inverse_first) * c.delta_2 + square(gain) * delta_p2;
@@ -147,7 +147,7 @@ Interval largest_initial_error(const Interval& amplitude, const Interval& amplit
   if (!non_negative) {
     return Interval::empty();
   }
-  // Beyond half a turn a larger phase error changes nothing.
+  // A phase error beyond half a turn has no further effect.
   const Interval half_angle = min(phase_error, rigor::pi()) / Interval(2.0);
   const Interval chord = Interval(4.0) * amplitude * (amplitude + amplitude_error) * square(sin(half_angle));
   return sqrt(square(amplitude_error) + chord + square(frequency_error));

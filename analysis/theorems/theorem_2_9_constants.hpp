@@ -1,5 +1,5 @@
 // The constants of Theorem 2.9 (La Scala, thesis 1994, sections 2.4 and 3.5), evaluated for a design of the
-// quadrature tracker. What they are good for is decided in theorem_2_9.hpp.
+// quadrature tracker. theorem_2_9.hpp decides the conditions on them.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace veritrack::theorems {
 /// Which reading of the theorem: the body of the 1994 thesis, or the body with its errata sheet applied.
 enum class Theorem29Variant { printed, errata };
 
-/// A design of the quadrature tracker, what is assumed of the signal, and the theorem's free parameters.
+/// A design of the quadrature tracker, the assumptions on the signal, and the theorem's free parameters.
 /// Section 3.5 takes the signal to be on the unit circle: for a signal of amplitude A give q1/A^2, r/A^2, and
 /// states, errors and measurement noise over A.
 struct Theorem29Input {
@@ -26,8 +26,8 @@ struct Theorem29Input {
   rigor::Interval c1;              ///< |w(k)| <= c1 sqrt(q2)
   rigor::Interval c2;              ///< |v(k)| <= c2 sqrt(r)
 
-  /// Set when q1 and q2 are known to be the same real number (the same decimal in a design file, say). Two
-  /// enclosures, even with the same endpoints, cannot show it, and (2.24) then stays undecided.
+  /// Set when q1 and q2 are known to be the same real number (for example the same decimal in a design file).
+  /// Two enclosures, even with the same endpoints, cannot show this; without it (2.24) is undecided.
   bool q1_equals_q2 = false;
   /// Enclosures of the largest values that the assumptions on signal and start allow. Without one of them the
   /// condition that compares it with what the theorem assumes is undecided. Where only an upper bound is
@@ -39,8 +39,8 @@ struct Theorem29Input {
   std::optional<rigor::Interval> initial_error;      ///< of |e_0|, for (2.45); see `largest_initial_error`
 };
 
-/// The input with every member that is not finite made empty: an unbounded input has to decide nothing, and
-/// some formulas would forget that it was unbounded (1/q1 is finite for every q1 >= 1).
+/// The input with every member that is not finite made empty: an unbounded input must decide nothing, and
+/// some formulas would lose the information that it was unbounded (1/q1 is finite for every q1 >= 1).
 [[nodiscard]] Theorem29Input with_finite_members(const Theorem29Input& input);
 
 /// Every quantity of the theorem. A member is empty where its formula is undefined for the design (a division
@@ -62,7 +62,7 @@ struct Theorem29Constants {
   rigor::Interval perturbation_2_44;        ///< beta zeta_z: (2.44) says it is less than 1 - alpha
 };
 
-/// Evaluates the formulas as they stand, whether or not the input is admissible. For admissible inputs no
+/// Evaluates the formulas as written, whether or not the input is admissible. For admissible inputs no
 /// wider than an ulp or two, away from the ends of the ranges of sigma and gamma_fraction, every relative
 /// width is below 1e-12: the differences that cancel (in epsilon_z, 1 - alpha, b_1) are formed in
 /// algebraically equal ways that do not. Opens its own UpwardRounding scope.

@@ -51,7 +51,7 @@ Statement predicted_for_design(const Reading& reading, const Readings& readings)
        evidence("predicted_bound", "", "", upper), evidence("s", "s", "", c.s)});
 }
 
-/// The bounds come from a window of N + 1 measurements, and step 0 has none behind it.
+/// The bounds come from a window of N + 1 measurements, and step 0 has no past measurements.
 Statement start_statement(const Readings& readings) {
   const Interval& p = readings.printed().p;
   const Interval start = Interval(2.0) * p;
@@ -63,7 +63,7 @@ Statement start_statement(const Readings& readings) {
                         {evidence("start_eigenvalue", "2p", "", start), evidence("p", "p", "", p)});
 }
 
-/// The displayed recursion: V(k+1) <= V(k) - gamma |z|^2 bounds V(k+1)/V(k) by what |z|^2/V(k) is at least.
+/// The displayed recursion: V(k+1) <= V(k) - gamma |z|^2 bounds V(k+1)/V(k) by a lower bound on |z|^2/V(k).
 Statement displayed_recursion_statement(const Readings& readings) {
   const Theorem29Constants& c = readings.printed();
   const Interval decrease = c.gamma / c.q;

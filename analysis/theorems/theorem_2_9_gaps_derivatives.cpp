@@ -41,7 +41,7 @@ Statement remainder_in_general() {
       {evidence("remainder", "", "", remainder), evidence("claimed_bound", "", "", bound)});
 }
 
-/// For the tracker the number happens to be large enough for both of its meanings.
+/// For the tracker the number happens to be large enough for both meanings.
 Statement remainder_for_tracker(const Reading& reading) {
   const Interval ball = reading.constants.state_bound + reading.constants.epsilon_r;
   const Interval second = second_derivative_norm(ball);
@@ -59,7 +59,7 @@ Statement remainder_for_tracker(const Reading& reading) {
        evidence("rho_4", R"(\rho_4)", "", bound)});
 }
 
-/// The proof of Theorem 2.8 puts the second-order remainder B where F_x - F_zbar belongs.
+/// The proof of Theorem 2.8 has the second-order remainder B in place of F_x - F_zbar.
 Statement decomposition_printed() {
   // x = (1, 0, 0), z = (0, 0, 1/2), zbar = (1, 0, -1/2); entry (1,1) of F is cos x3.
   const Interval half(0.5);

@@ -61,7 +61,7 @@ Statement time_index_statement(const Readings& readings) {
       {evidence("eigenvalue_at_1", "", "", now), evidence("eigenvalue_at_three_quarters", "", "", before)});
 }
 
-/// What |z|, z = x1 + i x2 of an estimate, can be: the signal is on the unit circle and |e| <= epsilon_r.
+/// The range of |z|, z = x1 + i x2 of an estimate: the signal is on the unit circle and |e| <= epsilon_r.
 /// Empty unless epsilon_r is certain to be positive.
 struct EstimateRange {
   Interval smallest, largest;
@@ -84,7 +84,7 @@ Statement range_statement(const Reading& reading, const Readings& readings) {
   const Interval low = printed ? square(Interval(1.0) - ball) : readings.input.sigma;
   const Interval high =
       printed ? square(Interval(1.0) + ball) : Interval(3.0) + Interval(4.0) * c.state_bound;
-  // Weak in print, strict in the errata sheet.
+  // A weak inequality in print, strict in the errata sheet.
   const rigor::Verdict verdict =
       printed ? rigor::conjunction({decide_less_equal(low, smallest), decide_less_equal(largest, high)})
               : rigor::conjunction({decide_less(low, smallest), decide_less(largest, high)});

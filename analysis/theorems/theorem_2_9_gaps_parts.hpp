@@ -1,4 +1,5 @@
-// The statements of theorem_2_9_gaps.hpp by subject, and what they share. All need the held rounding mode.
+// The statements of theorem_2_9_gaps.hpp by subject, and their shared helpers. All need the upward rounding
+// mode.
 #pragma once
 
 #include <array>
@@ -31,7 +32,7 @@ struct Readings {
 [[nodiscard]] Quantity evidence(std::string name, std::string symbol, std::string formula,
                                 const rigor::Interval& value);
 
-/// Sections 2.4.1 and 3.5: the Gramians, what w_3 can be, R_x.
+/// Sections 2.4.1 and 3.5: the Gramians, the range of w_3, R_x.
 [[nodiscard]] std::vector<Statement> gramian_gaps(const Readings& readings);
 /// Section 2.4.3: the derivatives of f, the remainders, the sign of kappa_f.
 [[nodiscard]] std::vector<Statement> derivative_gaps(const Readings& readings);

@@ -26,7 +26,7 @@ Statement zeta_in_general() {
        evidence("zeta_of_lemma_2_5", R"(\sup\lvert f'' \rvert)", "", lemma)});
 }
 
-/// What saves the step: the Lipschitz constant of the remainder is the second derivative times r_delta.
+/// The step can be repaired: the Lipschitz constant of the remainder is the second derivative times r_delta.
 Statement zeta_as_used(const Reading& reading) {
   const Interval left = radius_left(reading.constants);
   return make_statement(
@@ -65,7 +65,7 @@ Statement eta_slope_statement(const Reading& reading) {
       {evidence("needed", "", "", needed), evidence("eta", R"(\eta)", "", c.eta)});
 }
 
-/// The last term of the bound with R_x where Theorem 2.7 has r_x, at constants that satisfy (2.43).
+/// The last term of the bound has R_x in place of the r_x of Theorem 2.7, at constants that satisfy (2.43).
 Statement final_bound_statement(const Reading& reading) {
   const Theorem29Constants& c = reading.constants;
   const Interval eta(0.875);  // with beta = 1, alpha = zeta = 0: (2.43) reads 7/8 < 1
@@ -109,7 +109,7 @@ Statement second_condition_statement(const Reading& reading) {
        evidence("zeta_z", R"(\zeta_z)", "", c.zeta_z), evidence("zeta", R"(\zeta)", "", c.zeta)});
 }
 
-/// Lemma 2.3 ends with the rate alpha + zeta_z beta; the proof of Theorem 2.9 carries on with alpha.
+/// Lemma 2.3 ends with the rate alpha + zeta_z beta; the proof of Theorem 2.9 continues with alpha.
 Statement rate_statement(const Reading& reading) {
   const Theorem29Constants& c = reading.constants;
   return make_statement(

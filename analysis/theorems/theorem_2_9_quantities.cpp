@@ -9,7 +9,7 @@ namespace {
 
 using Constants = Theorem29Constants;
 
-/// How a quantity comes to divide by q1, if it does: directly, or through another one.
+/// Whether a quantity divides by q1: directly, or through another quantity.
 constexpr std::string_view kNever = "";
 constexpr std::string_view kDirectly = "q_1";
 

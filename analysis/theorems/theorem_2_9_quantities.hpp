@@ -1,4 +1,4 @@
-// The quantities of Theorem 2.9 as a reader sees them: name, symbol, formula, source.
+// The quantities of Theorem 2.9 for the document: name, symbol, formula, source.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 namespace veritrack::theorems {
 
 /// The names of certificate.json with their enclosures, in the order in which the thesis introduces them.
-/// Quantities that divide by q1 are not applicable when q1 may be zero; any other one that is not finite says
-/// so.
+/// Quantities that divide by q1 are not applicable when q1 may be zero; any other one that is not finite is
+/// marked as such.
 [[nodiscard]] std::vector<Quantity> theorem_2_9_quantities(Theorem29Variant variant,
                                                            const Theorem29Input& input,
                                                            const Theorem29Constants& constants);

@@ -17,7 +17,7 @@ constexpr const char* kNotBorne = "No tube was found that bears the assumed nois
 constexpr const char* kNoRecursion =
     "No tube around the signal was found in which the covariance bounds make the error shrink.";
 
-/// Everything that the derivation is made of. A recursion is missing where none was found.
+/// The parts of the derivation. A recursion is empty if none was found.
 struct Repaired {
   IntervalDesign design;
   std::optional<ErrorRecursion> start, noise, process, assumed;
@@ -179,7 +179,7 @@ void add_conditions(Derivation& derivation, const Repaired& found, const Theorem
         compare("2.45", kStart, {"the largest |e_0| allowed", *input.initial_error},
                 {"q^(-1/2) R", start_error(*found.assumed, found.assumed_radius)}, Strictness::weak));
     if (derivation.conditions.back().verdict == Verdict::refuted) {
-      derivation.conditions.back().verdict = Verdict::undecided;  // another tube might bear it
+      derivation.conditions.back().verdict = Verdict::undecided;  // another tube might tolerate it
     }
   } else {
     derivation.conditions.push_back(
@@ -187,7 +187,7 @@ void add_conditions(Derivation& derivation, const Repaired& found, const Theorem
   }
 }
 
-/// The bounds for the assumed start and noise; only where the conditions hold.
+/// The bounds for the assumed start and noise; only if the conditions are proved.
 void add_assured(Derivation& derivation, const Repaired& found) {
   constexpr const char* kWhyNot = "The conditions are not all proved.";
   const bool assured = derivation.verdict == Verdict::proved;
@@ -202,7 +202,7 @@ void add_assured(Derivation& derivation, const Repaired& found) {
       kWhyNot);
 }
 
-/// The ends of the constants that the bounds rest on, and the matrices they come from.
+/// The ends of the constants used by the bounds, and the matrices they are computed from.
 Evidence evidence_of(const char* name, const ErrorRecursion& recursion, const Interval& radius) {
   const auto point = [](const rigor::IntervalMatrix<3>& matrix) {
     return rigor::Matrix<3>(matrix.unaryExpr([](const Interval& entry) { return entry.upper(); }));
@@ -238,7 +238,7 @@ std::vector<Evidence> evidence_of(const Repaired& found) {
   return evidence;
 }
 
-/// A point with positive noise bounds and a positive start error, or why there is none.
+/// A point with positive noise bounds and a positive start error, or the reason why there is none.
 Feasibility feasibility_of(const Repaired& found) {
   Feasibility feasibility;
   if (found.noise) {

@@ -19,8 +19,8 @@ namespace veritrack::theorems {
 /// |w3|, rad/sample, v = 0), rate (of W(k) per sample, in the long run); frequency_error_bound and
 /// ultimate_frequency_error (rad/sample) for the assumed start and noise. Conditions: "Q", "epsilon",
 /// "invariance", "P(0|0)" and "2.45". Without an initial_covariance P(0|0) is the filter's steady state along
-/// exact estimates. Opens its own UpwardRounding scope. Never throws for odd numbers: what is not finite
-/// proves nothing.
+/// exact estimates. Opens its own UpwardRounding scope. Does not throw for unusual numbers: inputs that are
+/// not finite prove nothing.
 [[nodiscard]] Derivation derive_repaired_theorem(const TrackerInput& input);
 
 }  // namespace veritrack::theorems

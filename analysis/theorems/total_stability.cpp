@@ -33,7 +33,7 @@ ErrorEquation best_equation(const TrackerInput& input, double share) {
                         }));
 }
 
-/// |g(k)| at most, for the noise that is assumed.
+/// An upper bound on |g(k)| for the assumed noise.
 Interval perturbation(const TrackerInput& input, const ErrorEquation& equation) {
   const AssumedNoise noise = assumed_noise(input);
   return equation.correction * noise.process + equation.gain * noise.measurement;
@@ -101,7 +101,7 @@ Derivation evaluate(const TrackerInput& unchecked, bool with_noise) {
   return derivation;
 }
 
-/// The factor by which one step of the filter in its steady state shrinks an amplitude error while the
+/// The factor by which one step of the filter in its steady state multiplies an amplitude error while the
 /// estimate is exact: 1 - K_1 = r/(p + q1 + r), p the positive root of p^2 + q1 p - q1 r = 0. Amplitude
 /// and (phase, frequency) separate, so it is an eigenvalue of (I - KH)F at every step.
 Interval amplitude_factor(const Theorem29Input& input) {

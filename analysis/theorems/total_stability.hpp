@@ -1,13 +1,13 @@
 // The total stability theorem (thesis, theorem 2.6, after Anderson et al. 1986), its corollary 2.6.1 and
 // theorem 2.7, applied to the error equation of the quadrature tracker.
 //
-// One run of the filter is a sequence of numbers: A(k) = (I - K(k)H) F(xhat(k|k)) and K(k) as they occurred.
+// One run of the filter gives sequences of numbers: A(k) = (I - K(k)H) F(xhat(k|k)) and K(k).
 // For these, e+ = A(k) e + f(k, e) + g(k) with
 //     f(k, e) = (I - K(k)H)(f(x) - f(x - e) - F(xhat(k|k)) e),   g(k) = (I - K(k)H) w - K(k) v,
-// functions of k and e alone: the dependence of K(k) on past errors, which the thesis passes over, is in the
-// sequence. What it costs is that f is expanded about another point than e = 0: its Lipschitz constant for
-// |e| <= r is 2 |I - KH| curvature r. The bounds on A(k) need |e_j| <= r for j < k only, which is what the
-// theorem has concluded by then.
+// functions of k and e alone: the dependence of K(k) on past errors, which the thesis ignores, is contained
+// in the sequence. The price is that f is expanded about a point other than e = 0: its Lipschitz constant for
+// |e| <= r is 2 |I - KH| curvature r. The bounds on A(k) need |e_j| <= r for j < k only, which the theorem
+// has already proved at that step.
 #pragma once
 
 #include "analysis/theorems/derivation.hpp"
@@ -17,7 +17,7 @@ namespace veritrack::theorems {
 
 /// The conclusion of theorem 2.6 at step k >= 0: beta (alpha + zeta beta)^k |z_0| + beta eta r / (1 - (alpha
 /// + zeta beta)). It bounds |z(k)|; that it is at most r, as printed, is not true, while |z(k)| <= r is.
-/// Needs the held rounding mode.
+/// Needs the upward rounding mode.
 struct TotalStability {
   rigor::Interval beta, alpha, zeta, eta, radius;
 };
@@ -32,9 +32,9 @@ struct TotalStability {
 /// Opens its own UpwardRounding scope.
 [[nodiscard]] Derivation evaluate_total_stability_corollary(const TrackerInput& input);
 
-/// id "theorem-2.7/printed": zeta is twice the supremum of |Df|, which is at least the factor by which an
-/// amplitude error shrinks a step; so are alpha_2 and the condition is refuted where three times that factor
-/// is 1 or more. Opens its own UpwardRounding scope.
+/// id "theorem-2.7/printed": zeta is twice the supremum of |Df|, which is at least the factor of an amplitude
+/// error per step; so is alpha_2. The condition is refuted where three times that factor is 1 or more. Opens
+/// its own UpwardRounding scope.
 [[nodiscard]] Derivation evaluate_theorem_2_7_printed(const TrackerInput& input);
 
 /// id "theorem-2.7/corrected": zeta as the proof needs it, the supremum of |Df(z + d) - Df(z)| for |z| <=

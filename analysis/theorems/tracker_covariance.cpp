@@ -21,13 +21,13 @@ SmallMatrix process_noise(const IntervalDesign& design) {
 
 }  // namespace
 
-// What the entries may be off the middle is at most the diagonal matrix of its row sums.
+// The deviation of the entries from the middle is at most the diagonal matrix of its row sums.
 std::optional<IntervalMatrix<3>> point_above(const IntervalMatrix<3>& matrix) {
   IntervalMatrix<3> above;
   for (int i = 0; i < 3; ++i) {
     Interval slack(0.0);
     for (int j = 0; j < 3; ++j) {
-      // The middle of the upper triangle serves for both.
+      // The middle of the upper triangle is used for both.
       const double middle = rigor::midpoint(matrix(std::min(i, j), std::max(i, j)));
       above(i, j) = Interval(middle);
       slack += Interval(rigor::magnitude(matrix(i, j) - Interval(middle)));

@@ -5,7 +5,7 @@
 // time-varying system with two unknowns a step: the estimated amplitude rho = |z(k|k)| and the turn theta by
 // which the measurement moved the estimated phase,
 //     F(k) = U(-theta(k+1)) [[1,0,0], [0,1,rho(k)], [0,0,1-epsilon]],   U(theta) = diag(Rot(theta), 1),
-// with H = [I 0], Q = diag(q1,q1,q2) and R = r I, which U leaves as they are. All functions need the held
+// with H = [I 0], Q = diag(q1,q1,q2) and R = r I, which are invariant under U. All functions need the upward
 // rounding mode.
 #pragma once
 
@@ -19,15 +19,15 @@ namespace veritrack::theorems {
 
 using IntervalDesign = trackers::ToneModel<rigor::Interval>;
 
-/// How far estimates stray, relative to a signal of amplitude 1.
+/// Bounds on the estimation errors, relative to a signal of amplitude 1.
 struct EstimateTube {
   rigor::Interval plane_error;      ///< |z(k|k) - z(k)| <= plane_error < 1, signal units
   rigor::Interval frequency_error;  ///< |x3(k|k) - x3(k)| <= frequency_error, rad/sample
 
   /// |z(k|k)|.
   [[nodiscard]] rigor::Interval amplitude() const;
-  /// U(theta) for every turn that occurs. z(k|k) and its prediction are off the true phase by at most
-  /// asin(plane_error), the prediction by frequency_error more.
+  /// U(theta) for every turn that occurs. The phase errors of z(k|k) and its prediction are at most
+  /// asin(plane_error), plus frequency_error for the prediction.
   [[nodiscard]] rigor::IntervalMatrix<3> turn() const;
 };
 
@@ -45,7 +45,7 @@ struct MatrixRange {
                                                             const rigor::Interval& epsilon);
 
 /// The range for all k > window when every estimate stays in the tube; nothing when it could not be verified
-/// (q1 may be zero and the window is 1, say). `window` >= 1 is N of riccati_bounds.hpp.
+/// (for example because q1 may be zero and the window is 1). `window` >= 1 is N of riccati_bounds.hpp.
 [[nodiscard]] std::optional<MatrixRange> matrix_range(const IntervalDesign& design, const EstimateTube& tube,
                                                       int window);
 

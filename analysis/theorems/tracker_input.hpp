@@ -1,5 +1,5 @@
-// What the results beside Theorem 2.9 are evaluated for: a design of the quadrature tracker and what is
-// assumed of signal and start, for a signal of amplitude 1.
+// The input of the results other than Theorem 2.9: a design of the quadrature tracker and the assumptions on
+// signal and start, for a signal of amplitude 1.
 #pragma once
 
 #include <optional>

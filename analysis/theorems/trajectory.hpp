@@ -1,4 +1,4 @@
-// A simulated run of the quadrature tracker, as an audit needs it.
+// A simulated run of the quadrature tracker, for an audit.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,11 +6,11 @@
 
 namespace veritrack::theorems {
 
-/// What is known of step k. States are (in-phase, quadrature, frequency): signal units, signal units,
-/// rad/sample. Doubles are taken at their word: an audit speaks of exactly these numbers.
+/// The record of step k. States are (in-phase, quadrature, frequency): signal units, signal units,
+/// rad/sample. Doubles are exact: an audit refers to exactly these numbers.
 struct TrajectoryRecord {
   Eigen::Vector3d true_state;            ///< x(k)
-  Eigen::Vector2d measurement;           ///< y(k), signal units; not looked at for k = 0
+  Eigen::Vector2d measurement;           ///< y(k), signal units; not used for k = 0
   Eigen::Vector3d filtered_state;        ///< xhat(k|k)
   Eigen::Matrix3d filtered_covariance;   ///< P(k|k)
   Eigen::Matrix3d predicted_covariance;  ///< P(k+1|k)

@@ -1,4 +1,4 @@
-"""Bad input: one line that helps, exit status 2, nothing half-written."""
+"""Bad input: one helpful line, exit status 2, no partial output."""
 
 import resource
 import signal

@@ -1,4 +1,4 @@
-"""veritrack certify on every design of designs/: the documents, whole."""
+"""veritrack certify on every design of designs/: the complete documents."""
 
 import json
 import re
@@ -15,7 +15,7 @@ QUANTITIES = """R_x epsilon_r rho_1 rho_2 rho_3 rho_4 rho_5 delta_1 delta_2 a_1 
 
 
 def readings(certificate):
-    """The published theorem, as it was read."""
+    """The published theorem, as it was evaluated."""
     ids = ("theorem-2.9/printed", "theorem-2.9/errata")
     found = [derivation for derivation in certificate["derivations"] if derivation["id"] in ids]
     assert len(found) == 2
@@ -112,7 +112,7 @@ class Certify(CliTestCase):
         self.assertIn("start-error", [entry["purpose"] for entry in certificate["certified_sets"]])
 
     def guarantee(self, certificate):
-        """The claim, which must be what the document says below its first line."""
+        """The claim, which must be the paragraph below the first line of the document."""
         claim = next(claim for claim in certificate["claims"] if claim["id"] == "ekf/guarantee")
         lines = (self.folder / "out/certificate.md").read_text().splitlines()
         self.assertEqual(lines[2], f"**{claim['verdict'].upper()}**: {claim['statement']}")
@@ -185,7 +185,7 @@ class Certify(CliTestCase):
             self.assertIn("q", derivation["not_applicable"])
             self.assertIn("p", derivation["quantities"])
             verdicts = {condition["id"]: condition["verdict"] for condition in derivation["conditions"]}
-            self.assertEqual(verdicts["2.24"], "refuted")  # a_2 = 0, and (2.24) asks that it be positive
+            self.assertEqual(verdicts["2.24"], "refuted")  # a_2 = 0, and (2.24) requires it to be positive
             self.assertEqual(verdicts["2.43"], "undecided")
 
     def test_q1_above_q2_is_noted(self):

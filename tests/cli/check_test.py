@@ -6,7 +6,7 @@ import xml.etree.ElementTree
 
 from support import DESIGN, CliTestCase
 
-# The assumed start is not below the first bound; that the errors settle within a sample is more than is certified.
+# The assumed start exceeds the first bound; settling within one sample is not certified.
 HARD = DESIGN + "\n[require]\nfrequency_error_below = 0.001\nsettles_within = 1\n"
 HARD_LINES = [HARD.splitlines().index(line) + 1 for line in HARD.splitlines()[-2:]]
 

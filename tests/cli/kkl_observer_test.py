@@ -1,4 +1,4 @@
-"""The KKL observer as a user meets it: certificates of the paper's design, and of designs beside it."""
+"""The KKL observer as a user sees it: certificates of the paper's design and of variants."""
 
 import json
 import unittest

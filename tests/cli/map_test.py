@@ -33,7 +33,7 @@ class Map(CliTestCase):
         self.assertAlmostEqual(area, 0.6 * 1.0)
 
     def on_a_terminal(self, *arguments):
-        """What the program shows on a terminal's standard error."""
+        """What the program prints on standard error when that is a terminal."""
         reader, terminal = pty.openpty()
         with os.fdopen(reader, "rb", buffering=0) as shown:
             subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=terminal,

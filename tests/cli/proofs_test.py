@@ -1,4 +1,4 @@
-"""certificate.v as Coq sees it: accepted as written, with the axioms of the real numbers alone, and refused with any
+"""certificate.v as Coq sees it: accepted as written, with the axioms of the real numbers alone, and rejected with any
 number changed to say more than is true. Without coqc there is nothing to test."""
 
 import concurrent.futures
@@ -29,7 +29,7 @@ REAL_NUMBERS = {
     "Classical_Prop.classic",
 }
 
-# Of a file that begins as certificates/coq/<name>.v does, that part need be compiled only once.
+# Files that begin with certificates/coq/<name>.v share that part, which is compiled only once.
 PARTS = {name: (ROOT / f"certificates/coq/{name}.v").read_text()
          for name in ("kkl_observer", "theorem_2_9", "proposition_1")}
 IMPORTS = "From Coq Require Import Reals Lra Psatz.\nFrom Interval Require Import Tactic.\nRequire Import {0}.\n" \
@@ -37,7 +37,7 @@ IMPORTS = "From Coq Require Import Reals Lra Psatz.\nFrom Interval Require Impor
 
 
 def golden(name):
-    """What stands in certificate.v of a design, after the part for all designs; tests/certificates holds it to that."""
+    """The part of certificate.v after the part for all designs; tests/certificates checks that it is written."""
     return (ROOT / "tests/certificates/golden" / name).read_text()
 
 
@@ -102,7 +102,7 @@ class Proofs(CliTestCase):
         bound = re.search(r"ell_lower : R := \((\d+) /", text).group(1)
         in_use = re.search(r"ell_in_use : R := (.*)\.\n", text).group(1)
         upper = re.search(r"ell_upper : R := \((\d+) /", text).group(1)
-        # What follows from the lower bound is refused without waiting for its proof.
+        # Lemmas that follow from the lower bound are rejected without waiting for its proof.
         short = without_last_word(text)
         taken = short.replace("interval with (i_bisect s, i_autodiff s, i_prec 90).\nQed.", "Admitted.")
         self.assertEqual(taken.count("Admitted"), 2)
@@ -136,7 +136,7 @@ class Proofs(CliTestCase):
         ])
 
     def test_identities_are_not_slack(self):
-        # A sign or a constant changed in what holds for all designs.
+        # A sign or a constant changed in the proofs for all designs.
         for part, old, new in [
                 ("proposition_1", "z * (k2 * s + 2 * c - k1 * c) + 1 - k1.", "z * (k2 * s + 2 * c - k1 * c) + 1 + k1."),
                 ("kkl_observer", "(l * x1 + x2) / (l ^ 2 + x3)", "(l * x1 - x2) / (l ^ 2 + x3)"),

@@ -1,4 +1,4 @@
-"""What the README shows is what the program and the code do."""
+"""The README shows what the program and the code really do."""
 
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""A machine whose arithmetic cannot be trusted gets no certificate: exit status 3."""
+"""No certificate on a machine whose arithmetic cannot be trusted: exit status 3."""
 
 import os
 import subprocess
@@ -25,7 +25,7 @@ class SelfTest(CliTestCase):
         library = self.folder / "sabotage.so"
         subprocess.run(["gcc", "-shared", "-fPIC", f"-DCONTROL={control}", "-o", library, self.folder / "sabotage.c"],
                        check=True)
-        # The address sanitizer, where it is on, wants to be first in line.
+        # The address sanitizer, where it is used, must be loaded first.
         environment = {**os.environ, "LD_PRELOAD": str(library), "ASAN_OPTIONS": "verify_asan_link_order=0"}
         return self.run_here(*arguments, env=environment)
 

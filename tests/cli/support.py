@@ -39,7 +39,7 @@ def run(*arguments, **options):
 
 
 class CliTestCase(unittest.TestCase):
-    """A test with a folder of its own, in which the program runs."""
+    """A test with its own folder, in which the program runs."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -58,6 +58,6 @@ class CliTestCase(unittest.TestCase):
         return run(*arguments, cwd=self.folder, **options)
 
     def files(self):
-        """Everything that stands in the folder, except designs."""
+        """Everything in the folder except designs."""
         return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*")
                       if path.is_file() and path.suffix != ".toml")

@@ -1,4 +1,4 @@
-"""Certificates as they are made, held against a program that shares no code with the one that made them."""
+"""Certificates as written, checked by a program that shares no code with the one that wrote them."""
 
 import os
 import subprocess
@@ -15,7 +15,7 @@ def verify(*arguments):
 
 class Verify(CliTestCase):
     def certified_and_checked(self, name):
-        """The checker's last line for a shipped design, and the parts that it verified."""
+        """The checker's last line for a shipped design, and the verified parts."""
         design = ROOT / "designs" / (name + ".toml")
         self.run_here("certify", design, "--out", name)
         result = verify(self.folder / name / "certificate.json")

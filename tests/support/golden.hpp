@@ -1,4 +1,4 @@
-// Golden files: a document as it was when somebody last looked at it and found it right.
+// Golden files: a document as it was when it was last reviewed and accepted.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -16,8 +16,8 @@ inline std::string read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Compares `text` with the golden file. VERITRACK_UPDATE_GOLDEN=1 writes it instead: look at the difference
-/// before it is committed.
+/// Compares `text` with the golden file. VERITRACK_UPDATE_GOLDEN=1 writes it instead: review the difference
+/// before committing it.
 inline void check_golden(const std::string& text, const std::string& path) {
   if (std::getenv("VERITRACK_UPDATE_GOLDEN") != nullptr) {
     std::ofstream(path, std::ios::binary) << text;

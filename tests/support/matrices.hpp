@@ -87,7 +87,7 @@ inline Eigen::MatrixXd random_vertex(Random& random, const rigor::DynamicInterva
   return vertex;
 }
 
-/// The three kinds of entry that may never enter a proof.
+/// The three kinds of entry that no proof may use.
 inline const rigor::Interval kPoison[] = {
     rigor::Interval::empty(), rigor::Interval::entire(),
     rigor::Interval::from_bounds(1.0, std::numeric_limits<double>::infinity())};

@@ -10,7 +10,7 @@
 
 namespace veritrack::test {
 
-/// The seed of all property tests. Change it in the source, not from outside: a failure must be repeatable.
+/// The seed of all property tests. Change it only here: a failure must be repeatable.
 inline constexpr std::uint64_t kSeed = 20261121;
 
 /// `count` times the environment variable VERITRACK_TEST_EFFORT (a positive real; 1 when unset or

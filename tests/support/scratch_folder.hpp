@@ -1,4 +1,4 @@
-// A folder for one test, and a user who may not do everything.
+// A folder for one test, and a user with restricted permissions.
 #pragma once
 
 #include <sys/stat.h>
@@ -11,7 +11,7 @@
 
 namespace veritrack::test {
 
-/// An empty folder that is removed with all that is in it.
+/// An empty folder that is removed with its contents.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -39,8 +39,8 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// While it stands, file permissions apply to this process, also when the tests run as root. The user can
-/// enter `folder` and change nothing in it.
+/// During its lifetime file permissions apply to this process, also when the tests run as root. The user can
+/// enter `folder` but change nothing in it.
 class UnprivilegedUser {
  public:
   explicit UnprivilegedUser(const std::filesystem::path& folder) : previous_(::geteuid()) {

@@ -1,6 +1,6 @@
-// A point that runs around the unit circle for as long as one likes, the same on every machine, bit for bit.
+// A point that rotates on the unit circle for any number of samples, identical bit for bit on every machine.
 //
-// The phase is carried in [-pi, pi], so that the millionth sample is as accurate as the first, and its sine
+// The phase is kept in [-pi, pi], so that the millionth sample is as accurate as the first, and its sine
 // and cosine are evaluated here with + - * alone: those of libm differ between machines in the last bit.
 // Compile without contraction into fused multiply-adds (-ffp-contract=off) where identical bits matter.
 #pragma once
@@ -18,8 +18,7 @@ inline constexpr double kHalfPiRest = 0x1.1a62633145c07p-54;
 
 namespace detail {
 
-// Taylor coefficients of sin x / x and cos x in x^2, first to last; constants of the compiler, whatever the
-// flags.
+// Taylor coefficients of sin x / x and cos x in x^2, first to last; compile-time constants under all flags.
 inline constexpr std::array<double, 8> kSineCoefficients{1.0,
                                                          -1.0 / 6.0,
                                                          1.0 / 120.0,
@@ -56,7 +55,7 @@ template <std::size_t Size>
   constexpr double kQuartersPerRadian = 1.0 / kHalfPi;
   const double quarters = std::floor(phase * kQuartersPerRadian + 0.5);
   const double x = (phase - quarters * kHalfPi) - quarters * kHalfPiRest;
-  // |x| <= pi/4 and a little: the first terms left out are below 5e-17 and 3e-18.
+  // |x| <= pi/4 and a little more: the first omitted terms are below 5e-17 and 3e-18.
   const double square = x * x;
   const double sine = x * detail::polynomial(detail::kSineCoefficients, square);
   const double cosine = detail::polynomial(detail::kCosineCoefficients, square);
@@ -72,7 +71,7 @@ template <std::size_t Size>
   }
 }
 
-/// The same angle in [-pi, pi] up to rounding, for |phase| <= 3 pi: one turn added or taken away where
+/// The same angle in [-pi, pi] up to rounding, for |phase| <= 3 pi: one turn is added or subtracted where
 /// needed.
 [[nodiscard]] inline double wrapped(double phase) {
   if (phase > 2.0 * kHalfPi) {

@@ -1,8 +1,8 @@
-// Random numbers that are the same on every machine, bit for bit.
+// Random numbers that are identical bit for bit on every machine.
 //
-// The C++ standard fixes the stream of std::mt19937_64 but not what its distributions make of it, and libm's
+// The C++ standard fixes the stream of std::mt19937_64 but not the output of its distributions, and libm's
 // logarithm differs between machines in the last bit. So only the engine's 64-bit words are used, with
-// comparisons and a few additions and multiplications that IEEE 754 rounds in one way only. Round to nearest,
+// comparisons and a few additions and multiplications, whose rounding IEEE 754 fixes. Round to nearest,
 // as everywhere outside analysis/rigor, is assumed.
 #pragma once
 

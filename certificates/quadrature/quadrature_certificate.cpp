@@ -16,10 +16,10 @@
 #include "certificates/quadrature/guarantee.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/quadrature/quadrature_simulation.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
-#include "certificates/sets/simulation.hpp"
 
 namespace veritrack::certificates {
 
@@ -100,7 +100,7 @@ void certify_quadrature(Certificate& certificate, const CertifyProgress& progres
   certificate.particulars = QuadratureParticulars{};
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
   const theorems::Theorem29Input input = theorem_input(tables);
-  certificate.simulation = simulate(certificate.design);
+  certificate.simulation = simulate_quadrature(certificate.design);
   const Number& amplitude = tables.assume.amplitude;
   const theorems::Trajectory trajectory =
       at_unit_amplitude(certificate.simulation.trajectory, amplitude.nearest);

@@ -10,7 +10,6 @@
 #include "certificates/document/tracker_kind.hpp"
 #include "certificates/quadrature/comparison_table.hpp"
 #include "certificates/quadrature/coq_theorem_2_9.hpp"
-#include "certificates/quadrature/markdown_contraction.hpp"
 #include "certificates/quadrature/markdown_other_results.hpp"
 #include "certificates/quadrature/markdown_theorem.hpp"
 #include "certificates/quadrature/quadrature_certificate.hpp"
@@ -19,6 +18,7 @@
 #include "certificates/quadrature/theorem_claims.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/markdown_assumptions.hpp"
+#include "certificates/sets/markdown_contraction.hpp"
 
 namespace veritrack::certificates {
 

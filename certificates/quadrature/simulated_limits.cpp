@@ -10,7 +10,7 @@
 
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
-#include "certificates/sets/simulation.hpp"
+#include "certificates/quadrature/quadrature_simulation.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
 
 namespace veritrack::certificates {

@@ -21,24 +21,8 @@ struct Simulation {
 [[nodiscard]] std::vector<trackers::Sample> simulated_signal(const Assumptions& assume,
                                                              const SimulationSettings& settings);
 
-/// Runs the tracker from the edge of the assumed start errors (amplitude, phase and frequency each wrong by
-/// the most that is allowed) along the signal that [simulate] names. Holds round-to-nearest: this is the
-/// tracker as it runs.
-[[nodiscard]] Simulation simulate(const Design& design);
-
 /// The same run as the tracker of unit amplitude sees it: signal and error divided by the amplitude, P scaled
 /// with them.
 [[nodiscard]] theorems::Trajectory at_unit_amplitude(theorems::Trajectory trajectory, double amplitude);
-
-/// A covariance to start from, in the frame of the estimated phase.
-struct SteadyState {
-  Eigen::Matrix3d covariance;  ///< P(k|k), signal units and rad/sample
-  bool settled = false;        ///< whether the filter came to rest within the steps that were tried
-};
-
-/// Where the noise-free tracker's covariance settles at a constant frequency (rad/sample), by iteration in
-/// double: a floating-point proposal, no proof. When the tracker does not settle, the covariance after the
-/// last step of the iteration with the estimation error held at zero.
-[[nodiscard]] SteadyState find_steady_state(const Design& design, double frequency);
 
 }  // namespace veritrack::certificates

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "certificates/document/tracker_kind.hpp"
-#include "certificates/quadrature/markdown_contraction.hpp"
+#include "certificates/sets/markdown_contraction.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/markdown_assumptions.hpp"
 #include "certificates/single_channel/coq_proposition_1.hpp"

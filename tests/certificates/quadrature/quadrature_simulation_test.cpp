@@ -1,4 +1,4 @@
-#include "certificates/sets/simulation.hpp"
+#include "certificates/quadrature/quadrature_simulation.hpp"
 
 #include <doctest/doctest.h>
 
@@ -45,11 +45,11 @@ TEST_CASE("the steady state scales with the amplitude") {
 TEST_CASE("without noise on the amplitude there is no steady state, and the run says so") {
   const auto design = test::design({{"q1 = 0.0023", "q1 = 0"}});
   CHECK_FALSE(certificates::find_steady_state(design, 1.0).settled);
-  CHECK(certificates::simulate(design).notes.size() == 1);
+  CHECK(certificates::simulate_quadrature(design).notes.size() == 1);
 }
 
 TEST_CASE("the run starts at the edge of the assumed errors") {
-  const certificates::Simulation simulation = certificates::simulate(test::design());
+  const certificates::Simulation simulation = certificates::simulate_quadrature(test::design());
   REQUIRE(simulation.trajectory.size() == 60);
   CHECK(simulation.notes.empty());
   const auto& start = simulation.trajectory.front();
@@ -69,7 +69,7 @@ TEST_CASE("a given covariance is taken in the frame of the estimated phase") {
   const auto design = test::design(
       {{"initial_phase_error = 0.005",
         "initial_phase_error = 0.25\ninitial_covariance = [[2, 0, 0], [0, 1, 0.5], [0, 0.5, 1]]"}});
-  const theorems::TrajectoryRecord start = certificates::simulate(design).trajectory.front();
+  const theorems::TrajectoryRecord start = certificates::simulate_quadrature(design).trajectory.front();
   // Along the estimate itself the variance is the 2 of the radial direction.
   const Eigen::Vector2d radial = start.filtered_state.head<2>().normalized();
   CHECK(radial.dot(start.filtered_covariance.topLeftCorner<2, 2>() * radial) == doctest::Approx(2.0));
@@ -79,12 +79,12 @@ TEST_CASE("a given covariance is taken in the frame of the estimated phase") {
 
 TEST_CASE("a signal that breaks the assumptions is announced") {
   const auto design = test::design({{"samples = 60", "samples = 60\nsignal = \"la-scala-1994\""}});
-  CHECK(certificates::simulate(design).notes.size() == 1);
+  CHECK(certificates::simulate_quadrature(design).notes.size() == 1);
 }
 
 TEST_CASE("at unit amplitude everything is divided by the amplitude") {
   const certificates::Simulation simulation =
-      certificates::simulate(test::design({{"amplitude = 1.0", "amplitude = 4.0"}}));
+      certificates::simulate_quadrature(test::design({{"amplitude = 1.0", "amplitude = 4.0"}}));
   const auto unit = certificates::at_unit_amplitude(simulation.trajectory, 4.0);
   for (std::size_t k = 0; k < unit.size(); ++k) {
     CHECK(unit[k].true_state.head<2>().norm() == doctest::Approx(1.0).epsilon(1e-12));

@@ -1,4 +1,4 @@
-#include "certificates/quadrature/markdown_contraction.hpp"
+#include "certificates/sets/markdown_contraction.hpp"
 
 #include <fmt/format.h>
 

@@ -6,6 +6,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/definiteness.hpp"
+#include "analysis/sets/contraction_result.hpp"
 
 namespace veritrack::sets {
 
@@ -174,17 +175,14 @@ SteadyStateError steady_state_error(const Tube& cell) {
 
 theorems::Quantity frequency_bias(const LockBranch& branch) {
   const rigor::UpwardRounding upward;
-  theorems::Quantity quantity{
-      "bias_frequency",
-      "\\nu^*",
-      "\\hat x_3 - \\omega \\text{ at the fixed point } X^*(\\omega) = G(X^*(\\omega))",
-      "Krawczyk, on the lock branch continued from \\omega = 0",
-      Interval::empty(),
-      std::nullopt};
+  theorems::Quantity quantity = quantities::bias_frequency();
+  quantity.formula = "\\hat x_3 - \\omega \\text{ at the fixed point } X^*(\\omega) = G(X^*(\\omega))";
+  quantity.source = "Krawczyk, on the lock branch continued from \\omega = 0";
   if (branch.verdict != Verdict::proved || branch.cells.empty()) {
     quantity.not_applicable = branch.reason;
     return quantity;
   }
+  quantity.not_applicable.reset();
   quantity.value = steady_state_error(branch.cells.front()).frequency_error;
   for (const Tube& cell : branch.cells) {
     quantity.value = hull(quantity.value, steady_state_error(cell).frequency_error);

@@ -12,6 +12,7 @@
 #include "analysis/quadrature/capture/capture_region.hpp"
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/rigor/verdict.hpp"
+#include "analysis/sets/contraction_result.hpp"
 #include "analysis/theorems/audit.hpp"
 #include "analysis/theorems/derivation.hpp"
 #include "certificates/design/design.hpp"
@@ -70,6 +71,8 @@ struct Certificate {
   /// ("contraction"; then, when the starts exceed the certified set, "capture" and perhaps
   /// "capture/noise-free" and "capture/reduced-noise").
   std::vector<theorems::Derivation> derivations;
+  /// What is certified of the assumed starts and beyond; none for a tracker without such a certificate.
+  std::optional<sets::ContractionResult> contraction;
   std::vector<NamedSet> certified_sets;
   std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
   std::vector<AuditedDerivation> audits;

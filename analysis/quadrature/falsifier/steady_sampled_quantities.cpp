@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "analysis/quadrature/falsifier/sampled_limit.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/quadrature/falsifier/sampled_text.hpp"
 
 namespace veritrack::quadrature {
 
@@ -46,17 +46,13 @@ void add_steady_sampled_quantities(const std::vector<Claim>& claims, theorems::D
     of_radius = std::max(of_radius, found.from_rim.tightness());
     of_ultimate = std::max(of_ultimate, found.from_zero.tightness());
   }
-  const auto add = [&](const char* name, const char* symbol, const char* formula, double value) {
-    theorems::add_quantity(derivation, {name, symbol, formula, "docs/leak.md"}, Interval(value));
-    derivation.quantities.back().proved = false;
+  const auto add = [&](SampledText text, const char* symbol, const char* formula, double value) {
+    add_sampled(derivation, text, {symbol, formula, "docs/leak.md"}, value);
   };
-  add("frequency_error_radius_sampled_limit", "\\hat\\nu_R", "\\hat R\\,|e_3' T^{-1}|",
-      limit * claims.front().bound_from_rim());
-  add("frequency_error_radius_share_of_limit", "1 / \\hat R", "", 1.0 / limit);
-  add("frequency_error_bound_tightness", "", "\\sup_{\\text{found}} |\\nu - \\nu^*| / |e_3' T^{-1}|",
-      of_radius);
-  add("ultimate_frequency_error_tightness", "", "\\sup_{\\text{found}} |\\nu - \\nu^*| / (s_n |e_3' T^{-1}|)",
-      of_ultimate);
+  add(kRadiusLimit, "\\hat\\nu_R", "\\hat R\\,|e_3' T^{-1}|", limit * claims.front().bound_from_rim());
+  add(kShareOfLimit, "1 / \\hat R", "", 1.0 / limit);
+  add(kBoundTightness, "", "\\sup_{\\text{found}} |\\nu - \\nu^*| / |e_3' T^{-1}|", of_radius);
+  add(kUltimateTightness, "", "\\sup_{\\text{found}} |\\nu - \\nu^*| / (s_n |e_3' T^{-1}|)", of_ultimate);
 }
 
 }  // namespace veritrack::quadrature

@@ -26,10 +26,6 @@ bool is_symmetric(const rigor::Matrix<3>& p) {
   return p(0, 1) == p(1, 0) && p(0, 2) == p(2, 0) && p(1, 2) == p(2, 1) && rigor::is_finite(p);
 }
 
-bool certainly_not_negative(const Interval& x) {
-  return certainly_less_equal(Interval(0.0), x);
-}
-
 /// The first hypothesis on the proposal that does not hold, as a sentence; empty when all hold.
 std::string objection(const Design& design, const SteadySet& set) {
   const auto& t = set.metric;

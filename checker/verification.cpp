@@ -3,9 +3,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "checker/kkl_observer/kkl_certificate.hpp"
-#include "checker/quadrature/quadrature_certificate.hpp"
-#include "checker/single_channel/single_channel_certificate.hpp"
+#include "checker/registry.hpp"
 
 namespace veritrack::checker {
 
@@ -23,17 +21,8 @@ Verification verify(const Tree& certificate, bool all_boxes) {
     }
   }
   Verification result;
-  const std::string& tracker = certificate.at("design").at("tracker").text();
   try {
-    if (tracker == "quadrature-ekf") {
-      verify_quadrature_tracker(certificate, all_boxes, result);
-    } else if (tracker == "kkl-observer") {
-      verify_kkl_observer(certificate, result);
-    } else if (tracker == "single-channel-ekf") {
-      verify_single_channel_tracker(certificate, result);
-    } else {
-      result.parts.push_back({"tracker " + tracker, {kUnknown}});
-    }
+    verify_tracker(certificate, all_boxes, result);
   } catch (const std::invalid_argument& error) {
     throw Malformed(error.what());
   }

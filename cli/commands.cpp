@@ -11,12 +11,12 @@
 #include "certificates/document/coq_document.hpp"
 #include "certificates/document/markdown.hpp"
 #include "certificates/document/output_files.hpp"
-#include "certificates/kkl_observer/tuning.hpp"
+#include "certificates/document/tuning.hpp"
 #include "reports/certificate_files.hpp"
 #include "reports/check_reports.hpp"
 #include "reports/example_report.hpp"
 #include "reports/limit_report.hpp"
-#include "reports/quadrature/region_files.hpp"
+#include "reports/tracker_reports.hpp"
 
 namespace veritrack::cli {
 
@@ -42,13 +42,11 @@ class ProgressLine {
   ProgressLine(ProgressLine&&) = delete;
   ProgressLine& operator=(ProgressLine&&) = delete;
 
-  /// Never asks to stop.
-  bool operator()(const quadrature::RegionProgress& progress) const {
+  void operator()(const certificates::Progress& progress) const {
     if (shown_) {
       fmt::print(stderr, "\rproved {:5.1f} %, refuted {:5.1f} % ({} propagations)",
                  100.0 * progress.proved_share, 100.0 * progress.refuted_share, progress.propagations);
     }
-    return true;
   }
 
  private:
@@ -110,21 +108,19 @@ ExitStatus run_check(const CheckOptions& options) {
 
 ExitStatus run_map(const MapOptions& options) {
   const certificates::Design design = certificates::read_design_file(options.design);
-  const certificates::RegionResult result = [&] {
-    const ProgressLine line(options.quiet);
-    return certificates::prove_region_of_attraction(design, options.request, std::cref(line));
-  }();
-  if (!result.found) {
-    fmt::print("{}: undecided: {}\n", options.design, result.reason);
-    return not_proved;
-  }
   std::string directory = options.directory;
   if (directory.empty()) {
     directory = (std::filesystem::path("maps-out") / std::filesystem::path(options.design).stem()).string();
   }
-  const std::filesystem::path picture = reports::write_region_files(*result.found, directory);
-  fmt::print("{}: {:.1f} % of the simulated basin is proved to be captured, {} cells\n", picture.string(),
-             100.0 * result.found->shares.proved, result.found->region.cells.size());
+  const reports::MapResult result = [&] {
+    const ProgressLine line(options.quiet);
+    return reports::write_map(design, options.request, directory, std::cref(line));
+  }();
+  if (!result.picture) {
+    fmt::print("{}: undecided: {}\n", options.design, result.sentence);
+    return not_proved;
+  }
+  fmt::print("{}: {}\n", result.picture->string(), result.sentence);
   return all_proved;
 }
 

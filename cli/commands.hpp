@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "certificates/quadrature/region.hpp"
+#include "reports/tracker_reports.hpp"
 
 namespace veritrack::cli {
 
@@ -31,7 +31,7 @@ struct CheckOptions {
 struct MapOptions {
   std::string design;
   std::string directory;
-  certificates::RegionRequest request;
+  reports::MapRequest request;
   bool quiet = false;  ///< no progress on standard error
 };
 

@@ -14,8 +14,7 @@ struct Figure {
   std::string svg;
 };
 
-/// The tracker's frequency beside the true one, and the error beside the bounds that were certified or
-/// claimed, along the certificate's simulated run. None when there was no run. Throws FigureError.
+/// The figures that certificates of this kind of tracker have; none when it has none. Throws FigureError.
 [[nodiscard]] std::vector<Figure> draw_figures(const certificates::Certificate& certificate);
 
 }  // namespace veritrack::reports

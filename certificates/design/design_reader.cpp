@@ -6,44 +6,88 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <optional>
 #include <system_error>
 #include <tuple>
-#include <variant>
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
-#include "certificates/design/design_keys.hpp"
+#include "certificates/design/design_format.hpp"
+#include "certificates/design/file_descriptor.hpp"
+#include "certificates/design/key_readers.hpp"
 #include "certificates/design/nearest_key.hpp"
 #include "certificates/design/toml_value.hpp"
-#include "certificates/document/file_descriptor.hpp"
 
 namespace veritrack::certificates {
 
 namespace {
 
+// ---- the keys above the first table
+
+template <auto member, std::size_t limit>
+void line_of_text(const TomlValue& value, keys::Owner<member>& target) {
+  target.*member = value.line_of_text(limit);
+}
+
+std::vector<std::string> tracker_names() {
+  std::vector<std::string> names;
+  for (const DesignFormat* format : design_formats()) {
+    names.emplace_back(format->tracker);
+  }
+  return names;
+}
+
+void tracker(const TomlValue& value, Design& design) {
+  keys::choose(value, tracker_names(), design.tracker);
+}
+
+/// "a", "b" or "c".
+std::string allowed_trackers() {
+  std::vector<std::string> names = tracker_names();
+  for (std::string& name : names) {
+    name = '"' + name + '"';
+  }
+  const std::string last = names.back();
+  names.pop_back();
+  return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
+BoundTable top_keys(Design& design) {
+  constexpr std::string_view kOneLine = "a string on one line, of 1 to 200 bytes";
+  static const std::string trackers = allowed_trackers();
+  static const std::array top{
+      Key<Design>{"name", kOneLine, line_of_text<&Design::name, 200>, keys::kRequired},
+      Key<Design>{"tracker", trackers, tracker, keys::kRequired},
+      Key<Design>{"source", kOneLine, line_of_text<&Design::source, 200>, keys::kOptional},
+  };
+  return bound_table("", top, design);
+}
+
 // ---- unknown keys
 
-template <typename Target>
-std::vector<std::string> names_of(std::span<const Key<Target>> keys) {
+std::vector<std::string> names_of(const BoundTable& table) {
   std::vector<std::string> names;
-  for (const Key<Target>& key : keys) {
+  for (const BoundKey& key : table.keys) {
     names.emplace_back(key.name);
   }
   return names;
 }
 
+std::string path_of(std::string_view table, std::string_view key) {
+  return table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
+}
+
 /// Every path that means something: "name", "design", "design.q1", ...
-template <typename Tables>
-std::vector<std::string> known_paths() {
-  std::vector<std::string> paths = names_of(top_keys());
-  for_each_table<Tables>([&](const std::string& table, auto keys, auto) {
-    paths.push_back(table);
-    for (const auto& key : keys) {
-      paths.push_back(fmt::format("{}.{}", table, key.name));
+std::vector<std::string> known_paths(const BoundTable& top, const std::vector<BoundTable>& tables) {
+  std::vector<std::string> paths = names_of(top);
+  for (const BoundTable& table : tables) {
+    paths.emplace_back(table.name);
+    for (const BoundKey& key : table.keys) {
+      paths.push_back(path_of(table.name, key.name));
     }
-  });
+  }
   return paths;
 }
 
@@ -59,7 +103,7 @@ bool stands_before(const Position& a, const Position& b) {
 }
 
 /// Keeps the first unknown key of `table` in `first`.
-void find_unknown_keys(const toml::table& table, const std::string& table_name,
+void find_unknown_keys(const toml::table& table, std::string_view table_name,
                        const std::vector<std::string>& known_names, std::optional<UnknownKey>& first) {
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
@@ -68,126 +112,92 @@ void find_unknown_keys(const toml::table& table, const std::string& table_name,
     }
     const Position position = to_position(key.source().begin);
     if (!first || stands_before(position, first->position)) {
-      first = {table_name.empty() ? name : fmt::format("{}.{}", table_name, name), table_name, position};
+      first = {path_of(table_name, name), std::string(table_name), position};
     }
   }
 }
 
 /// Throws InputError at the first key of the file that means nothing for the tracker with these tables.
-template <typename Tables>
-void reject_unknown_keys(const TomlSource& source) {
+void reject_unknown_keys(const TomlSource& source, const BoundTable& top,
+                         const std::vector<BoundTable>& tables) {
   std::optional<UnknownKey> unknown;
-  std::vector<std::string> names_at_top = names_of(top_keys());
-  for_each_table<Tables>([&](const std::string& table, auto keys, auto) {
-    names_at_top.push_back(table);
-    if (const toml::table* content = source.root().get_as<toml::table>(table)) {
-      find_unknown_keys(*content, table, names_of(keys), unknown);
+  std::vector<std::string> names_at_top = names_of(top);
+  for (const BoundTable& table : tables) {
+    names_at_top.emplace_back(table.name);
+    if (const toml::table* content = source.root().get_as<toml::table>(table.name)) {
+      find_unknown_keys(*content, table.name, names_of(table), unknown);
     }
-  });
+  }
   find_unknown_keys(source.root(), "", names_at_top, unknown);
   if (!unknown) {
     return;
   }
   std::vector<std::string> allowed = names_at_top;
-  for_each_table<Tables>([&](const std::string& table, auto keys, auto) {
-    if (table == unknown->table) {
-      allowed = names_of(keys);
+  for (const BoundTable& table : tables) {
+    if (table.name == unknown->table) {
+      allowed = names_of(table);
     }
-  });
+  }
   constexpr std::size_t kShownLimit = 80;
   source.fail(
       unknown->position,
       fmt::format("unknown key {}; nearest known key: {}; allowed {}: {}",
-                  printable(unknown->path, kShownLimit), nearest_key(unknown->path, known_paths<Tables>()),
+                  printable(unknown->path, kShownLimit), nearest_key(unknown->path, known_paths(top, tables)),
                   unknown->table.empty() ? "at the top" : "in [" + unknown->table + "]",
                   fmt::join(allowed, ", ")));
 }
 
 // ---- reading
 
-template <typename Target>
-void read_default(const Key<Target>& key, const std::string& path, Target& target) {
+void read_default(const BoundKey& key, const std::string& path) {
   const TomlSource source(fmt::format("value = {}", key.absence.default_toml), "default values",
                           TomlSource::Origin::built_in);
-  key.read(TomlValue(source, *source.root().get("value"), path, key.allowed), target);
+  key.read(TomlValue(source, *source.root().get("value"), path, key.allowed));
 }
 
-/// Reads the keys of one table into `target`. `table` is null when the file does not have it.
-template <typename Target>
-void read_table(const TomlSource& source, const toml::table* table, const std::string& table_name,
-                std::span<const Key<Target>> keys, Target& target,
+/// Reads the keys of one table. `content` is null when the file does not have it.
+void read_table(const TomlSource& source, const toml::table* content, const BoundTable& table,
                 std::map<std::string, Position>& positions) {
-  for (const Key<Target>& key : keys) {
-    const std::string path =
-        table_name.empty() ? std::string(key.name) : fmt::format("{}.{}", table_name, key.name);
-    if (const toml::node* node = table != nullptr ? table->get(key.name) : nullptr) {
+  for (const BoundKey& key : table.keys) {
+    const std::string path = path_of(table.name, key.name);
+    if (const toml::node* node = content != nullptr ? content->get(key.name) : nullptr) {
       const TomlValue value(source, *node, path, key.allowed);
-      key.read(value, target);
+      key.read(value);
       positions[path] = value.position();
     } else if (key.absence.rule == Absence::Rule::is_default) {
-      read_default(key, path, target);
+      read_default(key, path);
     } else if (key.absence.rule == Absence::Rule::is_an_error) {
-      if (table == nullptr) {
-        source.fail(source.end(), fmt::format("missing table [{}]; allowed: a table with {}", table_name,
-                                              fmt::join(names_of(keys), ", ")));
+      if (content == nullptr) {
+        source.fail(source.end(), fmt::format("missing table [{}]; allowed: a table with {}", table.name,
+                                              fmt::join(names_of(table), ", ")));
       }
-      const Position start = table_name.empty() ? Position{1, 1} : to_position(table->source().begin);
+      const Position start = table.name.empty() ? Position{1, 1} : to_position(content->source().begin);
       source.fail(start, fmt::format("missing key {}; allowed: {}", path, key.allowed));
     }
   }
 }
 
 /// The table of that name, null when there is none. Throws InputError when it is something else.
-const toml::table* find_table(const TomlSource& source, const std::string& name) {
+const toml::table* find_table(const TomlSource& source, std::string_view name) {
   const toml::node* node = source.root().get(name);
   if (node == nullptr) {
     return nullptr;
   }
   if (!node->is_table()) {
     const std::string allowed = fmt::format("a table, [{}]", name);
-    TomlValue(source, *node, name, allowed).refuse_kind();
+    TomlValue(source, *node, std::string(name), allowed).refuse_kind();
   }
   return node->as_table();
 }
 
-/// The tables that the file should have: those of its tracker. A tracker that is missing or unknown is
+/// The format that the file should have: that of its tracker. A tracker that is missing or unknown is
 /// reported when the key is read; until then the file is taken for one of the first tracker.
-decltype(Design::tables) expected_tables(const TomlSource& source) {
-  const auto tracker = source.root()["tracker"].value<std::string_view>();
-  return make_tables(tracker.value_or("")).value_or(decltype(Design::tables){});
-}
-
-/// Where a table of the file begins.
-Position start_of(const TomlSource& source, const std::string& table) {
-  return to_position(find_table(source, table)->source().begin);
-}
-
-/// What no single key can say. Throws InputError.
-template <typename Tables>
-void check_together(const TomlSource& /*source*/, const Tables& /*tables*/) {}
-
-void check_together(const TomlSource& source, const SingleChannelEkfTables& tables) {
-  const SingleChannelEkfDesign& design = tables.design;
-  const bool by_variances = design.variances.has_value();
-  const bool by_ratio = design.lambda.has_value();
-  const bool consistent = by_ratio ? !design.q && !design.r && !by_variances
-                                   : design.r.has_value() && design.q.has_value() != by_variances;
-  if (!consistent) {
-    source.fail(
-        start_of(source, "design"),
-        "the keys of [design] do not go together; allowed: q and r; or lambda = r/q alone (q = 1); or "
-        "r with process_noise = { q1 = ..., q2 = ... }");
-  }
-}
-
-template <typename Tables>
-void read_tables(const TomlSource& source, Design& design, Tables& tables) {
-  reject_unknown_keys<Tables>(source);
-  read_table(source, &source.root(), "", top_keys(), design, design.positions);
-  for_each_table<Tables>([&](const std::string& name, auto keys, auto member) {
-    read_table(source, find_table(source, name), name, keys, tables.*member, design.positions);
-  });
-  check_together(source, tables);
+const DesignFormat& expected_format(const TomlSource& source) {
+  const std::string_view tracker = source.root()["tracker"].value<std::string_view>().value_or("");
+  const auto formats = design_formats();
+  const auto found = std::find_if(formats.begin(), formats.end(),
+                                  [&](const DesignFormat* format) { return format->tracker == tracker; });
+  return found != formats.end() ? **found : *formats.front();
 }
 
 }  // namespace
@@ -195,9 +205,21 @@ void read_tables(const TomlSource& source, Design& design, Tables& tables) {
 Design read_design(std::string_view text, std::string_view file_name) {
   const TomlSource source(text, file_name);
   const rigor::UpwardRounding upward;
+  const DesignFormat& format = expected_format(source);
   Design design;
-  design.tables = expected_tables(source);
-  std::visit([&](auto& tables) { read_tables(source, design, tables); }, design.tables);
+  design.tables = format.empty_tables();
+  const BoundTable top = top_keys(design);
+  const std::vector<BoundTable> tables = format.bind_tables(design.tables);
+  reject_unknown_keys(source, top, tables);
+  read_table(source, &source.root(), top, design.positions);
+  for (const BoundTable& table : tables) {
+    read_table(source, find_table(source, table.name), table, design.positions);
+  }
+  if (format.objection != nullptr) {
+    if (const auto objection = format.objection(design.tables)) {
+      source.fail(to_position(find_table(source, objection->table)->source().begin), objection->message);
+    }
+  }
   return design;
 }
 

@@ -1,15 +1,21 @@
 // What the keys of all trackers are made of: limits, defaults, and readers that store a value in a member.
 #pragma once
 
-#include <string_view>
+#include <fmt/format.h>
 
-#include "certificates/design/design_keys.hpp"
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "certificates/design/design_format.hpp"
 
 namespace veritrack::certificates::keys {
 
 using rigor::Interval;
 
-// ---- what holds without a key
+// ---- what is assumed without a key
 
 inline constexpr Absence kRequired{};
 inline constexpr Absence kOptional{Absence::Rule::is_nothing, {}};
@@ -29,8 +35,13 @@ inline bool not_negative(const Interval& x) {
   return rigor::certainly_less_equal(Interval(0.0), x);
 }
 
+inline bool at_least_zero_below_one(const Interval& x) {
+  return not_negative(x) && rigor::certainly_less(x, Interval(1.0));
+}
+
 inline constexpr std::string_view kPositive = "a number above 0";
 inline constexpr std::string_view kNotNegative = "a number, 0 or more";
+inline constexpr std::string_view kAtLeastZeroBelowOne = "a number, 0 or more and below 1";
 
 // ---- how a key is read
 
@@ -46,6 +57,26 @@ using Owner = typename OwnerOf<decltype(member)>::type;
 template <auto member, RealPredicate is_allowed>
 void real(const TomlValue& value, Owner<member>& target) {
   target.*member = value.real(is_allowed);
+}
+
+template <auto member, std::int64_t lowest, std::int64_t highest>
+void integer(const TomlValue& value, Owner<member>& target) {
+  using Type = std::remove_reference_t<decltype(target.*member)>;
+  target.*member = static_cast<Type>(value.integer(lowest, highest));
+}
+
+/// Stores a string out of a list of choices.
+template <typename Choices>
+void choose(const TomlValue& value, const Choices& choices, std::string& target) {
+  if (!value.is_string()) {
+    value.refuse_kind();
+  }
+  constexpr std::size_t kLongest = 100;
+  const std::string text = value.line_of_text(kLongest);
+  if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
+    value.refuse(fmt::format("\"{}\"", text));
+  }
+  target = text;
 }
 
 }  // namespace veritrack::certificates::keys

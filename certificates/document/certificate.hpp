@@ -1,6 +1,8 @@
 // A certificate: a design, what was claimed of it, the verdict on each claim, and the ground for it.
 #pragma once
 
+#include <any>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -8,12 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/quadrature/capture/capture_basin.hpp"
-#include "analysis/quadrature/capture/capture_region.hpp"
-#include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/rigor/verdict.hpp"
 #include "analysis/sets/contraction_result.hpp"
-#include "analysis/theorems/audit.hpp"
 #include "analysis/theorems/derivation.hpp"
 #include "certificates/design/design.hpp"
 #include "certificates/document/formal_proof.hpp"
@@ -32,55 +30,18 @@ struct Claim {
   std::vector<theorems::Quantity> evidence;
 };
 
-/// The audit of one reading of the theorem along the simulated trajectory.
-struct AuditedDerivation {
-  std::string derivation;  ///< the id of the derivation whose constants were audited
-  theorems::Audit audit;
-};
-
-/// A set that the tracker never leaves, with what it was made for: evidence that can be checked again without
-/// the search that found it.
-struct NamedSet {
-  std::string purpose;  ///< as in certificate.schema.json, e.g. "start-error"
-  quadrature::CertifiedSet set;
-};
-
-/// The assumed starts, followed because they exceed the certified set.
-struct FollowedStarts {
-  quadrature::Region region;           ///< with the assumed noise and slew
-  quadrature::SimulatedBasin basin;    ///< without, by simulation: proves nothing
-  std::vector<double> frequency_tube;  ///< see quadrature::StartCapture; empty unless PROVED
-};
-
-/// What one result gives for the design, side by side with the others.
-struct ComparedResult {
-  std::string result;                     ///< the derivation's id, or "simulation"
-  std::optional<rigor::Verdict> verdict;  ///< of its conditions; none for a simulation
-  std::optional<rigor::Interval>
-      frequency_error;                   ///< of the start, certified up to the lower end, rad/sample
-  std::optional<rigor::Interval> noise;  ///< up to the lower end, relative to the amplitude
-  std::optional<rigor::Interval> rate;   ///< factor per sample, at most the upper end
-  bool simulated = false;                ///< proves nothing
-};
-
 struct Certificate {
   Design design;
-  std::string design_file;  ///< its name, without folders
-  std::string design_text;  ///< as read
-  /// The published theorem in its readings ("theorem-2.9/..."), then what this program proves
-  /// ("contraction"; then, when the starts exceed the certified set, "capture" and perhaps
-  /// "capture/noise-free" and "capture/reduced-noise").
-  std::vector<theorems::Derivation> derivations;
+  std::string design_file;                        ///< its name, without folders
+  std::string design_text;                        ///< as read
+  std::vector<theorems::Derivation> derivations;  ///< what follows from what, by the kind of tracker
   /// What is certified of the assumed starts and beyond; none for a tracker without such a certificate.
   std::optional<sets::ContractionResult> contraction;
-  std::vector<NamedSet> certified_sets;
-  std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
-  std::vector<AuditedDerivation> audits;
-  std::vector<ComparedResult> comparison;
   std::vector<Claim> claims;
   /// Of all required claims together; none when nothing is required, which is no verdict at all.
   std::optional<rigor::Verdict> verdict;
-  Simulation simulation;                      ///< the double-precision run behind the audits and the figures
+  Simulation simulation;  ///< the double-precision run behind the audits and the figures
+  std::any particulars;   ///< what only this kind of tracker has; its column knows the type
   std::optional<FormalProofs> formal_proofs;  ///< when asked for: see coq_document.hpp
 };
 
@@ -95,8 +56,15 @@ struct Certificate {
 /// "proved", "refuted", "undecided", or "nothing-required".
 [[nodiscard]] std::string verdict_text(const Certificate& certificate);
 
+/// How far following a set of starts has come.
+struct Progress {
+  double proved_share = 0.0;   ///< of the starts, by volume
+  double refuted_share = 0.0;  ///< of the starts, by volume
+  std::size_t propagations = 0;
+};
+
 /// Told how far the long part of the work has come, now and then.
-using CertifyProgress = std::function<void(const quadrature::RegionProgress&)>;
+using CertifyProgress = std::function<void(const Progress&)>;
 
 /// Evaluates everything that can be said of the design. `design_text` is the file's text and `design_file`
 /// its name without folders, for the documents. Opens its own rounding scope.

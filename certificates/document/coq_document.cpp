@@ -4,6 +4,8 @@
 
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/document/coq_parts.hpp"
+#include "certificates/document/tracker_kind.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
 
@@ -32,13 +34,13 @@ FormalProofs Proofs::finished() const {
 
 FormalProofs coq_proofs(const Certificate& certificate) {
   const rigor::UpwardRounding upward;
-  if (std::holds_alternative<KklObserverTables>(certificate.design.tables)) {
-    return coq::kkl_observer_proofs(certificate);
+  const TrackerKind& kind = kind_of(certificate.design);
+  if (kind.formal_proofs == nullptr) {
+    throw NoFormalProofs(
+        fmt::format("a certificate of the tracker {} has no formal proofs; allowed with --coq: {}", kind.name,
+                    names_of_kinds([](const TrackerKind& other) { return other.formal_proofs != nullptr; })));
   }
-  if (std::holds_alternative<SingleChannelEkfTables>(certificate.design.tables)) {
-    return coq::proposition_1_proofs(certificate);
-  }
-  return coq::theorem_2_9_proofs(certificate);
+  return kind.formal_proofs(certificate);
 }
 
 }  // namespace veritrack::certificates

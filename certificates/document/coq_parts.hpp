@@ -11,10 +11,9 @@
 
 namespace veritrack::certificates::coq {
 
-/// The files of certificates/coq/, which the build makes part of the program.
-extern const std::string_view kKklObserver;
-extern const std::string_view kTheorem29;
-extern const std::string_view kProposition1;
+/// The text of certificates/coq/<name>.v, which the build makes part of the program. Throws std::out_of_range
+/// when there is no such file.
+[[nodiscard]] std::string_view text_for_all_designs(std::string_view name);
 
 /// Appends to the text and lists what is proved.
 class Proofs {
@@ -39,10 +38,5 @@ class Proofs {
  private:
   FormalProofs proofs_;
 };
-
-/// All need the upward mode.
-[[nodiscard]] FormalProofs kkl_observer_proofs(const Certificate& certificate);
-[[nodiscard]] FormalProofs theorem_2_9_proofs(const Certificate& certificate);
-[[nodiscard]] FormalProofs proposition_1_proofs(const Certificate& certificate);
 
 }  // namespace veritrack::certificates::coq

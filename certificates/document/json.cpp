@@ -1,15 +1,12 @@
 #include "certificates/document/json.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "analysis/rigor/decimal.hpp"
-#include "certificates/document/design_json.hpp"
+#include "certificates/document/number_json.hpp"
+#include "certificates/document/tracker_kind.hpp"
 
 namespace veritrack::certificates {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json quantities_json(const std::vector<theorems::Quantity>& quantities, Json& not_applicable) {
   Json json = Json::object();
@@ -64,20 +61,6 @@ Json feasibility_json(const theorems::Feasibility& feasibility) {
   return json;
 }
 
-/// A matrix of exact doubles, row by row.
-template <typename Matrix>
-Json matrix_json(const Matrix& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      row.push_back(rigor::to_hexadecimal(matrix(i, j)));
-    }
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 Json evidence_json(const theorems::Evidence& evidence) {
   Json json{{"name", evidence.name}, {"numbers", Json::object()}, {"matrices", Json::object()}};
   for (const auto& [name, number] : evidence.numbers) {
@@ -111,84 +94,6 @@ Json derivation_json(const theorems::Derivation& derivation) {
   return json;
 }
 
-Json audit_point_json(const theorems::AuditPoint& point) {
-  Json json{{"step", point.step},
-            {"verdict", std::string(rigor::to_string(point.verdict))},
-            {"margin", enclosure_json(point.margin)}};
-  if (!rigor::is_empty(point.relative_margin)) {
-    json["relative_margin"] = enclosure_json(point.relative_margin);
-  }
-  return json;
-}
-
-Json audited_json(const theorems::Audit& audit, const theorems::AuditedInequality& inequality) {
-  Json json{{"id", inequality.id},
-            {"statement", inequality.statement},
-            {"source", inequality.source},
-            {"kind", inequality.kind == theorems::AuditKind::assumption ? "assumption" : "claim"}};
-  if (inequality.not_applicable) {
-    json["not_applicable"] = *inequality.not_applicable;
-    return json;
-  }
-  json["first_step"] = inequality.first_step;
-  json["satisfied"] = inequality.satisfied;
-  json["violated"] = inequality.violated;
-  json["undecided"] = inequality.undecided;
-  if (inequality.worst) {
-    json["worst"] = audit_point_json(*inequality.worst);
-  }
-  if (inequality.first_violation) {
-    json["first_violation"] = *inequality.first_violation;
-  }
-  if (inequality.before_first_step) {
-    json["before_first_step"] = audit_point_json(*inequality.before_first_step);
-  }
-  json["refuted_by_this_run"] = audit.refutes(inequality);
-  return json;
-}
-
-Json audit_json(const AuditedDerivation& audited) {
-  Json json{{"derivation", audited.derivation},
-            {"proved", false},
-            {"steps_within_assumptions", audited.audit.steps_within_assumptions},
-            {"inequalities", Json::array()}};
-  for (const theorems::AuditedInequality& inequality : audited.audit.inequalities) {
-    json["inequalities"].push_back(audited_json(audited.audit, inequality));
-  }
-  return json;
-}
-
-Json compared_json(const ComparedResult& row) {
-  Json json{{"result", row.result}, {"proved", !row.simulated}};
-  if (row.verdict) {
-    json["verdict"] = std::string(rigor::to_string(*row.verdict));
-  }
-  if (row.frequency_error) {
-    json["initial_frequency_error"] = enclosure_json(*row.frequency_error);
-  }
-  if (row.noise) {
-    json["noise"] = enclosure_json(*row.noise);
-  }
-  if (row.rate) {
-    json["rate"] = enclosure_json(*row.rate);
-  }
-  return json;
-}
-
-Json certified_set_json(const NamedSet& named) {
-  const quadrature::CertifiedSet& set = named.set;
-  return {{"purpose", named.purpose},
-          {"metric", matrix_json(set.metric)},
-          {"radius", rigor::to_hexadecimal(set.radius)},
-          {"covariance_lower", matrix_json(set.covariance_lower)},
-          {"covariance_upper", matrix_json(set.covariance_upper)},
-          {"noise", rigor::to_hexadecimal(set.noise)},
-          {"slew", rigor::to_hexadecimal(set.slew)},
-          {"rate", rigor::to_hexadecimal(set.rate)},
-          {"noise_gain", rigor::to_hexadecimal(set.noise_gain)},
-          {"slew_gain", rigor::to_hexadecimal(set.slew_gain)}};
-}
-
 Json claim_json(const Claim& claim) {
   Json not_applicable = Json::object();
   return {{"id", claim.id},
@@ -207,26 +112,32 @@ Json formal_proofs_json(const FormalProofs& proofs) {
   return json;
 }
 
+/// The design as read, every number with its text, its enclosure and its line.
+Json design_json(const Certificate& certificate, const TrackerKind& kind) {
+  const Design& design = certificate.design;
+  Json json{{"file", certificate.design_file},
+            {"name", design.name},
+            {"tracker", design.tracker},
+            {"source", design.source}};
+  json.update(kind.design_json(design));
+  return json;
+}
+
 }  // namespace
 
 std::string to_json(const Certificate& certificate) {
-  Json json{{"schema", "veritrack/certificate/1"}, {"design", design_json(certificate)}};
+  const TrackerKind& kind = kind_of(certificate.design);
+  Json json{{"schema", "veritrack/certificate/1"}, {"design", design_json(certificate, kind)}};
   json["derivations"] = Json::array();
   for (const theorems::Derivation& derivation : certificate.derivations) {
     json["derivations"].push_back(derivation_json(derivation));
   }
-  json["certified_sets"] = Json::array();
-  for (const NamedSet& set : certificate.certified_sets) {
-    json["certified_sets"].push_back(certified_set_json(set));
+  // Every certificate has these members; a kind of tracker that has nothing to put there leaves them empty.
+  Json evidence{{"certified_sets", Json::array()}, {"audits", Json::array()}, {"comparison", Json::array()}};
+  if (kind.evidence_json != nullptr) {
+    evidence.update(kind.evidence_json(certificate));
   }
-  json["audits"] = Json::array();
-  for (const AuditedDerivation& audited : certificate.audits) {
-    json["audits"].push_back(audit_json(audited));
-  }
-  json["comparison"] = Json::array();
-  for (const ComparedResult& row : certificate.comparison) {
-    json["comparison"].push_back(compared_json(row));
-  }
+  json.update(evidence);
   json["claims"] = Json::array();
   for (const Claim& claim : certificate.claims) {
     json["claims"].push_back(claim_json(claim));

@@ -12,8 +12,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "certificates/design/file_descriptor.hpp"
 #include "certificates/design/input_error.hpp"
-#include "certificates/document/file_descriptor.hpp"
 
 namespace veritrack::certificates {
 

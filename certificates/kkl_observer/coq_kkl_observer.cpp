@@ -1,3 +1,6 @@
+#include "certificates/kkl_observer/coq_kkl_observer.hpp"
+
+#include "certificates/document/coq_parts.hpp"
 // The KKL observer in Coq: its identities, the lower bound on ell over the frequency range, and whether gamma
 // inverts T there.
 #include <fmt/format.h>
@@ -7,8 +10,8 @@
 #include "analysis/kkl_observer/kkl_claims.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/coq_numbers.hpp"
-#include "certificates/document/coq_parts.hpp"
 #include "certificates/kkl_observer/kkl_observer.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 
 namespace veritrack::certificates::coq {
@@ -57,7 +60,7 @@ void cite_identities(Proofs& proofs) {
 
 /// The rates, the range of s = x3, the proved bound and the ell in use.
 void define_design(Proofs& proofs, const Certificate& certificate, const std::string& lower_bound) {
-  const KklObserverTables& tables = certificate.design.kkl_observer();
+  const KklObserverTables& tables = kkl_observer_tables(certificate.design);
   proofs.write("\n(* The design: rates in 1/s, s = x3 = omega^2 in (rad/s)^2. *)\n");
   for (std::size_t i = 0; i < kFilters; ++i) {
     proofs.write(fmt::format("Definition l{} : R := {}.\n", i + 1, decimal(tables.design.lambda[i].text)));
@@ -173,9 +176,9 @@ void prove_no_inverse(Proofs& proofs, const kkl_observer::SignalWitness& witness
 }  // namespace
 
 FormalProofs kkl_observer_proofs(const Certificate& certificate) {
-  Proofs proofs(kKklObserver);
+  Proofs proofs(text_for_all_designs("kkl_observer"));
   cite_identities(proofs);
-  const KklObserverTables& tables = certificate.design.kkl_observer();
+  const KklObserverTables& tables = kkl_observer_tables(certificate.design);
   const bool bounded = verdict_of(certificate, "kkl-ell", "positive") == Verdict::proved;
   if (tables.design.lambda.size() != kFilters || !bounded) {
     return proofs.finished();

@@ -8,6 +8,7 @@
 #include "analysis/kkl_observer/kkl_ell.hpp"
 #include "analysis/kkl_observer/kkl_section_v.hpp"
 #include "analysis/rigor/decimal.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
 #include "certificates/sets/required_claims.hpp"
 
 namespace veritrack::certificates {
@@ -136,7 +137,7 @@ std::optional<Eigen::Vector4d> section_v_rates(const KklObserverTables& tables) 
 }
 
 KklEll kkl_ell_in_use(const Certificate& certificate) {
-  if (const auto& chosen = certificate.design.kkl_observer().design.ell) {
+  if (const auto& chosen = kkl_observer_tables(certificate.design).design.ell) {
     return {chosen->value, chosen->nearest, chosen->text};
   }
   const theorems::Derivation* proved = find_derivation(certificate, "kkl-ell");
@@ -147,8 +148,8 @@ KklEll kkl_ell_in_use(const Certificate& certificate) {
   return {Interval(lower), lower, std::nullopt};
 }
 
-void certify_kkl_observer(Certificate& certificate) {
-  const KklObserverTables& tables = certificate.design.kkl_observer();
+void certify_kkl_observer(Certificate& certificate, const CertifyProgress& /*progress*/) {
+  const KklObserverTables& tables = kkl_observer_tables(certificate.design);
   kkl_observer::KklClaimsQuestion claims;
   for (const Number& rate : tables.design.lambda) {
     claims.lambda.push_back(rate.value);

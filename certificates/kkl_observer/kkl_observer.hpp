@@ -3,13 +3,20 @@
 
 #include "analysis/kkl_observer/kkl_robustness.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/document/tuning.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
 
 namespace veritrack::certificates {
 
 /// Adds the derivations "kkl-ell", "kkl-paper" and "kkl-robustness" (and "kkl-section-v" for the paper's
 /// rates), the required claims and their verdict to a certificate whose design is one of the KKL observer;
 /// with more than four filters "kkl-paper" alone. Needs the upward mode.
-void certify_kkl_observer(Certificate& certificate);
+void certify_kkl_observer(Certificate& certificate, const CertifyProgress& progress);
+
+/// Chooses the rates of an observer with four filters for a small frequency error under the assumed
+/// disturbance and a settling time of at most settles_within (without it: that of the given rates). The ell
+/// is left to the certificate. Opens its own rounding scopes.
+[[nodiscard]] TuningResult tune_kkl_observer(const Design& design);
 
 /// The range of the signal, for four filters. Needs the upward mode.
 [[nodiscard]] kkl_observer::KklRange kkl_range(const KklObserverTables& tables);

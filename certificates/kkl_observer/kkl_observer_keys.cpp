@@ -1,9 +1,9 @@
 // The keys of a design file for the tracker "kkl-observer".
 #include <array>
 
-#include "certificates/design/design_keys.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/key_readers.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
 
 namespace veritrack::certificates {
 
@@ -12,7 +12,7 @@ namespace {
 using namespace keys;  // NOLINT(google-build-using-namespace): this file is made of them
 
 /// Distinct to the reader, and to the interval arithmetic that divides by the differences.
-void lambda(const TomlValue& value, KklObserverDesign& design) {
+void lambda(const TomlValue& value, KklDesignTable& design) {
   std::vector<Number> rates;
   for (const TomlValue& element : value.elements(4, 8)) {
     Number rate = element.real(positive);
@@ -28,7 +28,7 @@ void lambda(const TomlValue& value, KklObserverDesign& design) {
   design.lambda = std::move(rates);
 }
 
-void ell(const TomlValue& value, KklObserverDesign& design) {
+void ell(const TomlValue& value, KklDesignTable& design) {
   design.ell = value.real(positive);
 }
 
@@ -69,9 +69,9 @@ void disturbance(const TomlValue& value, KklAssumptions& assume) {
 constexpr std::string_view kRange = "[lowest, highest], 0 < lowest <= highest";
 
 constexpr std::array kDesignKeys{
-    Key<KklObserverDesign>{"lambda", "an array of four to eight distinct numbers above 0 (1/s)", lambda,
-                           kRequired},
-    Key<KklObserverDesign>{"ell", kPositive, ell, kOptional},
+    Key<KklDesignTable>{"lambda", "an array of four to eight distinct numbers above 0 (1/s)", lambda,
+                        kRequired},
+    Key<KklDesignTable>{"ell", kPositive, ell, kOptional},
 };
 constexpr std::array kAssumeKeys{
     Key<KklAssumptions>{"frequency", "[lowest, highest] in rad/s, 0 < lowest <= highest", frequency,
@@ -97,16 +97,18 @@ constexpr std::array kRequireKeys{
                          requirement<&KklRequirements::settles_within>, kOptional},
 };
 
+std::vector<BoundTable> bind_tables(std::any& tables) {
+  auto& target = std::any_cast<KklObserverTables&>(tables);
+  return {bound_table("design", kDesignKeys, target.design),
+          bound_table("assume", kAssumeKeys, target.assume),
+          bound_table("require", kRequireKeys, target.require)};
+}
+
 }  // namespace
 
-std::span<const Key<KklObserverDesign>> kkl_design_keys() {
-  return kDesignKeys;
-}
-std::span<const Key<KklAssumptions>> kkl_assume_keys() {
-  return kAssumeKeys;
-}
-std::span<const Key<KklRequirements>> kkl_require_keys() {
-  return kRequireKeys;
+const DesignFormat& kkl_observer_format() {
+  static const DesignFormat format{"kkl-observer", [] { return std::any(KklObserverTables{}); }, bind_tables};
+  return format;
 }
 
 }  // namespace veritrack::certificates

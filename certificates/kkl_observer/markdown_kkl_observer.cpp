@@ -9,6 +9,7 @@
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/kkl_observer/kkl_observer.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
 
 namespace veritrack::certificates {
 
@@ -105,9 +106,8 @@ std::string kkl_observer_headline(const Certificate& certificate) {
       shown(*time), shown(*frequency));
 }
 
-std::string kkl_observer_sections(const Certificate& certificate, const KklObserverTables& tables,
-                                  const MarkdownOptions& options) {
-  return design_section(certificate, tables) +
+std::string kkl_observer_sections(const Certificate& certificate, const MarkdownOptions& options) {
+  return design_section(certificate, kkl_observer_tables(certificate.design)) +
          derivation_section(certificate, "kkl-robustness", "What a disturbance does to it", true) +
          figures_section(options) + derivation_section(certificate, "kkl-ell", "The constant of (10)", true) +
          derivation_section(certificate, "kkl-paper", "The paper's claims", false) +

@@ -13,7 +13,6 @@ namespace veritrack::certificates {
 
 /// Design, assumptions, what is certified of them, the paper's claims, figures and coverage.
 [[nodiscard]] std::string kkl_observer_sections(const Certificate& certificate,
-                                                const KklObserverTables& tables,
                                                 const MarkdownOptions& options);
 
 }  // namespace veritrack::certificates

@@ -9,6 +9,8 @@
 #include "analysis/quadrature/capture/capture_starts.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/quadrature/region.hpp"
 
 namespace veritrack::certificates {
 
@@ -88,17 +90,14 @@ quadrature::SimulatedBasin basin_of_starts(const ContractionQuestion& question) 
 }  // namespace
 
 void add_capture(Certificate& certificate, const CertifyProgress& progress) {
-  const auto set = std::find_if(certificate.certified_sets.begin(), certificate.certified_sets.end(),
+  const auto set = std::find_if(quadrature_particulars(certificate).certified_sets.begin(),
+                                quadrature_particulars(certificate).certified_sets.end(),
                                 [](const NamedSet& named) { return named.purpose == "start-error"; });
-  if (set == certificate.certified_sets.end() || !starts_are_outside(*certificate.contraction)) {
+  if (set == quadrature_particulars(certificate).certified_sets.end() ||
+      !starts_are_outside(*certificate.contraction)) {
     return;
   }
-  const auto report = [&progress](const quadrature::RegionProgress& so_far) {
-    if (progress) {
-      progress(so_far);
-    }
-    return true;
-  };
+  const auto report = region_progress(progress);
   ContractionQuestion question = contraction_question(certificate.design);
   StartCapture capture = quadrature::capture_starts(question, set->set, "capture", kMostCells, report);
   Claim claim = claim_of(capture, "ekf/capture",
@@ -133,7 +132,7 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
       add_capture_at_reduced_noise(certificate, set->set, report);
     }
   }
-  certificate.followed_starts =
+  quadrature_particulars(certificate).followed_starts =
       FollowedStarts{std::move(capture.region), basin_of_starts(question), std::move(capture.frequency_tube)};
 }
 

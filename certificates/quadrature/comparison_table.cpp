@@ -6,6 +6,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/quadrature/simulated_limits.hpp"
 
 namespace veritrack::certificates {
@@ -58,21 +59,22 @@ void add_comparison(Certificate& certificate) {
     ComparedResult row = is_contraction ? row_of(derivation, *certificate.contraction) : row_of(derivation);
     const bool always_shown = is_contraction || derivation.id.starts_with("theorem-2.9/");
     if (always_shown || row.frequency_error || row.noise || row.rate) {
-      certificate.comparison.push_back(std::move(row));
+      quadrature_particulars(certificate).comparison.push_back(std::move(row));
     }
   }
   const SimulatedLimits limits = find_simulated_limits(certificate.design);
-  certificate.comparison.push_back({"simulation", std::nullopt, Interval(limits.frequency_error),
-                                    Interval(limits.noise), Interval(limits.rate), true});
+  quadrature_particulars(certificate)
+      .comparison.push_back({"simulation", std::nullopt, Interval(limits.frequency_error),
+                             Interval(limits.noise), Interval(limits.rate), true});
 }
 
 std::string comparison_section(const Certificate& certificate) {
-  if (certificate.comparison.empty()) {
+  if (quadrature_particulars(certificate).comparison.empty()) {
     return "";
   }
   std::vector<std::vector<std::string>> rows;
-  rows.reserve(certificate.comparison.size());
-  for (const ComparedResult& row : certificate.comparison) {
+  rows.reserve(quadrature_particulars(certificate).comparison.size());
+  for (const ComparedResult& row : quadrature_particulars(certificate).comparison) {
     rows.push_back({row.simulated ? "*simulation, no proof*" : "`" + row.result + "`",
                     bound_text(row, row.frequency_error, Direction::down),
                     bound_text(row, row.noise, Direction::down), bound_text(row, row.rate, Direction::up),

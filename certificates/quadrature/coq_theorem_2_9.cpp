@@ -1,3 +1,6 @@
+#include "certificates/quadrature/coq_theorem_2_9.hpp"
+
+#include "certificates/document/coq_parts.hpp"
 // Theorem 2.9 of the quadrature tracker in Coq: its constants, and the conditions that fail.
 #include <fmt/format.h>
 
@@ -5,7 +8,8 @@
 #include <array>
 
 #include "certificates/document/coq_numbers.hpp"
-#include "certificates/document/coq_parts.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates::coq {
 
@@ -110,8 +114,8 @@ void prove_condition(Proofs& proofs, const theorems::Derivation& derivation, con
 }  // namespace
 
 FormalProofs theorem_2_9_proofs(const Certificate& certificate) {
-  const QuadratureEkfTables& tables = certificate.design.quadrature_ekf();
-  Proofs proofs(kTheorem29);
+  const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
+  Proofs proofs(text_for_all_designs("theorem_2_9"));
   for (const char* reading : {"printed", "errata"}) {
     proofs.cite("condition_2_43_fails_for_every_design", fmt::format("theorem-2.9/{}/feasibility", reading),
                 "Condition (2.43) fails for every design and every admissible choice of the free parameters, "

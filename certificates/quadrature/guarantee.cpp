@@ -2,7 +2,10 @@
 
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 #include "analysis/quadrature/leak/steady_certificate.hpp"
-#include "trackers/quadrature/quadrature_rotating_frame.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/sets/assumptions.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::certificates {
 
@@ -10,33 +13,33 @@ using rigor::Interval;
 using rigor::Verdict;
 
 trackers::ToneModel<Interval> enclosed_at_unit_amplitude(const QuadratureEkfTables& tables) {
-  const QuadratureEkfDesign& chosen = tables.design;
+  const QuadratureDesignTable& chosen = tables.design;
   return trackers::at_unit_amplitude<Interval>(
       {chosen.q1.value, chosen.q2.value, chosen.r.value, chosen.epsilon.value},
       tables.assume.amplitude.value);
 }
 
 trackers::ToneModel<double> nearest_at_unit_amplitude(const QuadratureEkfTables& tables) {
-  const QuadratureEkfDesign& chosen = tables.design;
+  const QuadratureDesignTable& chosen = tables.design;
   return trackers::at_unit_amplitude<double>(
       {chosen.q1.nearest, chosen.q2.nearest, chosen.r.nearest, chosen.epsilon.nearest},
       tables.assume.amplitude.nearest);
 }
 
 sets::ContractionQuestion contraction_question(const Design& design) {
-  return contraction_question(enclosed_at_unit_amplitude(design.quadrature_ekf()),
-                              design.quadrature_ekf().assume);
+  const QuadratureEkfTables& tables = quadrature_tables(design);
+  return contraction_question(enclosed_at_unit_amplitude(tables), tables.assume);
 }
 
 void add_contraction(Certificate& certificate) {
-  if (certificate.design.quadrature_ekf().design.epsilon.value == Interval(0.0)) {
+  if (quadrature_tables(certificate.design).design.epsilon.value == Interval(0.0)) {
     quadrature::ContractionCertificate found =
         quadrature::certify_contraction(contraction_question(certificate.design));
     certificate.derivations.push_back(std::move(found.derivation));
     certificate.contraction = std::move(found.result);
     const auto keep = [&](const char* purpose, const std::optional<quadrature::Verification>& verification) {
       if (verification && verification->verdict == Verdict::proved) {
-        certificate.certified_sets.push_back({purpose, verification->set});
+        quadrature_particulars(certificate).certified_sets.push_back({purpose, verification->set});
       }
     };
     keep("start-error", found.set);
@@ -46,7 +49,7 @@ void add_contraction(Certificate& certificate) {
     keep("ultimate-error", found.ultimate_set);
     keep("settling", found.settling_set);
   } else {
-    const Assumptions& assume = certificate.design.quadrature_ekf().assume;
+    const Assumptions& assume = quadrature_tables(certificate.design).assume;
     quadrature::LeakCertificate found =
         quadrature::certify_with_leak({contraction_question(certificate.design),
                                        rigor::hull(assume.frequency[0].value, assume.frequency[1].value)});

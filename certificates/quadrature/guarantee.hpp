@@ -3,6 +3,8 @@
 
 #include "analysis/sets/contraction_question.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/contraction.hpp"
 
 namespace veritrack::certificates {

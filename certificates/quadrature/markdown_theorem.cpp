@@ -7,6 +7,7 @@
 
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
 
 namespace veritrack::certificates {
 
@@ -120,7 +121,7 @@ std::string audit_section(const Certificate& certificate) {
       "evaluated in interval arithmetic on the run's own numbers. The margin is what is left between value "
       "and bound, as a share of the bound, at the worst step. The run proves nothing; a claim that it "
       "violates while every assumption holds is refuted as a bound for this run.\n\n";
-  for (const AuditedDerivation& audited : certificate.audits) {
+  for (const AuditedDerivation& audited : quadrature_particulars(certificate).audits) {
     text += fmt::format("### {}\n\n", reading(audited.derivation));
     std::vector<std::vector<std::string>> rows;
     for (const theorems::AuditedInequality& inequality : audited.audit.inequalities) {

@@ -1,7 +1,5 @@
 #include "certificates/quadrature/region.hpp"
 
-#include <variant>
-
 #include "analysis/quadrature/capture/capture_starts.hpp"
 #include "analysis/quadrature/capture/capture_target.hpp"
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
@@ -11,12 +9,17 @@ namespace veritrack::certificates {
 
 using rigor::Interval;
 
-RegionResult prove_region_of_attraction(
-    const Design& design, const RegionRequest& request,
-    const std::function<bool(const quadrature::RegionProgress&)>& progress) {
-  if (!std::holds_alternative<QuadratureEkfTables>(design.tables)) {
-    return {std::nullopt, "A map needs the tracker quadrature-ekf."};
-  }
+std::function<bool(const quadrature::RegionProgress&)> region_progress(const CertifyProgress& progress) {
+  return [&progress](const quadrature::RegionProgress& so_far) {
+    if (progress) {
+      progress({so_far.proved_share, so_far.refuted_share, so_far.propagations});
+    }
+    return true;
+  };
+}
+
+RegionResult prove_region_of_attraction(const Design& design, const RegionRequest& request,
+                                        const CertifyProgress& progress) {
   const rigor::UpwardRounding upward;
   sets::ContractionQuestion question = contraction_question(design);
   if (!request.with_noise) {
@@ -52,7 +55,7 @@ RegionResult prove_region_of_attraction(
                                     rigor::symmetric(request.frequency_error)};
   constexpr int kGrid = 64;
   RegionOfAttraction found;
-  found.region = quadrature::prove_region(*problem, target, starts, {}, progress);
+  found.region = quadrature::prove_region(*problem, target, starts, {}, region_progress(progress));
   found.basin = quadrature::simulate_basin(*problem, starts, kGrid, kGrid, 2000);
   found.shares = quadrature::shares_of_basin(found.region, found.basin);
   return {std::move(found), ""};

@@ -7,7 +7,7 @@
 
 #include "analysis/quadrature/capture/capture_basin.hpp"
 #include "analysis/quadrature/capture/capture_region.hpp"
-#include "certificates/design/design.hpp"
+#include "certificates/document/certificate.hpp"
 
 namespace veritrack::certificates {
 
@@ -36,8 +36,11 @@ struct RegionResult {
 /// amplitude up to initial_amplitude_error of [assume]; its covariance is the initial_covariance of [assume].
 /// Needs epsilon = 0. Runs in parallel; the result does not depend on the number of threads. Opens its own
 /// rounding scope.
-[[nodiscard]] RegionResult prove_region_of_attraction(
-    const Design& design, const RegionRequest& request,
-    const std::function<bool(const quadrature::RegionProgress&)>& progress = {});
+[[nodiscard]] RegionResult prove_region_of_attraction(const Design& design, const RegionRequest& request,
+                                                      const CertifyProgress& progress = {});
+
+/// Tells `progress`, when there is one, and never asks to stop. Refers to it: must not outlive it.
+[[nodiscard]] std::function<bool(const quadrature::RegionProgress&)> region_progress(
+    const CertifyProgress& progress);
 
 }  // namespace veritrack::certificates

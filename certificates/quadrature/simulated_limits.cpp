@@ -10,6 +10,7 @@
 
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/sets/simulation.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
 
@@ -25,7 +26,7 @@ constexpr int kSamples = 300;
 class ClosedLoop {
  public:
   explicit ClosedLoop(const Design& design) {
-    const QuadratureEkfTables& tables = design.quadrature_ekf();
+    const QuadratureEkfTables& tables = quadrature_tables(design);
     const double amplitude = tables.assume.amplitude.nearest;
     design_ = nearest_at_unit_amplitude(tables);
     frequency_ = 0.5 * (tables.assume.frequency[0].nearest + tables.assume.frequency[1].nearest);

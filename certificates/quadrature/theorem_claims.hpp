@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "certificates/document/certificate.hpp"
 #include "certificates/sets/statement_claim.hpp"

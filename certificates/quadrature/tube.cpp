@@ -9,6 +9,7 @@
 #include "analysis/quadrature/capture/capture_starts.hpp"
 #include "analysis/quadrature/contraction/certified_level.hpp"
 #include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
 #include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 namespace veritrack::certificates {
@@ -96,10 +97,11 @@ std::vector<double> bound_from(quadrature::CertifiedLevel level) {
 }  // namespace
 
 std::optional<Tube> certified_tube(const Certificate& certificate) {
-  const auto named = std::find_if(certificate.certified_sets.begin(), certificate.certified_sets.end(),
+  const auto named = std::find_if(quadrature_particulars(certificate).certified_sets.begin(),
+                                  quadrature_particulars(certificate).certified_sets.end(),
                                   [](const NamedSet& one) { return one.purpose == "start-error"; });
   const std::optional<Interval> bound = proved_frequency_bound(certificate);
-  if (named == certificate.certified_sets.end() || !bound) {
+  if (named == quadrature_particulars(certificate).certified_sets.end() || !bound) {
     return std::nullopt;
   }
   Tube tube;
@@ -112,13 +114,13 @@ std::optional<Tube> certified_tube(const Certificate& certificate) {
                    0.0};
     loop.noise = midpoint(question.noise);
     loop.slew = midpoint(question.slew);
-    tube.from_assumed_starts = certificate.followed_starts.has_value();
+    tube.from_assumed_starts = quadrature_particulars(certificate).followed_starts.has_value();
     if (tube.from_assumed_starts) {
       const auto problem = quadrature::capture_problem(question);
       if (!problem) {
         return std::nullopt;
       }
-      tube.bound = certificate.followed_starts->frequency_tube;
+      tube.bound = quadrature_particulars(certificate).followed_starts->frequency_tube;
       tube.bound.resize(std::min(tube.bound.size(), kLongest));
       starts = corners(quadrature::assumed_starts(question), rigor::midpoint(problem->initial_covariance));
     } else {

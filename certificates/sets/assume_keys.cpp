@@ -6,9 +6,10 @@
 
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/matrix.hpp"
-#include "certificates/design/design_keys.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/key_readers.hpp"
+#include "certificates/sets/assumptions.hpp"
+#include "certificates/sets/set_keys.hpp"
 
 namespace veritrack::certificates {
 

@@ -5,6 +5,7 @@
 
 #include "analysis/sets/contraction_question.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
 

@@ -7,6 +7,7 @@
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/sets/contraction_result.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
 
@@ -142,6 +143,17 @@ std::string guarantee_section(const Certificate& certificate) {
         rigor::lower_decimal(found.largest_slew.value, kDigits));
   }
   return text;
+}
+
+std::optional<std::string> proved_bound_headline(const Certificate& certificate) {
+  const std::optional<Interval> bound = proved_frequency_bound(certificate);
+  if (!bound) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "Nothing is required of this design; PROVED of it: the frequency error stays at or below {} "
+      "rad/sample for ever",
+      up(*bound));
 }
 
 }  // namespace veritrack::certificates

@@ -1,9 +1,11 @@
 // The guarantee in one sentence, in engineering words: what an engineer may rely on, or what is missing.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "certificates/document/certificate.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
 
@@ -22,5 +24,8 @@ struct GuaranteeTerms {
 
 /// The top of the document: that claim, and how much more the design would bear.
 [[nodiscard]] std::string guarantee_section(const Certificate& certificate);
+
+/// The first line of the document when nothing is required but a bound is proved; none otherwise.
+[[nodiscard]] std::optional<std::string> proved_bound_headline(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

@@ -4,6 +4,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/sets/contraction_result.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "certificates/document/certificate.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
 

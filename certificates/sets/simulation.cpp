@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/sets/assumptions.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
 #include "trackers/signals/test_signals.hpp"
@@ -17,7 +19,7 @@ using trackers::RotatingFrameState;
 using TrackerDesign = trackers::ToneModel<double>;
 
 TrackerDesign tracker_design(const Design& design) {
-  const QuadratureEkfDesign& chosen = design.quadrature_ekf().design;
+  const QuadratureDesignTable& chosen = quadrature_tables(design).design;
   return {chosen.q1.nearest, chosen.q2.nearest, chosen.r.nearest, chosen.epsilon.nearest};
 }
 
@@ -81,7 +83,7 @@ Eigen::Matrix3d given_covariance(const CovarianceArray& array) {
 
 SteadyState find_steady_state(const Design& design, double frequency) {
   const rigor::NearestRounding nearest;
-  const double amplitude = design.quadrature_ekf().assume.amplitude.nearest;
+  const double amplitude = quadrature_tables(design).assume.amplitude.nearest;
   const TrackerDesign unit_design = trackers::at_unit_amplitude(tracker_design(design), amplitude);
   SteadyState state = settle(unit_design, frequency, false);
   if (!state.settled) {
@@ -106,8 +108,8 @@ std::vector<trackers::Sample> simulated_signal(const Assumptions& assume,
 
 Simulation simulate(const Design& design) {
   const rigor::NearestRounding nearest;
-  const Assumptions& assume = design.quadrature_ekf().assume;
-  const SimulationSettings& settings = design.quadrature_ekf().simulate;
+  const Assumptions& assume = quadrature_tables(design).assume;
+  const SimulationSettings& settings = quadrature_tables(design).simulate;
   const std::vector<trackers::Sample> samples = simulated_signal(assume, settings);
   Simulation simulation;
   const trackers::Sample& first = samples.front();

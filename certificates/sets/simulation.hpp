@@ -7,6 +7,7 @@
 
 #include "analysis/theorems/trajectory.hpp"
 #include "certificates/design/design.hpp"
+#include "certificates/sets/assumptions.hpp"
 #include "trackers/signals/test_signals.hpp"
 
 namespace veritrack::certificates {

@@ -1,8 +1,10 @@
+#include "certificates/single_channel/coq_proposition_1.hpp"
+
+#include "certificates/document/coq_parts.hpp"
 // Proposition 1 of the single-channel tracker in Coq.
 #include <fmt/format.h>
 
 #include "certificates/document/coq_numbers.hpp"
-#include "certificates/document/coq_parts.hpp"
 
 namespace veritrack::certificates::coq {
 
@@ -30,7 +32,7 @@ void prove_poles(Proofs& proofs, const theorems::Derivation& filter) {
 }  // namespace
 
 FormalProofs proposition_1_proofs(const Certificate& certificate) {
-  Proofs proofs(kProposition1);
+  Proofs proofs(text_for_all_designs("proposition_1"));
   const auto cite = [&](const char* lemma, const char* place, const char* statement) {
     proofs.cite(lemma, fmt::format("proposition-1/{}", place), statement);
   };

@@ -8,6 +8,7 @@
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/single_channel/single_channel.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 
 namespace veritrack::certificates {
 
@@ -32,7 +33,7 @@ Interval value_of(const Derivation& derivation, const char* name) {
 /// The frequency of a bias, as the decimal that it is.
 std::string frequency_text(const Certificate& certificate, const Derivation& bias) {
   const Interval value = value_of(bias, "frequency");
-  const std::vector<BiasFrequency> all = bias_frequencies(certificate.design.single_channel_ekf().assume);
+  const std::vector<BiasFrequency> all = bias_frequencies(single_channel_tables(certificate.design).assume);
   return std::find_if(all.begin(), all.end(),
                       [&](const BiasFrequency& one) { return rigor::identical(one.value, value); })
       ->text;
@@ -72,13 +73,13 @@ std::string quadrature_cell(const Derivation& bias) {
   return quantity.not_applicable ? "not verified" : enclosure(quantity.value, 4);
 }
 
-std::string process_noise_words(const SingleChannelEkfDesign& design) {
+std::string process_noise_words(const SingleChannelDesignTable& design) {
   switch (design.process_noise) {
-    case SingleChannelEkfDesign::ProcessNoise::frequency_only:
+    case SingleChannelDesignTable::ProcessNoise::frequency_only:
       return math("Q = q\\,\\mathrm{diag}(0, 0, 1)") + ", as the paper prints it";
-    case SingleChannelEkfDesign::ProcessNoise::identity:
+    case SingleChannelDesignTable::ProcessNoise::identity:
       return math("Q = q\\,\\mathrm{diag}(1, 1, 1)");
-    case SingleChannelEkfDesign::ProcessNoise::diagonal:
+    case SingleChannelDesignTable::ProcessNoise::diagonal:
       break;
   }
   return math("Q = \\mathrm{diag}(q_1, q_1, q_2)");
@@ -124,7 +125,7 @@ std::string single_channel_summary(const Certificate& certificate) {
 }
 
 std::string single_channel_design_section(const Certificate& certificate) {
-  const SingleChannelEkfDesign& chosen = certificate.design.single_channel_ekf().design;
+  const SingleChannelDesignTable& chosen = single_channel_tables(certificate.design).design;
   std::string text = "## The design\n\n";
   text += fmt::format("{} — tracker `{}`", markdown::escaped(certificate.design.name),
                       certificate.design.tracker);

@@ -12,10 +12,12 @@
 #include "analysis/single_channel/phase_certificate.hpp"
 #include "analysis/single_channel/propositions.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
+#include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/contraction.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
 #include "certificates/sets/statement_claim.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 #include "trackers/tone_model.hpp"
 
 namespace veritrack::certificates {
@@ -127,8 +129,8 @@ std::vector<BiasFrequency> bias_frequencies(const Assumptions& assume) {
   return frequencies;
 }
 
-trackers::ToneModel<Interval> enclosed_values(const SingleChannelEkfDesign& design) {
-  using ProcessNoise = SingleChannelEkfDesign::ProcessNoise;
+trackers::ToneModel<Interval> enclosed_values(const SingleChannelDesignTable& design) {
+  using ProcessNoise = SingleChannelDesignTable::ProcessNoise;
   const Interval r = design.lambda ? design.lambda->value : design.r->value;
   if (design.process_noise == ProcessNoise::diagonal) {
     return {(*design.variances)[0].value, (*design.variances)[1].value, r, design.epsilon.value};
@@ -138,8 +140,8 @@ trackers::ToneModel<Interval> enclosed_values(const SingleChannelEkfDesign& desi
   return {identity ? q : Interval(0.0), q, r, design.epsilon.value};
 }
 
-trackers::ToneModel<double> nearest_values(const SingleChannelEkfDesign& design) {
-  using ProcessNoise = SingleChannelEkfDesign::ProcessNoise;
+trackers::ToneModel<double> nearest_values(const SingleChannelDesignTable& design) {
+  using ProcessNoise = SingleChannelDesignTable::ProcessNoise;
   const double r = design.lambda ? design.lambda->nearest : design.r->nearest;
   if (design.process_noise == ProcessNoise::diagonal) {
     return {(*design.variances)[0].nearest, (*design.variances)[1].nearest, r, design.epsilon.nearest};
@@ -149,7 +151,8 @@ trackers::ToneModel<double> nearest_values(const SingleChannelEkfDesign& design)
   return {identity ? q : 0.0, q, r, design.epsilon.nearest};
 }
 
-void certify_single_channel(Certificate& certificate, const SingleChannelEkfTables& tables) {
+void certify_single_channel(Certificate& certificate, const CertifyProgress& /*progress*/) {
+  const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
   certificate.simulation = simulate_single_channel(tables);
   const trackers::ToneModel<Interval> design =
       trackers::at_unit_amplitude(enclosed_values(tables.design), tables.assume.amplitude.value);

@@ -3,16 +3,17 @@
 
 #include "analysis/rigor/interval.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 #include "trackers/tone_model.hpp"
 
 namespace veritrack::certificates {
 
 /// Q = diag(q1, q1, q2), r and epsilon of [design], whatever keys they came from: the intervals that the
 /// decimals stand for, in the units of the design file.
-[[nodiscard]] trackers::ToneModel<rigor::Interval> enclosed_values(const SingleChannelEkfDesign& design);
+[[nodiscard]] trackers::ToneModel<rigor::Interval> enclosed_values(const SingleChannelDesignTable& design);
 
 /// The same as the nearest doubles.
-[[nodiscard]] trackers::ToneModel<double> nearest_values(const SingleChannelEkfDesign& design);
+[[nodiscard]] trackers::ToneModel<double> nearest_values(const SingleChannelDesignTable& design);
 
 /// A frequency of the band, rad/sample, with its decimal.
 struct BiasFrequency {
@@ -26,7 +27,7 @@ struct BiasFrequency {
 
 /// Evaluates everything: the simulated run, the bias at frequencies of the band, the transfer function, the
 /// propositions, and the claims of [require]. Needs the upward mode.
-void certify_single_channel(Certificate& certificate, const SingleChannelEkfTables& tables);
+void certify_single_channel(Certificate& certificate, const CertifyProgress& progress);
 
 /// The simulated run, from the edge of the assumed start errors along the signal that [simulate] names, of
 /// which the tracker sees the in-phase channel. Throws trackers::ZeroInnovationVariance. Holds

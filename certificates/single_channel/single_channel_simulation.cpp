@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/sets/assumptions.hpp"
 #include "certificates/single_channel/single_channel.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 #include "trackers/signals/test_signals.hpp"
 #include "trackers/single_channel/single_channel_ekf.hpp"
 #include "trackers/single_channel/single_channel_rotating_frame.hpp"

@@ -26,6 +26,14 @@ struct Verification {
   [[nodiscard]] bool verified() const;
 };
 
+/// A kind of tracker. A new one is a folder beside the others and an entry of the registry.
+struct TrackerKind {
+  const char* name;  ///< the `tracker` of its design files
+  /// Adds a part for everything that the certificate says. Throws Malformed for what is not a certificate of
+  /// this kind. `all_boxes`: see checker/verification.hpp.
+  void (*verify)(const Tree& certificate, bool all_boxes, Verification& result);
+};
+
 /// Adds a part for each claim, checked by `check`, and one for the verdict of the certificate: the required
 /// claims are those that [require] asks for (`asked`, their ids), each of them is verified, and the verdict
 /// is theirs together.

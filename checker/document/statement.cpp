@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "checker/document/evidence.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -61,8 +63,8 @@ Verdict verdict_from(const std::string& text) {
 }
 
 Ball read_enclosure(const Tree& enclosure, const std::string& name, Objections& objections) {
-  const Ball low = from_hexadecimal(enclosure.at("lo").text());
-  const Ball high = from_hexadecimal(enclosure.at("hi").text());
+  const Ball low = low_of(enclosure);
+  const Ball high = high_of(enclosure);
   const auto [decimal_low, decimal_high] = read_decimals(enclosure.at("decimal").text());
   if (!certainly_at_most(low, high)) {
     objections.push_back(name + ": lo exceeds hi");
@@ -88,8 +90,8 @@ Ball read_number(const Tree& number, Objections& objections) {
 void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections& objections) {
   const auto& [name, value, sense] = quantity;
   read_enclosure(enclosure, name, objections);
-  const Ball low = from_hexadecimal(enclosure.at("lo").text());
-  const Ball high = from_hexadecimal(enclosure.at("hi").text());
+  const Ball low = low_of(enclosure);
+  const Ball high = high_of(enclosure);
   const bool above = certainly_at_most(low, value.low);
   const bool below = certainly_at_most(value.high, high);
   const std::string found = ", found " + value.low.text();
@@ -130,17 +132,6 @@ void check_claim(const Tree& claimed, const Claim& found, Objections& objections
       check_enclosure(value, *known, objections);
     }
   }
-}
-
-const Tree* find_evidence(const Tree& derivation, const std::string& name) {
-  const Tree* evidence = derivation.find("evidence");
-  if (evidence == nullptr) {
-    return nullptr;
-  }
-  const auto& items = evidence->elements();
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const Tree& item) { return item.at("name").text() == name; });
-  return found == items.end() ? nullptr : &*found;
 }
 
 void check_derivation(const Tree& claimed, const Derivation& found, Objections& objections) {

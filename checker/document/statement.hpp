@@ -31,13 +31,6 @@ using Objections = std::vector<std::string>;
 /// What [lo, hi] says of a value: that it is in it, at most hi, or at least lo.
 enum class Sense { encloses, bounds_above, bounds_below };
 
-/// What is known of a value: that it is in `low`, or anywhere from `low` to `high`.
-struct Range {
-  Ball low, high;
-  Range(const Ball& value) : low(value), high(value) {}  // NOLINT(google-explicit-constructor)
-  Range(Ball least, Ball most) : low(std::move(least)), high(std::move(most)) {}
-};
-
 struct Quantity {
   std::string name;
   Range value;
@@ -79,9 +72,6 @@ void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections
 /// Objects unless the checker came to this verdict as well; UNDECIDED claims nothing.
 void check_verdict(const std::string& claimed, Verdict found, const std::string& name,
                    Objections& objections);
-
-/// The evidence of this name in a derivation, or none.
-const Tree* find_evidence(const Tree& derivation, const std::string& name);
 
 /// Holds the title, all quantities, all conditions and the verdict of `claimed` against `found`. Quantities
 /// that are said not to be proved, and those that are said not to be applicable, claim nothing.

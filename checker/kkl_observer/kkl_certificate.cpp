@@ -3,6 +3,7 @@
 #include <array>
 #include <set>
 
+#include "checker/document/evidence.hpp"
 #include "checker/kkl_observer/kkl_ell.hpp"
 #include "checker/kkl_observer/paper_claims.hpp"
 #include "checker/kkl_observer/robustness.hpp"
@@ -98,7 +99,7 @@ class KklVerifier {
     }
     Ball bound = Ball::everything();
     if (robustness_ != nullptr) {
-      bound = from_hexadecimal(robustness_->at("quantities").at(known->quantity).at("hi").text());
+      bound = high_of(robustness_->at("quantities").at(known->quantity));
     }
     const Ball limit = read_number(*asked, objections);
     check_claim(claim,
@@ -118,8 +119,10 @@ class KklVerifier {
 
 }  // namespace
 
-void verify_kkl_observer(const Tree& certificate, Verification& result) {
-  KklVerifier(certificate, result).run();
+TrackerKind kkl_observer() {
+  return {"kkl-observer", [](const Tree& certificate, bool /*all_boxes*/, Verification& result) {
+            KklVerifier(certificate, result).run();
+          }};
 }
 
 }  // namespace veritrack::checker

@@ -1,5 +1,7 @@
 #include "checker/kkl_observer/kkl_design.hpp"
 
+#include "checker/document/evidence.hpp"
+
 namespace veritrack::checker {
 
 KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
@@ -23,8 +25,8 @@ KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
   const auto range = [&](const Tree& ends, Ball& low, Ball& high) {
     positive(ends.at(0));
     positive(ends.at(1));
-    low = from_hexadecimal(ends.at(0).at("lo").text());
-    high = from_hexadecimal(ends.at(1).at("hi").text());
+    low = low_of(ends.at(0));
+    high = high_of(ends.at(1));
     if (!certainly_positive(low) || !certainly_at_most(low, high)) {
       objections.emplace_back("a range goes from low to high, above zero");
     }

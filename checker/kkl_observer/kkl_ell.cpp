@@ -1,14 +1,11 @@
 #include "checker/kkl_observer/kkl_ell.hpp"
 
+#include "checker/document/evidence.hpp"
 #include "checker/numbers/slope.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-const Ball zero(0.0);
-const Ball two(2.0);
-const Ball four(4.0);
 
 /// inf |M T(x)|^2 / |T(x)|^2 over the signals of one frequency: T is linear in (x1, x2), so that this is the
 /// smaller eigenvalue of a pencil of 2x2 matrices. |M xi|^2 is the sum over triples of filters of det(lambda,
@@ -60,7 +57,7 @@ class Infimum {
     if (certainly_at_most(bound_, ratio.value) || at_end) {
       return true;
     }
-    const Ball middle = (Ball(0.5) * (low + high)).lower();
+    const Ball middle = (half * (low + high)).lower();
     return depth > 0 && holds(low, middle, depth - 1) && holds(middle, high, depth - 1);
   }
 
@@ -84,7 +81,7 @@ bool no_minimizer(const KklDesign& design, const Ball& low, const Ball& high, co
   if (certainly_less(least, ratio.value) || certainly_positive(rises ? ratio.along[0] : -ratio.along[0])) {
     return true;
   }
-  const Ball middle = (Ball(0.5) * (low + high)).lower();
+  const Ball middle = (half * (low + high)).lower();
   return depth > 0 && no_minimizer(design, low, middle, least, rises, depth - 1) &&
          no_minimizer(design, middle, high, least, rises, depth - 1);
 }
@@ -121,11 +118,11 @@ std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& 
     objections.emplace_back("there is no enclosure of ell, or no frequency where it is attained");
     return std::nullopt;
   }
-  const Ball low = from_hexadecimal(ell->at("lo").text());
-  const Ball high = from_hexadecimal(ell->at("hi").text());
-  const Ball attained = from_hexadecimal(minimizer->at("lo").text());
+  const Ball low = low_of(*ell);
+  const Ball high = high_of(*ell);
+  const Ball attained = low_of(*minimizer);
   const bool enclosed = is_true({low, high, attained}, design);
-  const Ball last = from_hexadecimal(minimizer->at("hi").text());
+  const Ball last = high_of(*minimizer);
   const bool located = enclosed &&
                        no_minimizer(design, design.frequency_low, attained, high, false, kDepth) &&
                        no_minimizer(design, last, design.frequency_high, high, true, kDepth);
@@ -146,7 +143,7 @@ std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& 
   for (const auto& [id, name] : solvers) {
     const std::size_t at = found.conditions.size();
     const Tree* side = at < conditions.size() ? conditions[at].find("lhs") : nullptr;
-    const Ball number = side != nullptr ? from_hexadecimal(side->at("lo").text()) : nothing;
+    const Ball number = side != nullptr ? low_of(*side) : nothing;
     const Verdict verdict = all_of({decide_at_most(enclosed ? low : nothing, number),
                                     decide_at_most(number, enclosed ? high : nothing)});
     found.conditions.push_back(

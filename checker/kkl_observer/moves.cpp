@@ -9,8 +9,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
 constexpr int kPeriods = 8;
 constexpr int kTimes = 120;
 
@@ -62,7 +60,7 @@ void Moves::cut_periods(const KklDesign& design) {
   for (int k = 0; k < kPeriods; ++k) {
     const Ball begin = longest * Ball(k) / Ball(kPeriods);
     const Ball end = longest * Ball(k + 1) / Ball(kPeriods);
-    const Ball middle = Ball(0.5) * (begin + end);
+    const Ball middle = half * (begin + end);
     Cell cell{end, end - middle, {}, {}, {}};
     for (std::size_t i = 0; i < kFilters; ++i) {
       const auto at_middle = response(lambda_[i], middle);
@@ -86,7 +84,7 @@ void Moves::cut_time() {
   Ball begin(0.0);
   for (int k = 0; k < kTimes; ++k) {
     const Ball end(bend * std::expm1(growth * (k + 1) / kTimes));
-    const Ball middle = Ball(0.5) * (begin + end);
+    const Ball middle = half * (begin + end);
     Cell cell{end - begin, end - middle, {}, {}, {}};
     for (std::size_t i = 0; i < kFilters; ++i) {
       const Ball before = decay(i, begin);

@@ -2,14 +2,12 @@
 
 #include <array>
 
+#include "checker/document/evidence.hpp"
+
 namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
-const Ball two(2.0);
-const Ball four(4.0);
 using Four = std::array<Ball, 4>;
 const Four ones{one, one, one, one};
 
@@ -99,13 +97,13 @@ Verdict above(const std::vector<Ball>& lambda, const Ball& t) {
 
 /// The smallest eigenvalue of V'V: above `low`, and not above `high`.
 Range smallest_eigenvalue(const std::vector<Ball>& lambda) {
-  Range found(zero, Ball(0.0));
+  Range found(zero, zero);
   for (const Ball& l : lambda) {
     found.high += square(square(l) * l) + square(square(l)) + square(l) + one;  // the trace
   }
   found.high = found.high.upper();
   for (int step = 0; step < 150; ++step) {
-    const Ball middle = (Ball(0.5) * (found.low + found.high)).lower();
+    const Ball middle = (half * (found.low + found.high)).lower();
     const Verdict verdict = above(lambda, middle);
     if (verdict == Verdict::undecided) {
       break;
@@ -139,7 +137,7 @@ Ball continuity_modulus(const KklDesign& design, const Ball& ell) {
                           abs(l[0] - l[3]);
   const Ball lower = design.amplitude_low / given_back;
 
-  const Ball determinant = min(gram, Ball(0.5)) * ell * square(lower);
+  const Ball determinant = min(gram, half) * ell * square(lower);
   const Ball trace = squares + four + square(upper) * (one + Ball(3.0) * ell);
   const Ball smallest = determinant / square(trace / two);
   const Ball length = sqrt(squares + four + square(upper));  // of L
@@ -187,7 +185,7 @@ void add_inverse(const KklDesign& design, const Ball& ell, const EllEnclosure& i
   for (const Tree& condition : claimed.at("conditions").elements()) {
     const Tree* side = condition.at("id").text() == "mu-vanishes" ? condition.find("rhs") : nullptr;
     if (side != nullptr) {
-      const Range given(from_hexadecimal(side->at("lo").text()), from_hexadecimal(side->at("hi").text()));
+      const Range given(low_of(*side), high_of(*side));
       if (is_true({given.low / two, given.high / two, infimum.attained}, design)) {
         limit = given;
       }

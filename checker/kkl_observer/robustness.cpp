@@ -1,5 +1,6 @@
 #include "checker/kkl_observer/robustness.hpp"
 
+#include "checker/document/evidence.hpp"
 #include "checker/kkl_observer/signal_cells.hpp"
 
 namespace veritrack::checker {
@@ -8,7 +9,7 @@ namespace {
 
 /// The end of an enclosure that carries its meaning; a ball of everything when there is no enclosure.
 Ball end_of(const Tree* enclosure, const char* end) {
-  return enclosure != nullptr ? from_hexadecimal(enclosure->at(end).text()) : Ball::everything();
+  return enclosure != nullptr ? exact_number(enclosure->at(end)) : Ball::everything();
 }
 
 const Tree* left_side(const Tree& derivation, std::string_view id) {
@@ -37,7 +38,6 @@ void check_kkl_robustness(const Tree& claimed, const KklDesign& design, const Ba
         bound.finite() && cells.always([&](const KklCell& cell) { return (cells.*statement)(cell, bound); });
     return holds ? bound : Ball::everything();
   };
-  const Ball zero(0.0);
   const Ball largest_ell =
       established(end_of(quantities.find("largest_ell"), "lo"), &SignalCells::ratio_at_least);
   const Ball relative_square = established(end_of(left_side(claimed, "frequency-exists"), "lo"),

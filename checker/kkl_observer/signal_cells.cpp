@@ -6,10 +6,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
-const Ball two(2.0);
-const Ball four(4.0);
 constexpr int kDepth = 60;
 constexpr int kCells = 40'000;
 
@@ -136,7 +132,7 @@ bool SignalCells::holds(const Statement& statement, const Box& box, int depth, i
   std::array<Slope, kVariables> over;
   for (std::size_t v = 0; v < kVariables; ++v) {
     const auto& [low, high] = box[v];
-    middle[v] = (Ball(0.5) * (low + high)).lower();
+    middle[v] = (half * (low + high)).lower();
     over[v] = Slope::variable(Ball::hull(low, high), v);
     cell.radius[v] = max(high - middle[v], middle[v] - low).upper();
   }
@@ -206,7 +202,7 @@ bool SignalCells::ratio_at_least(const KklCell& cell, const Ball& bound) const {
     }
     return two * gram_ * x.squared_norm - bound * square(sqrt(squares) + S(longest_move_));
   };
-  return certainly_at_most(zero, centred(excess(cell.middle), excess(cell.over), cell.radius));
+  return certainly_not_negative(centred(excess(cell.middle), excess(cell.over), cell.radius));
 }
 
 bool SignalCells::relative_square_at_least(const KklCell& cell, const Ball& bound) const {

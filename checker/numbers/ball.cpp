@@ -34,31 +34,32 @@ bool read_digits(std::string_view text, std::size_t& at, std::string& number) {
   return at > first;
 }
 
+/// An end of a ball, by one of Arb's functions for it, as an exact ball.
+template <typename Function>
+Ball end_of(Function* function, const Ball& x) {
+  Ball z;
+  arf_t end;
+  arf_init(end);
+  function(end, x.raw(), bits);
+  arb_set_arf(z.raw(), end);
+  arf_clear(end);
+  return z;
+}
+
 /// x = |t| at the two ends of a ball: an even function that is monotone in |t| lies between its values there.
 template <typename Function>
 Ball between_ends(const Ball& t, const Function& f) {
-  Ball near_end;
-  Ball far_end;
-  arf_t end;
-  arf_init(end);
-  arb_get_abs_lbound_arf(end, t.raw(), bits);
-  arb_set_arf(near_end.raw(), end);
-  arb_get_abs_ubound_arf(end, t.raw(), bits);
-  arb_set_arf(far_end.raw(), end);
-  arf_clear(end);
-  Ball result;
-  arb_union(result.raw(), f(near_end).raw(), f(far_end).raw(), bits);
-  return result;
+  return Ball::hull(f(end_of(arb_get_abs_lbound_arf, t)), f(end_of(arb_get_abs_ubound_arf, t)));
 }
 
-/// Below this the ratios are replaced by bounds that hold between 0 and here: (1 +- 2^-38) of their limits.
+/// Below this the ratios are replaced by bounds that are true between 0 and here: (1 +- 2^-38) of their
+/// limits.
 const Ball& smallest() {
   static const Ball threshold(std::ldexp(1.0, -20));
   return threshold;
 }
 Ball near_limit(const Ball& limit) {
-  return Ball::hull(limit * (Ball(1.0) - Ball(std::ldexp(1.0, -38))),
-                    limit * (Ball(1.0) + Ball(std::ldexp(1.0, -38))));
+  return Ball::hull(limit * (one - Ball(std::ldexp(1.0, -38))), limit * (one + Ball(std::ldexp(1.0, -38))));
 }
 
 }  // namespace
@@ -89,22 +90,22 @@ Ball Ball::within(const Ball& x) {
 }
 
 Ball Ball::lower() const {
-  Ball z;
-  arf_t end;
-  arf_init(end);
-  arb_get_lbound_arf(end, x_, bits);
-  arb_set_arf(z.x_, end);
-  arf_clear(end);
-  return z;
+  return end_of(arb_get_lbound_arf, *this);
 }
 
 Ball Ball::upper() const {
+  return end_of(arb_get_ubound_arf, *this);
+}
+
+Ball Ball::middle() const {
   Ball z;
-  arf_t end;
-  arf_init(end);
-  arb_get_ubound_arf(end, x_, bits);
-  arb_set_arf(z.x_, end);
-  arf_clear(end);
+  arb_get_mid_arb(z.x_, x_);
+  return z;
+}
+
+Ball Ball::radius() const {
+  Ball z;
+  arb_get_rad_arb(z.x_, x_);
   return z;
 }
 
@@ -131,14 +132,9 @@ Ratio sine_ratio(const Ball& x) {
   if (!certainly_at_most(abs(x), Ball(3.0))) {
     return {Ball::everything(), Ball::everything()};
   }
-  const auto ratio = [](const Ball& t) {
-    Ball z;
-    arb_sinc(z.raw(), t.raw(), bits);
-    return z;
-  };
+  const auto ratio = [](const Ball& t) { return value_of_arb(arb_sinc, t); };
   const auto slope = [](const Ball& t) {
-    return certainly_less(smallest(), t) ? (cos(t) - sin(t) / t) / square(t)
-                                         : near_limit(Ball(-1.0) / Ball(3.0));
+    return certainly_less(smallest(), t) ? (cos(t) - sin(t) / t) / square(t) : near_limit(-one / Ball(3.0));
   };
   return {between_ends(x, ratio), between_ends(x, slope)};
 }
@@ -150,13 +146,11 @@ Ratio arctangent_ratio(const Ball& t) {
     return {Ball::everything(), Ball::everything()};
   }
   const auto ratio = [](const Ball& x) {
-    Ball angle;
-    arb_atan(angle.raw(), x.raw(), bits);
-    return certainly_less(smallest(), x) ? angle / x : near_limit(Ball(1.0));
+    return certainly_less(smallest(), x) ? arctangent(x) / x : near_limit(one);
   };
   const auto slope = [&](const Ball& x) {
-    return certainly_less(smallest(), x) ? (Ball(1.0) / (Ball(1.0) + square(x)) - ratio(x)) / square(x)
-                                         : near_limit(Ball(-2.0) / Ball(3.0));
+    return certainly_less(smallest(), x) ? (one / (one + square(x)) - ratio(x)) / square(x)
+                                         : near_limit(-two / Ball(3.0));
   };
   return {between_ends(t, ratio), between_ends(t, slope)};
 }

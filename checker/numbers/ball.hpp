@@ -1,6 +1,6 @@
 // Real numbers as balls: Arb's arb_t with C++ operators. Every result contains the exact result for all
-// points of its operands; what is undefined somewhere on its operands is a ball of everything, about which no
-// comparison holds.
+// points of its operands; what is undefined somewhere on its operands is a ball of everything, of which no
+// comparison is true.
 #pragma once
 
 #include <arb.h>
@@ -33,7 +33,7 @@ class Ball {
     return *this;
   }
 
-  /// About which nothing holds.
+  /// All reals: no comparison with it is true.
   static Ball everything();
   /// All reals from the least of `low` to the greatest of `high`.
   static Ball hull(const Ball& low, const Ball& high);
@@ -45,6 +45,9 @@ class Ball {
   /// The ends of the ball, rounded outward to `precision()` bits, as exact balls.
   [[nodiscard]] Ball lower() const;
   [[nodiscard]] Ball upper() const;
+  /// The middle and the radius of the ball, as exact balls.
+  [[nodiscard]] Ball middle() const;
+  [[nodiscard]] Ball radius() const;
   /// The nearest double to the midpoint: a proposal, never evidence.
   [[nodiscard]] double near() const { return arf_get_d(arb_midref(x_), ARF_RND_NEAR); }
   /// A double that is certainly not below any point; infinity or "not a number" when there is none.
@@ -68,36 +71,82 @@ class Ball {
   arb_t x_;
 };
 
-inline Ball operator+(const Ball& x, const Ball& y) {
+inline const Ball zero(0.0);
+inline const Ball half(0.5);
+inline const Ball one(1.0);
+inline const Ball two(2.0);
+inline const Ball four(4.0);
+
+/// The value of one of Arb's functions, rounded to `precision()` bits.
+template <typename Function, typename... Operands>
+Ball value_of_arb(Function* function, const Operands&... operands) {
   Ball z;
-  arb_add(z.raw(), x.raw(), y.raw(), precision());
+  function(z.raw(), operands.raw()..., precision());
   return z;
+}
+
+inline Ball operator+(const Ball& x, const Ball& y) {
+  return value_of_arb(arb_add, x, y);
 }
 inline Ball operator-(const Ball& x, const Ball& y) {
-  Ball z;
-  arb_sub(z.raw(), x.raw(), y.raw(), precision());
-  return z;
+  return value_of_arb(arb_sub, x, y);
 }
 inline Ball operator*(const Ball& x, const Ball& y) {
-  Ball z;
-  arb_mul(z.raw(), x.raw(), y.raw(), precision());
-  return z;
+  return value_of_arb(arb_mul, x, y);
 }
 inline Ball operator/(const Ball& x, const Ball& y) {
-  Ball z;
-  arb_div(z.raw(), x.raw(), y.raw(), precision());
-  return z;
+  return value_of_arb(arb_div, x, y);
 }
 inline Ball operator-(const Ball& x) {
   Ball z;
   arb_neg(z.raw(), x.raw());
   return z;
 }
-inline Ball reciprocal(const Ball& x) {
-  return Ball(1.0) / x;
+inline Ball abs(const Ball& x) {
+  Ball z;
+  arb_abs(z.raw(), x.raw());
+  return z;
 }
+inline Ball reciprocal(const Ball& x) {
+  return one / x;
+}
+inline Ball square(const Ball& x) {
+  return value_of_arb(arb_sqr, x);
+}
+inline Ball sqrt(const Ball& x) {
+  return value_of_arb(arb_sqrt, x);
+}
+/// The root of a quantity that is certainly not negative although its ball may reach below zero.
+inline Ball root_of_non_negative(const Ball& x) {
+  return value_of_arb(arb_sqrtpos, x);
+}
+inline Ball log(const Ball& x) {
+  return value_of_arb(arb_log, x);
+}
+inline Ball exp(const Ball& x) {
+  return value_of_arb(arb_exp, x);
+}
+inline Ball sin(const Ball& x) {
+  return value_of_arb(arb_sin, x);
+}
+inline Ball cos(const Ball& x) {
+  return value_of_arb(arb_cos, x);
+}
+inline Ball arcsine(const Ball& x) {
+  return value_of_arb(arb_asin, x);
+}
+inline Ball arctangent(const Ball& x) {
+  return value_of_arb(arb_atan, x);
+}
+inline Ball max(const Ball& x, const Ball& y) {
+  return value_of_arb(arb_max, x, y);
+}
+inline Ball min(const Ball& x, const Ball& y) {
+  return value_of_arb(arb_min, x, y);
+}
+Ball pi();
 
-// Comparisons hold only when they hold for all points; the negation of one says nothing.
+// A comparison is true only when it is true of all points; that it is false says nothing.
 inline bool certainly_less(const Ball& x, const Ball& y) {
   return x.finite() && y.finite() && arb_lt(x.raw(), y.raw()) != 0;
 }
@@ -107,63 +156,20 @@ inline bool certainly_at_most(const Ball& x, const Ball& y) {
 inline bool certainly_positive(const Ball& x) {
   return x.finite() && arb_is_positive(x.raw()) != 0;
 }
+inline bool certainly_not_negative(const Ball& x) {
+  return x.finite() && arb_is_nonnegative(x.raw()) != 0;
+}
 /// Both are exact and the same number.
 inline bool certainly_equal(const Ball& x, const Ball& y) {
   return x.finite() && y.finite() && arb_eq(x.raw(), y.raw()) != 0;
 }
 
-inline Ball square(const Ball& x) {
-  Ball z;
-  arb_sqr(z.raw(), x.raw(), precision());
-  return z;
-}
-inline Ball sqrt(const Ball& x) {
-  Ball z;
-  arb_sqrt(z.raw(), x.raw(), precision());
-  return z;
-}
-inline Ball abs(const Ball& x) {
-  Ball z;
-  arb_abs(z.raw(), x.raw());
-  return z;
-}
-/// The root of a quantity that is certainly not negative although its ball may reach below zero.
-inline Ball root_of_non_negative(const Ball& x) {
-  Ball z;
-  arb_sqrtpos(z.raw(), x.raw(), precision());
-  return z;
-}
-inline Ball log(const Ball& x) {
-  Ball z;
-  arb_log(z.raw(), x.raw(), precision());
-  return z;
-}
-inline Ball exp(const Ball& x) {
-  Ball z;
-  arb_exp(z.raw(), x.raw(), precision());
-  return z;
-}
-inline Ball sin(const Ball& x) {
-  Ball z;
-  arb_sin(z.raw(), x.raw(), precision());
-  return z;
-}
-inline Ball cos(const Ball& x) {
-  Ball z;
-  arb_cos(z.raw(), x.raw(), precision());
-  return z;
-}
-inline Ball max(const Ball& x, const Ball& y) {
-  Ball z;
-  arb_max(z.raw(), x.raw(), y.raw(), precision());
-  return z;
-}
-inline Ball min(const Ball& x, const Ball& y) {
-  Ball z;
-  arb_min(z.raw(), x.raw(), y.raw(), precision());
-  return z;
-}
-Ball pi();
+/// What is known of a value: that it is in `low`, or anywhere from `low` to `high`.
+struct Range {
+  Ball low, high;
+  Range(const Ball& value) : low(value), high(value) {}  // NOLINT(google-explicit-constructor)
+  Range(Ball least, Ball most) : low(std::move(least)), high(std::move(most)) {}
+};
 
 /// sin(x)/x for |x| <= 3, and the g with (sin(x)/x)' = x g(x); atan(t)/t, and the g with (atan(t)/t)' = t
 /// g(t). Continued to zero; balls of everything beyond the range.

@@ -23,7 +23,7 @@ CellSeries& CellSeries::operator*=(const Ball& factor) {
 
 CellSeries CellSeries::varying() const {
   CellSeries rest = *this;
-  rest.c_[0] = Ball(0.0);
+  rest.c_[0] = zero;
   return rest;
 }
 
@@ -37,10 +37,8 @@ Ball CellSeries::deviation() const {
 
 Ball CellSeries::remainder() const {
   Ball sum(0.0);
-  Ball radius;
   for (const Ball& coefficient : c_) {
-    arb_get_rad_arb(radius.raw(), coefficient.raw());
-    sum += radius;
+    sum += coefficient.radius();
   }
   return sum;
 }
@@ -67,24 +65,24 @@ CellSeries operator*(const CellSeries& a, const CellSeries& b) {
   add(4, 2, 1);
   add(5, 2, 2);
   // What is left: at most |a1| |b2| + |a2| |b1| + |a2| |b2|, with the parts of degree one and two.
-  mag_t one;
+  mag_t size;
   mag_t parts[2][2];
-  mag_init(one);
+  mag_init(size);
   for (std::size_t which = 0; which < 2; ++which) {
     const CellSeries& f = which == 0 ? a : b;
     for (std::size_t degree = 0; degree < 2; ++degree) {
       mag_init(parts[which][degree]);
       for (std::size_t i = degree == 0 ? 1 : 3; i < (degree == 0 ? 3U : 6U); ++i) {
-        arb_get_mag(one, f.c_[i].raw());
-        mag_add(parts[which][degree], parts[which][degree], one);
+        arb_get_mag(size, f.c_[i].raw());
+        mag_add(parts[which][degree], parts[which][degree], size);
       }
     }
   }
-  mag_mul(one, parts[0][0], parts[1][1]);
-  mag_addmul(one, parts[0][1], parts[1][0]);
-  mag_addmul(one, parts[0][1], parts[1][1]);
-  arb_add_error_mag(product.c_[0].raw(), one);
-  mag_clear(one);
+  mag_mul(size, parts[0][0], parts[1][1]);
+  mag_addmul(size, parts[0][1], parts[1][0]);
+  mag_addmul(size, parts[0][1], parts[1][1]);
+  arb_add_error_mag(product.c_[0].raw(), size);
+  mag_clear(size);
   for (auto& of_one : parts) {
     mag_clear(of_one[0]);
     mag_clear(of_one[1]);
@@ -94,22 +92,22 @@ CellSeries operator*(const CellSeries& a, const CellSeries& b) {
 
 CellSeries reciprocal(const CellSeries& a) {
   // 1/(c + u) = 1/c - u/c^2 + u^2/c^3 - u^3/(c^3 (c + u)).
-  const Ball over = Ball(1.0) / a.constant();
+  const Ball over = one / a.constant();
   const CellSeries v = over * a.varying();
   const Ball tail = abs(v.deviation() * v.deviation() * v.deviation() / a.range());
-  return over * (Ball(1.0) - v + v * v) + Ball::within(tail);
+  return over * (one - v + v * v) + Ball::within(tail);
 }
 
 SineCosine::SineCosine(const CellSeries& argument) {
   // sin(c + u) = sin c + u cos c - u^2/2 sin c +- |u|^3/6, and so the cosine.
   const CellSeries u = argument.varying();
-  const CellSeries square = Ball(0.5) * (u * u);
+  const CellSeries square = half * (u * u);
   const Ball s = sin(argument.constant());
   const Ball c = cos(argument.constant());
   const Ball deviation = u.deviation();
   const Ball tail = Ball::within(deviation * deviation * deviation / Ball(6.0));
-  sine = s * (Ball(1.0) - square) + c * u + tail;
-  cosine = c * (Ball(1.0) - square) - s * u + tail;
+  sine = s * (one - square) + c * u + tail;
+  cosine = c * (one - square) - s * u + tail;
 }
 
 }  // namespace veritrack::checker

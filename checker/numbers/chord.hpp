@@ -36,7 +36,7 @@ struct Chord {
     return z;
   }
   /// Holds (f(x) + f(c))/2.
-  [[nodiscard]] Ball mean() const { return Ball(0.5) * (centre + range); }
+  [[nodiscard]] Ball mean() const { return half * (centre + range); }
 };
 
 inline Chord operator+(const Chord& x, const Chord& y) {
@@ -77,7 +77,7 @@ inline Chord operator*(const Ball& x, const Chord& y) {
 /// f/g - f(c)/g(c) = (f - f(c) - (f(c)/g(c)) (g - g(c)))/g.
 inline Chord operator/(const Chord& x, const Chord& y) {
   const Ball quotient = x.centre / y.centre;
-  const Ball over = Ball(1.0) / y.range;
+  const Ball over = one / y.range;
   Chord z = x.chain(quotient, x.range * over, over);
   const Ball factor = quotient * over;
   for (std::size_t i = 0; i < kSides; ++i) {
@@ -86,8 +86,8 @@ inline Chord operator/(const Chord& x, const Chord& y) {
   return z;
 }
 inline Chord reciprocal(const Chord& x) {
-  const Ball at_centre = Ball(1.0) / x.centre;
-  const Ball over_box = Ball(1.0) / x.range;
+  const Ball at_centre = one / x.centre;
+  const Ball over_box = one / x.range;
   return x.chain(at_centre, over_box, -(at_centre * over_box));
 }
 inline Chord square(const Chord& x) {
@@ -96,11 +96,11 @@ inline Chord square(const Chord& x) {
 inline Chord sqrt(const Chord& x) {
   const Ball at_centre = sqrt(x.centre);
   const Ball over_box = sqrt(x.range);
-  return x.chain(at_centre, over_box, Ball(1.0) / (at_centre + over_box));
+  return x.chain(at_centre, over_box, one / (at_centre + over_box));
 }
 /// sin x - sin c = 2 cos((x + c)/2) sin((x - c)/2), and the same for the cosine.
 inline Ball sine_of_half_difference(const Chord& x) {
-  return sine_ratio(Ball(0.5) * (x.range - x.centre)).value;
+  return sine_ratio(half * (x.range - x.centre)).value;
 }
 inline Chord sin(const Chord& x) {
   return x.chain(sin(x.centre), sin(x.range), cos(x.mean()) * sine_of_half_difference(x));

@@ -20,7 +20,7 @@ struct Gradient {
   /// The variable of this index.
   static Gradient variable(S range, std::size_t index) {
     Gradient x(std::move(range));
-    x.along[index] = S(Ball(1.0));
+    x.along[index] = S(one);
     return x;
   }
   /// f(x), given f and f' at the value of x.
@@ -57,15 +57,15 @@ struct Gradient {
   friend Gradient operator*(const Gradient& x, const Ball& y) { return y * x; }
   friend Gradient operator/(const Gradient& x, const Gradient& y) { return x * reciprocal(y); }
   friend Gradient operator-(const Gradient& x) { return Ball(-1.0) * x; }
-  friend Gradient square(const Gradient& x) { return x.chain(square(x.value), Ball(2.0) * x.value); }
+  friend Gradient square(const Gradient& x) { return x.chain(square(x.value), two * x.value); }
   friend Gradient sqrt(const Gradient& x) {
     const S root = sqrt(x.value);
-    return x.chain(root, Ball(0.5) * reciprocal(root));
+    return x.chain(root, half * reciprocal(root));
   }
   friend Gradient sin(const Gradient& x) { return x.chain(sin(x.value), cos(x.value)); }
   friend Gradient cos(const Gradient& x) { return x.chain(cos(x.value), -sin(x.value)); }
   friend Gradient arctangent(const Gradient& x) {
-    return x.chain(arctangent(x.value), reciprocal(S(Ball(1.0)) + square(x.value)));
+    return x.chain(arctangent(x.value), reciprocal(S(one) + square(x.value)));
   }
   friend Gradient reciprocal(const Gradient& x) {
     const S over = reciprocal(x.value);

@@ -4,8 +4,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball half(0.5);
-const Ball two(2.0);
 const Ball three(3.0);
 
 template <typename Function>
@@ -21,7 +19,7 @@ Matrix3 each(const Function& entry) {
 
 /// acos; of a ball that reaches beyond +-1, of what lies between.
 Ball angle_of(const Ball& cosine) {
-  const Ball sine = root_of_non_negative(Ball(1.0) - square(cosine));
+  const Ball sine = root_of_non_negative(one - square(cosine));
   const bool obtuse = certainly_positive(-cosine);
   Ball z;
   arb_atan2(z.raw(), sine.raw(), (obtuse ? -cosine : cosine).raw(), precision());
@@ -35,6 +33,11 @@ Matrix3 operator+(const Matrix3& x, const Matrix3& y) {
 }
 Matrix3 operator-(const Matrix3& x, const Matrix3& y) {
   return each([&](std::size_t i, std::size_t j) { return x[i][j] - y[i][j]; });
+}
+
+bool symmetric(const Matrix3& p) {
+  return certainly_equal(p[1][0], p[0][1]) && certainly_equal(p[2][0], p[0][2]) &&
+         certainly_equal(p[2][1], p[1][2]);
 }
 
 Matrix3 diagonal(const Ball& x, const Ball& y, const Ball& z) {

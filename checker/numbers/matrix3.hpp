@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "checker/document/statement.hpp"
+#include "checker/numbers/ball.hpp"
 
 namespace veritrack::checker {
 
@@ -32,6 +32,8 @@ using Matrix3 = SquareMatrix<3>;
 
 Matrix3 operator+(const Matrix3& x, const Matrix3& y);
 Matrix3 operator-(const Matrix3& x, const Matrix3& y);
+/// Entries across the diagonal are the same exact number.
+bool symmetric(const Matrix3& p);
 Matrix3 diagonal(const Ball& x, const Ball& y, const Ball& z);
 /// A P A' for a symmetric P.
 Matrix3 congruent(const Matrix3& a, const Matrix3& p);

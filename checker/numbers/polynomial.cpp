@@ -28,7 +28,7 @@ struct Monomials {
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       const bool is_square = std::all_of(exponents[i].begin(), exponents[i].end(),
                                          [](std::size_t power) { return power % 2 == 0; });
-      ranges.push_back(is_square ? Ball::hull(Ball(0.0), Ball(1.0)) : Ball::within(Ball(1.0)));
+      ranges.push_back(is_square ? Ball::hull(zero, one) : Ball::within(one));
       products.emplace_back();
       for (std::size_t j = 0; j < up_to[Polynomial::kMostDegree - degrees[i]]; ++j) {
         auto sum = exponents[i];
@@ -60,12 +60,6 @@ std::array<Ball, Polynomial::kMostDegree + 1> sizes(const std::vector<Ball>& ter
   return sums;
 }
 
-Ball radius_of(const Ball& x) {
-  Ball radius;
-  arb_get_rad_arb(radius.raw(), x.raw());
-  return radius;
-}
-
 void add_error(Ball& x, const Ball& error) {
   arb_add_error(x.raw(), error.raw());
 }
@@ -94,8 +88,8 @@ std::vector<Ball> taylor(const Function& function, const Ball& point, std::size_
 Polynomial Polynomial::variable(const Ball& range, std::size_t index) {
   Polynomial x;
   x.terms_.resize(kVariables + 1);
-  arb_get_mid_arb(x.terms_[0].raw(), range.raw());
-  x.terms_[monomials().up_to[0] + index] = radius_of(range);
+  x.terms_[0] = range.middle();
+  x.terms_[monomials().up_to[0] + index] = range.radius();
   return x;
 }
 
@@ -121,7 +115,7 @@ Polynomial Polynomial::lowered(std::size_t degree, const Ball& distance) const {
 Ball Polynomial::round() {
   Ball distance;
   for (Ball& term : terms_) {
-    distance += radius_of(term);
+    distance += term.radius();
     arb_get_mid_arb(term.raw(), term.raw());
   }
   return distance;
@@ -135,7 +129,7 @@ Polynomial operator+(const Polynomial& x, const Polynomial& y) {
   for (std::size_t i = 0; i < other.terms_.size(); ++i) {
     z.terms_[i] += other.terms_[i];
   }
-  return z.terms_.size() > monomials().up_to[z.limit_] ? z.lowered(z.limit_, Ball(0.0)) : z;
+  return z.terms_.size() > monomials().up_to[z.limit_] ? z.lowered(z.limit_, zero) : z;
 }
 
 Polynomial operator*(const Ball& x, const Polynomial& y) {
@@ -183,11 +177,11 @@ Polynomial Polynomial::composed(Series series) const {
     return taylor(series, constant(), 1)[0];
   }
   Polynomial h = *this;
-  h.terms_[0] = Ball(0.0);
+  h.terms_[0] = zero;
   const Ball way = h.range();
   const std::vector<Ball> coefficients = taylor(series, constant(), limit_ + 1);
   Polynomial sum(coefficients[0]);
-  Polynomial power(Ball(1.0));
+  Polynomial power(one);
   Ball largest(1.0);
   for (std::size_t k = 1; k <= limit_; ++k) {
     power = power * h;

@@ -25,7 +25,7 @@ class Polynomial {
   static Polynomial variable(const Ball& range, std::size_t index);
 
   [[nodiscard]] bool is_zero() const { return terms_.empty(); }
-  [[nodiscard]] Ball constant() const { return terms_.empty() ? Ball(0.0) : terms_[0]; }
+  [[nodiscard]] Ball constant() const { return terms_.empty() ? zero : terms_[0]; }
   /// All values.
   [[nodiscard]] Ball range() const;
   /// All functions within `distance` of this one; terms above the degree are cut off, here and in all that is

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <regex>
 
+#include "checker/document/evidence.hpp"
 #include "checker/quadrature/followed_starts.hpp"
 #include "checker/quadrature/start_cover.hpp"
 
@@ -11,8 +12,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
 constexpr std::size_t kMostBoxes = 200;
 constexpr int kHalvings = 2;
 
@@ -30,7 +29,7 @@ StartBox inward(const Design& d) {
 class Followed {
  public:
   Followed(const Loop& loop, const Matrix3& covariance, const Setting& set, const Ball& turns)
-      : loop_(loop), covariance_(covariance), set_(set), shift_(Ball(2.0) * turns * pi()) {}
+      : loop_(loop), covariance_(covariance), set_(set), shift_(two * turns * pi()) {}
 
   /// A bound on |frequency error| up to so many samples when then |T e| <= level and the covariance is in its
   /// bounds, for certain; nothing otherwise. What cannot be shown of the box as a whole is shown of its
@@ -80,19 +79,14 @@ void conclude(const Cover& cover, const Ball& largest, const Setting& set, const
   const Ball samples(*std::max_element(cover.samples.begin(), cover.samples.end()));
   found.verdict = Verdict::proved;
   found.bound = bound;
-  const Tree* claimed_samples = quantities.find("settling_samples");
-  const Tree* claimed_ultimate = quantities.find("ultimate_frequency_error");
-  if (claimed_samples != nullptr && claimed_ultimate != nullptr) {
-    // The claim is about the ultimate bound that is claimed.
-    const Ball count = from_hexadecimal(claimed_samples->at("lo").text());
-    const Ball twice = Ball(2.0) * from_hexadecimal(claimed_ultimate->at("lo").text());
+  if (const auto claim = settling_claim(quantities)) {
     bool settles = true;
     for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
-      const Ball rest = count - Ball(cover.samples[i]);
-      settles =
-          settles && certainly_at_most(zero, rest) && settled(set, disturbed, cover.levels[i], twice, rest);
+      const Ball rest = claim->samples - Ball(cover.samples[i]);
+      settles = settles && certainly_not_negative(rest) &&
+                settled(set, disturbed, cover.levels[i], claim->twice_ultimate, rest);
     }
-    found.settling = settles ? std::optional(count) : std::nullopt;
+    found.settling = settles ? std::optional(claim->samples) : std::nullopt;
   }
   const Ball total(static_cast<double>(cover.boxes.size()));
   found.quantities = {{"capture_samples", samples, Sense::bounds_above},
@@ -151,8 +145,8 @@ Captured check_capture(const Tree& claimed, const Design& design, const std::vec
   const Tree* evidence = claimed.find("evidence");
   evidence = evidence != nullptr ? &evidence->at(0) : nullptr;
   if (evidence != nullptr) {
-    const Ball noise = from_hexadecimal(evidence->at("numbers").at("noise").text());
-    const Ball slew = from_hexadecimal(evidence->at("numbers").at("slew").text());
+    const Ball noise = exact_number(evidence->at("numbers").at("noise"));
+    const Ball slew = exact_number(evidence->at("numbers").at("slew"));
     if (!certainly_at_most(found.noise, noise) || !certainly_at_most(found.slew, slew)) {
       objections.emplace_back("the starts were followed under less noise or slew than is assumed");
     }
@@ -174,9 +168,9 @@ Captured check_capture(const Tree& claimed, const Design& design, const std::vec
     // What a start in the shifted set, which is never left either, is off by at least: for the frequency
     // error acts through its sine and cosine alone.
     const Ball reach = set->radius * inverse_rows(set->metric)[2];
-    const Ball off = Ball(2.0) * abs(cover.turns) * pi() - reach;
+    const Ball off = two * abs(cover.turns) * pi() - reach;
     for (const Ball& level : cover.levels) {
-      if (!certainly_at_most(zero, level) || !certainly_at_most(level, set->radius)) {
+      if (!certainly_not_negative(level) || !certainly_at_most(level, set->radius)) {
         objections.emplace_back("a level is not within the radius of the set");
       }
     }

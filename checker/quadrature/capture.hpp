@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "checker/document/guarantee.hpp"
 #include "checker/quadrature/certified_set.hpp"
+#include "checker/sets/guarantee.hpp"
 
 namespace veritrack::checker {
 

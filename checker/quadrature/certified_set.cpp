@@ -1,24 +1,88 @@
 #include "checker/quadrature/certified_set.hpp"
 
+#include "checker/document/evidence.hpp"
 #include "checker/quadrature/set_inequality.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
-
 /// A covariance of exact numbers that is below every one in the balls, in the Loewner order, or above.
 Covariance<Ball> beyond(const Covariance<Ball>& p, bool above) {
   Covariance<Ball> point = p;
-  Ball radius;
-  arb_get_mid_arb(point.p23.raw(), p.p23.raw());
-  arb_get_rad_arb(radius.raw(), p.p23.raw());
+  const Ball radius = p.p23.radius();
+  point.p23 = p.p23.middle();
   point.p11 = above ? p.p11.upper() : p.p11.lower();
   point.p22 = above ? (p.p22 + radius).upper() : (p.p22 - radius).lower();
   point.p33 = above ? (p.p33 + radius).upper() : (p.p33 - radius).lower();
   return point;
+}
+
+/// The first row and column are zero but for the diagonal.
+bool amplitude_is_apart(const Matrix3& m) {
+  return certainly_equal(m[0][1], zero) && certainly_equal(m[0][2], zero) && certainly_equal(m[1][0], zero) &&
+         certainly_equal(m[2][0], zero);
+}
+
+Covariance<Ball> covariance_of(const Matrix3& p) {
+  return {p[0][0], p[1][1], p[1][2], p[2][2]};
+}
+
+/// The set, and whether its matrices have their form.
+std::pair<Setting, bool> read_setting(const Tree& tree, const Design& design) {
+  const auto number = [&](const char* name) { return exact_number(tree.at(name)); };
+  const Matrix3 metric = exact_matrix(tree.at("metric"));
+  const Matrix3 lower = exact_matrix(tree.at("covariance_lower"));
+  const Matrix3 upper = exact_matrix(tree.at("covariance_upper"));
+  Setting s;
+  s.q1 = design.q1;
+  s.q2 = design.q2;
+  s.r = design.r;
+  s.metric = {metric[0][0], metric[1][1], metric[1][2], metric[2][2]};
+  s.lower = covariance_of(lower);
+  s.upper = covariance_of(upper);
+  s.radius = number("radius");
+  s.noise = number("noise");
+  s.slew = number("slew");
+  s.rate = number("rate");
+  s.noise_gain = number("noise_gain");
+  s.slew_gain = number("slew_gain");
+  s.noisy = !certainly_equal(s.noise, zero);
+  s.slewing = !certainly_equal(s.slew, zero);
+  s.largest_amplitude = (s.radius / s.metric.amplitude).upper();
+  s.largest_chi = (s.radius * sqrt(square(one / s.metric.phase) +
+                                   square((one - s.metric.coupling / s.metric.phase) / s.metric.frequency)))
+                      .upper();
+  const bool has_form = amplitude_is_apart(metric) && certainly_equal(metric[2][1], zero) &&
+                        amplitude_is_apart(lower) && symmetric(lower) && amplitude_is_apart(upper) &&
+                        symmetric(upper) && certainly_positive(s.metric.amplitude) &&
+                        certainly_positive(s.metric.phase) && certainly_positive(s.metric.frequency);
+  return {s, has_form};
+}
+
+/// What of the theorem's hypotheses is not proved; nothing when all are.
+std::string refusal_of(const Setting& s, std::int64_t& cells) {
+  if (!certainly_positive(s.radius) || !certainly_not_negative(s.noise) || !certainly_not_negative(s.slew) ||
+      !certainly_not_negative(s.rate) || !certainly_less(s.rate, one) ||
+      !certainly_not_negative(s.noise_gain) || !certainly_not_negative(s.slew_gain) ||
+      !certainly_less(s.largest_amplitude, one)) {
+    return "radius, noise, slew, rate or gains are out of range";
+  }
+  if (!positive_definite(s.lower) || !positive_definite(s.upper - s.lower)) {
+    return "the covariance bounds are not positive definite and in order";
+  }
+  const Ball reach =
+      square(s.rate * s.radius) + square(s.noise_gain * s.noise) + square(s.slew_gain * s.slew);
+  if (!certainly_at_most(reach, square(s.radius))) {
+    return "(c) noise and slew can push the errors out of the set";
+  }
+  if (!keeps_covariance(s)) {
+    return "(b) the covariance does not certainly stay between its bounds";
+  }
+  if (!contracts(s, cells)) {
+    return "(a) the step inequality is not certain";
+  }
+  return {};
 }
 
 }  // namespace
@@ -106,74 +170,16 @@ Matrix3 steady_covariance(const Setting& set) {
 CertifiedSet check_set(const Tree& tree, const Design& design, std::int64_t& cells, Objections& objections) {
   CertifiedSet set;
   set.purpose = tree.at("purpose").text();
-  Setting& s = set.setting;
-  const auto number = [&](const char* name) { return from_hexadecimal(tree.at(name).text()); };
-  const auto entry = [&](const char* name, std::size_t i, std::size_t j) {
-    return from_hexadecimal(tree.at(name).at(i).at(j).text());
-  };
-  const auto block = [&](const char* name) {
-    return Covariance<Ball>{entry(name, 0, 0), entry(name, 1, 1), entry(name, 1, 2), entry(name, 2, 2)};
-  };
-  bool form = certainly_equal(entry("metric", 2, 1), zero);
-  for (const char* name : {"metric", "covariance_lower", "covariance_upper"}) {
-    for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
-      form = form && certainly_equal(entry(name, 0, i), zero) && certainly_equal(entry(name, i, 0), zero);
-    }
+  const auto [setting, has_form] = read_setting(tree, design);
+  set.setting = setting;
+  const bool applies = design.without_leak() && certainly_positive(design.q2) && certainly_positive(design.r);
+  const std::string refusal = !applies    ? "certified sets are for epsilon = 0, q2 > 0, r > 0"
+                              : !has_form ? "the matrices do not have their form"
+                                          : refusal_of(setting, cells);
+  set.verified = refusal.empty();
+  if (!set.verified) {
+    objections.push_back(set.purpose + ": " + refusal);
   }
-  for (const char* name : {"covariance_lower", "covariance_upper"}) {
-    form = form && certainly_equal(entry(name, 1, 2), entry(name, 2, 1));
-  }
-  s.q1 = design.q1;
-  s.q2 = design.q2;
-  s.r = design.r;
-  s.metric = {entry("metric", 0, 0), entry("metric", 1, 1), entry("metric", 1, 2), entry("metric", 2, 2)};
-  s.lower = block("covariance_lower");
-  s.upper = block("covariance_upper");
-  s.radius = number("radius");
-  s.noise = number("noise");
-  s.slew = number("slew");
-  s.rate = number("rate");
-  s.noise_gain = number("noise_gain");
-  s.slew_gain = number("slew_gain");
-  s.noisy = !certainly_equal(s.noise, zero);
-  s.slewing = !certainly_equal(s.slew, zero);
-  s.largest_amplitude = (s.radius / s.metric.amplitude).upper();
-  s.largest_chi = (s.radius * sqrt(square(one / s.metric.phase) +
-                                   square((one - s.metric.coupling / s.metric.phase) / s.metric.frequency)))
-                      .upper();
-  const Ball reach =
-      square(s.rate * s.radius) + square(s.noise_gain * s.noise) + square(s.slew_gain * s.slew);
-  const auto refuse = [&](const char* why) {
-    objections.push_back(set.purpose + ": " + why);
-    return set;
-  };
-  if (!certainly_equal(design.epsilon, zero) || !certainly_positive(design.q2) ||
-      !certainly_positive(design.r)) {
-    return refuse("certified sets are for epsilon = 0, q2 > 0, r > 0");
-  }
-  if (!form || !certainly_positive(s.metric.amplitude) || !certainly_positive(s.metric.phase) ||
-      !certainly_positive(s.metric.frequency)) {
-    return refuse("the matrices do not have their form");
-  }
-  if (!certainly_positive(s.radius) || !certainly_at_most(zero, s.noise) ||
-      !certainly_at_most(zero, s.slew) || !certainly_at_most(zero, s.rate) || !certainly_less(s.rate, one) ||
-      !certainly_at_most(zero, s.noise_gain) || !certainly_at_most(zero, s.slew_gain) ||
-      !certainly_less(s.largest_amplitude, one)) {
-    return refuse("radius, noise, slew, rate or gains are out of range");
-  }
-  if (!positive_definite(s.lower) || !positive_definite(s.upper - s.lower)) {
-    return refuse("the covariance bounds are not positive definite and in order");
-  }
-  if (!certainly_at_most(reach, square(s.radius))) {
-    return refuse("(c) noise and slew lead out of the set");
-  }
-  if (!keeps_covariance(s)) {
-    return refuse("(b) the covariance does not certainly stay between its bounds");
-  }
-  if (!contracts(s, cells)) {
-    return refuse("(a) the step inequality does not certainly hold");
-  }
-  set.verified = true;
   return set;
 }
 

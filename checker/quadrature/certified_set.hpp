@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "checker/document/design.hpp"
 #include "checker/numbers/matrix3.hpp"
 #include "checker/quadrature/step.hpp"
+#include "checker/theorems/design.hpp"
 
 namespace veritrack::checker {
 

@@ -1,11 +1,10 @@
 #include "checker/quadrature/contraction.hpp"
 
+#include "checker/document/evidence.hpp"
+
 namespace veritrack::checker {
 
 namespace {
-
-const Ball zero(0.0);
-const Ball one(1.0);
 
 Ball start_level(const Setting& s, const Design& d) {
   return largest_level(s.metric, d.amplitude_error, d.phase_error, d.frequency_error);
@@ -100,17 +99,13 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
   promises.slew = slewing != nullptr ? std::optional(slewing->slew) : std::nullopt;
   add("largest_noise", promises.noise.value_or(nothing), Sense::bounds_below);
   add("largest_slew", promises.slew.value_or(nothing), Sense::bounds_below);
-  const Tree& quantities = claimed.at("quantities");
-  const Tree* samples = quantities.find("settling_samples");
-  const Tree* ultimate = quantities.find("ultimate_frequency_error");
-  if (samples != nullptr && ultimate != nullptr) {
-    // The claim is about the ultimate bound that is claimed, which is checked above.
-    const Ball count = from_hexadecimal(samples->at("lo").text());
-    const Ball twice = Ball(2.0) * from_hexadecimal(ultimate->at("lo").text());
+  if (const auto claim = settling_claim(claimed.at("quantities"))) {
+    const Ball& count = claim->samples;
     bool settles = false;
     for (const Setting* base : outer) {
       const Ball start = promises.starts_inside ? start_level(*base, design) : base->radius;
-      settles = settles || (certainly_at_most(zero, count) && settled(*base, design, start, twice, count));
+      settles = settles || (certainly_not_negative(count) &&
+                            settled(*base, design, start, claim->twice_ultimate, count));
     }
     if (settles && promises.starts_inside) {
       promises.settling = count;
@@ -118,11 +113,10 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
     add("settling_samples", settles ? count : nothing, Sense::bounds_above);
   }
 
-  found.conditions = {
-      {"leak", R"(\epsilon = 0)", proved_if(certainly_equal(design.epsilon, zero)), design.epsilon, zero},
-      {"controllable-amplitude", "q_1 > 0", decide_less(zero, design.q1), design.q1, zero},
-      {"invariant-set", R"(\kappa^2 R^2 + L_v^2 V^2 + L_w^2 W^2 \le R^2)",
-       proved_if(whole != nullptr && bears(*whole, design))}};
+  found.conditions = {{"leak", R"(\epsilon = 0)", proved_if(design.without_leak()), design.epsilon, zero},
+                      {"controllable-amplitude", "q_1 > 0", decide_less(zero, design.q1), design.q1, zero},
+                      {"invariant-set", R"(\kappa^2 R^2 + L_v^2 V^2 + L_w^2 W^2 \le R^2)",
+                       proved_if(whole != nullptr && bears(*whole, design))}};
   if (whole != nullptr) {
     Condition& invariant = found.conditions.back();
     invariant.lhs = square(whole->rate * whole->radius) + square(whole->noise_gain * whole->noise) +

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "checker/document/guarantee.hpp"
 #include "checker/quadrature/certified_set.hpp"
+#include "checker/sets/guarantee.hpp"
 
 namespace veritrack::checker {
 

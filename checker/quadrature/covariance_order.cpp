@@ -11,8 +11,8 @@ namespace {
 /// sign (P - U Phi U'), U = diag(Rot(angle), 1), tan(angle) = tangent, cos(angle) > 0.
 Matrix3 difference(const Covariance<Ball>& p, const Covariance<Ball>& phi, const Ball& tangent,
                    const Ball& sign) {
-  const Ball cosine2 = Ball(1.0) / (Ball(1.0) + square(tangent));
-  const Ball sine2 = Ball(1.0) - cosine2;
+  const Ball cosine2 = one / (one + square(tangent));
+  const Ball sine2 = one - cosine2;
   const Ball cosine = sqrt(cosine2);
   const Ball gap = phi.p11 - phi.p22;
   Matrix3 d;
@@ -32,7 +32,7 @@ bool keeps_order(const Setting& setting, double rho_low, double rho_high, double
   const Covariance<Ball> low = update(setting, setting.lower, rho).filtered;
   const Covariance<Ball> high = update(setting, setting.upper, rho).filtered;
   if (definite(difference(setting.lower, low, tangent, Ball(-1.0))) &&
-      definite(difference(setting.upper, high, tangent, Ball(1.0)))) {
+      definite(difference(setting.upper, high, tangent, one))) {
     return true;
   }
   if (depth == 0) {
@@ -58,8 +58,8 @@ bool keeps_order_over(const Setting& setting, int ranges, int phases) {
     const Ball a = Ball::hull(Ball(low), Ball(high));
     // The largest |chi| of the ellipse there.
     const Ball share(std::fmin(std::fabs(low), std::fabs(high)) * (low * high > 0.0 ? 1.0 : 0.0));
-    const Ball chi_end = setting.largest_chi *
-                         sqrt(max(Ball(1.0) - square(share / setting.largest_amplitude), Ball(0.0))).upper();
+    const Ball chi_end =
+        setting.largest_chi * sqrt(max(one - square(share / setting.largest_amplitude), zero)).upper();
     double tangent = 0.0;
     for (int j = 0; j < phases; ++j) {
       const Ball chi = chi_end * Ball::hull(Ball(j / static_cast<double>(phases)),

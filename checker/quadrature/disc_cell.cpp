@@ -35,7 +35,7 @@ std::vector<Point> cut(const std::vector<Point>& polygon, std::size_t i, double 
 bool DiscCell::is_outside() const {
   const Ball x(std::clamp(0.0, low[0], high[0]));
   const Ball y(std::clamp(0.0, low[1], high[1]));
-  return certainly_less(Ball(1.0), square(x) + square(y));
+  return certainly_less(one, square(x) + square(y));
 }
 
 // Cut from a polygon around the disc that is larger than it needs to be by far more than rounding moves its

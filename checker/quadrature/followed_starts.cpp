@@ -27,7 +27,7 @@ State<S> polar_of(const State<S>& x, const Matrix3& metric, const std::array<Bal
   const S length = sqrt(square(z1) + square(z2));
   const S over = reciprocal(length);
   const S tangent = (cos(angle) * z2 - sin(angle) * z1) * reciprocal(cos(angle) * z1 + sin(angle) * z2);
-  const std::array<S, 3> error{length - S(Ball(1.0) + origin[0]), arctangent(tangent) + S(angle - origin[1]),
+  const std::array<S, 3> error{length - S(one + origin[0]), arctangent(tangent) + S(angle - origin[1]),
                                x[kNu] - S(origin[2])};
   State<S> result = x;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -58,8 +58,8 @@ FollowedStarts::FollowedStarts(const Loop& loop, const Starts& starts, const Mat
   const Polynomial cosine = cos(phase);
   const Polynomial sine = sin(phase);
   // The estimate is in its own direction: its length is not negative.
-  const Polynomial length = certainly_positive(Ball(1.0) + starts.amplitude)
-                                ? Polynomial(Ball(1.0)) + Polynomial::variable(starts.amplitude, 2)
+  const Polynomial length = certainly_positive(one + starts.amplitude)
+                                ? Polynomial(one) + Polynomial::variable(starts.amplitude, 2)
                                 : Polynomial(Ball::everything());
   middle_[kZ1] = length * cosine;
   middle_[kZ2] = length * sine;
@@ -160,10 +160,8 @@ void FollowedStarts::step() {
           arb_addmul(sum.raw(), matrix[i][j].raw(), generators_[g][j].raw(), precision());
         }
       }
-      Ball radius;
-      arb_get_rad_arb(radius.raw(), sum.raw());
-      arb_get_mid_arb(images[g][i].raw(), sum.raw());
-      box[i] += radius;
+      images[g][i] = sum.middle();
+      box[i] += sum.radius();
     }
   }
   generators_ = std::move(images);

@@ -45,7 +45,7 @@ template <typename S>
 void turn(State<S>& x, const S& cosine, const S& sine) {
   const S square_part = square(cosine) * (x[kP11] - x[kP22]);
   const S cross = cosine * sine;
-  const S moved = square_part - Ball(2.0) * (cross * x[kP12]);
+  const S moved = square_part - two * (cross * x[kP12]);
   const S p12 = cross * (x[kP11] - x[kP22]) + (square(cosine) - square(sine)) * x[kP12];
   const S p11 = x[kP22] + moved;
   const S p13 = cosine * x[kP13] - sine * x[kP23];
@@ -59,7 +59,7 @@ void turn(State<S>& x, const S& cosine, const S& sine) {
 /// One step; a template, as it runs on balls, on polynomials and on numbers with derivatives.
 template <typename S>
 State<S> step(const Loop& loop, const State<S>& x, const std::array<S, 2>& noise) {
-  const Ball kept = Ball(1.0) - loop.epsilon;
+  const Ball kept = one - loop.epsilon;
   const S& z1 = x[kZ1];
   const S& z2 = x[kZ2];
   // P^, of which c is the third column without (1 - epsilon), and S^-1.
@@ -77,7 +77,7 @@ State<S> step(const Loop& loop, const State<S>& x, const std::array<S, 2>& noise
   const S k32 = kept * (c1 * i12 + c2 * i22);
   const S cosine = cos(x[kNu]);
   const S sine = sin(x[kNu]);
-  const S y1 = S(Ball(1.0)) + noise[0];
+  const S y1 = S(one) + noise[0];
   const S j1 = cosine * y1 + sine * noise[1] - z1;
   const S j2 = cosine * noise[1] - sine * y1 - z2;
   // z + K_z j = Rot^-1 ((1, 0) + v) - r S^-1 j.

@@ -34,9 +34,9 @@ double room(const Form<double>& form, double lambda) {
   const auto det = [](const Matrix<double>& x, const Matrix<double>& y) {
     return x[kNu][kNu] * y[kAlong][kAlong] - x[kAlong][kNu] * y[kAlong][kNu];
   };
-  const double half = 0.5 * (det(left, size) + det(size, left));
-  const double square = std::fmax(0.0, half * half - det(size, size) * det(left, left));
-  return (half - std::sqrt(square)) / det(size, size);
+  const double mean = 0.5 * (det(left, size) + det(size, left));
+  const double square = std::fmax(0.0, mean * mean - det(size, size) * det(left, left));
+  return (mean - std::sqrt(square)) / det(size, size);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "checker/document/design.hpp"
 #include "checker/numbers/slope.hpp"
+#include "checker/theorems/design.hpp"
 
 namespace veritrack::checker {
 
@@ -41,8 +41,8 @@ Gain<S> gain_of(const Symmetric<S>& p, const Ball& r) {
   const S s11 = p[k11] + r;
   const S s22 = p[k22] + r;
   const S over = reciprocal(s11 * s22 - square(p[k12]));
-  const S k1 = Ball(1.0) - r * (s22 * over);
-  const S k2 = Ball(1.0) - r * (s11 * over);
+  const S k1 = one - r * (s22 * over);
+  const S k2 = one - r * (s11 * over);
   const S k = r * (p[k12] * over);
   return {
       {{k1, k}, {k, k2}, {(p[k13] * s22 - p[k23] * p[k12]) * over, (p[k23] * s11 - p[k13] * p[k12]) * over}}};
@@ -68,20 +68,19 @@ Symmetric<S> corrected(const Gain<S>& k, const Symmetric<S>& m, const Gain<S>& l
 /// number.
 template <typename S>
 Symmetric<S> turned_difference(const Symmetric<S>& p, const S& sine, const S& less, const S& sine_itself) {
-  const Ball two(2.0);
   // cos(2 angle) - 1 = -2 sin^2, sin(2 angle) = 2 sin cos, cos = 1 + less.
   const S versine = two * (sine * sine_itself);
   const S twice = two * (sine + less * sine_itself);
-  const S half = Ball(0.5) * (p[k11] - p[k22]);
-  const S along = -(half * versine) - p[k12] * twice;
-  return {along,  half * twice - p[k12] * versine, p[k13] * less - p[k23] * sine,
-          -along, p[k13] * sine + p[k23] * less,   S(Ball(0.0))};
+  const S deviator = half * (p[k11] - p[k22]);
+  const S along = -(deviator * versine) - p[k12] * twice;
+  return {along,  deviator * twice - p[k12] * versine, p[k13] * less - p[k23] * sine,
+          -along, p[k13] * sine + p[k23] * less,       S(zero)};
 }
 
 /// U P U' with the angle given.
 template <typename S>
 Symmetric<S> turned(const Symmetric<S>& p, const S& sine, const S& cosine) {
-  return p + turned_difference(p, sine, S(cosine - Ball(1.0)), sine);
+  return p + turned_difference(p, sine, S(cosine - one), sine);
 }
 
 /// (a, psi, nu, P): everything that the tracker remembers, as its distance from the signal.
@@ -95,8 +94,8 @@ struct PolarState {
 /// have turned by a right angle.
 template <typename S>
 PolarState<S> polar_step(const Design& design, const PolarState<S>& x, const S& omega) {
-  const Ball retention = Ball(1.0) - design.epsilon;
-  const S rho = x.error[0] + Ball(1.0);
+  const Ball retention = one - design.epsilon;
+  const S rho = x.error[0] + one;
   const S chi = x.error[1] + x.error[2];
   Symmetric<S> predicted = carried(x.covariance, rho, retention);
   predicted[k11] = predicted[k11] + design.q1;
@@ -114,7 +113,7 @@ PolarState<S> polar_step(const Design& design, const PolarState<S>& x, const S& 
       design.r * k[2][1], predicted[k33] - k[2][0] * predicted[k13] - k[2][1] * predicted[k23]};
   const S turn =
       certainly_positive(value_of(z1)) ? tangent * arctangent_over(tangent) : S(Ball::everything());
-  return {{length - Ball(1.0), chi + turn,
+  return {{length - one, chi + turn,
            retention * x.error[2] - design.epsilon * omega + k[2][0] * i[0] + k[2][1] * i[1]},
           turned(filtered, S(-z2 / length), S(z1 / length))};
 }

@@ -2,10 +2,10 @@
 
 #include <map>
 
-#include "checker/document/guarantee.hpp"
 #include "checker/quadrature/capture.hpp"
 #include "checker/quadrature/contraction.hpp"
 #include "checker/quadrature/steady_contraction.hpp"
+#include "checker/sets/guarantee.hpp"
 #include "checker/theorems/proof_gaps.hpp"
 #include "checker/theorems/published_results.hpp"
 #include "checker/theorems/repaired_theorem.hpp"
@@ -25,6 +25,7 @@ class QuadratureVerifier {
   void run() {
     Objections objections;
     design_ = read_design(certificate_.at("design"), objections);
+    leaks_ = !design_.without_leak();
     add("design", objections);
     for (const Tree& set : certificate_.at("certified_sets").elements()) {
       objections.clear();
@@ -60,10 +61,9 @@ class QuadratureVerifier {
       check_theorem_2_9(derivation, design_, Reading::printed, objections);
     } else if (id == "theorem-2.9/errata") {
       check_theorem_2_9(derivation, design_, Reading::errata, objections);
-    } else if (id == "contraction" && certainly_equal(design_.epsilon, Ball(0.0))) {
-      promises_ = check_contraction(derivation, design_, sets_, objections);
     } else if (id == "contraction") {
-      promises_ = check_steady_contraction(derivation, design_, result_.cells, objections);
+      promises_ = leaks_ ? check_steady_contraction(derivation, design_, result_.cells, objections)
+                         : check_contraction(derivation, design_, sets_, objections);
     } else if (id == "capture" || id == "capture/noise-free" || id == "capture/reduced-noise") {
       captured_[id] = check_capture(derivation, design_, sets_, all_boxes_, objections);
       if (!objections.empty()) {
@@ -145,12 +145,14 @@ class QuadratureVerifier {
       promises_.wrong_lock = found.wrong_lock;
     }
     const std::map<std::string, Claim> gaps = proof_gaps(design_);
+    // Without a leak the frequency does not act on the errors.
+    const Frequencies frequencies = leaks_ ? Frequencies::assumed_band : Frequencies::every;
     const auto check = [&](const Tree& claim, Objections& objections) {
       const std::string& id = claim.at("id").text();
       if (id.ends_with("/conditions")) {
         check_conditions_claim(claim, id, objections);
       } else if (is_guarantee(id)) {
-        check_guarantee(claim, certificate_, promises_, objections);
+        check_guarantee(claim, certificate_, promises_, frequencies, objections);
       } else if (is_capture_claim(id)) {
         check_capture_claim(claim, captured_, objections);
       } else if (const auto gap = gaps.find(id); gap != gaps.end()) {
@@ -166,6 +168,7 @@ class QuadratureVerifier {
   bool all_boxes_;
   Verification& result_;
   Design design_;
+  bool leaks_ = false;  ///< then the contraction is that about a biased steady state
   std::vector<CertifiedSet> sets_;
   std::map<std::string, Known> derivations_;
   std::map<std::string, Captured> captured_;  ///< of the derivations that are verified
@@ -174,8 +177,10 @@ class QuadratureVerifier {
 
 }  // namespace
 
-void verify_quadrature_tracker(const Tree& certificate, bool all_boxes, Verification& result) {
-  QuadratureVerifier(certificate, all_boxes, result).run();
+TrackerKind quadrature_tracker() {
+  return {"quadrature-ekf", [](const Tree& certificate, bool all_boxes, Verification& result) {
+            QuadratureVerifier(certificate, all_boxes, result).run();
+          }};
 }
 
 }  // namespace veritrack::checker

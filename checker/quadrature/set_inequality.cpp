@@ -31,17 +31,17 @@ Matrix<double> near(const Matrix<Ball>& m) {
 
 /// C m C' for a lower triangular C.
 Matrix<Ball> congruent(const Matrix<Ball>& c, const Matrix<Ball>& m) {
-  Matrix<Ball> half;
+  Matrix<Ball> left;
   Matrix<Ball> result;
   for (std::size_t i = 0; i < kSize; ++i) {
     for (std::size_t j = 0; j < kSize; ++j) {
       for (std::size_t k = 0; k <= i; ++k) {
-        arb_addmul(half[i][j].raw(), c[i][k].raw(), (k < j ? m[j][k] : m[k][j]).raw(), precision());
+        arb_addmul(left[i][j].raw(), c[i][k].raw(), (k < j ? m[j][k] : m[k][j]).raw(), precision());
       }
     }
     for (std::size_t j = 0; j <= i; ++j) {
       for (std::size_t k = 0; k <= j; ++k) {
-        arb_addmul(result[i][j].raw(), half[i][k].raw(), c[j][k].raw(), precision());
+        arb_addmul(result[i][j].raw(), left[i][k].raw(), c[j][k].raw(), precision());
       }
     }
   }
@@ -126,7 +126,7 @@ class Cover {
         c[i][j] = Ball(factor[i][j]);
       }
     }
-    const Ball over_lambda = Ball(1.0) / Ball(lambda);
+    const Ball over_lambda = one / Ball(lambda);
     Matrix<Ball> m;
     for (std::size_t i = 0; i < kSize; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {

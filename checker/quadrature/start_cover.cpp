@@ -2,11 +2,12 @@
 
 #include <cmath>
 
+#include "checker/document/evidence.hpp"
+
 namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
 constexpr double kMostSamples = 1000;
 
 bool contains(const StartBox& box, const StartBox& region) {
@@ -77,7 +78,7 @@ std::pair<StartBox, StartBox> halves(const StartBox& box) {
     }
   }
   std::pair<StartBox, StartBox> parts{box, box};
-  const Ball middle((Ball(0.5) * (box.low[direction] + box.high[direction])).near());
+  const Ball middle((half * (box.low[direction] + box.high[direction])).near());
   parts.first.high[direction] = middle;
   parts.second.low[direction] = middle;
   return parts;
@@ -86,7 +87,7 @@ std::pair<StartBox, StartBox> halves(const StartBox& box) {
 Cover read_cover(const Tree& evidence) {
   Cover cover;
   for (const Tree& row : evidence.at("matrices").at("boxes").elements()) {
-    const auto number = [&](std::size_t i) { return from_hexadecimal(row.at(i).text()); };
+    const auto number = [&](std::size_t i) { return exact_number(row.at(i)); };
     cover.boxes.push_back({{number(0), number(2), number(4)}, {number(1), number(3), number(5)}});
     const double samples = number(6).near();
     if (!(samples >= 0.0) || samples > kMostSamples || samples != std::floor(samples)) {
@@ -96,7 +97,7 @@ Cover read_cover(const Tree& evidence) {
     cover.levels.push_back(number(7));
   }
   if (evidence.at("name").text() == "witness") {
-    cover.turns = from_hexadecimal(evidence.at("numbers").at("turns").text());
+    cover.turns = exact_number(evidence.at("numbers").at("turns"));
     if (!certainly_equal(cover.turns, Ball(std::floor(cover.turns.near())))) {
       throw Malformed("not a number of turns");
     }

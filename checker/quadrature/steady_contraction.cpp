@@ -1,13 +1,11 @@
 #include "checker/quadrature/steady_contraction.hpp"
 
+#include "checker/document/evidence.hpp"
 #include "checker/quadrature/steady_start.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-const Ball zero(0.0);
-const Ball one(1.0);
 
 bool bears(const SteadySet& set, const Design& design) {
   return certainly_at_most(design.noise, set.noise) && certainly_at_most(design.slew, set.slew);
@@ -75,12 +73,12 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
     const Tree& quantities = claimed.at("quantities");
     const auto said = [&](const char* name) {
       const Tree* quantity = quantities.find(name);
-      return quantity != nullptr ? std::optional(from_hexadecimal(quantity->at("hi").text())) : std::nullopt;
+      return quantity != nullptr ? std::optional(high_of(*quantity)) : std::nullopt;
     };
     std::optional<Ball> level;
     const auto& conditions = claimed.at("conditions").elements();
     if (const Tree* lhs = conditions.empty() ? nullptr : conditions.back().find("lhs")) {
-      level = from_hexadecimal(lhs->at("hi").text());
+      level = high_of(*lhs);
     }
     const auto start = steady_start(
         design, *whole, *fine,

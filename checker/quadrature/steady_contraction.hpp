@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "checker/document/guarantee.hpp"
 #include "checker/quadrature/steady_set.hpp"
+#include "checker/sets/guarantee.hpp"
 
 namespace veritrack::checker {
 

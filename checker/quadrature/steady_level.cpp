@@ -7,10 +7,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
-const Ball half(0.5);
-
 /// Where in the cell, from its middle: x, y, and the frequency.
 using Way = std::array<Ball, kSides>;
 enum Side : std::size_t { kX, kY, kFrequency };
@@ -93,7 +89,6 @@ Symmetric<Ball> reach_of(const SteadyPlace<Chord>& place, const Symmetric<Chord>
   // In between it is turned by less than the reach.
   const Ball angle = Ball::within(place.level.range * turn);
   after = turned(after, sin(angle), cos(angle));
-  const Ball two(2.0);
   return scaled(turn, Symmetric<Ball>{two * after[k12], after[k22] - after[k11], after[k23],
                                       -(two * after[k12]), -after[k13], zero});
 }
@@ -128,7 +123,7 @@ std::size_t most_blurred(const Row<Chord>& row, const SteadySetting& setting, co
 
 }  // namespace
 
-bool SteadyCover::leads(const SteadyLevel& level) {
+bool SteadyCover::maps_into_next(const SteadyLevel& level) {
   // Levels differ little, so that the cells of one are a good beginning for the next.
   constexpr int kRestart = 4;
   constexpr int kDepth = 24;
@@ -164,10 +159,10 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
   const Way range{Ball::hull(Ball(cell.low[0]), Ball(cell.high[0])),
                   Ball::hull(Ball(cell.low[1]), Ball(cell.high[1])),
                   Ball::hull(Ball(cell.from), Ball(cell.to))};
-  Way middle = range;
+  Way middle;
   Way way;
   for (std::size_t i = 0; i < kSides; ++i) {
-    arb_get_mid_arb(middle[i].raw(), middle[i].raw());
+    middle[i] = range[i].middle();
     way[i] = range[i] - middle[i];
   }
   SteadyPlace<Chord> place;

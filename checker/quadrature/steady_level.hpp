@@ -24,7 +24,7 @@ class SteadyCover {
   SteadyCover(const SteadySetting& setting, const SteadyCell& steady) : setting_(setting), steady_(steady) {}
 
   /// Proves it for all (x, y) of the unit disc and all frequencies of the cell.
-  bool leads(const SteadyLevel& level);
+  bool maps_into_next(const SteadyLevel& level);
   /// So far.
   [[nodiscard]] std::int64_t cells() const { return cells_; }
 

@@ -73,9 +73,9 @@ bool contracts(const Row<Ball>& row, const Ball& rate_squared, const Multipliers
   if (!certainly_positive(lambda) || !certainly_positive(mu) || !certainly_positive(head)) {
     return false;
   }
-  const Ball over_head = Ball(1.0) / head;
-  const Ball over_mu = Ball(1.0) / mu;
-  const Ball over_lambda = Ball(1.0) / lambda;
+  const Ball over_head = one / head;
+  const Ball over_mu = one / mu;
+  const Ball over_lambda = one / lambda;
   Matrix3 gap;
   std::size_t gram = kGram;
   for (std::size_t i = 0; i < 3; ++i) {

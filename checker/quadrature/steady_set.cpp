@@ -1,15 +1,14 @@
 #include "checker/quadrature/steady_set.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "checker/document/evidence.hpp"
 #include "checker/quadrature/steady_level.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-const Ball zero(0.0);
-const Ball one(1.0);
 
 /// Sets a11, a21, a22 such that A A' - M M' > 0 for the rows M = ((1,0,0), (0,1,1)) T^-1 of alpha and c: then
 /// every M u with |u| <= 1 is an A w with |w| <= 1.
@@ -47,99 +46,119 @@ Ball covering_share(const Symmetric<Ball>& bound, const Symmetric<Ball>& x) {
   return Ball::everything();
 }
 
-}  // namespace
+Symmetric<Ball> entries_of(const Matrix3& p) {
+  return {p[0][0], p[0][1], p[0][2], p[1][1], p[1][2], p[2][2]};
+}
 
-SteadySet check_steady_set(const Tree& evidence, const Design& design, const std::vector<SteadyCell>& branch,
-                           std::int64_t& cells, Objections& objections) {
-  SteadySet set;
-  set.name = evidence.at("name").text();
+/// The set as the evidence gives it, and whether its matrices have their form.
+std::pair<SteadySet, bool> read_set(const Tree& evidence, const Design& design) {
   const Tree& numbers = evidence.at("numbers");
   const Tree& matrices = evidence.at("matrices");
-  const auto entry = [&](const char* name, std::size_t i, std::size_t j) {
-    return from_hexadecimal(matrices.at(name).at(i).at(j).text());
-  };
-  bool form = true;
-  const auto symmetric = [&](const char* name) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        form = form && certainly_equal(entry(name, i, j), entry(name, j, i));
-      }
-    }
-    return Symmetric<Ball>{entry(name, 0, 0), entry(name, 0, 1), entry(name, 0, 2),
-                           entry(name, 1, 1), entry(name, 1, 2), entry(name, 2, 2)};
-  };
+  const Matrix3 metric = exact_matrix(matrices.at("metric"));
+  const Matrix3 below = exact_matrix(matrices.at("covariance_below"));
+  const Matrix3 above = exact_matrix(matrices.at("covariance_above"));
+  SteadySet set;
+  set.name = evidence.at("name").text();
   SteadySetting& s = set.setting;
   s.q1 = design.q1;
   s.q2 = design.q2;
   s.r = design.r;
   s.retention = one - design.epsilon;
-  s.metric = {entry("metric", 0, 0), entry("metric", 0, 1), entry("metric", 0, 2),
-              entry("metric", 1, 1), entry("metric", 1, 2), entry("metric", 2, 2)};
-  form = form && certainly_equal(entry("metric", 1, 0), zero) &&
-         certainly_equal(entry("metric", 2, 0), zero) && certainly_equal(entry("metric", 2, 1), zero);
-  s.below = symmetric("covariance_below");
-  s.above = symmetric("covariance_above");
-  set.noise = from_hexadecimal(numbers.at("noise").text());
-  set.slew = from_hexadecimal(numbers.at("slew").text());
-  bool falls = true;
+  s.metric = {metric[0][0], metric[0][1], metric[0][2], metric[1][1], metric[1][2], metric[2][2]};
+  s.below = entries_of(below);
+  s.above = entries_of(above);
+  set.noise = exact_number(numbers.at("noise"));
+  set.slew = exact_number(numbers.at("slew"));
   while (const Tree* level = numbers.find("s_" + std::to_string(set.levels.size()))) {
-    const Ball value = from_hexadecimal(level->text());
-    falls = falls && certainly_positive(value) &&
-            (set.levels.empty() ? certainly_equal(value, one) : certainly_less(value, set.levels.back()));
-    set.levels.push_back(value);
+    set.levels.push_back(exact_number(*level));
   }
-  const auto refuse = [&](const std::string& why) {
-    objections.push_back("the set " + set.name + ": " + why);
-    return set;
-  };
-  if (!form || !certainly_positive(s.metric.t11) || !certainly_positive(s.metric.t22) ||
-      !certainly_positive(s.metric.t33)) {
-    return refuse("the matrices do not have their form");
+  const bool has_form = certainly_equal(metric[1][0], zero) && certainly_equal(metric[2][0], zero) &&
+                        certainly_equal(metric[2][1], zero) && symmetric(below) && symmetric(above) &&
+                        certainly_positive(s.metric.t11) && certainly_positive(s.metric.t22) &&
+                        certainly_positive(s.metric.t33);
+  return {set, has_form};
+}
+
+/// 1 = s_0 > s_1 > ... > 0.
+bool fall_from_one(const std::vector<Ball>& levels) {
+  bool fall = !levels.empty() && certainly_equal(levels.front(), one);
+  for (std::size_t j = 0; j < levels.size(); ++j) {
+    fall = fall && certainly_positive(levels[j]) && (j == 0 || certainly_less(levels[j], levels[j - 1]));
   }
-  if (set.levels.empty() || !falls || !certainly_at_most(zero, set.noise) ||
-      !certainly_at_most(zero, set.slew)) {
-    return refuse("levels, noise or slew are out of range");
+  return fall;
+}
+
+/// P* - below > 0 at all frequencies: every P of the set is positive definite.
+bool stays_definite(const SteadySetting& s, const std::vector<SteadyCell>& branch) {
+  return std::all_of(branch.begin(), branch.end(), [&](const SteadyCell& cell) {
+    const Symmetric<Ball> least = covariance_part(cell.at(cell.frequency));
+    return definite(matrix_of(least + scaled(Ball(-1.0), s.below)));
+  });
+}
+
+/// How far the slew carries the steady state in a sample: in the metric, and as a share of the bounds.
+struct Motion {
+  Ball errors = zero, covariance = zero;
+};
+Motion motion_of(const SteadySet& set, const std::vector<SteadyCell>& branch) {
+  const SteadySetting& s = set.setting;
+  Motion motion;
+  if (certainly_equal(set.slew, zero)) {
+    return motion;
+  }
+  for (const SteadyCell& cell : branch) {
+    // x3 - omega moves with the frequency, too.
+    const StateVector& by = cell.derivative;
+    const std::array<Ball, 3> push = s.metric.image<Ball>(by[0], by[1], by[2] + one);
+    const Symmetric<Ball> slope = covariance_part(by);
+    const Ball length = root_of_non_negative(square(push[0]) + square(push[1]) + square(push[2])).upper();
+    motion.errors = max(motion.errors, set.slew * length);
+    motion.covariance = max(motion.covariance,
+                            set.slew * max(covering_share(s.above, slope), covering_share(s.below, slope)));
+  }
+  return motion;
+}
+
+/// What of the set's promise is not proved; nothing when all of it is.
+std::string refusal_of(SteadySet& set, const std::vector<SteadyCell>& branch, std::int64_t& cells) {
+  SteadySetting& s = set.setting;
+  if (!fall_from_one(set.levels) || !certainly_not_negative(set.noise) || !certainly_not_negative(set.slew)) {
+    return "levels, noise or slew are out of range";
   }
   if (!definite(matrix_of(s.below)) || !definite(matrix_of(s.above)) || !cover_directions(s)) {
-    return refuse("the covariance bounds are not positive definite, or the metric has no inverse");
+    return "the covariance bounds are not positive definite, or the metric has no inverse";
   }
-  Ball motion(0.0);
-  Ball covariance_motion(0.0);
-  for (const SteadyCell& cell : branch) {
-    const StateVector at = cell.at(cell.frequency);
-    const StateVector& by = cell.derivative;
-    Symmetric<Ball> least;
-    std::copy(at.begin() + 3, at.end(), least.begin());
-    if (!definite(matrix_of(least + scaled(Ball(-1.0), s.below)))) {
-      return refuse("P* - below is not certainly positive definite");
-    }
-    if (!certainly_equal(set.slew, zero)) {
-      // x3 - omega moves with the frequency, too.
-      const std::array<Ball, 3> push = s.metric.image<Ball>(by[0], by[1], by[2] + one);
-      Symmetric<Ball> slope;
-      std::copy(by.begin() + 3, by.end(), slope.begin());
-      motion =
-          max(motion,
-              set.slew * root_of_non_negative(square(push[0]) + square(push[1]) + square(push[2])).upper());
-      covariance_motion = max(covariance_motion,
-                              set.slew * max(covering_share(s.above, slope), covering_share(s.below, slope)));
-    }
+  if (!stays_definite(s, branch)) {
+    return "P* - below is not certainly positive definite";
   }
+  const Motion motion = motion_of(set, branch);
   const std::size_t steps = std::max<std::size_t>(set.levels.size(), 2) - 1;
   for (const SteadyCell& steady : branch) {
     SteadyCover cover(s, steady);
-    bool leads = true;
-    for (std::size_t j = 0; j < steps && leads; ++j) {
+    bool maps = true;
+    for (std::size_t j = 0; j < steps && maps; ++j) {
       const Ball& next = set.levels[std::min(j + 1, set.levels.size() - 1)];
-      leads = cover.leads({set.levels[j], next, set.noise, motion, covariance_motion});
+      maps = cover.maps_into_next({set.levels[j], next, set.noise, motion.errors, motion.covariance});
     }
     cells += cover.cells();
-    if (!leads) {
-      return refuse("a step could not be shown to lead to the next level, for frequencies near " +
-                    steady.centre.text(4));
+    if (!maps) {
+      return "a step is not certain to end in the next level, for frequencies near " + steady.centre.text(4);
     }
   }
-  set.verified = true;
+  return {};
+}
+
+}  // namespace
+
+SteadySet check_steady_set(const Tree& evidence, const Design& design, const std::vector<SteadyCell>& branch,
+                           std::int64_t& cells, Objections& objections) {
+  auto [set, has_form] = read_set(evidence, design);
+  const std::string refusal =
+      has_form ? refusal_of(set, branch, cells) : "the matrices do not have their form";
+  set.verified = refusal.empty();
+  if (!set.verified) {
+    objections.push_back("the set " + set.name + ": " + refusal);
+  }
   return set;
 }
 

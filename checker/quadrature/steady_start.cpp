@@ -6,9 +6,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
-
 bool keeps(const SteadyStart& start, const SteadyStartClaim& claim) {
   const auto within = [](const Ball& value, const std::optional<Ball>& limit) {
     return !limit || certainly_at_most(value, *limit);
@@ -90,11 +87,7 @@ class Part {
   [[nodiscard]] Ball bias() const { return abs(steady_[2]).upper(); }
 
  private:
-  [[nodiscard]] Matrix3 steady_covariance() const {
-    Symmetric<Ball> p;
-    std::copy(steady_.begin() + 3, steady_.end(), p.begin());
-    return matrix_of(p);
-  }
+  [[nodiscard]] Matrix3 steady_covariance() const { return matrix_of(covariance_part(steady_)); }
   static Ball norm(const std::array<Ball, 3>& image) {
     return root_of_non_negative(square(image[0]) + square(image[1]) + square(image[2])).upper();
   }

@@ -10,10 +10,10 @@ namespace veritrack::checker {
 
 /// What holds for all starts at all frequencies that were looked at: upper bounds.
 struct SteadyStart {
-  Ball samples = Ball(0.0);   ///< after which they are in Omega_1
-  Ball level = Ball(0.0);     ///< and at which level then
-  Ball bound = Ball(0.0);     ///< on |x3 - omega| at every sample, rad/sample
-  Ball settling = Ball(0.0);  ///< samples until they are in the last level
+  Ball samples = zero;   ///< after which they are in Omega_1
+  Ball level = zero;     ///< and at which level then
+  Ball bound = zero;     ///< on |x3 - omega| at every sample, rad/sample
+  Ball settling = zero;  ///< samples until they are in the last level
 };
 
 /// What the certificate says of them, which is as far as they are looked at: frequencies are cut until it

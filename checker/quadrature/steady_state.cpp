@@ -84,12 +84,10 @@ bool contains(const StateVector& outer, const StateVector& inner) {
 
 StateVector midpoints(StateVector x) {
   for (Ball& entry : x) {
-    arb_get_mid_arb(entry.raw(), entry.raw());
+    entry = entry.middle();
   }
   return x;
 }
-
-const Ball one(1.0);
 
 /// How far the step moves the points of the curve middle + slope (omega - centre): at the centre, and by its
 /// derivative along the curve.
@@ -120,7 +118,7 @@ std::optional<SteadyCell> steady_cell(const Design& design, const StateVector& s
   cell.to = to;
   cell.frequency = Ball::hull(Ball(from), Ball(to));
   const Ball& frequency = cell.frequency;
-  arb_get_mid_arb(cell.centre.raw(), frequency.raw());
+  cell.centre = frequency.middle();
   StateVector guess = midpoints(start);
   for (int i = 0; i < kSteps; ++i) {
     const Linearized at = linearized(design, guess, cell.centre);
@@ -146,9 +144,8 @@ std::optional<SteadyCell> steady_cell(const Design& design, const StateVector& s
   std::optional<StateVector> image = solved(linearized(design, curve, frequency), distance);
   for (int i = 0; i < kSteps && image; ++i) {
     for (std::size_t k = 0; k < kStates; ++k) {
-      Ball room;  // for the neighbour's enclosure
-      arb_get_rad_arb(room.raw(), start[k].raw());
-      cell.unique[k] = Ball::within(Ball(4.0) * (abs((*image)[k]) + room) + Ball(0x1p-80));
+      const Ball room = start[k].radius();  // for the neighbour's enclosure
+      cell.unique[k] = Ball::within(four * (abs((*image)[k]) + room) + Ball(0x1p-80));
     }
     image = solved(linearized(design, moved(curve, cell.unique, one), frequency), distance);
     if (image && contains(cell.unique, *image)) {
@@ -173,7 +170,6 @@ std::optional<SteadyCell> steady_cell(const Design& design, const StateVector& s
 /// falls. What is between them has entries that differ by at most the root of the two diagonal ones.
 std::optional<StateVector> steady_state_at_zero(const Design& design) {
   constexpr int kSteps = 400;
-  const Ball zero(0.0);
   const Ball large = Ball(1000.0) * (design.r + design.q1 + design.q2);
   // Exact matrices below (-1) or above (1) what a step leads to.
   const auto follow = [&](Symmetric<Ball> p, double side, int steps) {
@@ -181,8 +177,8 @@ std::optional<StateVector> steady_state_at_zero(const Design& design) {
       const Symmetric<Ball> next = polar_step<Ball>(design, {{zero, zero, zero}, p}, zero).covariance;
       Ball rounding(0.0);
       for (std::size_t k = 0; k < next.size(); ++k) {
-        arb_get_mid_arb(p[k].raw(), next[k].raw());
-        rounding += Ball(2.0) * abs(next[k] - p[k]).upper();
+        p[k] = next[k].middle();
+        rounding += two * abs(next[k] - p[k]).upper();
       }
       for (const Entry k : {k11, k22, k33}) {
         p[k] = side < 0.0 ? (p[k] - rounding).lower() : (p[k] + rounding).upper();
@@ -213,6 +209,12 @@ Matrix3 matrix_of(const Symmetric<Ball>& p) {
   return {{{p[k11], p[k12], p[k13]}, {p[k12], p[k22], p[k23]}, {p[k13], p[k23], p[k33]}}};
 }
 
+Symmetric<Ball> covariance_part(const StateVector& state) {
+  Symmetric<Ball> p;
+  std::copy(state.begin() + 3, state.end(), p.begin());
+  return p;
+}
+
 StateVector SteadyCell::at(const Ball& omega) const {
   return moved(moved(middle, slope, omega - centre), tight, one);
 }
@@ -224,7 +226,7 @@ std::optional<std::vector<SteadyCell>> steady_branch(const Design& design, doubl
   const double first = std::nextafter(low.near(), -HUGE_VAL);
   const double last = std::nextafter(high.near(), HUGE_VAL);
   std::optional<StateVector> start = steady_state_at_zero(design);
-  if (!start || !certainly_at_most(Ball(0.0), Ball(first)) || !certainly_at_most(Ball(first), low) ||
+  if (!start || !certainly_not_negative(Ball(first)) || !certainly_at_most(Ball(first), low) ||
       !certainly_at_most(high, Ball(last))) {
     return std::nullopt;
   }

@@ -27,6 +27,8 @@ struct SteadyCell {
 };
 
 Matrix3 matrix_of(const Symmetric<Ball>& p);
+/// The entries of P.
+Symmetric<Ball> covariance_part(const StateVector& state);
 
 /// The branch over the design's frequencies in cells that join, none wider than `widest`, each within
 /// `accuracy` of nu* about a line (rad/sample): followed from the exact estimate at frequency 0, so that it

@@ -29,8 +29,6 @@ struct TriangularMetric {
   }
   /// T^-1, row by row.
   [[nodiscard]] std::array<std::array<Ball, 3>, 3> inverse() const {
-    const Ball zero(0.0);
-    const Ball one(1.0);
     return {{{one / t11, -(t12 / (t11 * t22)), (t12 * t23 - t13 * t22) / (t11 * t22 * t33)},
              {zero, one / t22, -(t23 / (t22 * t33))},
              {zero, zero, one / t33}}};
@@ -72,8 +70,6 @@ struct SteadyStep {
 
 template <typename S>
 SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& place) {
-  const Ball one(1.0);
-  const Ball half(0.5);
   const Ball over_r = one / setting.r;
   const S& s = place.level;
   const S alpha = setting.a11 * place.x;
@@ -113,12 +109,12 @@ SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& pl
   predicted[k11] = predicted[k11] + setting.q1;
   predicted[k22] = predicted[k22] + setting.q1;
   predicted[k33] = predicted[k33] + setting.q2;
-  const Symmetric<S> drift{S(Ball(0.0)),
+  const Symmetric<S> drift{S(zero),
                            covariance[k13],
-                           S(Ball(0.0)),
-                           Ball(2.0) * covariance[k23] + (rho + steady_rho) * covariance[k33],
+                           S(zero),
+                           two * covariance[k23] + (rho + steady_rho) * covariance[k33],
                            setting.retention * covariance[k33],
-                           S(Ball(0.0))};
+                           S(zero)};
   const Symmetric<S> above = carried(setting.above, rho, setting.retention);
   const Symmetric<S> below = carried(setting.below, rho, setting.retention);
   const Symmetric<S> drifted = predicted + scaled(S(s * alpha), drift);
@@ -139,7 +135,7 @@ SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& pl
   }
   step.largest = {high_gain[0][0], high_gain[0][1], high_gain[1][1]};
   const auto form = [](const Symmetric<S>& p, const std::array<S, 2>& v) {
-    return p[k11] * square(v[0]) + p[k22] * square(v[1]) + Ball(2.0) * (p[k12] * (v[0] * v[1]));
+    return p[k11] * square(v[0]) + p[k22] * square(v[1]) + two * (p[k12] * (v[0] * v[1]));
   };
   step.eta_squared = form(step.spread, innovation);
 
@@ -176,7 +172,7 @@ SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& pl
   }
   step.constant = images[0];
   // b = (alpha, psi, m) and c = psi + m; m itself is kept but for the leak.
-  const std::array<Ball, 3> kept = setting.metric.image<Ball>(Ball(0.0), Ball(0.0), setting.retention);
+  const std::array<Ball, 3> kept = setting.metric.image<Ball>(zero, zero, setting.retention);
   const std::array<std::array<Ball, 3>, 3> inverse = setting.metric.inverse();
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
@@ -187,11 +183,11 @@ SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& pl
   step.distance = sqrt(square(z[0]) + square(z[1]));
   const S over = reciprocal(step.distance);
   const std::array<S, 2> direction{z[0] * over, z[1] * over};
-  const S zero(Ball(0.0));
+  const S none(zero);
   const std::array<std::array<S, 3>, 3> columns{
-      setting.metric.image<S>(direction[0], -(direction[1] * over), zero),
-      setting.metric.image<S>(direction[1], direction[0] * over, zero),
-      setting.metric.image<S>(zero, zero, S(one))};
+      setting.metric.image<S>(direction[0], -(direction[1] * over), none),
+      setting.metric.image<S>(direction[1], direction[0] * over, none),
+      setting.metric.image<S>(none, none, S(one))};
   const Symmetric<S> scaled_spread = scaled(square(over_r), step.spread);
   std::array<std::array<S, 3>, 3> half_gram;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -217,8 +213,8 @@ Symmetric<S> turned_deviation(const SteadyPlace<S>& place, const Symmetric<S>& i
   const S angle = -(place.level * turn);
   const S slope = -(turn * sine_over(angle));  // sin(angle)/s
   const S sine = place.level * slope;
-  const S less = -(Ball(2.0) * square(sin(Ball(0.5) * angle)));
-  const S less_slope = Ball(0.5) * (turn * angle * square(sine_over(Ball(0.5) * angle)));
+  const S less = -(two * square(sin(half * angle)));
+  const S less_slope = half * (turn * angle * square(sine_over(half * angle)));
   return image + turned_difference(image, sine, less, sine) +
          turned_difference(place.steady.covariance, slope, less_slope, sine);
 }

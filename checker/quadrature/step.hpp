@@ -50,7 +50,7 @@ Update<S> update(const Setting& setting, const Covariance<Ball>& p, const S& rho
   const S p22 = p.p22 + setting.q1 + rho * (p.p23 + p23);
   const S over = reciprocal(p22 + setting.r);
   const S k1 = p11 / (p11 + setting.r);
-  const S k2 = Ball(1.0) - setting.r * over;
+  const S k2 = one - setting.r * over;
   const S k3 = p23 * over;
   return {
       {setting.r * k1, setting.r * k2, setting.r * k3, p.p33 + setting.q2 - square(p23) * over}, k1, k2, k3};
@@ -89,8 +89,7 @@ struct Correction {
 
 template <typename S>
 Correction<S> correction(const Setting& setting, const S& a, const S& chi) {
-  const Ball half(0.5);
-  const S rho = a + Ball(1.0);
+  const S rho = a + one;
   const Update<S> low = update(setting, setting.lower, rho);
   const Update<S> high = update(setting, setting.upper, rho);
   Correction<S> c;

@@ -38,7 +38,6 @@ std::array<S, 3> image(const Metric& t, const S& amplitude, const S& phase, cons
 template <typename S>
 Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, const std::array<Ball, 2>& axis) {
   const Metric& t = setting.metric;
-  const Ball zero(0.0);
   Form<S> form;
   Matrix<S>& m = form.fixed;
 
@@ -62,12 +61,12 @@ Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, cons
   const Secant<S> moved = secant(c.mean, {c.mean[0] + x[2], c.mean[1] + x[3]});
   form.meaningful = certainly_positive(value_of(left.dot)) && certainly_positive(value_of(moved.dot)) &&
                     certainly_positive(value_of(c.mean[0]) - c.reach[0]) &&
-                    certainly_positive(Ball(1.0) + value_of(a));
+                    certainly_positive(one + value_of(a));
 
   // The step under the mean gain.
   const std::array<Ball, 3> carried{zero, t.coupling, t.frequency};
-  const S rest1 = Ball(1.0) - c.k1;
-  const S rest2 = Ball(1.0) - c.k2;
+  const S rest1 = one - c.k1;
+  const S rest2 = one - c.k2;
   std::array<std::array<S, 2>, 2> innovation;
   for (std::size_t k = 0; k < 3; ++k) {
     m[kNu][kNext + k] = carried[k];
@@ -87,7 +86,7 @@ Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, cons
   const std::array<std::array<S, 3>, 3> b{{image<S>(t, moved.length[0], moved.angle[0], zero),
                                            image<S>(t, moved.length[1], moved.angle[1], zero),
                                            {S(zero), S(t.coupling), S(t.frequency)}}};
-  const Ball over_r2 = Ball(1.0) / square(setting.r);
+  const Ball over_r2 = one / square(setting.r);
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t l = 0; l <= k; ++l) {
       form.by_inverse[kNext + k][kNext + l] =
@@ -103,7 +102,7 @@ Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, cons
   }
   const std::array<S, 2> spread{c.spread.p11, c.spread.p22};
   for (std::size_t j = 0; j < 2; ++j) {
-    m[j][j] = setting.noisy ? square(setting.noise_gain) : Ball(1.0);
+    m[j][j] = setting.noisy ? square(setting.noise_gain) : one;
     for (std::size_t i = 0; i < 2; ++i) {
       const S pull = spread[j] * innovation[i][j];
       for (std::size_t l = 0; l <= i; ++l) {

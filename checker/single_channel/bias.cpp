@@ -4,14 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "checker/document/evidence.hpp"
 #include "checker/single_channel/invariant_curve.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
 const Ball everywhere = Ball::within(one);
 
 /// What "around" means, rad/sample, and as a double above it, with room for a frequency that no double is.
@@ -89,7 +88,7 @@ class Component {
   [[nodiscard]] bool exceeds(const Ball& bound, const Ball& t, const Ball& low, const Ball& high,
                              int depth) const {
     const Ball cell = Ball::hull(low, high);
-    const Ball middle = (Ball(0.5) * (low + high)).lower();
+    const Ball middle = (half * (low + high)).lower();
     if (certainly_less(bound, at(middle, t) + (cell - middle) * at(cell, t, 1))) {
       return true;
     }
@@ -104,8 +103,8 @@ class Component {
 /// The parts of the t in question, narrow enough for Horner's scheme.
 std::vector<Ball> parts_of(const Ball& t) {
   if (!certainly_less(t.upper() - t.lower(), one)) {
-    return {Ball::hull(Ball(-1.0), Ball(-0.5)), Ball::hull(Ball(-0.5), zero), Ball::hull(zero, Ball(0.5)),
-            Ball::hull(Ball(0.5), one)};
+    return {Ball::hull(Ball(-1.0), Ball(-0.5)), Ball::hull(Ball(-0.5), zero), Ball::hull(zero, half),
+            Ball::hull(half, one)};
   }
   return {t};
 }
@@ -132,11 +131,11 @@ void add_errors(const Tree& quantities, const std::string& suffix, const CurveFa
   const Ball mean = error.mean(t);
   found.quantities.push_back({"mean_bias" + suffix, {mean - distance, mean + distance}});
   if (const Tree* claimed = quantities.find("min_error" + suffix)) {
-    const Range range = smallest(error, t, distance, from_hexadecimal(claimed->at("lo").text()));
+    const Range range = smallest(error, t, distance, low_of(*claimed));
     found.quantities.push_back({"min_error" + suffix, range});
   }
   if (const Tree* claimed = quantities.find("max_error" + suffix)) {
-    const Range range = smallest(negative, t, distance, -from_hexadecimal(claimed->at("hi").text()));
+    const Range range = smallest(negative, t, distance, -high_of(*claimed));
     found.quantities.push_back({"max_error" + suffix, {-range.high, -range.low}});
   }
 }
@@ -168,9 +167,8 @@ std::optional<SteadyStateBias> check_bias(const Tree& claimed, const SingleChann
   const Tree& ends = quantities.at("frequency");
   found.quantities.push_back({"frequency", slash != std::string::npos
                                                ? Range(from_decimal(id.substr(slash + 1)))
-                                               : Range(from_hexadecimal(ends.at("lo").text()),
-                                                       from_hexadecimal(ends.at("hi").text()))});
-  const bool no_leak = certainly_equal(design.epsilon, zero);
+                                               : Range(low_of(ends), high_of(ends))});
+  const bool no_leak = design.without_leak();
   if (quantities.find("quadrature_bias") != nullptr) {
     // Without a leak the exact estimate is a fixed point at every frequency.
     found.quantities.push_back({"quadrature_bias", no_leak ? zero : quadrature.error_at(frequency)});
@@ -183,8 +181,7 @@ std::optional<SteadyStateBias> check_bias(const Tree& claimed, const SingleChann
   if (!undecided) {
     constexpr double kAnyRate = 0.99;
     const Tree* rate_quantity = quantities.find("contraction_rate");
-    const Ball rate =
-        rate_quantity == nullptr ? Ball(kAnyRate) : from_hexadecimal(rate_quantity->at("hi").text());
+    const Ball rate = rate_quantity == nullptr ? Ball(kAnyRate) : high_of(*rate_quantity);
     const bool has_around = !no_leak && quantities.find("mean_bias_around") != nullptr;
     const auto curve = establish_invariant_curve({design.q1, design.q2, design.r, design.epsilon}, frequency,
                                                  has_around ? kHalfWidth : 0.0, rate);
@@ -216,8 +213,7 @@ std::optional<SteadyStateBias> check_bias(const Tree& claimed, const SingleChann
   if (!established || mean == found.quantities.end()) {
     return std::nullopt;
   }
-  return SteadyStateBias{{from_hexadecimal(ends.at("lo").text()), from_hexadecimal(ends.at("hi").text())},
-                         mean->value};
+  return SteadyStateBias{{low_of(ends), high_of(ends)}, mean->value};
 }
 
 void check_proposition_1(const Tree& claim, const SingleChannelDesign& design,

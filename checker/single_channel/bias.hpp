@@ -14,8 +14,8 @@
 // neighbourhood.
 #pragma once
 
-#include "checker/single_channel/quadrature_bias.hpp"
-#include "checker/single_channel/tracker_design.hpp"
+#include "checker/sets/quadrature_bias.hpp"
+#include "checker/single_channel/single_channel_design.hpp"
 
 namespace veritrack::checker {
 

@@ -12,11 +12,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball half(0.5);
-const Ball one(1.0);
-const Ball two(2.0);
-
 /// A symmetric matrix over a cell of phases and frequencies, by its lower triangle.
 struct Covariance {
   CellSeries p11, p21, p22, p31, p32, p33;
@@ -151,7 +146,7 @@ class Window {
     Covariance upper = diagonal(two * s_.signal_variance, two * s_.frequency_variance);
     Covariance lower = diagonal(zero, zero);
     // A bound from above is one with a larger r, too: so the first samples, which find so much, are smoothed.
-    Ball r = Ball(4.0) * d_.r;
+    Ball r = four * d_.r;
     for (int sample = 1 - before; sample <= window; ++sample) {
       const Turn turn = turn_into(sample);
       upper = without_remainder(updated(above(upper, turn), r), one);
@@ -297,15 +292,15 @@ class Cover {
 
 bool is_sensible(const WindowStatement& s, const SingleChannelDesign& d) {
   constexpr std::size_t kLongest = 64;  // samples
-  bool sensible = certainly_equal(d.epsilon, zero) && certainly_positive(d.q1) && certainly_positive(d.q2) &&
+  bool sensible = d.without_leak() && certainly_positive(d.q1) && certainly_positive(d.q2) &&
                   certainly_positive(d.r) && !s.shares.empty() && s.shares.size() <= kLongest &&
-                  certainly_less(s.loosening, one) && certainly_at_most(zero, s.slew);
+                  certainly_less(s.loosening, one) && certainly_not_negative(s.slew);
   for (const Ball* number : {&s.radius, &s.frequency_variance, &s.signal_variance, &s.loosening, &s.curvature,
                              &s.curvature_weight, &s.signal_uncertainty}) {
     sensible = sensible && certainly_positive(*number);
   }
   for (const Ball& share : s.shares) {
-    sensible = sensible && certainly_at_most(zero, share) && certainly_less(share, one);
+    sensible = sensible && certainly_not_negative(share) && certainly_less(share, one);
   }
   return sensible &&
          (!s.has_starts || (certainly_positive(s.start_level) && certainly_positive(s.start_weight) &&

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "checker/single_channel/tracker_design.hpp"
+#include "checker/single_channel/single_channel_design.hpp"
 
 namespace veritrack::checker {
 

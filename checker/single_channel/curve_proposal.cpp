@@ -166,9 +166,9 @@ double observed_rate(const TrackerValues<double>& values, const CurveFamily& fam
 }  // namespace
 
 const std::vector<double>& curve_nodes(double half_width) {
-  static const std::vector<double> one{0.0};
+  static const std::vector<double> middle{0.0};
   static const std::vector<double> five{-1.0, -0.5, 0.0, 0.5, 1.0};
-  return half_width == 0.0 ? one : five;
+  return half_width == 0.0 ? middle : five;
 }
 
 std::optional<CurveFamily> propose_curves(const TrackerValues<double>& values, double center,
@@ -253,12 +253,12 @@ Norms propose_norms(const TrackerValues<double>& values, const CurveFamily& fami
     const std::vector<Rows> last = m;
     change = 0.0;
     for (std::size_t i = 0; i < cells; ++i) {
-      const Rows& one = last[(i + whole) % cells];
-      const Rows& other = last[(i + whole + 1) % cells];
+      const Rows& before = last[(i + whole) % cells];
+      const Rows& behind = last[(i + whole + 1) % cells];
       Rows next{};
       for (std::size_t k = 0; k < kToneStates; ++k) {
         for (std::size_t l = 0; l < kToneStates; ++l) {
-          next[k][l] = (1.0 - part) * one[k][l] + part * other[k][l];
+          next[k][l] = (1.0 - part) * before[k][l] + part * behind[k][l];
         }
       }
       m[i] = pulled_back(next, jacobians[i], 1.0 / (rate * rate));
@@ -268,8 +268,8 @@ Norms propose_norms(const TrackerValues<double>& values, const CurveFamily& fami
     }
   }
   norms.cells.reserve(cells);
-  for (const Rows& one : m) {
-    norms.cells.push_back(norm_of(one, norms.weights));
+  for (const Rows& of_cell : m) {
+    norms.cells.push_back(norm_of(of_cell, norms.weights));
   }
   return norms;
 }

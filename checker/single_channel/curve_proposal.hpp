@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "checker/numbers/matrix.hpp"
-#include "checker/single_channel/tone_step.hpp"
+#include "checker/sets/tone_step.hpp"
 
 namespace veritrack::checker {
 

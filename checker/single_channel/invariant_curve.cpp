@@ -10,8 +10,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
 const Ball all = Ball::within(one);  // the t of all frequencies
 
 /// The rows of the curve as series about the points base + slope x.
@@ -46,12 +44,6 @@ TrackerValues<Model> lifted(const TrackerValues<Ball>& values) {
   return {Model(S(values.q1)), Model(S(values.q2)), Model(S(values.r)), Model(S(values.epsilon))};
 }
 
-Ball middle_of(const Ball& x) {
-  Ball middle;
-  arb_get_mid_arb(middle.raw(), x.raw());
-  return middle;
-}
-
 /// {|x|_phi <= radius about the family, with the norms; bounds on absolute values are states as well.
 class Tube {
  public:
@@ -79,8 +71,8 @@ class Tube {
     ToneState<Ball> largest;
     for (std::size_t part = 0; part < parts; ++part) {
       const Ball cell = part_of_period(part, parts);
-      const Ball reach = abs(cell - middle_of(cell)).upper();
-      const ToneState<Model> at_middle = difference(middle_of(cell));
+      const Ball reach = abs(cell - cell.middle()).upper();
+      const ToneState<Model> at_middle = difference(cell.middle());
       const ToneState<Model> over_cell = difference(cell);
       for (std::size_t i = 0; i < kToneStates; ++i) {
         Ball sum = abs(over_cell[i][kTerms - 1]);
@@ -120,8 +112,8 @@ class Tube {
     Matrix half_squares(kToneStates, kToneStates);
     for (std::size_t i = 0; i < kToneStates; ++i) {
       const Ball weight(norms.weights[i]);
-      box[i] = Ball::within(sqrt(Ball(2.0)) * radius / weight);
-      half_squares.set(static_cast<slong>(i), static_cast<slong>(i), Ball(0.5) * square(weight));
+      box[i] = Ball::within(sqrt(two) * radius / weight);
+      half_squares.set(static_cast<slong>(i), static_cast<slong>(i), half * square(weight));
     }
     for (std::size_t i = 0; i < count; ++i) {
       const auto& [root, v] = norms.cells[i];
@@ -129,8 +121,8 @@ class Tube {
         return false;
       }
       const Ball cell = part_of_period(i, count);
-      const Ball x = cell - middle_of(cell);
-      const std::vector<Matrix> at_middle = columns<2>(middle_of(cell), one, zero, zero, v, box);
+      const Ball x = cell - cell.middle();
+      const std::vector<Matrix> at_middle = columns<2>(cell.middle(), one, zero, zero, v, box);
       Matrix rest = square(x) * columns<3>(cell, one, zero, zero, v, box)[2];
       if (family_.half_width != 0.0) {
         rest = rest + all * columns<2>(cell, zero, all, one, v, box)[1];
@@ -241,7 +233,7 @@ std::optional<InvariantCurve> establish_invariant_curve(const TrackerValues<Ball
   const TrackerValues<double> nearest{values.q1.near(), values.q2.near(), values.r.near(),
                                       values.epsilon.near()};
   auto family = propose_curves(nearest, frequency.near(), half_width);
-  if (!family || !certainly_at_most(zero, rate) || !certainly_less(rate, one)) {
+  if (!family || !certainly_not_negative(rate) || !certainly_less(rate, one)) {
     return std::nullopt;
   }
   InvariantCurve curve;
@@ -285,7 +277,7 @@ std::optional<InvariantCurve> establish_invariant_curve(const TrackerValues<Ball
     return std::nullopt;
   }
   for (std::size_t i = 0; i < kToneStates; ++i) {
-    const Ball factor = sqrt(Ball(2.0)) / Ball(norms.weights[i]);
+    const Ball factor = sqrt(two) / Ball(norms.weights[i]);
     curve.distance[i] = (factor * radius).upper();
     curve.near_here[i] = (factor * distance(here)).upper();
   }

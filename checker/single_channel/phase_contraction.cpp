@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
+#include "checker/document/evidence.hpp"
 #include "checker/single_channel/covariance_window.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-const Ball zero(0.0);
-const Ball one(1.0);
-const Ball two(2.0);
 
 /// A verified window, and what errors do in it: x_k = |e_k| in the metric P_k^-1. As long as x <= R,
 ///   x_{k+m} <= kappa_m x_k + c sum_{j<m} kappa_{m-1-j} x_{k+j}^2 + sqrt(m) u,   m = 1, ..., n.
@@ -69,7 +66,7 @@ class ErrorSet {
   [[nodiscard]] Ball ultimate() const {
     const Ball room = one - kappa_.back();
     const Ball pushed = sqrt(Ball(static_cast<double>(samples()))) * input_;
-    return two * pushed / (room + sqrt(square(room) - Ball(4.0) * curvature_ * sum_ * pushed));
+    return two * pushed / (room + sqrt(square(room) - four * curvature_ * sum_ * pushed));
   }
   /// sup x_k for starts of that level: a level between the smaller root and R that a window starts with is
   /// kept.
@@ -93,7 +90,7 @@ class ErrorSet {
   WindowStatement window_;
   Ball noise_, start_;
   std::vector<Ball> kappa_;  ///< kappa_0 = 1, ..., kappa_n
-  Ball sum_ = Ball(0.0);     ///< of kappa_0, ..., kappa_{n-1}
+  Ball sum_ = zero;          ///< of kappa_0, ..., kappa_{n-1}
   Ball curvature_, input_;   ///< c, u
 };
 
@@ -106,7 +103,7 @@ std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& 
     return std::nullopt;
   }
   const Tree& numbers = item->at("numbers");
-  const auto number = [&](const std::string& key) { return from_hexadecimal(numbers.at(key).text()); };
+  const auto number = [&](const std::string& key) { return exact_number(numbers.at(key)); };
   WindowStatement window;
   window.radius = number("radius");
   window.frequency_variance = number("frequency_variance");
@@ -133,7 +130,7 @@ std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& 
     window.start_frequency = design.frequency_error;
   }
   const ErrorSet set(window, design, number("noise"), number("start_level"));
-  if (certainly_at_most(zero, set.noise()) && certainly_positive(set.start()) && set.keeps(set.start()) &&
+  if (certainly_not_negative(set.noise()) && certainly_positive(set.start()) && set.keeps(set.start()) &&
       window_holds(window, design, cells)) {
     return set;
   }
@@ -156,11 +153,6 @@ bool holds_starts(const ErrorSet& set, const SingleChannelDesign& design) {
 /// How far the starts of the set reach, whatever phase and frequency, and what they never exceed.
 void add_size(const ErrorSet& set, Derivation& found) {
   const WindowStatement& window = set.window();
-  const auto atan = [](const Ball& x) {
-    Ball z;
-    arb_atan(z.raw(), x.raw(), precision());
-    return z;
-  };
   const Ball signal = set.start() * sqrt(window.signal_variance);
   const auto reach = [&](const Ball& least) { return set.start() * root_of_non_negative(max(least, zero)); };
   found.quantities = {
@@ -168,8 +160,8 @@ void add_size(const ErrorSet& set, Derivation& found) {
       {"radius", set.start()},
       {"frequency_error_radius", Range(reach(window.least_p33), set.frequency_error(set.start()))},
       // At delta_2 = reach, and |z| <= 1 + signal; arg z <= asin(signal).
-      {"phase_error_radius",
-       Range(atan(reach(window.least_p22) / (one + signal)), atan(signal / sqrt(one - square(signal))))},
+      {"phase_error_radius", Range(arctangent(reach(window.least_p22) / (one + signal)),
+                                   arctangent(signal / sqrt(one - square(signal))))},
       {"amplitude_error_radius", Range(reach(window.least_p11), signal)},
       // Without noise and slew the errors tend to zero.
       {"bias_frequency", zero}};
@@ -207,16 +199,11 @@ Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign&
     if (promises.starts_inside) {
       promises.bound = set->frequency_error(set->largest(start));
     }
-    const Tree& quantities = claimed.at("quantities");
-    const Tree* samples = quantities.find("settling_samples");
-    const Tree* ultimate = quantities.find("ultimate_frequency_error");
-    if (samples != nullptr && ultimate != nullptr) {
-      // The claim is about the ultimate bound that is claimed, which is checked below.
+    if (const auto claim = settling_claim(claimed.at("quantities"))) {
       constexpr double kMost = 10000.0;
-      const Ball count = from_hexadecimal(samples->at("lo").text());
-      const Ball twice = two * from_hexadecimal(ultimate->at("lo").text());
-      if (certainly_at_most(zero, count) && certainly_at_most(count, Ball(kMost)) &&
-          set->settled(start, twice, static_cast<std::size_t>(count.near()))) {
+      const Ball& count = claim->samples;
+      if (certainly_not_negative(count) && certainly_at_most(count, Ball(kMost)) &&
+          set->settled(start, claim->twice_ultimate, static_cast<std::size_t>(count.near()))) {
         found.quantities.push_back({"settling_samples", count, Sense::bounds_above});
         promises.settling = promises.starts_inside ? std::optional(count) : std::nullopt;
       }
@@ -231,7 +218,7 @@ Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign&
   add("largest_slew", promises.slew, Sense::bounds_below);
 
   found.conditions = {
-      {"leak", R"(\epsilon = 0)", proved_if(certainly_equal(design.epsilon, zero)), design.epsilon, zero},
+      {"leak", R"(\epsilon = 0)", proved_if(design.without_leak()), design.epsilon, zero},
       {"controllable-amplitude", "q_1 > 0", decide_less(zero, design.q1), design.q1, zero},
       {"invariant-set", R"((\kappa_n + c R \sum_m \kappa_m) R + \sqrt n\,u \le R)", proved_if(invariant)}};
   if (whole) {

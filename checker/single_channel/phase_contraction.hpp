@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "checker/document/guarantee.hpp"
-#include "checker/single_channel/tracker_design.hpp"
+#include "checker/sets/guarantee.hpp"
+#include "checker/single_channel/single_channel_design.hpp"
 
 namespace veritrack::checker {
 

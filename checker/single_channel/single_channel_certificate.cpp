@@ -2,12 +2,12 @@
 
 #include <set>
 
-#include "checker/document/guarantee.hpp"
+#include "checker/sets/guarantee.hpp"
 #include "checker/single_channel/bias.hpp"
 #include "checker/single_channel/frozen_filter.hpp"
 #include "checker/single_channel/phase_contraction.hpp"
-#include "checker/single_channel/single_channel.hpp"
-#include "checker/single_channel/tracker_design.hpp"
+#include "checker/single_channel/proposition_claims.hpp"
+#include "checker/single_channel/single_channel_design.hpp"
 
 namespace veritrack::checker {
 
@@ -28,9 +28,7 @@ void read_numbers(const Tree& tree, Objections& objections) {
   }
 }
 
-}  // namespace
-
-void verify_single_channel_tracker(const Tree& certificate, Verification& result) {
+void verify(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
   Objections objections;
   read_numbers(certificate.at("design"), objections);
   const SingleChannelDesign design = read_single_channel_design(certificate.at("design"), objections);
@@ -67,7 +65,7 @@ void verify_single_channel_tracker(const Tree& certificate, Verification& result
   const auto check = [&](const Tree& claim, Objections& found) {
     const std::string& id = claim.at("id").text();
     if (is_guarantee(id)) {
-      check_guarantee(claim, certificate, promises, found);
+      check_guarantee(claim, certificate, promises, Frequencies::assumed_band, found);
     } else if (id == "proposition-1/if" || id == "proposition-1/only-if") {
       check_proposition_1(claim, design, biases, found);
     } else if (const auto known = propositions.find(id); known != propositions.end()) {
@@ -77,6 +75,12 @@ void verify_single_channel_tracker(const Tree& certificate, Verification& result
     }
   };
   check_claims(certificate, requirements(certificate.at("design")), check, result);
+}
+
+}  // namespace
+
+TrackerKind single_channel_tracker() {
+  return {"single-channel-ekf", verify};
 }
 
 }  // namespace veritrack::checker

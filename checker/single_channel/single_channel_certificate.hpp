@@ -1,11 +1,10 @@
-// A certificate of the single-channel tracker, part by part.
+// The single-channel tracker: its certificate, part by part.
 #pragma once
 
 #include "checker/document/parts.hpp"
 
 namespace veritrack::checker {
 
-/// Throws Malformed for what is not a certificate of this tracker.
-void verify_single_channel_tracker(const Tree& certificate, Verification& result);
+TrackerKind single_channel_tracker();
 
 }  // namespace veritrack::checker

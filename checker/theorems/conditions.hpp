@@ -3,14 +3,17 @@
 
 #include <string>
 
-#include "checker/document/design.hpp"
+#include "checker/theorems/design.hpp"
 
 namespace veritrack::checker {
 
 /// left < right, with its two sides.
-inline Condition less(const std::string& id, const std::string& statement, const Ball& left,
+inline Condition less(const std::string& id, const std::string& statement, const Range& left,
                       const Ball& right) {
-  return {id, statement, decide_less(left, right), left, right};
+  const Verdict verdict = certainly_less(left.high, right)     ? Verdict::proved
+                          : certainly_at_most(right, left.low) ? Verdict::refuted
+                                                               : Verdict::undecided;
+  return {id, statement, verdict, left, right};
 }
 inline Condition at_most(const std::string& id, const std::string& statement, const Ball& left,
                          const Ball& right) {
@@ -23,10 +26,10 @@ inline Ball leaked(const Design& d) {
 inline Condition noise_free(const std::string& statement, const Design& d) {
   const Ball least = leaked(d) + d.noise;
   const Ball most = least + d.slew;
-  const Verdict verdict = certainly_at_most(most, Ball(0.0)) ? Verdict::proved
-                          : certainly_less(Ball(0.0), least) ? Verdict::refuted
-                                                             : Verdict::undecided;
-  return {"noise-free", statement, verdict, Range(least, most), Ball(0.0)};
+  const Verdict verdict = certainly_at_most(most, zero) ? Verdict::proved
+                          : certainly_less(zero, least) ? Verdict::refuted
+                                                        : Verdict::undecided;
+  return {"noise-free", statement, verdict, Range(least, most), zero};
 }
 
 }  // namespace veritrack::checker

@@ -1,16 +1,10 @@
 #include "checker/theorems/error_equation.hpp"
 
+#include "checker/document/evidence.hpp"
 #include "checker/numbers/matrix3.hpp"
 #include "checker/theorems/signal_model.hpp"
 
 namespace veritrack::checker {
-
-namespace {
-
-const Ball half(0.5);
-const Ball one(1.0);
-
-}  // namespace
 
 ErrorEquation error_equation(const Design& d, const Ball& radius) {
   ErrorEquation e;
@@ -40,7 +34,7 @@ Ball claimed_radius(const Tree& derivation, const std::string& name) {
   if (quantity == nullptr) {
     return Ball::everything();
   }
-  Ball radius = from_hexadecimal(quantity->at("lo").text());
+  Ball radius = low_of(*quantity);
   return certainly_positive(radius) && certainly_at_most(radius, half) ? radius : Ball::everything();
 }
 
@@ -52,7 +46,7 @@ std::vector<Quantity> quantities_of(const ErrorEquation& e) {
 
 Condition start_covariance(const ErrorEquation& e, const Design& d) {
   const bool known = e.smallest.finite() && e.largest.finite();
-  const bool holds = d.covariance.has_value() || certainly_equal(d.epsilon, Ball(0.0));
+  const bool holds = d.covariance.has_value() || d.without_leak();
   return {"start-covariance", R"(\underline p I \le P(0 \mid 0) \le \bar p I)", proved_if(known && holds),
           e.smallest, e.largest};
 }

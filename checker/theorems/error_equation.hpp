@@ -2,7 +2,7 @@
 // noise, and bounds on its parts (docs/published-results.md).
 #pragma once
 
-#include "checker/document/design.hpp"
+#include "checker/theorems/design.hpp"
 
 namespace veritrack::checker {
 

@@ -1,17 +1,12 @@
 // Results that rest on the error equation, within a radius that the certificate chooses.
 #include "checker/theorems/conditions.hpp"
 #include "checker/theorems/error_equation.hpp"
-#include "checker/theorems/published_results.hpp"
+#include "checker/theorems/published_results_parts.hpp"
 #include "checker/theorems/theorem_2_9.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-const Ball zero(0.0);
-const Ball half(0.5);
-const Ball one(1.0);
-const Ball two(2.0);
 
 /// sup of |g(k)| for the noise that is assumed: |w| from what leaks to that and the slew.
 Range perturbation(const ErrorEquation& e, const Design& d) {
@@ -22,11 +17,14 @@ Range perturbation(const ErrorEquation& e, const Design& d) {
 /// beta (zeta + eta) < gap, where eta has a range.
 Condition with_noise(const std::string& id, const std::string& statement, const ErrorEquation& e,
                      const Ball& zeta, const Range& eta, const Ball& gap) {
-  const Range left(e.beta * (zeta + eta.low), e.beta * (zeta + eta.high));
-  const Verdict verdict = certainly_less(left.high, gap)     ? Verdict::proved
-                          : certainly_at_most(gap, left.low) ? Verdict::refuted
-                                                             : Verdict::undecided;
-  return {id, statement, verdict, left, gap};
+  return less(id, statement, Range(e.beta * (zeta + eta.low), e.beta * (zeta + eta.high)), gap);
+}
+
+/// |w|/w_scale + |v|/v_scale below what a ball tolerates.
+Condition tolerates_noise(const std::string& statement, const Design& d, const Ball& of_process,
+                          const Ball& of_measurement, const Ball& tolerated) {
+  const Ball least = of_process * leaked(d) + of_measurement * d.noise;
+  return less("noise", statement, Range(least, least + of_process * d.slew), tolerated);
 }
 
 Derivation total_stability_of(const Design& d, const Tree& claimed, bool noisy) {
@@ -61,6 +59,8 @@ Derivation total_stability_of(const Design& d, const Tree& claimed, bool noisy) 
       less("start", R"(\lvert e_0 \rvert < r / \beta)", largest_initial_error(d), start));
   return found;
 }
+}  // namespace
+
 Derivation total_stability(const Design& d, const Tree& claimed) {
   return total_stability_of(d, claimed, true);
 }
@@ -132,17 +132,6 @@ Derivation song_grizzle_local(const Design& d, const Tree& claimed) {
   return found;
 }
 
-/// |w|/w_scale + |v|/v_scale below what a ball bears.
-Condition bears_noise(const std::string& statement, const Design& d, const Ball& of_process,
-                      const Ball& of_measurement, const Ball& borne) {
-  const Ball least = of_process * leaked(d) + of_measurement * d.noise;
-  const Range left(least, least + of_process * d.slew);
-  const Verdict verdict = certainly_less(left.high, borne)     ? Verdict::proved
-                          : certainly_at_most(borne, left.low) ? Verdict::refuted
-                                                               : Verdict::undecided;
-  return {"noise", statement, verdict, left, borne};
-}
-
 Derivation reif(const Design& d, const Tree& claimed) {
   const ErrorEquation e = error_equation(d, claimed_radius(claimed, "epsilon_prime"));
   const Ball p_hi = square(e.transition) * e.largest + max(d.q1, d.q2);
@@ -154,7 +143,7 @@ Derivation reif(const Design& d, const Tree& claimed) {
   const Ball epsilon = min(e.radius, alpha / (two * p_hi * kappa));
   const Ball inside = epsilon * sqrt(e.process / p_hi);
   const Ball one_minus_rate = half * alpha / (one + sqrt(one - half * alpha));
-  const Ball borne = inside * one_minus_rate;
+  const Ball tolerated = inside * one_minus_rate;
   const Ball gain = e.transition * p_hi / d.r;
   return {
       "Stochastic stability of the EKF (Reif, Guenther, Yaz, Unbehauen 1999), constants as published",
@@ -166,14 +155,14 @@ Derivation reif(const Design& d, const Tree& claimed) {
        {"kappa", kappa},
        {"epsilon_published", epsilon},
        {"initial_frequency_error_bound", inside},
-       {"noise_bound", borne / gain},
+       {"noise_bound", tolerated / gain},
        {"rate", one - one_minus_rate}},
       {less("excitation", R"(0 < \underline q)", zero, min(d.q1, d.q2)),
        less("start", R"(\lvert e_0 \rvert < \epsilon (\underline p / \bar p)^{1/2})",
             largest_initial_error(d), inside),
-       bears_noise(
+       tolerates_noise(
            R"(\lvert w \rvert + \frac{\bar a \bar p}{\underline r} \lvert v \rvert < \left(1 - \sqrt{1 - \alpha/2}\right) \epsilon (\underline p / \bar p)^{1/2})",
-           d, one, gain, borne)}};
+           d, one, gain, tolerated)}};
 }
 
 Derivation reif_two_step(const Design& d, const Tree& claimed) {
@@ -194,22 +183,10 @@ Derivation reif_two_step(const Design& d, const Tree& claimed) {
   found.conditions = {
       less("excitation", R"(0 < \underline q)", zero, min(d.q1, d.q2)), start_covariance(e, d),
       less("start", R"(\lvert e_0 \rvert < \epsilon / \beta)", largest_initial_error(d), start),
-      bears_noise(
+      tolerates_noise(
           R"(\frac{\lvert w \rvert}{\sqrt{\underline q}} + \frac{\lvert v \rvert}{\sqrt r} < (1 - \alpha - L\epsilon) \frac{\epsilon}{\sqrt{\bar p}})",
           d, one / sqrt(e.process), one / sqrt(d.r), margin)};
   return found;
-}
-
-}  // namespace
-
-const std::map<std::string, Evaluate>& error_equation_results() {
-  static const std::map<std::string, Evaluate> known{{"song-grizzle/local", song_grizzle_local},
-                                                     {"total-stability", total_stability},
-                                                     {"total-stability/corollary", total_stability_corollary},
-                                                     {"theorem-2.7/corrected", theorem_2_7_corrected},
-                                                     {"reif-1999", reif},
-                                                     {"reif-1999/two-step", reif_two_step}};
-  return known;
 }
 
 }  // namespace veritrack::checker

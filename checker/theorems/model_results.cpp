@@ -1,18 +1,13 @@
 // Results about the model, the filter's covariance, and the continuous-time tracker: formulas of the design
 // alone.
 #include "checker/theorems/conditions.hpp"
-#include "checker/theorems/published_results.hpp"
+#include "checker/theorems/published_results_parts.hpp"
 #include "checker/theorems/signal_model.hpp"
 #include "checker/theorems/theorem_2_9.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-const Ball zero(0.0);
-const Ball half(0.5);
-const Ball one(1.0);
-const Ball two(2.0);
 
 /// 2^n, exactly.
 Ball power_of_two(slong n) {
@@ -25,6 +20,33 @@ Condition not_below_far(const std::string& id, const std::string& statement, con
   const Ball far = power_of_two(500);
   return {id, statement, Verdict::refuted, Range(far, norm), far};
 }
+
+/// A covariance (k|k-1) of the tracker's linearisation at |z| = 1: amplitude, and (phase, frequency).
+struct Linear {
+  Ball p11, p22, p23, p33;
+};
+/// One step under the gain that `gains` has with measurement noise gain_r; the noise is q1, q2, r.
+Linear stepped(const Linear& p, const Linear& gains, const Ball& gain_r, const Ball& q1, const Ball& q2,
+               const Ball& r, const Ball& epsilon) {
+  const Ball k1 = gains.p11 / (gains.p11 + gain_r);
+  const Ball k2 = gains.p22 / (gains.p22 + gain_r);
+  const Ball k3 = gains.p23 / (gains.p22 + gain_r);
+  const Ball f11 = square(one - k1) * p.p11 + square(k1) * r;
+  const Ball f22 = square(one - k2) * p.p22 + square(k2) * r;
+  const Ball f23 = (one - k2) * (p.p23 - k3 * p.p22) + k2 * k3 * r;
+  const Ball f33 = p.p33 - two * k3 * p.p23 + square(k3) * (p.p22 + r);
+  const Ball kept = one - epsilon;
+  return {f11 + q1, f22 + two * f23 + f33 + q1, kept * (f23 + f33), square(kept) * f33 + q2};
+}
+Ball smallest_eigenvalue(const Linear& x, const Linear& y) {
+  const Ball a = x.p22 - y.p22;
+  const Ball b = x.p23 - y.p23;
+  const Ball c = x.p33 - y.p33;
+  return min(x.p11 - y.p11, half * (a + c) - sqrt(square(half * (a - c)) + square(b)));
+}
+
+}  // namespace
+
 Derivation riccati_bounds(const Design& d, const Tree& /*claimed*/) {
   const Ball kept2 = square(one - d.epsilon);
   const Ball b_1 = gramian_eigenvalues(one / kept2).smallest / d.r;
@@ -130,7 +152,7 @@ Derivation baras_bensoussan_james(const Design& d, const Tree& /*claimed*/) {
 
 Derivation theorem_2_7_printed(const Design& d, const Tree& /*claimed*/) {
   // p^2 + q1 p - q1 r = 0.
-  const Ball p = half * (sqrt(square(d.q1) + Ball(4.0) * d.q1 * d.r) - d.q1);
+  const Ball p = half * (sqrt(square(d.q1) + four * d.q1 * d.r) - d.q1);
   const Ball factor = d.r / (p + d.q1 + d.r);
   const Ball least = Ball(3.0) * factor;
   return {"Theorem 2.7 of the thesis as printed, for the error equation of the tracker",
@@ -158,30 +180,6 @@ Derivation theorem_3_1_to_the_letter(const Design& /*d*/, const Tree& /*claimed*
            at_most("gram-entry", R"((J'J)_{13} \le -2x_2 - 1 - \epsilon x_2)", zero, -one),
            less("definition-3.1", R"(h(f^k(x)) \ne h(f^k(\bar x)) \text{ for every } k = 0, \ldots, n-1)",
                 zero, zero)}};
-}
-
-/// A covariance (k|k-1) of the tracker's linearisation at |z| = 1: amplitude, and (phase, frequency).
-struct Linear {
-  Ball p11, p22, p23, p33;
-};
-/// One step under the gain that `gains` has with measurement noise gain_r; the noise is q1, q2, r.
-Linear stepped(const Linear& p, const Linear& gains, const Ball& gain_r, const Ball& q1, const Ball& q2,
-               const Ball& r, const Ball& epsilon) {
-  const Ball k1 = gains.p11 / (gains.p11 + gain_r);
-  const Ball k2 = gains.p22 / (gains.p22 + gain_r);
-  const Ball k3 = gains.p23 / (gains.p22 + gain_r);
-  const Ball f11 = square(one - k1) * p.p11 + square(k1) * r;
-  const Ball f22 = square(one - k2) * p.p22 + square(k2) * r;
-  const Ball f23 = (one - k2) * (p.p23 - k3 * p.p22) + k2 * k3 * r;
-  const Ball f33 = p.p33 - two * k3 * p.p23 + square(k3) * (p.p22 + r);
-  const Ball kept = one - epsilon;
-  return {f11 + q1, f22 + two * f23 + f33 + q1, kept * (f23 + f33), square(kept) * f33 + q2};
-}
-Ball smallest_eigenvalue(const Linear& x, const Linear& y) {
-  const Ball a = x.p22 - y.p22;
-  const Ball b = x.p23 - y.p23;
-  const Ball c = x.p33 - y.p33;
-  return min(x.p11 - y.p11, half * (a + c) - sqrt(square(half * (a - c)) + square(b)));
 }
 
 Derivation theorem_3_2(const Design& d, const Tree& /*claimed*/) {
@@ -235,21 +233,6 @@ Derivation lemma_3_1(const Design& d, const Tree& /*claimed*/) {
             proved_if(positive), zero, term},
            at_most("under-estimate",
                    R"((F P F')_{22} \le \mathrm{Var}\,f_2 \text{ for every Gaussian error})", one, exact)}};
-}
-
-}  // namespace
-
-const std::map<std::string, Evaluate>& model_results() {
-  static const std::map<std::string, Evaluate> known{{"riccati-bounds", riccati_bounds},
-                                                     {"baras-bensoussan-james", baras_bensoussan_james},
-                                                     {"song-grizzle", song_grizzle},
-                                                     {"theorem-2.7/printed", theorem_2_7_printed},
-                                                     {"theorem-3.1", theorem_3_1},
-                                                     {"theorem-3.1/to-the-letter", theorem_3_1_to_the_letter},
-                                                     {"theorem-3.2", theorem_3_2},
-                                                     {"theorem-3.2/any-start", theorem_3_2_any_start},
-                                                     {"lemma-3.1", lemma_3_1}};
-  return known;
 }
 
 }  // namespace veritrack::checker

@@ -7,11 +7,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball half(0.5);
-const Ball one(1.0);
-const Ball two(2.0);
-
 /// The frequency gain K_32(2) after P(0|0) = r I and |z(0|0)| = m, |z(1|1)| = 1.
 Ball second_gain(const Design& d, const Ball& m) {
   const Ball kept = one - d.epsilon;
@@ -67,7 +62,7 @@ void add_recursion(Claims& claims, const Design& d, const Constants29& printed) 
       {{"gain_after_1", exact}, {"gain_after_three_quarters", smaller}});
   // The variance of cos e3 for Gaussian e3 of variance P is (1 - exp(-P))^2/2.
   const Ball variance(0.015625);
-  const Ball term = square(variance) / Ball(4.0);
+  const Ball term = square(variance) / four;
   const Ball whole = square(one - exp(-variance)) / two;
   add(claims, "lemma-3.1",
       "The second-order term of Lemma 3.1, (1/4)(P d^2 f)(P d^2 f)', is what the curvature of f adds to the "

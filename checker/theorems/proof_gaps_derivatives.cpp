@@ -6,10 +6,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball half(0.5);
-const Ball one(1.0);
-const Ball two(2.0);
 const Ball nine_digits(1e-9);
 
 Verdict agree(const Ball& x, const Ball& y) {
@@ -24,7 +20,7 @@ void add_gramian(Claims& claims, const Design& d, const Constants29& c, const st
   const Ball largest = square(one + c.epsilon_r);
   const Ball ball = sqrt(two) * c.epsilon_r;
   const Ball low = printed ? square(one - ball) : d.sigma;
-  const Ball high = printed ? square(one + ball) : Ball(3.0) + Ball(4.0) * d.state_bound;
+  const Ball high = printed ? square(one + ball) : Ball(3.0) + four * d.state_bound;
   const Verdict range = printed ? all_of({decide_at_most(low, smallest), decide_at_most(largest, high)})
                                 : all_of({decide_less(low, smallest), decide_less(largest, high)});
   const bool allowed = certainly_positive(c.epsilon_r);
@@ -52,7 +48,7 @@ void add_gramian_formula(Claims& claims, const Design& d) {
   const auto smallest = [&](const Ball& m) {
     const Ball mu2 = square(m) * leaked;
     const Ball trace = two + mu2;
-    return two * mu2 / (trace + sqrt(square(two - mu2) + Ball(4.0) * mu2));
+    return two * mu2 / (trace + sqrt(square(two - mu2) + four * mu2));
   };
   const Ball exact = smallest(one);
   const auto formula = [&](const std::string& reading, const std::string& words, const Ball& w3) {

@@ -8,10 +8,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
-const Ball two(2.0);
-
 void add_start(Derivation& found, const Tube& tube, const Design& d) {
   const Ball start = tube.radius / sqrt(tube.q());
   const std::vector<Quantity> quantities{
@@ -115,14 +111,14 @@ void check_repaired_theorem(const Tree& claimed, const Design& d, Objections& ob
     // Without a leak the steady state lies in every order interval that the filter keeps.
     const bool in_range = d.covariance ? assumed->window == 0 && definite(assumed->upper - *d.covariance) &&
                                              definite(*d.covariance - inverse(assumed->information))
-                                       : certainly_equal(d.epsilon, zero);
+                                       : d.without_leak();
     found.conditions[3].verdict = proved_if(in_range);
     Condition& initial = found.conditions[4];
     initial.lhs = largest_initial_error(d);
     initial.rhs = start_error;
     initial.verdict = proved_if(certainly_at_most(largest_initial_error(d), start_error));
     const bool assured = assumed->invariant(disturbance) && in_range && initial.verdict == Verdict::proved;
-    const Ball room = square(assumed->one_minus_alpha) - Ball(4.0) * assumed->curvature * disturbance;
+    const Ball room = square(assumed->one_minus_alpha) - four * assumed->curvature * disturbance;
     const Ball ultimate = two * disturbance / (assumed->one_minus_alpha + sqrt(room));
     const Ball gain = assumed->frequency_gain();
     found.quantities.push_back({"frequency_error_bound", assured ? gain * assumed->radius : nothing});

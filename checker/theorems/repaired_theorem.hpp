@@ -3,7 +3,7 @@
 // evidence.
 #pragma once
 
-#include "checker/document/design.hpp"
+#include "checker/theorems/design.hpp"
 
 namespace veritrack::checker {
 

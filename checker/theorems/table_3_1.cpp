@@ -6,11 +6,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball half(0.5);
-const Ball one(1.0);
-const Ball two(2.0);
-
 /// p = q2 + r B1, q = 1/q1 + B2/r, s = q + rho^2/q1: what the table varies q1, q2 and r in.
 struct Table {
   Ball b1, b2, rho2;
@@ -103,7 +98,7 @@ void check_table_3_1(const Tree& derivation, const Design& d, bool printed, Obje
   const Ball r_beta = sqrt(d.q1 * d.q2 * t.b2 / t.b1);
   const Ball harmonic = t.p(d.q2, r_alpha) * (one / t.s(d.q1, r_alpha) + one / t.q(d.q1, r_alpha));
   const Ball u = sqrt(two) * d.sigma;
-  const Ball common = square(u * (two - u)) * (one - square(u) / Ball(4.0));
+  const Ball common = square(u * (two - u)) * (one - square(u) / four);
   const Ball alpha_formula =
       printed ? sqrt(Ball(0.75) * common * harmonic) : sqrt(Ball(1.25) * d.sigma * harmonic);
   const Ball beta_formula = printed ? sqrt(Ball(1.5) * common * t.p(d.q2, r_beta) / t.q(d.q1, r_beta))

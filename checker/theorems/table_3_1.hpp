@@ -1,7 +1,7 @@
 // Table 3.1 of the thesis: how alpha and beta of Theorem 2.9 move with q1, q2 and r.
 #pragma once
 
-#include "checker/document/design.hpp"
+#include "checker/theorems/design.hpp"
 
 namespace veritrack::checker {
 

@@ -4,10 +4,6 @@ namespace veritrack::checker {
 
 namespace {
 
-const Ball zero(0.0);
-const Ball one(1.0);
-const Ball two(2.0);
-
 std::vector<Quantity> quantities_of(const Constants29& c, const Design& d) {
   return {{"R_x", d.state_bound},
           {"epsilon_r", c.epsilon_r},
@@ -42,7 +38,7 @@ std::vector<Quantity> quantities_of(const Constants29& c, const Design& d) {
 
 std::vector<Condition> conditions_of(const Constants29& c, const Design& d, Reading reading) {
   const bool printed = reading == Reading::printed;
-  const Ball sigma_end = printed ? sqrt(Ball(0.5)) : one;
+  const Ball sigma_end = printed ? sqrt(half) : one;
   const Ball leaked = d.epsilon * d.largest_frequency;
   const Ball largest_state = sqrt(one + square(d.largest_frequency));
   const Ball initial_error = largest_initial_error(d);
@@ -89,14 +85,14 @@ void check_feasibility(const Tree& claimed, const Design& d, Reading reading, Ob
   const Ball inverse_b_1 = reading == Reading::printed ? Ball(8.0) / Ball(3.0) : two;
   const Ball b_2(reading == Reading::printed ? 3.0 : 5.0);
   const Ball ratio = inverse_b_1 * b_2;
-  const bool never = certainly_at_most(one, Ball(4.0) * ratio * sqrt(ratio));
+  const bool never = certainly_at_most(one, four * ratio * sqrt(ratio));
   check_verdict(claimed.at("verdict").text(), never ? Verdict::refuted : Verdict::undecided, "feasibility",
                 objections);
   if (claimed.at("every_design").truth() && !never) {
     objections.emplace_back("feasibility: not shown for every design");
   }
   // beta (zeta + eta) with every factor at its least over sigma, gamma, c_1, c_2.
-  Ball least = Ball(4.0) * ratio * sqrt(ratio);
+  Ball least = four * ratio * sqrt(ratio);
   if (certainly_positive(d.q1)) {
     const Ball p = d.q2 + d.r * inverse_b_1;
     const Ball q = one / d.q1 + b_2 / d.r;
@@ -133,8 +129,8 @@ Constants29 constants_2_9(const Design& d, Reading reading) {
   if (reading == Reading::printed) {
     // In t = 1 - sqrt2 epsilon_r = sqrt2 sigma: the differences from 1 without cancellation.
     const Ball t = sqrt(two) * d.sigma;
-    c.epsilon_r = sqrt(Ball(0.5)) - d.sigma;
-    c.b_1 = square(t) * (one - square(t) / Ball(4.0)) / (two * d.r);
+    c.epsilon_r = sqrt(half) - d.sigma;
+    c.b_1 = square(t) * (one - square(t) / four) / (two * d.r);
     c.b_2 = Ball(3.0) * square(two - t) / d.r;
   } else {
     c.epsilon_r = one - d.sigma;
@@ -174,8 +170,8 @@ Constants29 constants_2_9(const Design& d, Reading reading) {
 
 Ball largest_initial_error(const Design& d) {
   // |e|^2 = a^2 + 4 (1 + a) sin^2(phase/2) + nu^2, largest at the largest of each; half a turn is the most.
-  const Ball half = min(d.phase_error, pi()) / two;
-  return sqrt(square(d.amplitude_error) + Ball(4.0) * (one + d.amplitude_error) * square(sin(half)) +
+  const Ball half_phase = min(d.phase_error, pi()) / two;
+  return sqrt(square(d.amplitude_error) + four * (one + d.amplitude_error) * square(sin(half_phase)) +
               square(d.frequency_error));
 }
 

@@ -2,7 +2,7 @@
 // the free parameters could satisfy it.
 #pragma once
 
-#include "checker/document/design.hpp"
+#include "checker/theorems/design.hpp"
 
 namespace veritrack::checker {
 

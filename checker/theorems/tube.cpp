@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <functional>
 
+#include "checker/document/evidence.hpp"
+
 namespace veritrack::checker {
 
 namespace {
-
-const Ball zero(0.0);
-const Ball half(0.5);
-const Ball one(1.0);
-const Ball two(2.0);
 
 /// (P^-1 + H'H/r)^-1, H = [I 0]: r I - r^2 S^-1 in the plane, without the cancellation of P - P H' S^-1 H P.
 Matrix3 updated(const Matrix3& p, const Ball& r) {
@@ -59,9 +56,7 @@ class TubeCheck {
 
   /// For all amplitudes and turns of the tube.
   [[nodiscard]] bool everywhere(const Predicate& holds) const {
-    Ball turn;
-    arb_asin(turn.raw(), tube_.plane.raw(), precision());
-    turn = two * turn + tube_.frequency;
+    const Ball turn = two * arcsine(tube_.plane) + tube_.frequency;
     const double half_turn = turn.upper_double();
     const double width = tube_.plane.upper_double();
     return certainly_less(turn, one) && holds_over(holds, -width, width, -half_turn, half_turn, kDepth);
@@ -200,16 +195,8 @@ std::optional<Tube> verified_tube(const Tree& derivation, const std::string& nam
   if (item == nullptr) {
     return std::nullopt;
   }
-  const auto number = [&](const char* key) { return from_hexadecimal(item->at("numbers").at(key).text()); };
-  const auto matrix = [&](const char* key) {
-    Matrix3 result;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        result[i][j] = from_hexadecimal(item->at("matrices").at(key).at(i).at(j).text());
-      }
-    }
-    return result;
-  };
+  const auto number = [&](const char* key) { return exact_number(item->at("numbers").at(key)); };
+  const auto matrix = [&](const char* key) { return exact_matrix(item->at("matrices").at(key)); };
   const double window = number("window").near();
   const Tube tube{number("plane_error"),
                   number("frequency_error"),
@@ -222,20 +209,14 @@ std::optional<Tube> verified_tube(const Tree& derivation, const std::string& nam
                   matrix("covariance_upper"),
                   matrix("information_upper"),
                   static_cast<int>(std::clamp(window, 0.0, 20.0))};
-  bool sensible = certainly_equal(number("window"), Ball(tube.window)) && certainly_positive(tube.plane) &&
-                  certainly_less(tube.plane, one) && certainly_positive(tube.frequency) &&
-                  certainly_positive(tube.one_minus_alpha) && certainly_less(tube.one_minus_alpha, one) &&
-                  certainly_positive(tube.curvature) && certainly_positive(tube.process_gain) &&
-                  certainly_positive(tube.measurement_gain) && certainly_positive(design.q1) &&
-                  certainly_at_most(zero, design.epsilon) && certainly_less(design.epsilon, one);
-  for (const Matrix3* m : {&tube.upper, &tube.information}) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        sensible = sensible && certainly_equal((*m)[i][j], (*m)[j][i]);
-      }
-    }
-  }
-  if (sensible && TubeCheck(tube, design).holds()) {
+  const bool sensible = certainly_equal(number("window"), Ball(tube.window)) &&
+                        certainly_positive(tube.plane) && certainly_less(tube.plane, one) &&
+                        certainly_positive(tube.frequency) && certainly_positive(tube.one_minus_alpha) &&
+                        certainly_less(tube.one_minus_alpha, one) && certainly_positive(tube.curvature) &&
+                        certainly_positive(tube.process_gain) && certainly_positive(tube.measurement_gain) &&
+                        certainly_positive(design.q1) && certainly_not_negative(design.epsilon) &&
+                        certainly_less(design.epsilon, one);
+  if (sensible && symmetric(tube.upper) && symmetric(tube.information) && TubeCheck(tube, design).holds()) {
     return tube;
   }
   objections.push_back("the tube \"" + name + "\" is not certainly what its evidence says");

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "checker/document/design.hpp"
 #include "checker/numbers/matrix3.hpp"
+#include "checker/theorems/design.hpp"
 
 namespace veritrack::checker {
 

@@ -7,6 +7,7 @@
 
 #include "analysis/kkl_observer/kkl_section_v.hpp"
 #include "certificates/kkl_observer/kkl_observer.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
 #include "reports/gnuplot.hpp"
 
 namespace veritrack::reports {
@@ -67,7 +68,7 @@ std::string draw(const std::vector<SectionVRun>& runs, const std::vector<Panel>&
 }  // namespace
 
 std::vector<Figure> draw_kkl_figures(const certificates::Certificate& certificate) {
-  const auto lambda = certificates::section_v_rates(certificate.design.kkl_observer());
+  const auto lambda = certificates::section_v_rates(kkl_observer_tables(certificate.design));
   if (!lambda) {
     return {};
   }

@@ -9,6 +9,7 @@
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/single_channel/frozen_observer.hpp"
 #include "reports/gnuplot.hpp"
+#include "reports/simulated_run.hpp"
 
 namespace veritrack::reports {
 
@@ -107,7 +108,10 @@ Figure response_figure(const Derivation& filter) {
 }  // namespace
 
 std::vector<Figure> draw_single_channel_figures(const Certificate& certificate) {
-  std::vector<Figure> figures;
+  if (certificate.simulation.trajectory.empty()) {
+    return {};
+  }
+  std::vector<Figure> figures{frequency_figure(certificate)};
   const std::vector<Derivation> biases = verified_biases(certificate);
   if (biases.size() > 1) {
     figures.push_back(bias_figure(biases));

@@ -1,8 +1,18 @@
 // The folders tests/certificates/{accepted,rejected,malformed}: a new file is a new test.
+//
+// A file of rejected/ or malformed/ is a certificate as it stands, or a change of an accepted one:
+//     "of"         accepted/NAME.json: what is changed, and must be verified as it stands
+//     "why"        what is wrong with the changed one, for people
+//     "part"       rejected/ only: the part that must be NOT VERIFIED
+//     "objection"  words of the first objection to that part; how the message begins that a malformed one
+//     gets "patch"      JSON Patch (RFC 6902); a path that is not there fails the test
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +22,13 @@
 namespace {
 
 using namespace veritrack;
+using Json = nlohmann::ordered_json;
+
+const std::string kRoot = VERITRACK_SOURCE_DIR "/tests/certificates/";
 
 std::vector<std::filesystem::path> files_of(const std::string& folder) {
   std::vector<std::filesystem::path> files;
-  const std::filesystem::path root = VERITRACK_SOURCE_DIR "/tests/certificates/" + folder;
-  for (const auto& entry : std::filesystem::directory_iterator(root)) {
+  for (const auto& entry : std::filesystem::directory_iterator(kRoot + folder)) {
     if (entry.path().extension() == ".json") {
       files.push_back(entry.path());
     }
@@ -26,15 +38,52 @@ std::vector<std::filesystem::path> files_of(const std::string& folder) {
   return files;
 }
 
-checker::Verification check(const std::filesystem::path& path) {
-  return checker::verify(checker::read_json(test::read_file(path.string())));
+checker::Verification check(const std::string& text) {
+  return checker::verify(checker::read_json(text));
+}
+
+/// Is the certificate of this name, below tests/certificates/, verified as it stands?
+bool is_verified(const std::string& name) {
+  static std::map<std::string, bool> known;
+  const auto found = known.find(name);
+  return found != known.end()
+             ? found->second
+             : known.emplace(name, check(test::read_file(kRoot + name)).verified()).first->second;
+}
+
+/// A file of rejected/ or malformed/.
+struct Case {
+  std::string text;                 ///< the certificate
+  std::optional<Json> description;  ///< when it is a changed one
+};
+
+Case read_case(const std::filesystem::path& path) {
+  const std::string text = test::read_file(path.string());
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("of")) {
+    return {text, std::nullopt};
+  }
+  const std::string name = json.at("of");
+  REQUIRE_MESSAGE((name.starts_with("accepted/") && is_verified(name)),
+                  path.filename().string() << ": " << name << " is not accepted");
+  CHECK_MESSAGE(!json.at("why").get<std::string>().empty(), path.filename().string());
+  CHECK_MESSAGE(!json.at("objection").get<std::string>().empty(), path.filename().string());
+  const Json base = Json::parse(test::read_file(kRoot + name));
+  Json changed;
+  try {
+    changed = base.patch(json.at("patch"));
+  } catch (const Json::exception& error) {
+    FAIL(path.filename().string() << ": the patch does not apply: " << error.what());
+  }
+  REQUIRE_MESSAGE(changed != base, path.filename().string() << " changes nothing");
+  return {changed.dump(), json};
 }
 
 }  // namespace
 
 TEST_CASE("accepted certificates are verified") {
   for (const auto& path : files_of("accepted")) {
-    const checker::Verification result = check(path);
+    const checker::Verification result = check(test::read_file(path.string()));
     for (const checker::Part& part : result.parts) {
       CHECK_MESSAGE(part.objections.empty(), path.filename().string()
                                                  << ": " << part.name << ": " << part.objections.front());
@@ -43,16 +92,49 @@ TEST_CASE("accepted certificates are verified") {
   }
 }
 
-TEST_CASE("rejected certificates are read and not verified") {
+TEST_CASE("rejected certificates are read and not verified, for the reason that their file names") {
   for (const auto& path : files_of("rejected")) {
-    CHECK_MESSAGE(!check(path).verified(), path.filename().string());
+    const Case rejected = read_case(path);
+    const checker::Verification result = check(rejected.text);
+    CHECK_MESSAGE(!result.verified(), path.filename().string());
+    if (!rejected.description) {
+      continue;
+    }
+    const std::string name = rejected.description->at("part");
+    const auto part = std::find_if(result.parts.begin(), result.parts.end(),
+                                   [&](const checker::Part& candidate) { return candidate.name == name; });
+    REQUIRE_MESSAGE((part != result.parts.end() && !part->objections.empty()),
+                    path.filename().string() << ": " << name << " is verified, or not there");
+    CHECK_MESSAGE(part->objections.front().find(rejected.description->at("objection").get<std::string>()) !=
+                      std::string::npos,
+                  path.filename().string() << ": " << part->objections.front());
   }
 }
 
-TEST_CASE("malformed certificates are malformed") {
+TEST_CASE("malformed certificates are malformed, for the reason that their file names") {
   for (const auto& path : files_of("malformed")) {
-    CHECK_THROWS_AS_MESSAGE((void)check(path), checker::Malformed, path.filename().string());
+    const Case malformed = read_case(path);
+    std::string message;
+    try {
+      (void)check(malformed.text);
+      FAIL_CHECK(path.filename().string() << " is not malformed");
+    } catch (const checker::Malformed& error) {
+      message = error.what();
+    }
+    if (malformed.description) {
+      CHECK_MESSAGE(message.starts_with(malformed.description->at("objection").get<std::string>()),
+                    path.filename().string() << ": " << message);
+    }
   }
+}
+
+TEST_CASE("a certificate that is cut off, that something follows, or that has a key twice is malformed") {
+  const std::string text = test::read_file(kRoot + "accepted/one-set.json");
+  for (std::size_t end = 0; end + 2 < text.size(); end += 97) {
+    CHECK_THROWS_AS((void)check(text.substr(0, end)), checker::Malformed);
+  }
+  CHECK_THROWS_AS((void)check(text + "{}"), checker::Malformed);
+  CHECK_THROWS_AS((void)check(R"({"verdict": "proved", )" + text.substr(1)), checker::Malformed);
 }
 
 TEST_CASE("a certificate of nothing is not verified") {

@@ -1,6 +1,7 @@
 // Whatever the bytes: a Design whose numbers are finite and within their limits, or an InputError of one
 // line.
 #include <algorithm>
+#include <any>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -10,9 +11,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 
+#include "certificates/design/design_format.hpp"
 #include "certificates/design/design_reader.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/sets/assumptions.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 
 namespace {
 
@@ -76,7 +81,7 @@ void check(const KklObserverTables& tables) {
 }
 
 void check(const SingleChannelEkfTables& tables) {
-  const SingleChannelEkfDesign& design = tables.design;
+  const SingleChannelDesignTable& design = tables.design;
   require(design.lambda.has_value() != (design.q && design.r), "neither lambda nor q and r, or both");
   for (const std::optional<Number>& number : {design.q, design.r, design.lambda}) {
     if (number) {
@@ -92,11 +97,22 @@ void check(const SingleChannelEkfTables& tables) {
           "a reversed frequency band");
 }
 
+/// What the tables promise, when they are of that type.
+template <typename Tables>
+void check_tables_as(const Design& design) {
+  if (const auto* tables = std::any_cast<Tables>(&design.tables)) {
+    check(*tables);
+  }
+}
+
 void check(const Design& design) {
-  std::visit([](const auto& tables) { check(tables); }, design.tables);
+  check_tables_as<QuadratureEkfTables>(design);
+  check_tables_as<KklObserverTables>(design);
+  check_tables_as<SingleChannelEkfTables>(design);
   require(!design.name.empty() && design.name.size() <= 200, "a name out of range");
-  require(design.tracker == "quadrature-ekf" || design.tracker == "kkl-observer" ||
-              design.tracker == "single-channel-ekf",
+  const auto formats = design_formats();
+  require(std::any_of(formats.begin(), formats.end(),
+                      [&](const DesignFormat* format) { return format->tracker == design.tracker; }),
           "an unknown tracker");
 }
 

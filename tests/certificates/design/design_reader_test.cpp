@@ -18,7 +18,11 @@
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
-#include "certificates/design/design_keys.hpp"
+#include "certificates/design/design_format.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/sets/assumptions.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -80,11 +84,11 @@ std::string file_refusal(const fs::path& path) {
 }
 
 std::vector<Number> numbers_of(const Design& design) {
-  const Assumptions& assume = design.quadrature_ekf().assume;
-  std::vector<Number> numbers{design.quadrature_ekf().design.q1,
-                              design.quadrature_ekf().design.q2,
-                              design.quadrature_ekf().design.r,
-                              design.quadrature_ekf().design.epsilon,
+  const Assumptions& assume = quadrature_tables(design).assume;
+  std::vector<Number> numbers{quadrature_tables(design).design.q1,
+                              quadrature_tables(design).design.q2,
+                              quadrature_tables(design).design.r,
+                              quadrature_tables(design).design.epsilon,
                               assume.amplitude,
                               assume.frequency[0],
                               assume.frequency[1],
@@ -93,21 +97,21 @@ std::vector<Number> numbers_of(const Design& design) {
                               assume.initial_frequency_error,
                               assume.initial_phase_error,
                               assume.initial_amplitude_error,
-                              design.quadrature_ekf().theorem_2_9.state_bound,
-                              design.quadrature_ekf().theorem_2_9.sigma,
-                              design.quadrature_ekf().theorem_2_9.gamma_fraction,
-                              design.quadrature_ekf().theorem_2_9.c1,
-                              design.quadrature_ekf().theorem_2_9.c2};
+                              quadrature_tables(design).theorem_2_9.state_bound,
+                              quadrature_tables(design).theorem_2_9.sigma,
+                              quadrature_tables(design).theorem_2_9.gamma_fraction,
+                              quadrature_tables(design).theorem_2_9.c1,
+                              quadrature_tables(design).theorem_2_9.c2};
   if (assume.initial_covariance) {
     for (const auto& row : *assume.initial_covariance) {
       numbers.insert(numbers.end(), row.begin(), row.end());
     }
   }
-  for (const auto& number :
-       {design.quadrature_ekf().require.frequency_error_below, design.quadrature_ekf().require.settles_within,
-        design.quadrature_ekf().require.largest_noise_at_least,
-        design.quadrature_ekf().require.largest_slew_at_least,
-        design.quadrature_ekf().require.frequency_error_radius_at_least}) {
+  for (const auto& number : {quadrature_tables(design).require.frequency_error_below,
+                             quadrature_tables(design).require.settles_within,
+                             quadrature_tables(design).require.largest_noise_at_least,
+                             quadrature_tables(design).require.largest_slew_at_least,
+                             quadrature_tables(design).require.frequency_error_radius_at_least}) {
     if (number) {
       numbers.push_back(*number);
     }
@@ -194,30 +198,26 @@ TEST_CASE("the designs of Table 3.2 hold the numbers of Table 3.2") {
     CAPTURE(row.figure);
     const Design design =
         read_design_file(kSource / "designs" / (std::string("la-scala-1994-figure-") + row.figure + ".toml"));
-    CHECK(design.quadrature_ekf().design.q1.nearest == row.q);
-    CHECK(design.quadrature_ekf().design.q2.nearest == row.q);
-    CHECK(design.quadrature_ekf().design.r.nearest == row.r);
-    CHECK(design.quadrature_ekf().design.epsilon.nearest == row.epsilon);
+    CHECK(quadrature_tables(design).design.q1.nearest == row.q);
+    CHECK(quadrature_tables(design).design.q2.nearest == row.q);
+    CHECK(quadrature_tables(design).design.r.nearest == row.r);
+    CHECK(quadrature_tables(design).design.epsilon.nearest == row.epsilon);
   }
-}
-
-/// Checks that docs/design-file.md names every key of these tables.
-template <typename Tables>
-void check_documented(const std::string& page) {
-  for_each_table<Tables>([&](std::string_view table, const auto& keys, auto /*member*/) {
-    CAPTURE(table);
-    CHECK(page.find(fmt::format("`[{}]`", table)) != std::string::npos);
-    for (const auto& key : keys) {
-      CHECK_MESSAGE(page.find(fmt::format("`{}`", key.name)) != std::string::npos, key.name);
-    }
-  });
 }
 
 TEST_CASE("docs/design-file.md names every key") {
   const std::string page = contents(kSource / "docs" / "design-file.md");
-  check_documented<QuadratureEkfTables>(page);
-  check_documented<SingleChannelEkfTables>(page);
-  check_documented<KklObserverTables>(page);
+  for (const DesignFormat* format : design_formats()) {
+    CHECK(page.find(format->tracker) != std::string::npos);
+    std::any tables = format->empty_tables();
+    for (const BoundTable& table : format->bind_tables(tables)) {
+      CAPTURE(table.name);
+      CHECK(page.find(fmt::format("`[{}]`", table.name)) != std::string::npos);
+      for (const BoundKey& key : table.keys) {
+        CHECK_MESSAGE(page.find(fmt::format("`{}`", key.name)) != std::string::npos, key.name);
+      }
+    }
+  }
 }
 
 TEST_CASE("everything is read to its place") {
@@ -225,33 +225,33 @@ TEST_CASE("everything is read to its place") {
   CHECK(design.name == "a design");
   CHECK(design.tracker == "quadrature-ekf");
   CHECK(design.source.empty());
-  CHECK(design.quadrature_ekf().design.epsilon.text == "0.0");
-  CHECK(design.quadrature_ekf().assume.amplitude.nearest == 2.5);
-  CHECK(design.quadrature_ekf().assume.frequency[0].nearest == 0.05);
-  CHECK(design.quadrature_ekf().assume.frequency[1].nearest == 3.0);
-  CHECK(design.quadrature_ekf().assume.noise.nearest == 0.001);
-  CHECK(design.quadrature_ekf().assume.slew.nearest == 1e-6);
-  REQUIRE(design.quadrature_ekf().assume.initial_covariance);
-  CHECK((*design.quadrature_ekf().assume.initial_covariance)[2][2].nearest == 1.0);
-  CHECK((*design.quadrature_ekf().assume.initial_covariance)[2][1].nearest == 0.0);
-  REQUIRE(design.quadrature_ekf().require.frequency_error_below);
-  CHECK(design.quadrature_ekf().require.frequency_error_below->nearest == 0.05);
-  REQUIRE(design.quadrature_ekf().require.settles_within);
-  CHECK(design.quadrature_ekf().require.settles_within->nearest == 200.0);
-  REQUIRE(design.quadrature_ekf().require.largest_noise_at_least);
-  CHECK(design.quadrature_ekf().require.largest_noise_at_least->nearest == 0.01);
-  REQUIRE(design.quadrature_ekf().require.largest_slew_at_least);
-  CHECK(design.quadrature_ekf().require.largest_slew_at_least->nearest == 0.002);
-  REQUIRE(design.quadrature_ekf().require.frequency_error_radius_at_least);
-  CHECK(design.quadrature_ekf().require.frequency_error_radius_at_least->nearest == 0.1);
-  CHECK(design.quadrature_ekf().simulate.samples == 10'000'000);
-  CHECK(design.quadrature_ekf().simulate.seed == 9'223'372'036'854'775'807U);
-  CHECK(design.quadrature_ekf().simulate.signal == "la-scala-1994");
-  CHECK(design.quadrature_ekf().theorem_2_9.state_bound.nearest == 7.0);
-  CHECK(design.quadrature_ekf().theorem_2_9.sigma.nearest == 1e-3);
-  CHECK(design.quadrature_ekf().theorem_2_9.gamma_fraction.nearest == 0.5);
-  CHECK(design.quadrature_ekf().theorem_2_9.c1.nearest == 0.0);
-  CHECK(design.quadrature_ekf().theorem_2_9.c2.nearest == 3.5);
+  CHECK(quadrature_tables(design).design.epsilon.text == "0.0");
+  CHECK(quadrature_tables(design).assume.amplitude.nearest == 2.5);
+  CHECK(quadrature_tables(design).assume.frequency[0].nearest == 0.05);
+  CHECK(quadrature_tables(design).assume.frequency[1].nearest == 3.0);
+  CHECK(quadrature_tables(design).assume.noise.nearest == 0.001);
+  CHECK(quadrature_tables(design).assume.slew.nearest == 1e-6);
+  REQUIRE(quadrature_tables(design).assume.initial_covariance);
+  CHECK((*quadrature_tables(design).assume.initial_covariance)[2][2].nearest == 1.0);
+  CHECK((*quadrature_tables(design).assume.initial_covariance)[2][1].nearest == 0.0);
+  REQUIRE(quadrature_tables(design).require.frequency_error_below);
+  CHECK(quadrature_tables(design).require.frequency_error_below->nearest == 0.05);
+  REQUIRE(quadrature_tables(design).require.settles_within);
+  CHECK(quadrature_tables(design).require.settles_within->nearest == 200.0);
+  REQUIRE(quadrature_tables(design).require.largest_noise_at_least);
+  CHECK(quadrature_tables(design).require.largest_noise_at_least->nearest == 0.01);
+  REQUIRE(quadrature_tables(design).require.largest_slew_at_least);
+  CHECK(quadrature_tables(design).require.largest_slew_at_least->nearest == 0.002);
+  REQUIRE(quadrature_tables(design).require.frequency_error_radius_at_least);
+  CHECK(quadrature_tables(design).require.frequency_error_radius_at_least->nearest == 0.1);
+  CHECK(quadrature_tables(design).simulate.samples == 10'000'000);
+  CHECK(quadrature_tables(design).simulate.seed == 9'223'372'036'854'775'807U);
+  CHECK(quadrature_tables(design).simulate.signal == "la-scala-1994");
+  CHECK(quadrature_tables(design).theorem_2_9.state_bound.nearest == 7.0);
+  CHECK(quadrature_tables(design).theorem_2_9.sigma.nearest == 1e-3);
+  CHECK(quadrature_tables(design).theorem_2_9.gamma_fraction.nearest == 0.5);
+  CHECK(quadrature_tables(design).theorem_2_9.c1.nearest == 0.0);
+  CHECK(quadrature_tables(design).theorem_2_9.c2.nearest == 3.5);
   CHECK(design.positions.at("name").line == 1);
   CHECK(design.positions.at("design.q1").line == 5);
   CHECK(design.positions.at("design.q1").column == 6);
@@ -262,30 +262,31 @@ TEST_CASE("everything is read to its place") {
 
 TEST_CASE("what is left out has its default, and no position") {
   const Design design = read_design(minimal(), "x.toml");
-  for (const auto& [number, expected] : {std::pair{design.quadrature_ekf().assume.amplitude, 1.0},
-                                         std::pair{design.quadrature_ekf().assume.slew, 0.0},
-                                         std::pair{design.quadrature_ekf().theorem_2_9.state_bound, 7.0},
-                                         std::pair{design.quadrature_ekf().theorem_2_9.sigma, 1e-3},
-                                         std::pair{design.quadrature_ekf().theorem_2_9.gamma_fraction, 0.5},
-                                         std::pair{design.quadrature_ekf().theorem_2_9.c1, 3.0},
-                                         std::pair{design.quadrature_ekf().theorem_2_9.c2, 3.0}}) {
+  for (const auto& [number, expected] : {std::pair{quadrature_tables(design).assume.amplitude, 1.0},
+                                         std::pair{quadrature_tables(design).assume.slew, 0.0},
+                                         std::pair{quadrature_tables(design).theorem_2_9.state_bound, 7.0},
+                                         std::pair{quadrature_tables(design).theorem_2_9.sigma, 1e-3},
+                                         std::pair{quadrature_tables(design).theorem_2_9.gamma_fraction, 0.5},
+                                         std::pair{quadrature_tables(design).theorem_2_9.c1, 3.0},
+                                         std::pair{quadrature_tables(design).theorem_2_9.c2, 3.0}}) {
     CHECK(number.nearest == expected);
     CHECK(number.position.line == 0);
     CHECK(number.position.column == 0);
     check_number(number);
   }
-  CHECK_FALSE(design.quadrature_ekf().assume.initial_covariance);
-  CHECK(design.quadrature_ekf().simulate.samples == 1000);
-  CHECK(design.quadrature_ekf().simulate.seed == 1);
-  CHECK(design.quadrature_ekf().simulate.signal == "constant");
+  CHECK_FALSE(quadrature_tables(design).assume.initial_covariance);
+  CHECK(quadrature_tables(design).simulate.samples == 1000);
+  CHECK(quadrature_tables(design).simulate.seed == 1);
+  CHECK(quadrature_tables(design).simulate.signal == "constant");
   CHECK(design.source.empty());
 }
 
 TEST_CASE("a decimal is the interval around it, not a double") {
   const Design design = read_design(minimal(), "x.toml");
-  CHECK(design.quadrature_ekf().design.q1.value.lower() < design.quadrature_ekf().design.q1.value.upper());
-  CHECK(design.quadrature_ekf().design.epsilon.value.lower() == 0.0);
-  CHECK(design.quadrature_ekf().design.epsilon.value.upper() == 0.0);
+  CHECK(quadrature_tables(design).design.q1.value.lower() <
+        quadrature_tables(design).design.q1.value.upper());
+  CHECK(quadrature_tables(design).design.epsilon.value.lower() == 0.0);
+  CHECK(quadrature_tables(design).design.epsilon.value.upper() == 0.0);
 }
 
 TEST_CASE("random decimals arrive whole") {
@@ -307,9 +308,8 @@ TEST_CASE("random decimals arrive whole") {
       number +=
           (random.below(2) == 0 ? "e" : "E") + std::to_string(static_cast<int>(random.below(600)) - 300);
     }
-    const Number read = read_design(replaced(text, "noise = 0.001", "noise = " + number), "x.toml")
-                            .quadrature_ekf()
-                            .assume.noise;
+    const Design design = read_design(replaced(text, "noise = 0.001", "noise = " + number), "x.toml");
+    const Number& read = quadrature_tables(design).assume.noise;
     CHECK(read.text == number);
     check_number(read);
   }
@@ -361,8 +361,9 @@ TEST_CASE("the caller's rounding mode neither matters nor changes") {
   CHECK(rigor::rounding_is_upward());
   CHECK_THROWS_AS((void)read_design("", "x.toml"), InputError);
   CHECK(rigor::rounding_is_upward());
-  CHECK(inside.quadrature_ekf().design.q1.nearest == outside.quadrature_ekf().design.q1.nearest);
-  CHECK(rigor::identical(inside.quadrature_ekf().design.q1.value, outside.quadrature_ekf().design.q1.value));
+  CHECK(quadrature_tables(inside).design.q1.nearest == quadrature_tables(outside).design.q1.nearest);
+  CHECK(rigor::identical(quadrature_tables(inside).design.q1.value,
+                         quadrature_tables(outside).design.q1.value));
 }
 
 TEST_CASE("files that are no design files") {

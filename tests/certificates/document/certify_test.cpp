@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
 #include "tests/certificates/test_design.hpp"
 
 namespace {
@@ -28,7 +29,7 @@ TEST_CASE("nothing required is no verdict") {
   CHECK(certificates::derivations_of(certificate, "theorem-2.9/").size() == 3);
   CHECK(certificates::derivations_of(certificate, "contraction").size() == 1);
   CHECK(certificates::derivations_of(certificate, "reif-1999").size() == 2);
-  CHECK(certificate.audits.size() == 2);
+  CHECK(certificates::quadrature_particulars(certificate).audits.size() == 2);
 }
 
 TEST_CASE("contraction proves what is required where it can") {
@@ -115,7 +116,7 @@ TEST_CASE("starts beyond the certified set are followed into it") {
   const auto bound = certificates::proved_frequency_bound(certificate);
   REQUIRE(bound.has_value());
   CHECK(bound->upper() >= 0.3);
-  REQUIRE(certificate.followed_starts.has_value());
+  REQUIRE(certificates::quadrature_particulars(certificate).followed_starts.has_value());
   for (const auto& record : certificate.simulation.trajectory) {
     CHECK(std::fabs(record.filtered_state[2] - record.true_state[2]) <= bound->upper());
   }

@@ -17,6 +17,9 @@
 #include "certificates/document/json.hpp"
 #include "certificates/document/markdown_formal_proofs.hpp"
 #include "certificates/kkl_observer/kkl_observer.hpp"
+#include "certificates/kkl_observer/kkl_observer_design.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/sets/assumptions.hpp"
 #include "tests/certificates/test_design.hpp"
 #include "tests/support/golden.hpp"
 
@@ -61,7 +64,7 @@ Certificate observer(const std::string& ell = "") {
   Certificate certificate;
   certificate.design = read_design(text, "design.toml");
   const rigor::UpwardRounding upward;
-  const kkl_observer::KklRange range = kkl_range(certificate.design.kkl_observer());
+  const kkl_observer::KklRange range = kkl_range(kkl_observer_tables(certificate.design));
   const auto infimum = kkl_observer::enclose_ell(range);
   certificate.derivations.push_back(kkl_observer::derive_kkl_ell(range, infimum));
   const rigor::Interval proved = find_quantity(certificate.derivations.front(), "ell").value;
@@ -82,7 +85,7 @@ Certificate quadrature() {
   input.q1 = input.q2 = rigor::parse_decimal("0.0023");
   input.r = rigor::parse_decimal("0.05");
   input.epsilon = rigor::Interval(0.0);
-  const Theorem29Parameters& free = certificate.design.quadrature_ekf().theorem_2_9;
+  const Theorem29Parameters& free = quadrature_tables(certificate.design).theorem_2_9;
   input.state_bound = free.state_bound.value;
   input.sigma = free.sigma.value;
   input.gamma_fraction = free.gamma_fraction.value;
@@ -118,9 +121,10 @@ void check_golden_proofs(const FormalProofs& proofs, std::string_view for_all_de
 }
 
 TEST_CASE("the proofs of a design of each kind") {
-  check_golden_proofs(coq_proofs(observer()), coq::kKklObserver, "kkl-observer.v");
-  check_golden_proofs(coq_proofs(quadrature()), coq::kTheorem29, "theorem-2.9.v");
-  check_golden_proofs(coq_proofs(single_channel()), coq::kProposition1, "proposition-1.v");
+  check_golden_proofs(coq_proofs(observer()), coq::text_for_all_designs("kkl_observer"), "kkl-observer.v");
+  check_golden_proofs(coq_proofs(quadrature()), coq::text_for_all_designs("theorem_2_9"), "theorem-2.9.v");
+  check_golden_proofs(coq_proofs(single_channel()), coq::text_for_all_designs("proposition_1"),
+                      "proposition-1.v");
 }
 
 TEST_CASE("an ell that is too large: a signal that gamma does not give back") {

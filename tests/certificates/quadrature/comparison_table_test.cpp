@@ -1,4 +1,5 @@
 #include "certificates/quadrature/comparison_table.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,9 +15,10 @@ using namespace veritrack;
 using certificates::ComparedResult;
 
 const ComparedResult& find_row(const certificates::Certificate& certificate, const std::string& result) {
-  const auto found = std::find_if(certificate.comparison.begin(), certificate.comparison.end(),
-                                  [&](const ComparedResult& row) { return row.result == result; });
-  REQUIRE(found != certificate.comparison.end());
+  const auto& rows = certificates::quadrature_particulars(certificate).comparison;
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const ComparedResult& row) { return row.result == result; });
+  REQUIRE(found != rows.end());
   return *found;
 }
 

@@ -11,6 +11,7 @@
 #include "certificates/design/design_reader.hpp"
 #include "certificates/document/json.hpp"
 #include "certificates/document/markdown.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 #include "trackers/single_channel/single_channel_ekf.hpp"
 
 namespace {
@@ -29,8 +30,8 @@ std::string text_of(const std::string& design, const std::string& assume, const 
 
 constexpr const char* kExample1 = "q = 0.005\nr = 0.01\nepsilon = 0.05\nprocess_noise = \"identity\"";
 
-certificates::SingleChannelEkfDesign design_of(const std::string& design) {
-  return certificates::read_design(text_of(design, ""), "d.toml").single_channel_ekf().design;
+certificates::SingleChannelDesignTable design_of(const std::string& design) {
+  return certificates::single_channel_tables(certificates::read_design(text_of(design, ""), "d.toml")).design;
 }
 
 Certificate certificate_of(const std::string& design, const std::string& assume = "",
@@ -146,7 +147,8 @@ TEST_CASE("what is required is undecided, never a silent success") {
 TEST_CASE(
     "the simulated run settles within the enclosed error, and stops at an innovation without variance") {
   const auto tables = certificates::read_design(text_of(kExample1, "amplitude = 2.0"), "d.toml");
-  const certificates::Simulation simulation = simulate_single_channel(tables.single_channel_ekf());
+  const certificates::Simulation simulation =
+      simulate_single_channel(certificates::single_channel_tables(tables));
   REQUIRE(simulation.trajectory.size() == 300);
   CHECK(simulation.trajectory.front().filtered_state(2) == doctest::Approx(0.91));
   CHECK(std::fabs(simulation.trajectory.back().filtered_state(2) - 0.9) < 0.25);
@@ -154,7 +156,7 @@ TEST_CASE(
       text_of("lambda = 0\nprocess_noise = \"frequency-only\"",
               "initial_covariance = [[1e-300, 0, 0], [0, 1e-300, 0], [0, 0, 1e-300]]"),
       "d.toml");
-  CHECK_NOTHROW(simulate_single_channel(certain.single_channel_ekf()));
+  CHECK_NOTHROW(simulate_single_channel(certificates::single_channel_tables(certain)));
 }
 
 TEST_CASE("the documents hold the same bytes for the same design") {

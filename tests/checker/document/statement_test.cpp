@@ -47,6 +47,7 @@ TEST_CASE("a comparison is decided only for all points") {
   CHECK(decide_less(low, low) == Verdict::refuted);
   CHECK(decide_at_most(low, low) == Verdict::proved);
   CHECK(decide_less(wide, Ball(1.5)) == Verdict::undecided);
+  CHECK(decide_less(Ball::everything(), low) == Verdict::undecided);
   CHECK(decide_at_most(wide, Ball(1.5)) == Verdict::undecided);
 }
 

@@ -1,0 +1,80 @@
+// The format of a design file: its keys, each declared once with its name, what is allowed, how it is read
+// and what is assumed without it; and the tables that a tracker has.
+#pragma once
+
+#include <any>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certificates/design/design.hpp"
+#include "certificates/design/toml_value.hpp"
+
+namespace veritrack::certificates {
+
+/// What is assumed when a key is left out.
+struct Absence {
+  enum class Rule { is_an_error, is_nothing, is_default };
+  Rule rule = Rule::is_an_error;
+  std::string_view default_toml;  ///< for is_default: the value, as TOML
+};
+
+/// A key of the table that fills a Target.
+template <typename Target>
+struct Key {
+  std::string_view name;
+  std::string_view allowed;  ///< completes "allowed: ..."
+  /// Checks the value and stores it. Throws InputError. Needs the upward rounding mode.
+  void (*read)(const TomlValue& value, Target& target);
+  Absence absence;
+};
+
+/// A key together with the place that it fills.
+struct BoundKey {
+  std::string_view name;
+  std::string_view allowed;
+  std::function<void(const TomlValue&)> read;
+  Absence absence;
+};
+
+/// A table of the file, e.g. [design], and the place that it fills.
+struct BoundTable {
+  std::string_view name;
+  std::vector<BoundKey> keys;
+};
+
+/// The table of that name with these keys, filling `target`, which must outlive it.
+template <typename Target, typename Keys>
+[[nodiscard]] BoundTable bound_table(std::string_view name, const Keys& keys, Target& target) {
+  BoundTable table{name, {}};
+  for (const Key<Target>& key : std::span<const Key<Target>>(keys)) {
+    table.keys.push_back({key.name, key.allowed,
+                          [read = key.read, &target](const TomlValue& value) { read(value, target); },
+                          key.absence});
+  }
+  return table;
+}
+
+/// What no single key can say.
+struct TableObjection {
+  std::string_view table;  ///< where the message points
+  std::string message;     ///< what is wrong, what is allowed
+};
+
+/// The tables of a tracker's design file.
+struct DesignFormat {
+  std::string_view tracker;    ///< as the key `tracker` names it
+  std::any (*empty_tables)();  ///< what Design::tables then holds
+  /// The tables in the order of a design file, filling what empty_tables made.
+  std::vector<BoundTable> (*bind_tables)(std::any& tables);
+  /// Whether the keys go together, once all are read; null when they always do.
+  std::optional<TableObjection> (*objection)(const std::any& tables) = nullptr;
+};
+
+/// The formats of all trackers (certificates/trackers.def).
+[[nodiscard]] std::span<const DesignFormat* const> design_formats();
+
+}  // namespace veritrack::certificates

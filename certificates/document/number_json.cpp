@@ -1,0 +1,28 @@
+#include "certificates/document/number_json.hpp"
+
+namespace veritrack::certificates {
+
+Json enclosure_json(const rigor::Interval& value) {
+  return {{"lo", rigor::to_hexadecimal(value.lower())},
+          {"hi", rigor::to_hexadecimal(value.upper())},
+          {"decimal", rigor::to_decimal(value)}};
+}
+
+Json number_json(const Number& number) {
+  Json json{{"text", number.text}};
+  json.update(enclosure_json(number.value));
+  if (number.position.line > 0) {
+    json["line"] = number.position.line;
+  } else {
+    json["default"] = true;
+  }
+  return json;
+}
+
+void add_number(Json& json, const char* name, const std::optional<Number>& number) {
+  if (number) {
+    json[name] = number_json(*number);
+  }
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,51 @@
+// What a kind of tracker is to a certificate: one record for each, made in its column. The registry
+// (certificates/registry.cpp) knows them all; nothing else asks which tracker a design is for.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "certificates/document/certificate.hpp"
+#include "certificates/document/formal_proof.hpp"
+#include "certificates/document/markdown.hpp"
+#include "certificates/document/number_json.hpp"
+#include "certificates/document/tuning.hpp"
+
+namespace veritrack::certificates {
+
+struct TrackerKind {
+  std::string_view name;  ///< as the key `tracker` of a design file names it
+  /// The tables of the design as certificate.json repeats them: an object with a member a table.
+  Json (*design_json)(const Design& design);
+  /// Adds everything that can be said of the design. Needs the upward mode.
+  void (*certify)(Certificate& certificate, const CertifyProgress& progress);
+  /// The first line of the document when nothing is required.
+  std::string (*headline)(const Certificate& certificate);
+  /// The answer in a few sentences, above what was required.
+  std::string (*summary)(const Certificate& certificate);
+  /// The sections between what was required and how to reproduce it.
+  std::string (*sections)(const Certificate& certificate, const MarkdownOptions& options);
+
+  // What not every kind has: null where it has none.
+
+  /// Members of certificate.json beside derivations and claims: some of certified_sets, audits, comparison.
+  Json (*evidence_json)(const Certificate& certificate) = nullptr;
+  /// Needs the upward mode.
+  FormalProofs (*formal_proofs)(const Certificate& certificate) = nullptr;
+  /// Opens its own rounding scopes.
+  TuningResult (*tune)(const Design& design) = nullptr;
+};
+
+/// All kinds, in the order of certificates/trackers.def.
+[[nodiscard]] std::span<const TrackerKind* const> tracker_kinds();
+
+/// The kind of tracker that a design is for. Throws std::logic_error when the registry has none of that name,
+/// which no design that was read can bring about.
+[[nodiscard]] const TrackerKind& kind_of(const Design& design);
+
+/// The names of the kinds that have what `has` asks for, as a sentence lists them: "a", "a or b".
+[[nodiscard]] std::string names_of_kinds(bool (*has)(const TrackerKind& kind));
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,24 @@
+// The KKL observer as a kind of tracker.
+#include <string>
+
+#include "certificates/document/tracker_kind.hpp"
+#include "certificates/kkl_observer/coq_kkl_observer.hpp"
+#include "certificates/kkl_observer/kkl_observer.hpp"
+#include "certificates/kkl_observer/kkl_observer_json.hpp"
+#include "certificates/kkl_observer/markdown_kkl_observer.hpp"
+
+namespace veritrack::certificates {
+
+const TrackerKind& kkl_observer_kind() {
+  static const TrackerKind kind{.name = "kkl-observer",
+                                .design_json = kkl_observer_design_json,
+                                .certify = certify_kkl_observer,
+                                .headline = kkl_observer_headline,
+                                .summary = [](const Certificate&) { return std::string(); },
+                                .sections = kkl_observer_sections,
+                                .formal_proofs = coq::kkl_observer_proofs,
+                                .tune = tune_kkl_observer};
+  return kind;
+}
+
+}  // namespace veritrack::certificates

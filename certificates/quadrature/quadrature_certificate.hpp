@@ -1,0 +1,13 @@
+// Everything that can be said of a design of the quadrature tracker.
+#pragma once
+
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// Adds the published theorem in its readings ("theorem-2.9/..."), other published results, what this program
+/// proves ("contraction"; then, when the starts exceed the certified set, "capture" and perhaps
+/// "capture/noise-free" and "capture/reduced-noise"), and the claims. Needs the upward mode.
+void certify_quadrature(Certificate& certificate, const CertifyProgress& progress);
+
+}  // namespace veritrack::certificates

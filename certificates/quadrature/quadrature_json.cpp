@@ -1,0 +1,125 @@
+#include "certificates/quadrature/quadrature_json.hpp"
+
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/sets/assumptions_json.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+Json audit_point_json(const theorems::AuditPoint& point) {
+  Json json{{"step", point.step},
+            {"verdict", std::string(rigor::to_string(point.verdict))},
+            {"margin", enclosure_json(point.margin)}};
+  if (!rigor::is_empty(point.relative_margin)) {
+    json["relative_margin"] = enclosure_json(point.relative_margin);
+  }
+  return json;
+}
+
+Json audited_json(const theorems::Audit& audit, const theorems::AuditedInequality& inequality) {
+  Json json{{"id", inequality.id},
+            {"statement", inequality.statement},
+            {"source", inequality.source},
+            {"kind", inequality.kind == theorems::AuditKind::assumption ? "assumption" : "claim"}};
+  if (inequality.not_applicable) {
+    json["not_applicable"] = *inequality.not_applicable;
+    return json;
+  }
+  json["first_step"] = inequality.first_step;
+  json["satisfied"] = inequality.satisfied;
+  json["violated"] = inequality.violated;
+  json["undecided"] = inequality.undecided;
+  if (inequality.worst) {
+    json["worst"] = audit_point_json(*inequality.worst);
+  }
+  if (inequality.first_violation) {
+    json["first_violation"] = *inequality.first_violation;
+  }
+  if (inequality.before_first_step) {
+    json["before_first_step"] = audit_point_json(*inequality.before_first_step);
+  }
+  json["refuted_by_this_run"] = audit.refutes(inequality);
+  return json;
+}
+
+Json audit_json(const AuditedDerivation& audited) {
+  Json json{{"derivation", audited.derivation},
+            {"proved", false},
+            {"steps_within_assumptions", audited.audit.steps_within_assumptions},
+            {"inequalities", Json::array()}};
+  for (const theorems::AuditedInequality& inequality : audited.audit.inequalities) {
+    json["inequalities"].push_back(audited_json(audited.audit, inequality));
+  }
+  return json;
+}
+
+Json compared_json(const ComparedResult& row) {
+  Json json{{"result", row.result}, {"proved", !row.simulated}};
+  if (row.verdict) {
+    json["verdict"] = std::string(rigor::to_string(*row.verdict));
+  }
+  if (row.frequency_error) {
+    json["initial_frequency_error"] = enclosure_json(*row.frequency_error);
+  }
+  if (row.noise) {
+    json["noise"] = enclosure_json(*row.noise);
+  }
+  if (row.rate) {
+    json["rate"] = enclosure_json(*row.rate);
+  }
+  return json;
+}
+
+Json certified_set_json(const NamedSet& named) {
+  const quadrature::CertifiedSet& set = named.set;
+  return {{"purpose", named.purpose},
+          {"metric", matrix_json(set.metric)},
+          {"radius", rigor::to_hexadecimal(set.radius)},
+          {"covariance_lower", matrix_json(set.covariance_lower)},
+          {"covariance_upper", matrix_json(set.covariance_upper)},
+          {"noise", rigor::to_hexadecimal(set.noise)},
+          {"slew", rigor::to_hexadecimal(set.slew)},
+          {"rate", rigor::to_hexadecimal(set.rate)},
+          {"noise_gain", rigor::to_hexadecimal(set.noise_gain)},
+          {"slew_gain", rigor::to_hexadecimal(set.slew_gain)}};
+}
+
+}  // namespace
+
+Json quadrature_design_json(const Design& read) {
+  const auto& [design, assume, require, simulate, theorem] = quadrature_tables(read);
+  return {{"design",
+           {{"q1", number_json(design.q1)},
+            {"q2", number_json(design.q2)},
+            {"r", number_json(design.r)},
+            {"epsilon", number_json(design.epsilon)}}},
+          {"assume", assume_json(assume)},
+          {"require", require_json(require)},
+          {"simulate", simulate_json(simulate)},
+          {"theorem_2_9",
+           {{"R_x", number_json(theorem.state_bound)},
+            {"sigma", number_json(theorem.sigma)},
+            {"gamma_fraction", number_json(theorem.gamma_fraction)},
+            {"c1", number_json(theorem.c1)},
+            {"c2", number_json(theorem.c2)}}}};
+}
+
+Json quadrature_evidence_json(const Certificate& certificate) {
+  const QuadratureParticulars& particulars = quadrature_particulars(certificate);
+  Json json{{"certified_sets", Json::array()}, {"audits", Json::array()}, {"comparison", Json::array()}};
+  for (const NamedSet& set : particulars.certified_sets) {
+    json["certified_sets"].push_back(certified_set_json(set));
+  }
+  for (const AuditedDerivation& audited : particulars.audits) {
+    json["audits"].push_back(audit_json(audited));
+  }
+  for (const ComparedResult& row : particulars.comparison) {
+    json["comparison"].push_back(compared_json(row));
+  }
+  return json;
+}
+
+}  // namespace veritrack::certificates

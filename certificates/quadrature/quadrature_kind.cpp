@@ -1,0 +1,128 @@
+// The quadrature tracker as a kind of tracker: its record, and the parts of its document that no other has.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/document/tracker_kind.hpp"
+#include "certificates/quadrature/comparison_table.hpp"
+#include "certificates/quadrature/coq_theorem_2_9.hpp"
+#include "certificates/quadrature/markdown_contraction.hpp"
+#include "certificates/quadrature/markdown_other_results.hpp"
+#include "certificates/quadrature/markdown_theorem.hpp"
+#include "certificates/quadrature/quadrature_certificate.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/quadrature/quadrature_json.hpp"
+#include "certificates/quadrature/theorem_claims.hpp"
+#include "certificates/sets/guarantee_sentence.hpp"
+#include "certificates/sets/markdown_assumptions.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using markdown::escaped;
+using markdown::math;
+using rigor::Verdict;
+
+/// "Theorem 2.9 guarantees nothing for it", or what else its readings together say.
+std::string theorem_sentence(const Certificate& certificate) {
+  std::vector<theorems::Derivation> readings = derivations_of(certificate, "theorem-2.9/");
+  std::erase_if(readings, [](const theorems::Derivation& reading) {
+    return reading.id == "theorem-2.9/repaired";  // ours, not the published theorem
+  });
+  const auto all_are = [&](Verdict verdict) {
+    return std::all_of(readings.begin(), readings.end(),
+                       [verdict](const theorems::Derivation& reading) { return reading.verdict == verdict; });
+  };
+  if (all_are(Verdict::refuted)) {
+    return "Theorem 2.9 guarantees nothing for it: its conditions are REFUTED";
+  }
+  if (all_are(Verdict::proved)) {
+    return "the conditions of Theorem 2.9 hold for it";
+  }
+  return "whether Theorem 2.9 applies to it is UNDECIDED";
+}
+
+std::string design_section(const Certificate& certificate) {
+  const Design& design = certificate.design;
+  const QuadratureDesignTable& chosen = quadrature_tables(design).design;
+  std::string text = "## The design\n\n";
+  text += fmt::format("{} — tracker `{}`", escaped(design.name), design.tracker);
+  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
+  const auto row = [](const std::string& what, const std::string& symbol, const Number& number,
+                      const std::string& unit) {
+    return std::vector<std::string>{what, math(symbol), "`" + number.text + "`", unit};
+  };
+  text += markdown::table(
+      {"Design value", "Symbol", "Value", "Unit"},
+      {row("process noise variance, in-phase and quadrature", "q_1", chosen.q1, "signal units²"),
+       row("process noise variance, frequency", "q_2", chosen.q2, "(rad/sample)²"),
+       row("measurement noise variance, per channel", "r", chosen.r, "signal units²"),
+       row("leak of the frequency state", "\\epsilon", chosen.epsilon, "—")});
+  return text + "\n";
+}
+
+std::string coverage_section() {
+  return "## What this certificate covers, and what it does not\n\n"
+         "- Covered: every enclosure here was computed with outward-rounded interval arithmetic from the "
+         "design "
+         "values; the true value lies in it. A verdict PROVED or REFUTED follows from the enclosures; "
+         "UNDECIDED "
+         "means that neither could be shown.\n"
+         "- The contraction certificate holds for every signal and every start that keep to the assumptions: "
+         "any "
+         "noise and any change of frequency within the bounds, whatever their statistics. It covers a signal "
+         "of "
+         "constant amplitude.\n"
+         "- Covered is the tracker in exact arithmetic. Not covered: its rounding errors in double "
+         "precision.\n"
+         "- Theorem 2.9 is evaluated, not endorsed: the readings *printed* and *errata* take the thesis at "
+         "its word. "
+         "Conditions that hold in them are no guarantee by themselves, and no PROVED requirement rests on "
+         "them. A "
+         "REFUTED condition says that the theorem is silent about this design, not that the tracker fails.\n"
+         "- The audit and the figures are one simulated run in double precision; its numbers are marked ≈ "
+         "and prove "
+         "nothing. A bound that the run violates is no bound for that run.\n\n";
+}
+
+std::string headline_without_requirements(const Certificate& certificate) {
+  if (const auto bound = proved_bound_headline(certificate)) {
+    return *bound;
+  }
+  return "Nothing is required of this design, nothing is certified for the assumed start, and " +
+         theorem_sentence(certificate);
+}
+
+std::string summary(const Certificate& certificate) {
+  return guarantee_section(certificate) + summary_section(certificate);
+}
+
+std::string sections(const Certificate& certificate, const MarkdownOptions& options) {
+  const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
+  return design_section(certificate) + assumptions_section(tables.assume) + contraction_section(certificate) +
+         comparison_section(certificate) + simulated_run_section(certificate, tables.simulate, options) +
+         conditions_section(certificate) + proof_section(certificate) + other_results_section(certificate) +
+         constants_section(certificate) + other_constants_section(certificate) + audit_section(certificate) +
+         coverage_section();
+}
+
+}  // namespace
+
+const TrackerKind& quadrature_kind() {
+  static const TrackerKind kind{.name = "quadrature-ekf",
+                                .design_json = quadrature_design_json,
+                                .certify = certify_quadrature,
+                                .headline = headline_without_requirements,
+                                .summary = summary,
+                                .sections = sections,
+                                .evidence_json = quadrature_evidence_json,
+                                .formal_proofs = coq::theorem_2_9_proofs};
+  return kind;
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,62 @@
+// What only a certificate of the quadrature tracker has.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/quadrature/capture/capture_basin.hpp"
+#include "analysis/quadrature/capture/capture_region.hpp"
+#include "analysis/quadrature/contraction/certified_set.hpp"
+#include "analysis/theorems/audit.hpp"
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// The audit of one reading of the theorem along the simulated trajectory.
+struct AuditedDerivation {
+  std::string derivation;  ///< the id of the derivation whose constants were audited
+  theorems::Audit audit;
+};
+
+/// A set that the tracker never leaves, with what it was made for: evidence that can be checked again without
+/// the search that found it.
+struct NamedSet {
+  std::string purpose;  ///< as in certificate.schema.json, e.g. "start-error"
+  quadrature::CertifiedSet set;
+};
+
+/// The assumed starts, followed because they exceed the certified set.
+struct FollowedStarts {
+  quadrature::Region region;           ///< with the assumed noise and slew
+  quadrature::SimulatedBasin basin;    ///< without, by simulation: proves nothing
+  std::vector<double> frequency_tube;  ///< see quadrature::StartCapture; empty unless PROVED
+};
+
+/// What one result gives for the design, side by side with the others.
+struct ComparedResult {
+  std::string result;                     ///< the derivation's id, or "simulation"
+  std::optional<rigor::Verdict> verdict;  ///< of its conditions; none for a simulation
+  std::optional<rigor::Interval>
+      frequency_error;                   ///< of the start, certified up to the lower end, rad/sample
+  std::optional<rigor::Interval> noise;  ///< up to the lower end, relative to the amplitude
+  std::optional<rigor::Interval> rate;   ///< factor per sample, at most the upper end
+  bool simulated = false;                ///< proves nothing
+};
+
+struct QuadratureParticulars {
+  std::vector<NamedSet> certified_sets;
+  std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
+  std::vector<AuditedDerivation> audits;
+  std::vector<ComparedResult> comparison;
+};
+
+/// Of a certificate of this tracker. Throws std::bad_any_cast for another.
+[[nodiscard]] inline const QuadratureParticulars& quadrature_particulars(const Certificate& certificate) {
+  return std::any_cast<const QuadratureParticulars&>(certificate.particulars);
+}
+[[nodiscard]] inline QuadratureParticulars& quadrature_particulars(Certificate& certificate) {
+  return std::any_cast<QuadratureParticulars&>(certificate.particulars);
+}
+
+}  // namespace veritrack::certificates

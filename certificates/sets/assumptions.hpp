@@ -1,0 +1,45 @@
+// [assume], [require] and [simulate] of the trackers whose errors a contraction certificate bounds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "certificates/design/design.hpp"
+
+namespace veritrack::certificates {
+
+/// What P(0|0) is, in the frame of the estimated phase: the filter's steady state, or a symmetric positive
+/// definite matrix, row by row.
+using CovarianceArray = std::array<std::array<Number, 3>, 3>;
+
+/// [assume].
+struct Assumptions {
+  Number amplitude;                 ///< signal units
+  std::array<Number, 2> frequency;  ///< [lowest, highest], rad/sample
+  Number noise;                     ///< |v(k)| <= noise for every k, signal units
+  Number slew;                      ///< |omega(k+1) - omega(k)| <= slew, rad/sample per sample
+  Number initial_frequency_error;   ///< rad/sample
+  Number initial_phase_error;       ///< rad
+  Number initial_amplitude_error;   ///< signal units
+  std::optional<CovarianceArray> initial_covariance;  ///< none: "steady-state"
+};
+
+/// [require]: what CI must find PROVED.
+struct Requirements {
+  std::optional<Number> frequency_error_below;            ///< rad/sample, for ever
+  std::optional<Number> settles_within;                   ///< samples to come within twice the ultimate bound
+  std::optional<Number> largest_noise_at_least;           ///< signal units, at a constant frequency
+  std::optional<Number> largest_slew_at_least;            ///< rad/sample per sample, without noise
+  std::optional<Number> frequency_error_radius_at_least;  ///< rad/sample, of a set that is never left
+};
+
+/// [simulate]: the run that the audit and the figures use.
+struct SimulationSettings {
+  std::int64_t samples = 1000;
+  std::uint64_t seed = 1;
+  std::string signal = "constant";
+};
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,50 @@
+#include "certificates/sets/assumptions_json.hpp"
+#include "certificates/sets/assumptions.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+Json initial_covariance(const std::optional<CovarianceArray>& covariance) {
+  if (!covariance) {
+    return "steady-state";
+  }
+  Json rows = Json::array();
+  for (const auto& row : *covariance) {
+    Json entries = Json::array();
+    for (const Number& entry : row) {
+      entries.push_back(number_json(entry));
+    }
+    rows.push_back(entries);
+  }
+  return rows;
+}
+
+}  // namespace
+
+Json require_json(const Requirements& require) {
+  Json json = Json::object();
+  add_number(json, "frequency_error_below", require.frequency_error_below);
+  add_number(json, "settles_within", require.settles_within);
+  add_number(json, "largest_noise_at_least", require.largest_noise_at_least);
+  add_number(json, "largest_slew_at_least", require.largest_slew_at_least);
+  add_number(json, "frequency_error_radius_at_least", require.frequency_error_radius_at_least);
+  return json;
+}
+
+Json assume_json(const Assumptions& assume) {
+  return {{"amplitude", number_json(assume.amplitude)},
+          {"frequency", {number_json(assume.frequency[0]), number_json(assume.frequency[1])}},
+          {"noise", number_json(assume.noise)},
+          {"slew", number_json(assume.slew)},
+          {"initial_frequency_error", number_json(assume.initial_frequency_error)},
+          {"initial_phase_error", number_json(assume.initial_phase_error)},
+          {"initial_amplitude_error", number_json(assume.initial_amplitude_error)},
+          {"initial_covariance", initial_covariance(assume.initial_covariance)}};
+}
+
+Json simulate_json(const SimulationSettings& simulate) {
+  return {{"samples", simulate.samples}, {"seed", simulate.seed}, {"signal", simulate.signal}};
+}
+
+}  // namespace veritrack::certificates

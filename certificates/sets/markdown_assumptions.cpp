@@ -1,0 +1,76 @@
+#include "certificates/sets/markdown_assumptions.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <vector>
+
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/sets/assumptions.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using markdown::escaped;
+using markdown::math;
+
+std::string covariance_text(const std::optional<CovarianceArray>& covariance) {
+  if (!covariance) {
+    return "the filter's steady state, in the frame of the estimated phase";
+  }
+  std::string text = "in the frame of the estimated phase, row by row:";
+  for (const auto& row : *covariance) {
+    text += fmt::format(" `[{}, {}, {}]`", row[0].text, row[1].text, row[2].text);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string assumptions_section(const Assumptions& assume) {
+  const auto row = [](const std::string& what, const std::string& relation, const std::string& value,
+                      const std::string& unit) {
+    return std::vector<std::string>{what, relation.empty() ? value : math(relation) + " " + value, unit};
+  };
+  const auto code = [](const Number& number) { return "`" + number.text + "`"; };
+  std::string text = "## Assumed of the signal and the start\n\n";
+  text += markdown::table(
+      {"Assumption", "Value", "Unit"},
+      {row("amplitude of the signal", "A =", code(assume.amplitude), "signal units"),
+       row("frequency, always within", "",
+           fmt::format("[{}, {}]", code(assume.frequency[0]), code(assume.frequency[1])), "rad/sample"),
+       row("measurement noise, every sample", "|v(k)| \\le", code(assume.noise), "signal units"),
+       row("change of frequency, every sample", "|\\omega(k+1) - \\omega(k)| \\le", code(assume.slew),
+           "rad/sample per sample"),
+       row("error of frequency at the start", "|\\hat x_3(0) - \\omega(0)| \\le",
+           code(assume.initial_frequency_error), "rad/sample"),
+       row("error of phase at the start", "\\le", code(assume.initial_phase_error), "rad"),
+       row("error of amplitude at the start", "\\le", code(assume.initial_amplitude_error), "signal units"),
+       row("covariance at the start", "P(0|0):", covariance_text(assume.initial_covariance), "")});
+  return text +
+         "\nA decimal in these tables stands for itself: every computation covers both the decimal and the "
+         "double nearest to it, which is what the filter runs with.\n\n";
+}
+
+std::string simulated_run_section(const Certificate& certificate, const SimulationSettings& run,
+                                  const MarkdownOptions& options) {
+  if (options.figures.empty()) {
+    return "";
+  }
+  std::string text = "## The simulated run\n\n";
+  text += fmt::format(
+      "The double-precision tracker on the signal `{}`, {} samples, seed {}, started at the edge of the "
+      "assumed start errors. A simulation proves nothing; it shows what the bounds are to be compared "
+      "with.\n\n",
+      run.signal, run.samples, run.seed);
+  for (const std::string& note : certificate.simulation.notes) {
+    text += note + "\n\n";
+  }
+  for (const FigureReference& figure : options.figures) {
+    text += fmt::format("![{}]({})\n\n*{}*\n\n", escaped(figure.caption), figure.path, figure.caption);
+  }
+  return text;
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,21 @@
+// The keys of [assume], [require] and [simulate] for the trackers whose errors a contraction certificate
+// bounds.
+#pragma once
+
+#include <span>
+
+#include "certificates/design/design_format.hpp"
+#include "certificates/sets/assumptions.hpp"
+
+namespace veritrack::certificates {
+
+/// [assume]
+[[nodiscard]] std::span<const Key<Assumptions>> assume_keys();
+/// [assume] of a tracker whose frequency may also be a single number.
+[[nodiscard]] std::span<const Key<Assumptions>> assume_keys_with_one_frequency();
+/// [require]
+[[nodiscard]] std::span<const Key<Requirements>> require_keys();
+/// [simulate]
+[[nodiscard]] std::span<const Key<SimulationSettings>> simulate_keys();
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,12 @@
+// The single-channel tracker in certificate.json.
+#pragma once
+
+#include "certificates/document/certificate.hpp"
+#include "certificates/document/number_json.hpp"
+
+namespace veritrack::certificates {
+
+/// The tables of the design, with a member a table.
+[[nodiscard]] Json single_channel_design_json(const Design& read);
+
+}  // namespace veritrack::certificates

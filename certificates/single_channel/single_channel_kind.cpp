@@ -1,0 +1,49 @@
+// The single-channel tracker as a kind of tracker.
+#include <optional>
+#include <string>
+
+#include "certificates/document/tracker_kind.hpp"
+#include "certificates/quadrature/markdown_contraction.hpp"
+#include "certificates/sets/guarantee_sentence.hpp"
+#include "certificates/sets/markdown_assumptions.hpp"
+#include "certificates/single_channel/coq_proposition_1.hpp"
+#include "certificates/single_channel/markdown_single_channel.hpp"
+#include "certificates/single_channel/single_channel.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
+#include "certificates/single_channel/single_channel_json.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+std::string headline_without_requirements(const Certificate& certificate) {
+  return proved_bound_headline(certificate).value_or(single_channel_headline(certificate));
+}
+
+std::string summary(const Certificate& certificate) {
+  return guarantee_section(certificate) + single_channel_summary(certificate);
+}
+
+std::string sections(const Certificate& certificate, const MarkdownOptions& options) {
+  const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
+  return single_channel_design_section(certificate) + assumptions_section(tables.assume) +
+         contraction_section(certificate) + bias_section(certificate) +
+         simulated_run_section(certificate, tables.simulate, options) +
+         transfer_function_section(certificate) + proposition_section(certificate) +
+         single_channel_coverage_section();
+}
+
+}  // namespace
+
+const TrackerKind& single_channel_kind() {
+  static const TrackerKind kind{.name = "single-channel-ekf",
+                                .design_json = single_channel_design_json,
+                                .certify = certify_single_channel,
+                                .headline = headline_without_requirements,
+                                .summary = summary,
+                                .sections = sections,
+                                .formal_proofs = coq::proposition_1_proofs};
+  return kind;
+}
+
+}  // namespace veritrack::certificates

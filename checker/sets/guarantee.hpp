@@ -1,0 +1,43 @@
+// What a tracker's sets promise of the assumed starts; the claims that a design's [require] asks for, and the
+// guarantee in one sentence.
+#pragma once
+
+#include <optional>
+
+#include "checker/document/statement.hpp"
+
+namespace veritrack::checker {
+
+/// What the verified sets that bear the assumed noise and slew prove of the assumed starts.
+struct Promises {
+  bool starts_inside = false;
+  std::optional<Ball> ultimate;    ///< limsup of |frequency error|, rad/sample: an upper bound
+  std::optional<Ball> bound;       ///< of |frequency error| at every sample, rad/sample
+  std::optional<Ball> settling;    ///< samples until it is within twice the ultimate bound that is claimed
+  std::optional<Ball> wrong_lock;  ///< what |frequency error| ends above from some start: a lower bound
+  // Of sets that are never left, whatever the start: noise without slew (relative to the amplitude), slew
+  // without noise, and how far the set for the assumed noise and slew reaches in frequency, rad/sample. Lower
+  // bounds.
+  std::optional<Ball> noise, slew, reach;
+};
+
+/// The frequencies of which a guarantee speaks: those that are assumed, or every one below Nyquist.
+enum class Frequencies { assumed_band, every };
+
+bool is_guarantee(const std::string& id);
+
+/// The ids of the claims that a design's [require] asks for, in their order.
+std::vector<std::string> requirements(const Tree& design);
+
+/// Objects to a claim of these that the promises do not prove.
+void check_guarantee(const Tree& claim, const Tree& certificate, const Promises& promises,
+                     Frequencies frequencies, Objections& objections);
+
+/// What a derivation says of settling: after so many samples the frequency error is within twice the ultimate
+/// bound that the derivation itself states (which is checked beside it).
+struct SettlingClaim {
+  Ball samples, twice_ultimate;
+};
+std::optional<SettlingClaim> settling_claim(const Tree& quantities);
+
+}  // namespace veritrack::checker

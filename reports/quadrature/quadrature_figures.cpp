@@ -1,0 +1,155 @@
+#include "reports/quadrature/quadrature_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/quadrature/tube.hpp"
+#include "reports/gnuplot.hpp"
+#include "reports/quadrature/region_map.hpp"
+#include "reports/simulated_run.hpp"
+
+namespace veritrack::reports {
+
+namespace {
+
+using certificates::Certificate;
+using theorems::TrajectoryRecord;
+
+/// Dash patterns that can be told apart in grey.
+constexpr std::array kDashes{"'-'", "'_'", "'.'", "'-.'", "'-..'"};
+
+/// A horizontal line: what it stands for, and where.
+struct Level {
+  std::string title;
+  double value = 0.0;
+};
+
+/// Everything that the error is to be compared with, as far as it is a positive number.
+std::vector<Level> error_levels(const Certificate& certificate) {
+  std::vector<Level> levels;
+  if (certificates::quadrature_tables(certificate.design).require.frequency_error_below) {
+    levels.push_back(
+        {"required of the frequency error",
+         certificates::quadrature_tables(certificate.design).require.frequency_error_below->nearest});
+  }
+  if (const auto bound = certificates::proved_frequency_bound(certificate)) {
+    levels.push_back({"certified bound of the frequency error", bound->upper()});
+  }
+  for (const theorems::Derivation& derivation : certificate.derivations) {
+    for (const theorems::Quantity& quantity : derivation.quantities) {
+      const double bound = quantity.value.lower();
+      if (quantity.name == "initial_error_bound" && std::isfinite(bound) && bound > 0.0) {
+        levels.push_back({fmt::format("start error that (2.45) admits, {}",
+                                      derivation.id.substr(derivation.id.find('/') + 1)),
+                          bound});
+      }
+    }
+  }
+  return levels;
+}
+
+Figure error_figure(const Certificate& certificate) {
+  const double amplitude = certificates::quadrature_tables(certificate.design).assume.amplitude.nearest;
+  std::string script = over_samples(420);
+  script += data_block(certificate, [amplitude](const TrajectoryRecord& record) {
+    const auto positive = [](double value) { return value > 0.0 ? value : std::nan(""); };
+    Eigen::Vector3d error = record.true_state - record.filtered_state;
+    error.head<2>() /= amplitude;
+    return std::array{positive(std::fabs(error[2])), positive(error.norm())};
+  });
+  script +=
+      "set ylabel 'error'\n"
+      "set logscale y\n"
+      "unset mytics\n"
+      "set format y '10^{%L}'\n"
+      "set key maxcols 2\n"
+      "plot $run using 1:3 with lines lw 3 lc rgb '#aaaaaa' title 'whole error |e(k|k)|', "
+      "'' using 1:2 with lines lw 1.4 lc rgb '#000000' title 'frequency error, rad/sample'";
+  const std::vector<Level> levels = error_levels(certificate);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    script += fmt::format(", {:.9g} with lines lw 1.8 dt {} lc rgb '#000000' title '{}'", levels[i].value,
+                          kDashes.at(i % kDashes.size()), levels[i].title);
+  }
+  script += "\n";
+  std::string caption =
+      "Error of the tracker along the simulated run, logarithmic: the whole error |e(k|k)| (signal relative "
+      "to its amplitude, and rad/sample) and the frequency error alone.";
+  if (!levels.empty()) {
+    caption += " The dashed lines are what it is to be compared with.";
+  }
+  return {"error.svg", caption + stride_remark(certificate), run_gnuplot(script)};
+}
+
+/// The runs in grey, thin, under the bound, black and broad.
+Figure tube_figure(const Certificate& certificate, const certificates::Tube& tube) {
+  std::string script = over_samples(380);
+  script += "$tube << END\n";
+  for (std::size_t k = 0; k < tube.bound.size(); ++k) {
+    script += fmt::format("{} {:.9g}", k, tube.bound[k]);
+    for (const std::vector<double>& run : tube.runs) {
+      // What rounding leaves of an error that is gone is not worth a decade of the picture.
+      script += run[k] > 1e-3 * tube.bound.back() ? fmt::format(" {:.9g}", run[k]) : " NaN";
+    }
+    script += '\n';
+  }
+  script +=
+      "END\n"
+      "set ylabel '|frequency error|, rad/sample'\n"
+      "set logscale y\n"
+      "unset mytics\n"
+      "set format y '10^{%L}'\n"
+      "set key maxcols 2\n"
+      "plot ";
+  for (std::size_t i = 0; i < tube.runs.size(); ++i) {
+    script += fmt::format("$tube using 1:{} with lines lw 1 lc rgb '#888888' notitle, ", i + 3);
+  }
+  script += fmt::format(
+      "$tube using 1:2 with lines lw 3 lc rgb '#000000' title 'certified, {}', "
+      "keyentry with lines lw 1 lc rgb '#888888' title 'simulated runs'",
+      tube.from_assumed_starts ? "assumed starts" : "all of the set");
+  if (!tube.bound_of_assumed_starts.empty()) {
+    script +=
+        fmt::format(", {:.9g} with lines lw 1.8 dt 4 lc rgb '#000000' title 'certified, assumed starts'",
+                    tube.bound_of_assumed_starts.front());
+  }
+  if (const auto& required =
+          certificates::quadrature_tables(certificate.design).require.frequency_error_below) {
+    script +=
+        fmt::format(", {:.9g} with lines lw 1.8 dt 2 lc rgb '#000000' title 'required'", required->nearest);
+  }
+  script += "\n";
+  return {"tube.svg",
+          fmt::format("Frequency error, rad/sample, logarithmic: the bound that is certified for every start "
+                      "{} and all noise and slew assumed (black), and simulated runs from the rim of these "
+                      "starts (grey), without disturbances and with noise and slew that push the errors out. "
+                      "The runs prove nothing.",
+                      tube.from_assumed_starts ? "within the assumed errors" : "in the certified set"),
+          run_gnuplot(script)};
+}
+
+}  // namespace
+
+std::vector<Figure> draw_quadrature_figures(const Certificate& certificate) {
+  if (certificate.simulation.trajectory.empty()) {
+    return {};
+  }
+  std::vector<Figure> figures = {frequency_figure(certificate), error_figure(certificate)};
+  if (const auto tube = certificates::certified_tube(certificate)) {
+    figures.push_back(tube_figure(certificate, *tube));
+  }
+  const auto& followed_starts = certificates::quadrature_particulars(certificate).followed_starts;
+  if (followed_starts && followed_starts->region.cells.size() > 1) {
+    Figure map = draw_region_map(followed_starts->region, followed_starts->basin);
+    map.file = "capture.svg";
+    map.caption = "The assumed starts, followed under the assumed noise and slew. " + map.caption;
+    figures.push_back(std::move(map));
+  }
+  return figures;
+}
+
+}  // namespace veritrack::reports

@@ -1,0 +1,53 @@
+// The only list of trackers in reports/.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "reports/kkl_observer/kkl_observer_reports.hpp"
+#include "reports/quadrature/quadrature_reports.hpp"
+#include "reports/single_channel/single_channel_reports.hpp"
+#include "reports/tracker_reports.hpp"
+
+namespace veritrack::reports {
+
+namespace {
+
+/// Null when reports/ has nothing for the tracker.
+const TrackerReports* reports_of(std::string_view tracker) {
+  const auto all = tracker_reports();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const TrackerReports* each) { return each->tracker == tracker; });
+  return found != all.end() ? *found : nullptr;
+}
+
+}  // namespace
+
+std::span<const TrackerReports* const> tracker_reports() {
+  static const std::array all{&quadrature_reports(), &kkl_observer_reports(), &single_channel_reports()};
+  return all;
+}
+
+std::vector<Figure> draw_figures(const certificates::Certificate& certificate) {
+  const TrackerReports* reports = reports_of(certificate.design.tracker);
+  return reports != nullptr && reports->figures != nullptr ? reports->figures(certificate)
+                                                           : std::vector<Figure>{};
+}
+
+MapResult write_map(const certificates::Design& design, const MapRequest& request,
+                    const std::filesystem::path& directory, const certificates::CertifyProgress& progress) {
+  const TrackerReports* reports = reports_of(design.tracker);
+  if (reports != nullptr && reports->map != nullptr) {
+    return reports->map(design, request, directory, progress);
+  }
+  std::vector<std::string_view> able;
+  for (const TrackerReports* each : tracker_reports()) {
+    if (each->map != nullptr) {
+      able.push_back(each->tracker);
+    }
+  }
+  return {std::nullopt, fmt::format("A map needs the tracker {}.", fmt::join(able, " or "))};
+}
+
+}  // namespace veritrack::reports

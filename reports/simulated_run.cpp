@@ -1,0 +1,45 @@
+#include "reports/simulated_run.hpp"
+
+#include <array>
+
+#include "reports/gnuplot.hpp"
+
+namespace veritrack::reports {
+
+namespace {
+
+constexpr std::size_t kLargestNumberOfPoints = 2000;
+
+}  // namespace
+
+std::size_t stride(const certificates::Certificate& certificate) {
+  return (certificate.simulation.trajectory.size() + kLargestNumberOfPoints - 1) / kLargestNumberOfPoints;
+}
+
+std::string stride_remark(const certificates::Certificate& certificate) {
+  const std::size_t every = stride(certificate);
+  return every == 1 ? "" : fmt::format(" One sample in {} is drawn.", every);
+}
+
+std::string over_samples(std::size_t height) {
+  return gnuplot_style(height) + "set xlabel 'sample k'\n";
+}
+
+Figure frequency_figure(const certificates::Certificate& certificate) {
+  std::string script = over_samples(340);
+  script += data_block(certificate, [](const theorems::TrajectoryRecord& record) {
+    return std::array{record.true_state[2], record.filtered_state[2]};
+  });
+  script +=
+      "set ylabel 'frequency, rad/sample'\n"
+      "set offsets 0, 0, graph 0.08, graph 0.08\n"
+      "plot $run using 1:2 with lines lw 3 lc rgb '#aaaaaa' title 'signal', "
+      "'' using 1:3 with lines lw 1.4 dt 1 lc rgb '#000000' title 'tracker'\n";
+  return {"frequency.svg",
+          "Frequency of the signal (broad grey) and of the tracker (thin black), rad/sample, along the "
+          "simulated run." +
+              stride_remark(certificate),
+          run_gnuplot(script)};
+}
+
+}  // namespace veritrack::reports

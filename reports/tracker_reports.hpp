@@ -1,0 +1,48 @@
+// What reports/ draws for a kind of tracker: one record for each, made in its column.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certificates/document/certificate.hpp"
+#include "reports/figures.hpp"
+
+namespace veritrack::reports {
+
+/// The rectangle of starts that a map shows, around the exact start.
+struct MapRequest {
+  double frequency_error = 1.0;  ///< up to, rad/sample
+  double phase_error = 1.5;      ///< up to, rad
+  bool with_noise = false;       ///< with the noise and slew of [assume]; without, the signal is free of both
+};
+
+/// The files of a map, or why there are none.
+struct MapResult {
+  std::optional<std::filesystem::path> picture;
+  std::string sentence;  ///< what was found, or why nothing could be
+};
+
+struct TrackerReports {
+  std::string_view tracker;  ///< as the key `tracker` of a design file names it
+  /// Figures for the certificate; null when there are none. Throws FigureError.
+  std::vector<Figure> (*figures)(const certificates::Certificate& certificate) = nullptr;
+  /// The proved region of attraction, written into a folder; null when there is no such map. Throws
+  /// certificates::OutputError, FigureError.
+  MapResult (*map)(const certificates::Design& design, const MapRequest& request,
+                   const std::filesystem::path& directory,
+                   const certificates::CertifyProgress& progress) = nullptr;
+};
+
+/// All records (reports/registry.cpp).
+[[nodiscard]] std::span<const TrackerReports* const> tracker_reports();
+
+/// The map of a design, written into `directory`; a tracker without one is answered with a sentence.
+[[nodiscard]] MapResult write_map(const certificates::Design& design, const MapRequest& request,
+                                  const std::filesystem::path& directory,
+                                  const certificates::CertifyProgress& progress);
+
+}  // namespace veritrack::reports

@@ -10,13 +10,13 @@ namespace veritrack::quadrature {
 
 using rigor::Interval;
 
-std::vector<Claim> claims_of(const trackers::ToneModel<Interval>& design, const sets::LockBranch& branch,
-                             const SteadySet& set) {
+std::vector<SetClaim> claims_of(const trackers::ToneModel<Interval>& design, const sets::LockBranch& branch,
+                                const SteadySet& set) {
   const rigor::NearestRounding nearest;
   const trackers::ToneModel<double> middle{midpoint(design.q1), midpoint(design.q2), midpoint(design.r),
                                            midpoint(design.epsilon)};
   const auto& cells = branch.cells;
-  std::vector<Claim> claims;
+  std::vector<SetClaim> claims;
   claims.reserve(3);
   for (const std::size_t k : {std::size_t{0}, cells.size() / 2, cells.size() - 1}) {
     const double frequency = cells[k].parameter_center;
@@ -31,7 +31,7 @@ std::vector<Claim> claims_of(const trackers::ToneModel<Interval>& design, const 
   return claims;
 }
 
-void add_steady_sampled_quantities(const std::vector<Claim>& claims, theorems::Derivation& derivation) {
+void add_steady_sampled_quantities(const std::vector<SetClaim>& claims, theorems::Derivation& derivation) {
   if (claims.empty()) {
     return;
   }
@@ -40,7 +40,7 @@ void add_steady_sampled_quantities(const std::vector<Claim>& claims, theorems::D
   double limit = std::numeric_limits<double>::infinity();
   double of_radius = 0.0;
   double of_ultimate = 0.0;
-  for (const Claim& claim : claims) {
+  for (const SetClaim& claim : claims) {
     limit = std::min(limit, sampled_radius_limit(claim));
     const Falsification found = try_to_break(claim, effort);
     of_radius = std::max(of_radius, found.from_rim.tightness());

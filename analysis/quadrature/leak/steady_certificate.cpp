@@ -15,7 +15,6 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 using theorems::Condition;
-using Tube = sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>;
 
 constexpr const char* kSource = "docs/leak.md";
 

@@ -20,20 +20,18 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 using theorems::Condition;
+using theorems::Sense;
 
 Condition condition(std::string id, std::string statement, Verdict verdict, std::string reason,
                     const Interval& lhs = Interval(), const Interval& rhs = Interval()) {
   return {std::move(id), std::move(statement), verdict, lhs, rhs, std::move(reason)};
 }
 
-theorems::Quantity quantity(std::string name, std::string symbol, std::string formula, std::string source,
-                            const Interval& value) {
-  theorems::Quantity result{
-      std::move(name), std::move(symbol), std::move(formula), std::move(source), value, std::nullopt, true};
-  if (rigor::is_empty(value)) {
-    result.not_applicable = "It could not be bounded.";
+theorems::Quantity bounded(theorems::Quantity quantity) {
+  if (rigor::is_empty(quantity.value)) {
+    quantity.not_applicable = "It could not be bounded.";
   }
-  return result;
+  return quantity;
 }
 
 std::string decimal(double value) {
@@ -77,13 +75,12 @@ Condition section_v_claim() {
   const Interval largest = Interval(2.0) * ExcitationRatio<Interval>(lambda).at(Interval(3.0));
   const Interval printed(5.0);
   const Verdict verdict = rigor::decide_less_equal(printed, largest);
-  return condition("section-v-ell",
-                   "5 \\le 2 \\inf |MT|^2 / |T|^2 \\text{ at } \\omega = 3,\\ \\lambda = (1, 2, 3, 4)",
-                   verdict,
-                   "the largest ell for which mu vanishes along the signal of section V is " +
-                       rigor::to_decimal(largest.upper(), 4, rigor::Direction::up) +
-                       " (with the factor 2 of (9)), in every range that holds 3 rad/s.",
-                   printed, largest);
+  return condition(
+      "section-v-ell", "5 \\le 2 \\inf |MT|^2 / |T|^2 \\text{ at } \\omega = 3,\\ \\lambda = (1, 2, 3, 4)",
+      verdict,
+      "the largest ell for which mu vanishes along the signal of section V is " +
+          rigor::upper_decimal(largest) + " (with the factor 2 of (9)), in every range that holds 3 rad/s.",
+      printed, largest);
 }
 
 /// Distinct rates, and with them the Vandermonde matrix's smallest singular value.
@@ -113,11 +110,12 @@ void add_injectivity(const KklClaimsQuestion& question, theorems::Derivation& de
   const Interval constant = sqrt(Interval(2.0) * square(Interval(1.0) + s) + Interval(2.0)) *
                             square(square(largest_rate) + s) / root;
   derivation.quantities.push_back(
-      quantity("vandermonde_singular_value", "\\sigma_{min}(V)", "", "paper, section IV", root));
-  derivation.quantities.push_back(
-      quantity("injectivity_constant", "d",
-               "\\sqrt{2(1 + \\bar x_3)^2 + 2}\\,(\\max \\lambda^2 + \\bar x_3)^2 / \\sigma_{min}(V)",
-               "docs/kkl-observer.md", constant));
+      bounded({"vandermonde_singular_value", "\\sigma_{min}(V)", "", "paper, section IV", root, std::nullopt,
+               Sense::enclosure, "smallest singular value of the Vandermonde matrix"}));
+  derivation.quantities.push_back(bounded(
+      {"injectivity_constant", "d",
+       "\\sqrt{2(1 + \\bar x_3)^2 + 2}\\,(\\max \\lambda^2 + \\bar x_3)^2 / \\sigma_{min}(V)",
+       "docs/kkl-observer.md", constant, std::nullopt, Sense::at_most, "constant of the injectivity of T"}));
   derivation.conditions.push_back(condition(
       "injectivity", "|\\Delta x_1| + |\\Delta x_2| + c |\\Delta x_3| \\le d\\, |\\Delta T|", verdict,
       verdict == Verdict::proved
@@ -135,7 +133,7 @@ void add_inverse(const KklClaimsQuestion& question, theorems::Derivation& deriva
     range.lambda(i) = question.lambda[static_cast<std::size_t>(i)];
   }
   range.frequency = question.frequency;
-  const Interval infimum = enclose_ell(range).value();
+  const Interval& infimum = question.infimum;
   const Interval limit = Interval(2.0) * infimum;
   Condition vanishes = condition("mu-vanishes", "\\ell \\le 2 \\inf_{O_r} |MT|^2 / |T|^2", Verdict::undecided,
                                  "", question.ell, limit);
@@ -192,16 +190,18 @@ void add_inverse(const KklClaimsQuestion& question, theorems::Derivation& deriva
   const Interval lower = question.amplitude / inverse_norm;
   const Interval modulus =
       continuity_modulus(range.lambda, question.ell, Interval(lower.lower()), Interval(upper.upper()));
-  derivation.quantities.push_back(quantity("continuity_modulus", "K", "", "docs/kkl-observer.md", modulus));
+  derivation.quantities.push_back(
+      bounded({"continuity_modulus", "K", "", "docs/kkl-observer.md", modulus, std::nullopt, Sense::at_most,
+               "bound on the slope of the inverse"}));
   derivation.conditions.push_back(condition(
       "continuity",
       "|\\gamma(\\xi) - \\gamma(\\xi')| \\le \\tfrac{\\pi}{2} K |\\xi - \\xi'| \\text{ on an annulus that "
       "holds } T(\\mathcal R)",
       rigor::is_finite(modulus) ? Verdict::proved : Verdict::undecided,
-      rigor::is_finite(modulus) ? "on the annulus " + decimal(lower.lower()) + " <= |xi| <= " +
-                                      rigor::to_decimal(upper.upper(), 4, rigor::Direction::up) +
-                                      ", which holds T of the assumed range; K bounds the slope."
-                                : "no finite bound on the slope was found.",
+      rigor::is_finite(modulus)
+          ? "on the annulus " + decimal(lower.lower()) + " <= |xi| <= " + rigor::upper_decimal(upper) +
+                ", which holds T of the assumed range; K bounds the slope."
+          : "no finite bound on the slope was found.",
       modulus));
 }
 

@@ -18,6 +18,8 @@ struct KklClaimsQuestion {
   rigor::Interval amplitude;            ///< signal units; certainly positive
   /// In use in (9); of importance for four filters only, for which the paper gives gamma.
   rigor::Interval ell;
+  /// The infimum of (10) over the frequencies (enclose_ell); for four filters.
+  rigor::Interval infimum;
 };
 
 /// The derivation "kkl-paper": one condition for each claim, with a witness where it is REFUTED. Quantities

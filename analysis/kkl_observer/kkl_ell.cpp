@@ -19,6 +19,7 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
+using theorems::Sense;
 
 constexpr double kRelativeWidth = 1e-9;
 
@@ -109,11 +110,12 @@ double solve_reduced(const Midpoints& at, search::SearchMethod method) {
 }
 
 theorems::Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value,
-                            bool proved) {
+                            Sense sense, std::string words) {
   theorems::Quantity result{
-      std::move(name), std::move(symbol), std::move(formula), "paper, (10)", value, std::nullopt, proved};
+      std::move(name), std::move(symbol), std::move(formula), "paper, (10)", value, std::nullopt,
+      sense,           std::move(words)};
   if (rigor::is_empty(value)) {
-    result.not_applicable = proved ? "It could not be enclosed." : "The solver found no number.";
+    result.not_applicable = result.is_proved() ? "It could not be enclosed." : "The solver found no number.";
   }
   return result;
 }
@@ -154,8 +156,7 @@ search::VerifiedMinimum<1> enclose_ell(const KklRange& range) {
                                       settings);
 }
 
-theorems::Derivation derive_kkl_ell(const KklRange& range) {
-  const search::VerifiedMinimum<1> minimum = enclose_ell(range);
+theorems::Derivation derive_kkl_ell(const KklRange& range, const search::VerifiedMinimum<1>& minimum) {
   std::array<double, 3> proposals{};
   {
     const rigor::NearestRounding nearest;
@@ -171,12 +172,16 @@ theorems::Derivation derive_kkl_ell(const KklRange& range) {
   derivation.id = "kkl-ell";
   derivation.title = "The constant of (10): how far T(x) stays from the singular set of the inverse";
   const std::string reduced = "\\min_\\omega \\lambda_{min}(A^T M^T M A, A^T A)";
-  derivation.quantities = {
-      quantity("ell", "\\ell", "\\inf_{|T(x)| = 1} |M T(x)|^2", ell, true),
-      quantity("ell_ipopt", "\\ell_{Ipopt}", "\\inf_{|T(x)| = 1} |M T(x)|^2", Interval(proposals[0]), false),
-      quantity("ell_nlopt", "\\ell_{NLopt}", reduced, Interval(proposals[1]), false),
-      quantity("ell_nlopt_global", "\\ell_{DIRECT}", reduced, Interval(proposals[2]), false),
-      quantity("argmin_omega", "\\omega_\\ell", "\\arg" + reduced, minimum.where(0), true)};
+  derivation.quantities = {quantity("ell", "\\ell", "\\inf_{|T(x)| = 1} |M T(x)|^2", ell, Sense::enclosure,
+                                    "the constant of (10)"),
+                           quantity("ell_ipopt", "\\ell_{Ipopt}", "\\inf_{|T(x)| = 1} |M T(x)|^2",
+                                    Interval(proposals[0]), Sense::sampled, "what Ipopt finds for (10)"),
+                           quantity("ell_nlopt", "\\ell_{NLopt}", reduced, Interval(proposals[1]),
+                                    Sense::sampled, "what NLopt finds locally"),
+                           quantity("ell_nlopt_global", "\\ell_{DIRECT}", reduced, Interval(proposals[2]),
+                                    Sense::sampled, "what NLopt finds globally"),
+                           quantity("argmin_omega", "\\omega_\\ell", "\\arg" + reduced, minimum.where(0),
+                                    Sense::enclosure, "the frequencies that can attain it, rad/s")};
 
   theorems::Condition tight;
   tight.id = "enclosed";

@@ -19,9 +19,11 @@ struct KklRange {
 /// scope.
 [[nodiscard]] search::VerifiedMinimum<1> enclose_ell(const KklRange& range);
 
-/// The derivation "kkl-ell": quantities ell, ell_ipopt, ell_nlopt, ell_nlopt_global, argmin_omega, of which
-/// only ell and argmin_omega are proved; conditions that ell is enclosed to 1e-9 and is positive, and that
-/// each solver's value lies in the enclosure. Opens its own rounding scopes.
-[[nodiscard]] theorems::Derivation derive_kkl_ell(const KklRange& range);
+/// The derivation "kkl-ell" from what enclose_ell found for the range: quantities ell, ell_ipopt, ell_nlopt,
+/// ell_nlopt_global, argmin_omega, of which only ell and argmin_omega are proved; conditions that ell is
+/// enclosed to 1e-9 and is positive, and that each solver's value lies in the enclosure. Opens its own
+/// rounding scopes.
+[[nodiscard]] theorems::Derivation derive_kkl_ell(const KklRange& range,
+                                                  const search::VerifiedMinimum<1>& minimum);
 
 }  // namespace veritrack::kkl_observer

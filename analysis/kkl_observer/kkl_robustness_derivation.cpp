@@ -11,13 +11,15 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
+using theorems::Sense;
 
 constexpr const char* kSource = "docs/kkl-observer.md";
 
 theorems::Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value,
-                            bool proved = true) {
+                            Sense sense, std::string words) {
   theorems::Quantity result{
-      std::move(name), std::move(symbol), std::move(formula), kSource, value, std::nullopt, proved};
+      std::move(name), std::move(symbol), std::move(formula), kSource, value, std::nullopt,
+      sense,           std::move(words)};
   if (rigor::is_empty(value)) {
     result.not_applicable = "No bound was found that applies: see the conditions.";
   }
@@ -34,7 +36,7 @@ theorems::Condition regular_condition(const KklRobustness& found, const Interval
     condition.reason =
         "the ell in use is not certainly small enough for mu of (9) to vanish under the "
         "disturbance (" +
-        rigor::to_decimal(found.largest_ell.lower(), 4, rigor::Direction::down) +
+        rigor::lower_decimal(found.largest_ell) +
         " would be): the bounds are those of an observer with a smaller ell.";
   }
   return condition;
@@ -95,14 +97,17 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question
   derivation.title = "What the assumed disturbance does to the estimates";
   derivation.quantities = {
       quantity("frequency_error_bound", "b_\\omega", "\\sup_{t \\ge t_s} |\\hat\\omega - \\omega|",
-               bound(found.frequency_error_bound)),
+               bound(found.frequency_error_bound), Sense::at_most, "frequency error once settled, rad/s"),
       quantity("amplitude_error_bound", "b_A", "\\sup_{t \\ge t_s} |\\hat A - A|",
-               bound(found.amplitude_error_bound)),
-      quantity("settling_time", "t_s", "", found.settling_time),
-      quantity("largest_ell", "2 \\inf |M\\xi|^2 / |\\xi|^2", "", found.largest_ell),
+               bound(found.amplitude_error_bound), Sense::at_most,
+               "amplitude error once settled, signal units"),
+      quantity("settling_time", "t_s", "", found.settling_time, Sense::at_most, "settled after, s"),
+      quantity("largest_ell", "2 \\inf |M\\xi|^2 / |\\xi|^2", "", found.largest_ell, Sense::at_least,
+               "an ell up to which the disturbed inverse is exact"),
       quantity("frequency_error_simulated", "", "\\max |\\hat\\omega - \\omega|", Interval(sampled.frequency),
-               false),
-      quantity("amplitude_error_simulated", "", "\\max |\\hat A - A|", Interval(sampled.amplitude), false)};
+               Sense::sampled, "largest frequency error seen in simulation, rad/s"),
+      quantity("amplitude_error_simulated", "", "\\max |\\hat A - A|", Interval(sampled.amplitude),
+               Sense::sampled, "largest amplitude error seen in simulation, signal units")};
   derivation.conditions = {regular, exists, bounded_condition(found, is_regular)};
   derivation.verdict = rigor::conjunction(
       {derivation.conditions[0].verdict, derivation.conditions[1].verdict, derivation.conditions[2].verdict});

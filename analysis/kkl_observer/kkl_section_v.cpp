@@ -101,7 +101,9 @@ constexpr std::array<Caption, 3> kCaptions{{{1.9999, 0.0947, 2.9956, 0.1164, 1e-
 void add_pair(theorems::Derivation& derivation, const std::string& name, const std::string& source,
               const SteadyStatistics& found) {
   const auto add = [&](const std::string& kind, double value) {
-    theorems::Quantity quantity{name + "_" + kind, "", "", source, Interval(value), std::nullopt, false};
+    const std::string full_name = name + "_" + kind;
+    theorems::Quantity quantity{
+        full_name, "", "", source, Interval(value), std::nullopt, theorems::Sense::sampled, full_name};
     if (rigor::is_empty(quantity.value)) {
       quantity.not_applicable =
           "The observer has no estimate along the run: the square of the frequency that it "
@@ -168,12 +170,12 @@ theorems::Derivation derive_kkl_section_v(const Eigen::Vector4d& lambda, double 
              run_adaptive_section_v(disturbance).frequency);
   }
   const rigor::UpwardRounding upward;
-  const auto count = [&](const std::string& name, int value) {
-    derivation.quantities.push_back(
-        {name, "", "", "paper, Figures 1 to 6", Interval(value), std::nullopt, false});
+  const auto count = [&](const std::string& name, int value, const std::string& words) {
+    derivation.quantities.push_back({name, "", "", "paper, Figures 1 to 6", Interval(value), std::nullopt,
+                                     theorems::Sense::sampled, words});
   };
-  count("captions_reproduced", exact);
-  count("captions_within_one_unit", close);
+  count("captions_reproduced", exact, "captions of Figures 1 to 6 reproduced to the last digit, of twelve");
+  count("captions_within_one_unit", close, "within one unit of the last digit, of twelve");
   derivation.notes = {
       "Printed are, as mean and deviation: amplitude 1.9999 and 0.0947 (10 rad/s), 2.0 and 0.0108 (100 "
       "rad/s), 2.0 and 0.0011 (1000 rad/s); frequency 2.9956 and 0.1164, 3.0 and 0.0142, 3.0 and 0.0014 "

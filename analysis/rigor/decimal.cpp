@@ -270,6 +270,14 @@ std::string to_decimal(double value, int digits, Direction direction) {
   return (value < 0.0 ? std::string("-") : std::string()).append(magnitude);
 }
 
+std::string lower_decimal(const Interval& value, int digits) {
+  return to_decimal(value.lower(), digits, Direction::down);
+}
+
+std::string upper_decimal(const Interval& value, int digits) {
+  return to_decimal(value.upper(), digits, Direction::up);
+}
+
 std::string to_decimal(const Interval& value, int digits) {
   if (is_empty(value)) {
     return "[empty]";

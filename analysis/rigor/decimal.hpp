@@ -39,6 +39,11 @@ enum class Direction { down, up };
 /// "inf" and "-inf" where that is the value. Throws std::invalid_argument unless 1 <= digits <= 40.
 [[nodiscard]] std::string to_decimal(double value, int digits, Direction direction);
 
+/// The lower end rounded down, and the upper end rounded up: what an enclosed number is at least, and at
+/// most.
+[[nodiscard]] std::string lower_decimal(const Interval& value, int digits = 4);
+[[nodiscard]] std::string upper_decimal(const Interval& value, int digits = 4);
+
 /// "[lower, upper]", outward-rounded; "[empty]" when empty. A point that the digits represent exactly is
 /// printed as
 /// "[x, x]".

@@ -216,6 +216,9 @@ class Interval {
 [[nodiscard]] inline bool certainly_positive(const Interval& a) {
   return certainly_less(Interval(0.0), a);
 }
+[[nodiscard]] inline bool certainly_not_negative(const Interval& a) {
+  return certainly_less_equal(Interval(0.0), a);
+}
 [[nodiscard]] inline bool certainly_negative(const Interval& a) {
   return certainly_less(a, Interval(0.0));
 }

@@ -9,15 +9,11 @@ namespace {
 using rigor::Direction;
 using rigor::Interval;
 
-bool certainly_not_negative(const Interval& bound) {
-  return is_finite(bound) && certainly_less_equal(Interval(0.0), bound);
-}
-
 /// "the largest certified noise (without slew) is 0.004; 0.01 was assumed"
 std::string limit_and_assumption(const char* limit, const Interval& assumed, double largest) {
   return std::string("the largest certified ") + limit + " is " +
-         rigor::to_decimal(largest, 4, Direction::down) + "; " +
-         rigor::to_decimal(assumed.upper(), 4, Direction::up) + " was assumed";
+         rigor::to_decimal(largest, 4, Direction::down) + "; " + rigor::upper_decimal(assumed) +
+         " was assumed";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/definiteness.hpp"
+#include "analysis/sets/contraction_result.hpp"
 
 namespace veritrack::sets {
 
@@ -13,7 +14,6 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using Tube = FixedPointTube<QuadraturePolarLoop::kStates>;
 using State = rigor::IntervalVector<QuadraturePolarLoop::kStates>;
 
 /// An approximate solution of the filter's Riccati equation at frequency error 0, by iteration from r I.
@@ -70,7 +70,7 @@ std::optional<State> verify_origin(const QuadraturePolarLoop& loop) {
 /// Follows the branch from 0 through `first` to `last` (both on the same side of 0, `last` the farther one)
 /// and keeps the cells beyond `first`. The frequency reached.
 double follow_side(const QuadraturePolarLoop& loop, const State& origin, double first, double last,
-                   const BranchSteps& steps, std::vector<Tube>& kept) {
+                   const BranchSteps& steps, std::vector<QuadratureTube>& kept) {
   State start = origin;
   if (first != 0.0) {
     const auto approach = follow_branch(loop, origin, 0.0, first, steps);
@@ -153,7 +153,7 @@ LockBranch verify_lock_branch(const trackers::ToneModel<Interval>& design, const
     branch.reason = "no cell of the band could be verified";
     return branch;
   }
-  for (const Tube& cell : branch.cells) {
+  for (const QuadratureTube& cell : branch.cells) {
     if (!covariance_is_positive_definite(cell.box())) {
       branch.reason = "the steady-state covariance near " +
                       rigor::to_decimal(cell.parameter_center, 6, rigor::Direction::down) +
@@ -167,26 +167,23 @@ LockBranch verify_lock_branch(const trackers::ToneModel<Interval>& design, const
   return branch;
 }
 
-SteadyStateError steady_state_error(const Tube& cell) {
+SteadyStateError steady_state_error(const QuadratureTube& cell) {
   const State state = cell.box();
   return {cell.parameter, state[2], state[1], state[0]};
 }
 
 theorems::Quantity frequency_bias(const LockBranch& branch) {
   const rigor::UpwardRounding upward;
-  theorems::Quantity quantity{
-      "bias_frequency",
-      "\\nu^*",
-      "\\hat x_3 - \\omega \\text{ at the fixed point } X^*(\\omega) = G(X^*(\\omega))",
-      "Krawczyk, on the lock branch continued from \\omega = 0",
-      Interval::empty(),
-      std::nullopt};
+  theorems::Quantity quantity = quantities::bias_frequency();
+  quantity.formula = "\\hat x_3 - \\omega \\text{ at the fixed point } X^*(\\omega) = G(X^*(\\omega))";
+  quantity.source = "Krawczyk, on the lock branch continued from \\omega = 0";
   if (branch.verdict != Verdict::proved || branch.cells.empty()) {
     quantity.not_applicable = branch.reason;
     return quantity;
   }
+  quantity.not_applicable.reset();
   quantity.value = steady_state_error(branch.cells.front()).frequency_error;
-  for (const Tube& cell : branch.cells) {
+  for (const QuadratureTube& cell : branch.cells) {
     quantity.value = hull(quantity.value, steady_state_error(cell).frequency_error);
   }
   return quantity;

@@ -80,13 +80,16 @@ theorems::Derivation transfer_function(const FrozenGain<double>& gain) {
   derivation.id = "single-channel/transfer-function";
   derivation.title =
       "Stability of the tracker with frozen frequency and gain, from measurement to innovation";
-  theorems::add_quantity(derivation, {"gain_1", "K_1", "", source}, exact.k1);
-  theorems::add_quantity(derivation, {"gain_2", "K_2", "", source}, exact.k2);
-  theorems::add_quantity(derivation, {"zero_angle", "\\angle z_0", "\\bar x_3", source}, exact.frequency);
+  theorems::add_quantity(derivation, {"gain_1", "K_1", "", source, "gain of the measured channel"}, exact.k1);
+  theorems::add_quantity(derivation, {"gain_2", "K_2", "", source, "gain of the other channel"}, exact.k2);
   theorems::add_quantity(derivation,
-                         {"pole_radius", "\\max |z_p|",
-                          "z^2 - z(K_2 \\sin \\bar x_3 + (2 - K_1) \\cos \\bar x_3) + 1 - K_1 = 0", source},
-                         largest_root(polynomial));
+                         {"zero_angle", "\\angle z_0", "\\bar x_3", source, "angle of the zeros, rad/sample"},
+                         exact.frequency);
+  theorems::add_quantity(
+      derivation,
+      {"pole_radius", "\\max |z_p|", "z^2 - z(K_2 \\sin \\bar x_3 + (2 - K_1) \\cos \\bar x_3) + 1 - K_1 = 0",
+       source, "largest modulus of a pole"},
+      largest_root(polynomial));
   derivation.conditions.push_back(compare(
       "jury-product", "|1 - K_1| < 1", {"|1 - K_1|", rigor::abs(polynomial.determinant)}, theorems::one()));
   derivation.conditions.push_back(compare("jury-at-1", "0 < D(1)", theorems::zero(),

@@ -20,10 +20,6 @@ using theorems::Condition;
 
 constexpr const char* kNone = "No set of errors could be certified under the assumed noise and slew.";
 
-std::string at_least(const Interval& x) {
-  return rigor::to_decimal(x.lower(), 4, Direction::down);
-}
-
 Condition leak(const Interval& epsilon) {
   const bool none = epsilon == Interval(0.0);
   return {"leak",
@@ -93,19 +89,21 @@ Condition start_in_set(const PhaseQuestion& question, const PhaseCertificate& ce
     condition.reason =
         "a given P(0) is not covered; leave initial_covariance away to start with the steady state.";
   } else {
-    condition.reason =
-        "the assumed start errors reach about " + rigor::to_decimal(level_seen, 3, Direction::up) +
-        " in a metric where the set of "
-        "starts ends at " +
-        at_least(condition.rhs) + ": smaller start errors or a narrower [assume] frequency would do.";
+    condition.reason = "the assumed start errors reach about " +
+                       rigor::to_decimal(level_seen, 3, Direction::up) +
+                       " in a metric where the set of "
+                       "starts ends at " +
+                       rigor::lower_decimal(condition.rhs) +
+                       ": smaller start errors or a narrower [assume] frequency would do.";
   }
   return condition;
 }
 
-void add_quantity(theorems::Derivation& derivation, const char* name, const char* symbol, const char* formula,
-                  const Interval& value, std::string why_not = kNone) {
-  theorems::add_quantity(derivation, {name, symbol, formula, "docs/single-channel.md"}, value,
-                         std::move(why_not));
+void set(theorems::Quantity& quantity, const char* formula, const Interval& value,
+         std::string why_not = kNone) {
+  quantity.formula = formula;
+  quantity.source = "docs/single-channel.md";
+  theorems::set_value(quantity, value, std::move(why_not));
 }
 
 /// How far the set of starts reaches, whatever phase and frequency (lower end), and what it never exceeds.
@@ -146,46 +144,51 @@ Interval settling_samples(const PhaseQuestion& question, const PhaseSet& set, do
   return Interval::empty();
 }
 
-void add_size(const PhaseQuestion& question, const std::optional<PhaseSet>& set,
-              theorems::Derivation& derivation) {
-  const Reach reach = set ? reach_of(*set) : Reach{};
-  add_quantity(derivation, "contraction_rate", "\\kappa",
-               "(\\kappa_n + c R \\textstyle\\sum_m \\kappa_m)^{1/n}",
-               set ? errors_of(question, *set).rate() : Interval());
-  add_quantity(derivation, "radius", "R_0", "e' P^{-1} e \\le R_0^2",
-               set ? Interval(set->start_level) : Interval());
-  add_quantity(derivation, "frequency_error_radius", "\\nu_R", "R_0 \\sqrt{P_{33}}", reach.frequency);
-  add_quantity(derivation, "phase_error_radius", "\\psi_R", "", reach.phase);
-  add_quantity(derivation, "amplitude_error_radius", "a_R", "", reach.amplitude);
+void set_size(const PhaseQuestion& question, const std::optional<PhaseSet>& set_found,
+              sets::ContractionResult& result) {
+  const Reach reach = set_found ? reach_of(*set_found) : Reach{};
+  set(result.contraction_rate, "(\\kappa_n + c R \\textstyle\\sum_m \\kappa_m)^{1/n}",
+      set_found ? errors_of(question, *set_found).rate() : Interval());
+  result.radius.symbol = "R_0";
+  set(result.radius, "e' P^{-1} e \\le R_0^2", set_found ? Interval(set_found->start_level) : Interval());
+  set(result.frequency_error_radius, "R_0 \\sqrt{P_{33}}", reach.frequency);
+  set(result.phase_error_radius, "", reach.phase);
+  set(result.amplitude_error_radius, "", reach.amplitude);
 }
 
 /// What is promised for the assumed starts, or else for the starts of the set.
-void add_promises(const PhaseQuestion& question, const PhaseCertificate& certificate,
-                  theorems::Derivation& derivation) {
-  const std::optional<PhaseSet>& set = certificate.bound_set ? certificate.bound_set : certificate.set;
-  const Interval ultimate = set ? ultimate_frequency_error(question, *set) : Interval();
-  const double start = set ? set->assumed_level.value_or(set->start_level) : 0.0;
-  add_quantity(derivation, "ultimate_frequency_error", "\\nu_\\infty", "\\limsup x_k\\,\\sqrt{P_{33}}",
-               ultimate);
-  add_quantity(
-      derivation, "frequency_error_bound", "\\sup_k |\\nu(k)|", "\\sup_k x_k\\,\\sqrt{P_{33}}",
+void set_promises(const PhaseQuestion& question, const PhaseCertificate& certificate,
+                  sets::StartResult& starts) {
+  const std::optional<PhaseSet>& best = certificate.bound_set ? certificate.bound_set : certificate.set;
+  const Interval ultimate = best ? ultimate_frequency_error(question, *best) : Interval();
+  const double start = best ? best->assumed_level.value_or(best->start_level) : 0.0;
+  set(starts.ultimate_frequency_error, "\\limsup x_k\\,\\sqrt{P_{33}}", ultimate);
+  set(starts.frequency_error_bound, "\\sup_k x_k\\,\\sqrt{P_{33}}",
       certificate.bound_set ? frequency_error_bound(question, *certificate.bound_set, start) : Interval(),
       certificate.set ? "The assumed starts are not in a certified set." : kNone);
   const bool disturbed =
       certainly_positive(question.tracker.noise) || certainly_positive(question.tracker.slew);
-  add_quantity(derivation, "settling_samples", "k_s", "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
-               set && disturbed ? settling_samples(question, *set, start) : Interval(),
-               !set        ? kNone
-               : disturbed ? "No set promises from when on it holds."
-                           : "Without noise and slew the ultimate bound is zero, which is approached but not "
-                             "reached.");
-  add_quantity(derivation, "largest_noise", "V_{max}", "",
-               certificate.noise_set ? certificate.noise_set->noise : Interval(),
-               "No noise could be certified.");
-  add_quantity(derivation, "largest_slew", "W_{max}", "",
-               certificate.slew_set ? certificate.slew_set->slew : Interval(), "No slew could be certified.");
-  add_quantity(derivation, "bias_frequency", "\\nu_*", "0",
-               question.tracker.design.epsilon == Interval(0.0) && set ? Interval(0.0) : Interval());
+  set(starts.settling_samples, "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
+      best && disturbed ? settling_samples(question, *best, start) : Interval(),
+      !best       ? kNone
+      : disturbed ? "No set promises from when on it holds."
+                  : "Without noise and slew the ultimate bound is zero, which is approached but not "
+                    "reached.");
+}
+
+sets::ContractionResult result_of(const PhaseQuestion& question, const PhaseCertificate& certificate) {
+  sets::ContractionResult result;
+  set_size(question, certificate.set, result);
+  set_promises(question, certificate, result.starts);
+  set(result.largest_noise, "", certificate.noise_set ? certificate.noise_set->noise : Interval(),
+      "No noise could be certified.");
+  set(result.largest_slew, "", certificate.slew_set ? certificate.slew_set->slew : Interval(),
+      "No slew could be certified.");
+  theorems::Quantity& bias = result.bias_frequency.emplace(sets::quantities::bias_frequency());
+  bias.symbol = "\\nu_*";
+  set(bias, "0",
+      question.tracker.design.epsilon == Interval(0.0) && certificate.set ? Interval(0.0) : Interval());
+  return result;
 }
 
 /// The numbers from which a set is verified again (docs/certificate-format.md).
@@ -263,9 +266,8 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
   if (certificate.set) {
     derivation.conditions.push_back(start_in_set(question, certificate, level_seen));
   }
-  add_size(question, certificate.set, derivation);
-  add_promises(question, certificate, derivation);
-  theorems::conclude(derivation);
+  certificate.result = result_of(question, certificate);
+  sets::conclude(derivation, certificate.result);
   return certificate;
 }
 

@@ -4,15 +4,17 @@
 
 #include <optional>
 
+#include "analysis/sets/contraction_result.hpp"
 #include "analysis/single_channel/phase_sets.hpp"
 #include "analysis/theorems/derivation.hpp"
 
 namespace veritrack::single_channel {
 
 struct PhaseCertificate {
-  /// id "contraction"; the quantities of quadrature::ContractionCertificate that are proved, and
-  /// bias_frequency; conditions leak, controllable-amplitude, invariant-set, start-in-set.
+  /// id "contraction"; the quantities of `result`; conditions leak, controllable-amplitude, invariant-set,
+  /// start-in-set.
   theorems::Derivation derivation;
+  sets::ContractionResult result;
   std::optional<PhaseSet> set;        ///< the largest start error under the assumed noise and slew
   std::optional<PhaseSet> bound_set;  ///< the least bound from the assumed starts on
   std::optional<PhaseSet> noise_set;  ///< the largest noise, without slew

@@ -6,7 +6,6 @@
 
 namespace veritrack::theorems {
 
-using rigor::Direction;
 using rigor::Interval;
 using rigor::Verdict;
 
@@ -28,10 +27,10 @@ Side one() {
 }
 
 std::string at_least(const Interval& x) {
-  return rigor::to_decimal(x.lower(), kDigits, Direction::down);
+  return rigor::lower_decimal(x, kDigits);
 }
 std::string at_most(const Interval& x) {
-  return rigor::to_decimal(x.upper(), kDigits, Direction::up);
+  return rigor::upper_decimal(x, kDigits);
 }
 std::string enclosed(const Interval& x) {
   const std::string lower = at_least(x);

@@ -12,6 +12,15 @@
 
 namespace veritrack::theorems {
 
+/// In which way the value of a quantity is to be read.
+enum class Sense {
+  enclosure,  ///< the quantity lies in it
+  equal,      ///< the quantity is it: a count, or a chosen number
+  at_most,    ///< the quantity is a bound from above, at most the upper end
+  at_least,   ///< the quantity is a bound from below, at least the lower end
+  sampled     ///< a search, a solver or a simulation gave it: no enclosure of anything
+};
+
 /// One constant of a theorem, evaluated for a design.
 struct Quantity {
   std::string name;     ///< as in certificate.json, e.g. "rho_1"
@@ -22,8 +31,12 @@ struct Quantity {
   /// Set when the quantity does not exist for this design (a division by q1 = 0, say): the reason, as a
   /// sentence. The value is then empty.
   std::optional<std::string> not_applicable;
-  /// False for a number from a search or a simulation, which encloses nothing.
-  bool proved = true;
+  Sense sense = Sense::enclosure;
+  /// What it is, for a reader, with its unit; empty where only the source's symbol says it.
+  std::string words = {};
+
+  [[nodiscard]] bool applies() const { return !not_applicable; }
+  [[nodiscard]] bool is_proved() const { return sense != Sense::sampled; }
 };
 
 /// One hypothesis of a theorem, lhs < rhs, decided for a design.

@@ -6,16 +6,28 @@ namespace veritrack::theorems {
 
 using rigor::Interval;
 
-void add_quantity(Derivation& derivation, QuantityText text, const Interval& value, std::string why_not) {
-  Quantity quantity{
-      std::move(text.name), std::move(text.symbol), std::move(text.formula), std::move(text.source), value,
-      std::nullopt};
-  if (!is_finite(value)) {
-    quantity.value = Interval::empty();
-    quantity.not_applicable =
-        why_not.empty() ? quantity.name + " is undefined, or overflows, for the values of this design."
-                        : std::move(why_not);
+void set_value(Quantity& quantity, const Interval& value, std::string why_not) {
+  if (is_finite(value)) {
+    quantity.value = value;
+    quantity.not_applicable.reset();
+    return;
   }
+  quantity.value = Interval::empty();
+  quantity.not_applicable =
+      why_not.empty() ? quantity.name + " is undefined, or overflows, for the values of this design."
+                      : std::move(why_not);
+}
+
+void add_quantity(Derivation& derivation, QuantityText text, const Interval& value, std::string why_not) {
+  Quantity quantity{std::move(text.name),
+                    std::move(text.symbol),
+                    std::move(text.formula),
+                    std::move(text.source),
+                    Interval::empty(),
+                    std::nullopt,
+                    text.sense,
+                    std::move(text.words)};
+  set_value(quantity, value, std::move(why_not));
   derivation.quantities.push_back(std::move(quantity));
 }
 

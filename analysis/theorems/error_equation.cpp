@@ -58,9 +58,14 @@ Interval best_radius(const std::function<Interval(const Interval&)>& value) {
 
 void add_guarantee(Derivation& derivation, const Guarantee& guarantee, const std::string& source,
                    const std::string& no_noise) {
-  add_quantity(derivation, {"initial_frequency_error_bound", R"(\lvert e_0 \rvert)", "", source},
+  add_quantity(derivation,
+               {"initial_frequency_error_bound", R"(\lvert e_0 \rvert)", "", source,
+                "largest certified initial error, rad/sample", Sense::at_least},
                guarantee.initial_frequency_error, "The conditions hold for no initial error of this design.");
-  add_quantity(derivation, {"noise_bound", R"(\lvert v(k) \rvert)", "", source}, guarantee.noise,
+  add_quantity(derivation,
+               {"noise_bound", R"(\lvert v(k) \rvert)", "", source,
+                "largest certified noise, over the amplitude", Sense::at_least},
+               guarantee.noise,
                no_noise.empty() ? "The conditions hold for no noise with this design." : no_noise);
   add_quantity(derivation, {"rate", "", "", source}, guarantee.rate, "No rate follows for this design.");
 }

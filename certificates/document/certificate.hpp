@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/rigor/verdict.hpp"
+#include "analysis/sets/contraction_result.hpp"
 #include "analysis/theorems/derivation.hpp"
 #include "certificates/design/design.hpp"
 #include "certificates/document/formal_proof.hpp"
@@ -34,6 +35,8 @@ struct Certificate {
   std::string design_file;                        ///< its name, without folders
   std::string design_text;                        ///< as read
   std::vector<theorems::Derivation> derivations;  ///< what follows from what, by the kind of tracker
+  /// What is certified of the assumed starts and beyond; none for a tracker without such a certificate.
+  std::optional<sets::ContractionResult> contraction;
   std::vector<Claim> claims;
   /// Of all required claims together; none when nothing is required, which is no verdict at all.
   std::optional<rigor::Verdict> verdict;

@@ -22,7 +22,7 @@ Json quantities_json(const std::vector<theorems::Quantity>& quantities, Json& no
     entry["symbol"] = quantity.symbol;
     entry["formula"] = quantity.formula;
     entry["source"] = quantity.source;
-    if (!quantity.proved) {
+    if (!quantity.is_proved()) {
       entry["proved"] = false;
     }
     json[quantity.name] = entry;

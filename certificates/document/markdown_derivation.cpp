@@ -34,18 +34,33 @@ std::string conditions_table(const theorems::Derivation& derivation) {
   return table({"Condition", "Statement", "Left side", "Verdict", "Ground"}, rows);
 }
 
-std::string quantities_table(const theorems::Derivation& derivation,
-                             QuantityText (*describe)(const std::string& name)) {
+std::string value_text(const theorems::Quantity& quantity, int enclosure_digits) {
+  constexpr int kDigits = 4;
+  if (quantity.not_applicable) {
+    return "not applicable: " + *quantity.not_applicable;
+  }
+  switch (quantity.sense) {
+    case theorems::Sense::at_most:
+      return at_most(quantity.value, kDigits);
+    case theorems::Sense::at_least:
+      return at_least(quantity.value, kDigits);
+    case theorems::Sense::sampled:
+      return fmt::format("≈ {:.3g} (sampled, not proved)", rigor::midpoint(quantity.value));
+    case theorems::Sense::enclosure:
+    case theorems::Sense::equal:
+      break;
+  }
+  return enclosure(quantity.value, enclosure_digits);
+}
+
+std::string quantities_table(const theorems::Derivation& derivation, int enclosure_digits) {
   std::vector<std::vector<std::string>> rows;
   rows.reserve(derivation.quantities.size());
   for (const theorems::Quantity& quantity : derivation.quantities) {
-    const QuantityText text = describe(quantity.name);
-    const std::string value =
-        quantity.proved ? text.value(quantity.value, 4)
-                        : fmt::format("≈ {:.3g} (sampled, not proved)", rigor::midpoint(quantity.value));
-    rows.push_back({text.description, quantity.symbol.empty() ? "—" : math(quantity.symbol),
+    rows.push_back({quantity.words.empty() ? "`" + quantity.name + "`" : quantity.words,
+                    quantity.symbol.empty() ? "—" : math(quantity.symbol),
                     quantity.formula.empty() ? "—" : math(quantity.formula),
-                    quantity.not_applicable ? "not applicable: " + *quantity.not_applicable : value});
+                    value_text(quantity, enclosure_digits)});
   }
   return table({"Quantity", "Symbol", "Formula", "Value"}, rows);
 }

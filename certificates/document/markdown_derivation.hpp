@@ -10,15 +10,11 @@ namespace veritrack::certificates::markdown {
 /// The conditions with their verdicts and grounds; those that are not PROVED stand first.
 [[nodiscard]] std::string conditions_table(const theorems::Derivation& derivation);
 
-/// How a quantity is shown to people.
-struct QuantityText {
-  std::string description;                                         ///< what it is, with its unit
-  std::string (*value)(const rigor::Interval& value, int digits);  ///< enclosure, at_most or at_least
-};
+/// The value of a quantity, as its sense says; `enclosure_digits` of an enclosure, four of a bound.
+[[nodiscard]] std::string value_text(const theorems::Quantity& quantity, int enclosure_digits = 4);
 
-/// The quantities: what they are, symbol, formula, value to four digits. `describe` tells by the name.
-[[nodiscard]] std::string quantities_table(const theorems::Derivation& derivation,
-                                           QuantityText (*describe)(const std::string& name));
+/// The quantities: what they are, symbol, formula, value.
+[[nodiscard]] std::string quantities_table(const theorems::Derivation& derivation, int enclosure_digits = 4);
 
 /// The notes as a list; empty when there are none.
 [[nodiscard]] std::string notes_list(const theorems::Derivation& derivation);

@@ -68,9 +68,9 @@ void define_design(Proofs& proofs, const Certificate& certificate, const std::st
   proofs.write(fmt::format("Definition in_range (s : R) : Prop := {} ^ 2 <= s <= {} ^ 2.\n",
                            decimal(tables.assume.frequency[0].text),
                            decimal(tables.assume.frequency[1].text)));
-  proofs.write(fmt::format(
-      "Definition ell_lower : R := {}.\nDefinition ell_in_use : R := {}.\n", lower_bound,
-      tables.design.ell ? decimal(tables.design.ell->text) : exactly(kkl_ell_in_use(certificate))));
+  const KklEll ell = kkl_ell_in_use(certificate);
+  proofs.write(fmt::format("Definition ell_lower : R := {}.\nDefinition ell_in_use : R := {}.\n", lower_bound,
+                           ell.decimal ? decimal(*ell.decimal) : exactly(ell.nearest)));
   proofs.write(
       "Ltac unfold_design := unfold in_range, ell_lower, ell_in_use, l1, l2, l3, l4 in *.\n"
       "Lemma range_is_positive : forall s : R, in_range s -> 0 < s.\n"
@@ -187,17 +187,16 @@ FormalProofs kkl_observer_proofs(const Certificate& certificate) {
   constexpr int kDigits = 9;
   const theorems::Derivation& enclosed = *find_derivation(certificate, "kkl-ell");
   const Interval ell = find_quantity(enclosed, "ell").value;
-  define_design(proofs, certificate,
-                decimal(rigor::to_decimal(ell.lower(), kDigits, rigor::Direction::down)));
+  define_design(proofs, certificate, decimal(rigor::lower_decimal(ell, kDigits)));
   prove_lower_bound(proofs);
   prove_upper_bound(proofs, tables, find_quantity(enclosed, "argmin_omega").value.lower(),
-                    rigor::to_decimal(ell.upper(), kDigits, rigor::Direction::up));
+                    rigor::upper_decimal(ell, kDigits));
   const Verdict inverse = verdict_of(certificate, "kkl-paper", "left-inverse");
   if (inverse == Verdict::proved) {
     prove_inverse(proofs);
   } else if (inverse == Verdict::refuted) {
     if (const auto witness =
-            kkl_observer::find_inverse_witness(kkl_range(tables), Interval(tables.design.ell->value))) {
+            kkl_observer::find_inverse_witness(kkl_range(tables), kkl_ell_in_use(certificate).value)) {
       prove_no_inverse(proofs, *witness);
     }
   }

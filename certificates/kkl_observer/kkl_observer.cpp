@@ -58,7 +58,7 @@ Claim bound_claim(const Certificate& certificate, const std::string& id, const s
     claim.reason += ".";
     return claim;
   }
-  const std::string shown = rigor::to_decimal(bound->upper(), 4, rigor::Direction::up);
+  const std::string shown = rigor::upper_decimal(*bound);
   if (rigor::certainly_less(Interval(bound->upper()), required.value)) {
     claim.verdict = Verdict::proved;
     claim.reason = fmt::format("The proved bound is {} {}.", shown, unit);
@@ -136,14 +136,16 @@ std::optional<Eigen::Vector4d> section_v_rates(const KklObserverTables& tables) 
   return printed;
 }
 
-double kkl_ell_in_use(const Certificate& certificate) {
-  const KklObserverTables& tables = kkl_observer_tables(certificate.design);
-  if (tables.design.ell) {
-    return tables.design.ell->nearest;
+KklEll kkl_ell_in_use(const Certificate& certificate) {
+  if (const auto& chosen = kkl_observer_tables(certificate.design).design.ell) {
+    return {chosen->value, chosen->nearest, chosen->text};
   }
-  const theorems::Derivation* ell = find_derivation(certificate, "kkl-ell");
-  return ell != nullptr ? theorems::find_quantity(*ell, "ell").value.lower()
-                        : std::numeric_limits<double>::quiet_NaN();
+  const theorems::Derivation* proved = find_derivation(certificate, "kkl-ell");
+  if (proved == nullptr) {
+    return {Interval::empty(), std::numeric_limits<double>::quiet_NaN(), std::nullopt};
+  }
+  const double lower = theorems::find_quantity(*proved, "ell").value.lower();
+  return {Interval(lower), lower, std::nullopt};
 }
 
 void certify_kkl_observer(Certificate& certificate, const CertifyProgress& /*progress*/) {
@@ -155,16 +157,18 @@ void certify_kkl_observer(Certificate& certificate, const CertifyProgress& /*pro
   claims.frequency = hull_of(tables.assume.frequency);
   claims.amplitude = hull_of(tables.assume.amplitude);
   if (claims.lambda.size() == kFilters) {
-    certificate.derivations.push_back(kkl_observer::derive_kkl_ell(kkl_range(tables)));
-    const Interval proved = theorems::find_quantity(certificate.derivations.back(), "ell").value;
-    claims.ell = tables.design.ell ? tables.design.ell->value : Interval(proved.lower());
+    const kkl_observer::KklRange range = kkl_range(tables);
+    const search::VerifiedMinimum<1> infimum = kkl_observer::enclose_ell(range);
+    certificate.derivations.push_back(kkl_observer::derive_kkl_ell(range, infimum));
+    claims.infimum = infimum.value();
+    claims.ell = kkl_ell_in_use(certificate).value;
     certificate.derivations.push_back(
         kkl_observer::derive_kkl_robustness(kkl_robustness_question(tables, claims.ell)));
   }
   certificate.derivations.push_back(kkl_observer::derive_kkl_claims(claims));
   if (const auto lambda = section_v_rates(tables)) {
     certificate.derivations.push_back(
-        kkl_observer::derive_kkl_section_v(*lambda, kkl_ell_in_use(certificate)));
+        kkl_observer::derive_kkl_section_v(*lambda, kkl_ell_in_use(certificate).nearest));
   }
   add_required_claims(certificate, tables.require);
 }

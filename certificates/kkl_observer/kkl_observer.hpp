@@ -28,9 +28,15 @@ void certify_kkl_observer(Certificate& certificate, const CertifyProgress& progr
 /// The rates of a design that has those of the paper's section V, (1, 2, 3, 4) 1/s.
 [[nodiscard]] std::optional<Eigen::Vector4d> section_v_rates(const KklObserverTables& tables);
 
-/// The ell that the observer runs with: the design's, or the lower end of the proved one; NaN when there is
-/// none.
-[[nodiscard]] double kkl_ell_in_use(const Certificate& certificate);
+/// The ell that an observer runs with: the design's, or the lower end of the proved one.
+struct KklEll {
+  rigor::Interval value;               ///< empty when there is none
+  double nearest = 0.0;                ///< NaN when there is none
+  std::optional<std::string> decimal;  ///< as the design writes it; none: the proved one
+};
+
+/// Decided from the design and the derivation "kkl-ell" of its certificate.
+[[nodiscard]] KklEll kkl_ell_in_use(const Certificate& certificate);
 
 /// The proved bound of that name ("frequency_error_bound", "amplitude_error_bound", "settling_time"); none
 /// when nothing was proved.

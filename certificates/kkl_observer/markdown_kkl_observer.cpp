@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <string_view>
 #include <vector>
 
 #include "analysis/rigor/decimal.hpp"
@@ -27,46 +26,6 @@ std::string range(const std::array<Number, 2>& bounds) {
   return fmt::format("[{}, {}]", code(bounds[0]), code(bounds[1]));
 }
 
-/// A number of a solver or a simulation.
-std::string about(const rigor::Interval& value, int digits) {
-  return fmt::format("≈ {:.{}g} (not proved)", rigor::midpoint(value), digits);
-}
-
-/// How a quantity is shown to people.
-markdown::QuantityText description(const std::string& name) {
-  using markdown::at_least;
-  using markdown::at_most;
-  using markdown::enclosure;
-  struct Entry {
-    std::string_view name, text;
-    std::string (*value)(const rigor::Interval&, int);
-  };
-  static constexpr std::array<Entry, 16> kEntries{{
-      {"ell", "the constant of (10)", enclosure},
-      {"ell_ipopt", "what Ipopt finds for (10)", about},
-      {"ell_nlopt", "what NLopt finds locally", about},
-      {"ell_nlopt_global", "what NLopt finds globally", about},
-      {"argmin_omega", "the frequencies that can attain it, rad/s", enclosure},
-      {"frequency_error_bound", "frequency error once settled, rad/s", at_most},
-      {"amplitude_error_bound", "amplitude error once settled, signal units", at_most},
-      {"settling_time", "settled after, s", at_most},
-      {"largest_ell", "an ell up to which the disturbed inverse is exact", at_least},
-      {"frequency_error_simulated", "largest frequency error seen in simulation, rad/s", about},
-      {"amplitude_error_simulated", "largest amplitude error seen in simulation, signal units", about},
-      {"vandermonde_singular_value", "smallest singular value of the Vandermonde matrix", enclosure},
-      {"injectivity_constant", "constant of the injectivity of T", at_most},
-      {"continuity_modulus", "bound on the slope of the inverse", at_most},
-      {"captions_reproduced", "captions of Figures 1 to 6 reproduced to the last digit, of twelve", about},
-      {"captions_within_one_unit", "within one unit of the last digit, of twelve", about},
-  }};
-  for (const Entry& entry : kEntries) {
-    if (entry.name == name) {
-      return {std::string(entry.text), entry.value};
-    }
-  }
-  return {name, about};
-}
-
 std::string design_section(const Certificate& certificate, const KklObserverTables& tables) {
   const Design& design = certificate.design;
   std::string text = "## The design and what is assumed\n\n";
@@ -76,10 +35,11 @@ std::string design_section(const Certificate& certificate, const KklObserverTabl
   for (const Number& rate : tables.design.lambda) {
     rates += (rates.empty() ? "" : ", ") + code(rate);
   }
+  const KklEll ell = kkl_ell_in_use(certificate);
   std::vector<std::vector<std::string>> rows{
       {"filter rates", math("\\lambda"), rates, "1/s"},
       {"constant of (9)", math("\\ell"),
-       tables.design.ell ? code(*tables.design.ell) : "the lower end of the proved one", "—"},
+       ell.decimal ? "`" + *ell.decimal + "`" : "the lower end of the proved one", "—"},
       {"frequency of the signal, always within", math("\\omega"), range(tables.assume.frequency), "rad/s"},
       {"amplitude of the signal, always within", math("A"), range(tables.assume.amplitude), "signal units"}};
   if (const auto& disturbance = tables.assume.disturbance; disturbance && disturbance->bound) {
@@ -106,7 +66,7 @@ std::string derivation_section(const Certificate& certificate, const std::string
     if (!derivation.conditions.empty()) {
       text += markdown::conditions_table(derivation) + "\n";
     }
-    text += markdown::quantities_table(derivation, description) + "\n";
+    text += markdown::quantities_table(derivation) + "\n";
     text += markdown::notes_list(derivation) + "\n";
   }
   return text;
@@ -139,9 +99,7 @@ std::string kkl_observer_headline(const Certificate& certificate) {
   if (!frequency || !time) {
     return "Nothing is required of this design, and no bound on its errors is certified";
   }
-  const auto shown = [](const rigor::Interval& value) {
-    return rigor::to_decimal(value.upper(), 3, rigor::Direction::up);
-  };
+  const auto shown = [](const rigor::Interval& value) { return rigor::upper_decimal(value, 3); };
   return fmt::format(
       "Nothing is required of this design; PROVED of it: after {} s the frequency error stays at or below {} "
       "rad/s",

@@ -26,26 +26,25 @@ constexpr std::size_t kMostCells = 4000;
 constexpr std::size_t kMostCellsWithoutNoise = 2000;
 constexpr std::size_t kMostCellsAtReducedNoise = 600;
 
-bool starts_are_outside(const Certificate& certificate) {
-  const theorems::Derivation& contraction = *find_derivation(certificate, "contraction");
-  return std::any_of(contraction.conditions.begin(), contraction.conditions.end(),
-                     [](const theorems::Condition& condition) {
-                       return condition.id == "start-in-set" && condition.verdict != Verdict::proved;
-                     });
+bool starts_are_outside(const sets::ContractionResult& contraction) {
+  const auto& conditions = contraction.starts.conditions;
+  return std::any_of(conditions.begin(), conditions.end(), [](const theorems::Condition& condition) {
+    return condition.id == "start-in-set" && condition.verdict != Verdict::proved;
+  });
 }
 
 Claim claim_of(const StartCapture& capture, std::string id, std::string statement) {
   Claim claim;
   claim.id = std::move(id);
   claim.statement = std::move(statement);
-  claim.verdict = capture.derivation.verdict;
-  for (const theorems::Condition& condition : capture.derivation.conditions) {
+  claim.verdict = capture.result.verdict;
+  for (const theorems::Condition& condition : capture.result.conditions) {
     if (condition.verdict == claim.verdict) {
       claim.reason = condition.reason;  // of the last: that of the starts, when the set is as it must be
     }
   }
   for (const theorems::Quantity& quantity : capture.derivation.quantities) {
-    if (!quantity.not_applicable) {
+    if (quantity.applies()) {
       claim.evidence.push_back(quantity);
     }
   }
@@ -63,16 +62,16 @@ void add_capture_at_reduced_noise(Certificate& certificate, const quadrature::Ce
     reduced.slew = Interval(share) * question.slew;
     StartCapture capture =
         quadrature::capture_starts(reduced, set, "capture/reduced-noise", kMostCellsAtReducedNoise, progress);
-    if (capture.derivation.verdict == Verdict::proved) {
-      const auto text = [](const Interval& value) {
-        return rigor::to_decimal(value.lower(), 3, rigor::Direction::down);
-      };
+    if (capture.result.verdict == Verdict::proved) {
+      constexpr int kDigits = 3;
       certificate.claims.push_back(claim_of(
           capture, "ekf/capture-at-reduced-noise",
           fmt::format("From every assumed start, with noise of at most {} of the amplitude and slew of at "
                       "most {} rad/sample per sample, the tracker comes into the certified set, which it "
                       "never leaves.",
-                      text(reduced.noise), text(reduced.slew))));
+                      rigor::lower_decimal(reduced.noise, kDigits),
+                      rigor::lower_decimal(reduced.slew, kDigits))));
+      certificate.contraction->starts.proved_instead = certificate.claims.back().statement;
       certificate.derivations.push_back(std::move(capture.derivation));
       return;
     }
@@ -94,7 +93,8 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
   const auto set = std::find_if(quadrature_particulars(certificate).certified_sets.begin(),
                                 quadrature_particulars(certificate).certified_sets.end(),
                                 [](const NamedSet& named) { return named.purpose == "start-error"; });
-  if (set == quadrature_particulars(certificate).certified_sets.end() || !starts_are_outside(certificate)) {
+  if (set == quadrature_particulars(certificate).certified_sets.end() ||
+      !starts_are_outside(*certificate.contraction)) {
     return;
   }
   const auto report = region_progress(progress);
@@ -110,11 +110,14 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
     question.slew = Interval(0.0);
     noise_free =
         quadrature::capture_starts(question, set->set, "capture/noise-free", kMostCellsWithoutNoise, report);
-    if (noise_free->derivation.verdict == Verdict::refuted) {
+    if (noise_free->result.verdict == Verdict::refuted) {
       claim.verdict = Verdict::refuted;
       claim.reason = "Without noise and slew, which is allowed: " + claim_of(*noise_free, "", "").reason;
     }
   }
+  sets::StartResult& starts = certificate.contraction->starts;
+  starts = std::move(capture.result);
+  starts.loses_lock = claim.verdict == Verdict::refuted;
   certificate.claims.push_back(std::move(claim));
   certificate.derivations.push_back(std::move(capture.derivation));
   if (noise_free) {
@@ -122,9 +125,10 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
         claim_of(*noise_free, "ekf/capture-noise-free",
                  "From every assumed start, without noise and slew, the tracker comes into the certified "
                  "set, which it never leaves."));
-    const bool captured = noise_free->derivation.verdict == Verdict::proved;
+    const bool captured = noise_free->result.verdict == Verdict::proved;
     certificate.derivations.push_back(std::move(noise_free->derivation));
     if (captured) {
+      starts.proved_instead = certificate.claims.back().statement;
       add_capture_at_reduced_noise(certificate, set->set, report);
     }
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
@@ -17,16 +16,25 @@ namespace {
 using rigor::Direction;
 using rigor::Interval;
 
-/// The first of these quantities that the derivation has, above zero.
-std::optional<Interval> value_of(const theorems::Derivation& derivation,
-                                 std::initializer_list<std::string_view> names) {
-  for (const std::string_view name : names) {
-    const theorems::Quantity* quantity = theorems::applicable_quantity(derivation, name);
-    if (quantity != nullptr && rigor::certainly_positive(quantity->value)) {
-      return quantity->value;
-    }
-  }
-  return std::nullopt;
+/// The value, when it applies and is above zero.
+std::optional<Interval> above_zero(const theorems::Quantity* quantity) {
+  const bool compares =
+      quantity != nullptr && quantity->applies() && rigor::certainly_positive(quantity->value);
+  return compares ? std::optional(quantity->value) : std::nullopt;
+}
+
+/// A published result: those that certify a start, a noise or a rate all name them alike.
+ComparedResult row_of(const theorems::Derivation& derivation) {
+  const auto value_of = [&](const char* name) {
+    return above_zero(theorems::applicable_quantity(derivation, name));
+  };
+  return {derivation.id, derivation.verdict, value_of("initial_frequency_error_bound"),
+          value_of("noise_bound"), value_of("rate")};
+}
+
+ComparedResult row_of(const theorems::Derivation& derivation, const sets::ContractionResult& result) {
+  return {derivation.id, derivation.verdict, above_zero(&result.frequency_error_radius),
+          above_zero(&result.largest_noise), above_zero(&result.contraction_rate)};
 }
 
 std::string bound_text(const ComparedResult& row, const std::optional<Interval>& value, Direction direction) {
@@ -37,9 +45,9 @@ std::string bound_text(const ComparedResult& row, const std::optional<Interval>&
     return fmt::format("≈ {:.3g}", rigor::midpoint(*value));
   }
   if (direction == Direction::down) {
-    return rigor::to_decimal(value->lower(), 4, direction);
+    return rigor::lower_decimal(*value);
   }
-  const std::string rounded = rigor::to_decimal(value->upper(), 4, direction);
+  const std::string rounded = rigor::upper_decimal(*value);
   return value->upper() < 1.0 && rounded == "1" ? "< 1" : "≤ " + rounded;
 }
 
@@ -47,14 +55,9 @@ std::string bound_text(const ComparedResult& row, const std::optional<Interval>&
 
 void add_comparison(Certificate& certificate) {
   for (const theorems::Derivation& derivation : certificate.derivations) {
-    ComparedResult row;
-    row.result = derivation.id;
-    row.verdict = derivation.verdict;
-    row.frequency_error = value_of(derivation, {"initial_frequency_error_bound", "frequency_error_radius"});
-    row.noise = value_of(derivation, {"noise_bound", "largest_noise"});
-    row.rate = value_of(derivation, {"rate", "contraction_rate"});
-    const bool always_shown =
-        derivation.id.starts_with("theorem-2.9/") || derivation.id.starts_with("contraction");
+    const bool is_contraction = derivation.id == "contraction";
+    ComparedResult row = is_contraction ? row_of(derivation, *certificate.contraction) : row_of(derivation);
+    const bool always_shown = is_contraction || derivation.id.starts_with("theorem-2.9/");
     if (always_shown || row.frequency_error || row.noise || row.rate) {
       quadrature_particulars(certificate).comparison.push_back(std::move(row));
     }

@@ -5,26 +5,30 @@
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/sets/assumptions.hpp"
-#include "trackers/quadrature/quadrature_rotating_frame.hpp"
+#include "trackers/tone_model.hpp"
 
 namespace veritrack::certificates {
-
-namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
 
-trackers::ToneModel<Interval> design_at_unit_amplitude(const Design& design) {
-  const QuadratureDesignTable& chosen = quadrature_tables(design).design;
+trackers::ToneModel<Interval> enclosed_at_unit_amplitude(const QuadratureEkfTables& tables) {
+  const QuadratureDesignTable& chosen = tables.design;
   return trackers::at_unit_amplitude<Interval>(
       {chosen.q1.value, chosen.q2.value, chosen.r.value, chosen.epsilon.value},
-      quadrature_tables(design).assume.amplitude.value);
+      tables.assume.amplitude.value);
 }
 
-}  // namespace
+trackers::ToneModel<double> nearest_at_unit_amplitude(const QuadratureEkfTables& tables) {
+  const QuadratureDesignTable& chosen = tables.design;
+  return trackers::at_unit_amplitude<double>(
+      {chosen.q1.nearest, chosen.q2.nearest, chosen.r.nearest, chosen.epsilon.nearest},
+      tables.assume.amplitude.nearest);
+}
 
 sets::ContractionQuestion contraction_question(const Design& design) {
-  return contraction_question(design_at_unit_amplitude(design), quadrature_tables(design).assume);
+  const QuadratureEkfTables& tables = quadrature_tables(design);
+  return contraction_question(enclosed_at_unit_amplitude(tables), tables.assume);
 }
 
 void add_contraction(Certificate& certificate) {
@@ -32,6 +36,7 @@ void add_contraction(Certificate& certificate) {
     quadrature::ContractionCertificate found =
         quadrature::certify_contraction(contraction_question(certificate.design));
     certificate.derivations.push_back(std::move(found.derivation));
+    certificate.contraction = std::move(found.result);
     const auto keep = [&](const char* purpose, const std::optional<quadrature::Verification>& verification) {
       if (verification && verification->verdict == Verdict::proved) {
         quadrature_particulars(certificate).certified_sets.push_back({purpose, verification->set});
@@ -45,10 +50,11 @@ void add_contraction(Certificate& certificate) {
     keep("settling", found.settling_set);
   } else {
     const Assumptions& assume = quadrature_tables(certificate.design).assume;
-    certificate.derivations.push_back(
+    quadrature::LeakCertificate found =
         quadrature::certify_with_leak({contraction_question(certificate.design),
-                                       rigor::hull(assume.frequency[0].value, assume.frequency[1].value)})
-            .derivation);
+                                       rigor::hull(assume.frequency[0].value, assume.frequency[1].value)});
+    certificate.derivations.push_back(std::move(found.derivation));
+    certificate.contraction = std::move(found.result);
   }
 }
 

@@ -3,10 +3,17 @@
 
 #include "analysis/sets/contraction_question.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/contraction.hpp"
 
 namespace veritrack::certificates {
+
+/// The values of [design] at amplitude 1: as intervals that hold the decimals (needs the upward mode), and as
+/// the doubles nearest to them (needs round-to-nearest).
+[[nodiscard]] trackers::ToneModel<rigor::Interval> enclosed_at_unit_amplitude(
+    const QuadratureEkfTables& tables);
+[[nodiscard]] trackers::ToneModel<double> nearest_at_unit_amplitude(const QuadratureEkfTables& tables);
 
 /// What is asked of contraction for the quadrature tracker, at amplitude 1. Needs the upward mode.
 [[nodiscard]] sets::ContractionQuestion contraction_question(const Design& design);

@@ -27,16 +27,6 @@ std::vector<theorems::Derivation> other_results(const Certificate& certificate) 
   return found;
 }
 
-markdown::QuantityText description(const std::string& name) {
-  if (name == "initial_frequency_error_bound") {
-    return {"largest certified initial error, rad/sample", markdown::at_least};
-  }
-  if (name == "noise_bound") {
-    return {"largest certified noise, over the amplitude", markdown::at_least};
-  }
-  return {"`" + name + "`", [](const rigor::Interval& value, int) { return markdown::enclosure(value); }};
-}
-
 }  // namespace
 
 std::string other_results_section(const Certificate& certificate) {
@@ -65,13 +55,14 @@ std::string other_constants_section(const Certificate& certificate) {
   if (results.empty()) {
     return "";
   }
+  constexpr int kDigits = 7;
   std::string text = "## Constants of the other results\n\n";
   for (const theorems::Derivation& derivation : results) {
     if (derivation.quantities.empty()) {
       continue;
     }
     text += fmt::format("### `{}`\n\n", derivation.id);
-    text += markdown::quantities_table(derivation, description) + "\n";
+    text += markdown::quantities_table(derivation, kDigits) + "\n";
   }
   return text;
 }

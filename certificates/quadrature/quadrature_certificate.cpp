@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -28,16 +27,15 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-/// The theorem is stated for unit amplitude. The filter (q1, r, noise v) at amplitude A is the filter
-/// (q1/A^2, r/A^2, v/A) at amplitude 1.
+/// The theorem is stated for unit amplitude.
 theorems::Theorem29Input theorem_input(const QuadratureEkfTables& tables) {
   const Assumptions& assume = tables.assume;
-  const Interval amplitude_squared = rigor::square(assume.amplitude.value);
+  const trackers::ToneModel<Interval> model = enclosed_at_unit_amplitude(tables);
   theorems::Theorem29Input input;
-  input.q1 = tables.design.q1.value / amplitude_squared;
-  input.q2 = tables.design.q2.value;
-  input.r = tables.design.r.value / amplitude_squared;
-  input.epsilon = tables.design.epsilon.value;
+  input.q1 = model.q1;
+  input.q2 = model.q2;
+  input.r = model.r;
+  input.epsilon = model.epsilon;
   input.state_bound = tables.theorem_2_9.state_bound.value;
   input.sigma = tables.theorem_2_9.sigma.value;
   input.gamma_fraction = tables.theorem_2_9.gamma_fraction.value;
@@ -62,19 +60,7 @@ theorems::Theorem29Input theorem_input(const QuadratureEkfTables& tables) {
 /// What the other results are evaluated for, also at unit amplitude.
 theorems::TrackerInput tracker_input(const QuadratureEkfTables& tables,
                                      const theorems::Theorem29Input& theorem) {
-  theorems::TrackerInput input{theorem, std::nullopt};
-  if (const auto& covariance = tables.assume.initial_covariance) {
-    rigor::IntervalMatrix<3>& start = input.initial_covariance.emplace();
-    const std::array<Interval, 3> unit = {tables.assume.amplitude.value, tables.assume.amplitude.value,
-                                          Interval(1.0)};
-    for (std::size_t row = 0; row < unit.size(); ++row) {
-      for (std::size_t column = 0; column < unit.size(); ++column) {
-        start(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
-            covariance->at(row).at(column).value / (unit.at(row) * unit.at(column));
-      }
-    }
-  }
-  return input;
+  return {theorem, covariance_at_unit_amplitude(tables.assume)};
 }
 
 /// "Theorem 2.9 applies", one claim a reading: the conditions, not what the theorem concludes from them.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/quadrature/guarantee.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_simulation.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
@@ -27,9 +28,7 @@ class ClosedLoop {
   explicit ClosedLoop(const Design& design) {
     const QuadratureEkfTables& tables = quadrature_tables(design);
     const double amplitude = tables.assume.amplitude.nearest;
-    design_ = trackers::at_unit_amplitude<double>({tables.design.q1.nearest, tables.design.q2.nearest,
-                                                   tables.design.r.nearest, tables.design.epsilon.nearest},
-                                                  amplitude);
+    design_ = nearest_at_unit_amplitude(tables);
     frequency_ = 0.5 * (tables.assume.frequency[0].nearest + tables.assume.frequency[1].nearest);
     const Eigen::Vector3d scale(1.0 / amplitude, 1.0 / amplitude, 1.0);
     const Eigen::Matrix3d covariance =

@@ -96,7 +96,7 @@ std::vector<double> bound_from(quadrature::CertifiedLevel level) {
 
 }  // namespace
 
-std::optional<Tube> certified_tube(const Certificate& certificate) {
+std::optional<FrequencyErrorTube> certified_tube(const Certificate& certificate) {
   const auto named = std::find_if(quadrature_particulars(certificate).certified_sets.begin(),
                                   quadrature_particulars(certificate).certified_sets.end(),
                                   [](const NamedSet& one) { return one.purpose == "start-error"; });
@@ -104,7 +104,7 @@ std::optional<Tube> certified_tube(const Certificate& certificate) {
   if (named == quadrature_particulars(certificate).certified_sets.end() || !bound) {
     return std::nullopt;
   }
-  Tube tube;
+  FrequencyErrorTube tube;
   std::vector<State> starts;
   Loop loop;
   {

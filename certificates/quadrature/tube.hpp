@@ -9,7 +9,7 @@
 namespace veritrack::certificates {
 
 /// |frequency error|, rad/sample, after 0, 1, ... samples.
-struct Tube {
+struct FrequencyErrorTube {
   /// The starts: all assumed ones, which had to be captured; otherwise all of the certified set.
   bool from_assumed_starts = false;
   std::vector<double> bound;  ///< certified, for every such start and all noise and slew assumed
@@ -21,6 +21,6 @@ struct Tube {
 };
 
 /// None when no set is certified or no bound is proved. Opens its own rounding scopes.
-[[nodiscard]] std::optional<Tube> certified_tube(const Certificate& certificate);
+[[nodiscard]] std::optional<FrequencyErrorTube> certified_tube(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

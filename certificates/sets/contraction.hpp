@@ -9,13 +9,13 @@
 
 namespace veritrack::certificates {
 
+/// P(0|0) as given, scaled to amplitude 1; none where the start is the filter's steady state. Needs the
+/// upward mode.
+[[nodiscard]] std::optional<rigor::IntervalMatrix<3>> covariance_at_unit_amplitude(const Assumptions& assume);
+
 /// What is asked for a model at amplitude 1 under what is assumed. Needs the upward mode.
 [[nodiscard]] sets::ContractionQuestion contraction_question(
     const trackers::ToneModel<rigor::Interval>& model, const Assumptions& assume);
-
-/// What decides about the assumed starts: "capture" when they had to be followed, else "contraction"; null
-/// when there is neither.
-[[nodiscard]] const theorems::Derivation* deciding_derivation(const Certificate& certificate);
 
 /// The proved bound on |frequency error|, rad/sample, at every sample from the start on; none when the
 /// contraction certificate does not cover the assumed start, noise and slew.

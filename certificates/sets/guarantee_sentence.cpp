@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/sets/contraction_result.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/sets/assumptions.hpp"
-#include "certificates/sets/contraction.hpp"
 
 namespace veritrack::certificates {
 
@@ -15,27 +15,14 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using theorems::applicable_quantity;
 
+constexpr int kDigits = 3;
 constexpr const char* kGuarantee = "ekf/guarantee";
 
 const Claim* find_claim(const Certificate& certificate, const std::string& id) {
   const auto found = std::find_if(certificate.claims.begin(), certificate.claims.end(),
                                   [&](const Claim& claim) { return claim.id == id; });
   return found == certificate.claims.end() ? nullptr : &*found;
-}
-
-/// Of the derivation "contraction", which describes the certified set.
-const theorems::Quantity* find_of_set(const Certificate& certificate, const std::string& name) {
-  const theorems::Derivation* derivation = find_derivation(certificate, "contraction");
-  return derivation == nullptr ? nullptr : applicable_quantity(*derivation, name);
-}
-
-std::string up(const Interval& value) {
-  return rigor::to_decimal(value.upper(), 3, rigor::Direction::up);
-}
-std::string down(const Interval& value) {
-  return rigor::to_decimal(value.lower(), 3, rigor::Direction::down);
 }
 
 bool is_zero(const Number& number) {
@@ -62,81 +49,68 @@ std::string assumptions(const GuaranteeTerms& terms) {
 }
 
 /// Why the bound holds, and what it comes to in the long run.
-std::string ground(const Certificate& certificate) {
-  const theorems::Derivation& derivation = *deciding_derivation(certificate);
-  std::string text;
-  const auto* captured = applicable_quantity(derivation, "capture_samples");
-  if (captured != nullptr && captured->value.upper() > 0.0) {
+std::string ground(const sets::StartResult& starts) {
+  const std::optional<theorems::Quantity>& captured = starts.capture_samples;
+  std::string text = "All these starts lie in a set that the tracker never leaves. ";
+  if (captured && captured->applies() && captured->value.upper() > 0.0) {
     text = fmt::format(
         "Every such start is followed, by verified propagation, into a set that the tracker never leaves: it "
         "is there after at most {} samples. ",
-        up(captured->value));
-  } else {
-    text = "All these starts lie in a set that the tracker never leaves. ";
+        rigor::upper_decimal(captured->value, kDigits));
   }
-  if (const auto* ultimate = applicable_quantity(derivation, "ultimate_frequency_error")) {
-    text += fmt::format("In the long run the frequency error is at most {} rad/sample", up(ultimate->value));
-    const auto* samples = applicable_quantity(derivation, "settling_samples");
-    const bool takes_time = samples != nullptr && samples->value.upper() > 0.0;
-    text += takes_time ? fmt::format(", and at most twice that after {} samples.", up(samples->value)) : ".";
+  const theorems::Quantity& ultimate = starts.ultimate_frequency_error;
+  if (ultimate.applies()) {
+    const theorems::Quantity& samples = starts.settling_samples;
+    text += fmt::format("In the long run the frequency error is at most {} rad/sample",
+                        rigor::upper_decimal(ultimate.value, kDigits));
+    const bool takes_time = samples.applies() && samples.value.upper() > 0.0;
+    text += takes_time ? fmt::format(", and at most twice that after {} samples.",
+                                     rigor::upper_decimal(samples.value, kDigits))
+                       : ".";
   }
   return text;
 }
 
 /// Which hypothesis fails, by how much, and what would repair it.
-std::string objection(const Certificate& certificate) {
-  const theorems::Derivation& derivation = *deciding_derivation(certificate);
-  for (const Verdict verdict : {Verdict::refuted, Verdict::undecided}) {
-    for (const theorems::Condition& condition : derivation.conditions) {
-      if (condition.verdict == verdict) {
-        std::string text = condition.reason;
-        for (const char* id : {"ekf/capture-at-reduced-noise", "ekf/capture-noise-free"}) {
-          const Claim* weaker = find_claim(certificate, id);
-          if (weaker != nullptr && weaker->verdict == Verdict::proved) {
-            return text + " What is PROVED: " + weaker->statement;
-          }
-        }
-        return text;
-      }
-    }
+std::string objection(const sets::StartResult& starts) {
+  const theorems::Condition* refuted = starts.first_condition(Verdict::refuted);
+  const theorems::Condition* failing = refuted != nullptr ? refuted : starts.first_open_condition();
+  if (failing == nullptr) {
+    return "A set that is never left is certified, but not that the assumed start lies in it.";
   }
-  return "A set that is never left is certified, but not that the assumed start lies in it.";
+  return failing->reason + (starts.proved_instead.empty() ? "" : " What is PROVED: " + starts.proved_instead);
 }
 
 }  // namespace
 
 Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& terms) {
+  const sets::StartResult& starts = certificate.contraction.value().starts;
+  const std::optional<Interval> bound = starts.proved_bound();
   const std::optional<Number>& required = terms.require.frequency_error_below;
   const Claim* requirement = find_claim(certificate, "ekf/frequency-error-bound");
-  const Claim* capture = find_claim(certificate, "ekf/capture");
-  const std::optional<Interval> bound = proved_frequency_bound(certificate);
-  const bool meets = requirement == nullptr || requirement->verdict == Verdict::proved;
   Claim claim;
   claim.id = kGuarantee;
   claim.statement = assumptions(terms);
-  if (bound && meets) {
-    claim.verdict = Verdict::proved;
-    claim.statement += required ? fmt::format(
-                                      "the frequency error stays below {} rad/sample for ever: it "
-                                      "never exceeds {} rad/sample.",
-                                      required->text, up(*bound))
-                                : fmt::format("the frequency error never exceeds {} rad/sample.", up(*bound));
-    claim.reason = ground(certificate);
-    claim.evidence = {*applicable_quantity(*deciding_derivation(certificate), "frequency_error_bound")};
-    return claim;
-  }
   claim.statement +=
-      required ? fmt::format("the frequency error stays below {} rad/sample for ever.", required->text)
-               : "the tracker keeps its lock for ever.";
-  if (requirement != nullptr && (bound || requirement->verdict == Verdict::refuted)) {
+      required ? fmt::format("the frequency error stays below {} rad/sample for ever", required->text)
+      : bound  ? fmt::format("the frequency error never exceeds {} rad/sample",
+                             rigor::upper_decimal(*bound, kDigits))
+               : "the tracker keeps its lock for ever";
+  if (bound && (requirement == nullptr || requirement->verdict == Verdict::proved)) {
+    claim.verdict = Verdict::proved;
+    claim.statement +=
+        required ? fmt::format(": it never exceeds {} rad/sample", rigor::upper_decimal(*bound, kDigits))
+                 : "";
+    claim.reason = ground(starts);
+    claim.evidence = {starts.frequency_error_bound};
+  } else if (requirement != nullptr && (bound || requirement->verdict == Verdict::refuted)) {
     claim.verdict = requirement->verdict;
     claim.reason = requirement->reason;
   } else {
-    claim.verdict = capture != nullptr && capture->verdict == Verdict::refuted && !required
-                        ? Verdict::refuted
-                        : Verdict::undecided;
-    claim.reason = objection(certificate);
+    claim.verdict = starts.loses_lock && !required ? Verdict::refuted : Verdict::undecided;
+    claim.reason = objection(starts);
   }
+  claim.statement += ".";
   return claim;
 }
 
@@ -148,26 +122,25 @@ std::string guarantee_section(const Certificate& certificate) {
   std::string text =
       fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
                   claim->verdict == Verdict::proved ? "Why" : "What stands in the way", claim->reason);
-  const auto* radius = find_of_set(certificate, "frequency_error_radius");
-  const auto* rate = find_of_set(certificate, "contraction_rate");
-  const auto* noise = find_of_set(certificate, "largest_noise");
-  const auto* slew = find_of_set(certificate, "largest_slew");
-  const auto* bias = find_of_set(certificate, "bias_frequency");
-  const bool off_the_truth = bias != nullptr && !(bias->value == Interval(0.0));
-  if (radius != nullptr && rate != nullptr) {
+  const sets::ContractionResult& found = certificate.contraction.value();
+  const auto& bias = found.bias_frequency;
+  const bool off_the_truth = bias && bias->applies() && !(bias->value == Interval(0.0));
+  if (found.frequency_error_radius.applies() && found.contraction_rate.applies()) {
     text += fmt::format(
         "- The largest certified set, under the assumed noise and slew, reaches to a frequency error of {} "
         "rad/sample{}; in it errors shrink to at most {} of themselves each sample, apart from what noise "
         "and "
         "slew add.\n",
-        down(radius->value),
-        off_the_truth ? " about the steady state, which the leak puts off the truth" : "", up(rate->value));
+        rigor::lower_decimal(found.frequency_error_radius.value, kDigits),
+        off_the_truth ? " about the steady state, which the leak puts off the truth" : "",
+        rigor::upper_decimal(found.contraction_rate.value, kDigits));
   }
-  if (noise != nullptr && slew != nullptr) {
+  if (found.largest_noise.applies() && found.largest_slew.applies()) {
     text += fmt::format(
         "- Limits of this design: a set that is never left is certified for noise up to {} of the amplitude "
         "(at a constant frequency), and for a slew up to {} rad/sample per sample (without noise).\n",
-        down(noise->value), down(slew->value));
+        rigor::lower_decimal(found.largest_noise.value, kDigits),
+        rigor::lower_decimal(found.largest_slew.value, kDigits));
   }
   return text;
 }

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
 
@@ -13,54 +9,9 @@ namespace veritrack::certificates {
 
 namespace {
 
-using markdown::QuantityText;
-
-/// What a quantity is, with its unit, and which of its ends is the bound.
-QuantityText describe(const std::string& name) {
-  struct Entry {
-    const char* name;
-    const char* description;
-    std::string (*value)(const rigor::Interval& value, int digits);
-  };
-  using markdown::at_least;
-  using markdown::at_most;
-  using markdown::enclosure;
-  static constexpr std::array<Entry, 19> kEntries{{
-      {"contraction_rate", "factor by which the error shrinks, per sample", at_most},
-      {"radius", "radius of the certified set, in its metric", enclosure},
-      {"frequency_error_radius", "frequency error to which the set reaches, rad/sample", at_least},
-      {"phase_error_radius", "phase error to which the set reaches, rad", at_least},
-      {"amplitude_error_radius", "amplitude error to which the set reaches, relative", at_least},
-      {"ultimate_frequency_error", "frequency error in the long run, rad/sample", at_most},
-      {"frequency_error_bound", "frequency error at any sample from the assumed start on, rad/sample",
-       at_most},
-      {"settling_samples", "samples until within twice the long-run bound", at_most},
-      {"largest_noise", "largest certified noise (at constant frequency), relative to the amplitude",
-       at_least},
-      {"largest_slew", "largest certified slew (without noise), rad/sample per sample", at_least},
-      {"frequency_error_radius_sampled_limit",
-       "frequency error at which a search finds a step out of the set, rad/sample", enclosure},
-      {"frequency_error_radius_share_of_limit", "certified radius over that at which the search succeeds",
-       enclosure},
-      {"frequency_error_bound_tightness",
-       "largest frequency error found from the rim of its set, over the bound", enclosure},
-      {"ultimate_frequency_error_tightness", "largest frequency error found from zero error, over the bound",
-       enclosure},
-      {"bias_frequency", "steady-state frequency error of the leak, rad/sample", enclosure},
-      {"capture_samples", "samples until every assumed start is in the certified set", at_most},
-      {"wrong_lock_frequency_error", "frequency error that a start ends with, rad/sample", at_least},
-      {"cells", "cells of assumed starts", enclosure},
-      {"cells_captured", "of them captured", enclosure},
-  }};
-  const auto* found =
-      std::find_if(kEntries.begin(), kEntries.end(), [&](const Entry& entry) { return name == entry.name; });
-  return found == kEntries.end() ? QuantityText{"`" + name + "`", enclosure}
-                                 : QuantityText{found->description, found->value};
-}
-
 std::string derivation_tables(const theorems::Derivation& derivation) {
-  return markdown::conditions_table(derivation) + "\n" + markdown::quantities_table(derivation, describe) +
-         "\n" + (derivation.notes.empty() ? "" : markdown::notes_list(derivation) + "\n");
+  return markdown::conditions_table(derivation) + "\n" + markdown::quantities_table(derivation) + "\n" +
+         (derivation.notes.empty() ? "" : markdown::notes_list(derivation) + "\n");
 }
 
 }  // namespace

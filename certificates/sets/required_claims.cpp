@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/sets/contraction_result.hpp"
 #include "certificates/sets/assumptions.hpp"
-#include "certificates/sets/contraction.hpp"
 
 namespace veritrack::certificates {
 
@@ -12,32 +12,19 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using theorems::applicable_quantity;
 
 /// What keeps the contraction certificate from covering the assumptions, as a sentence.
-std::string contraction_objection(const theorems::Derivation* derivation) {
-  if (derivation == nullptr) {
-    return "This version certifies no set of starts under noise for this tracker.";
-  }
-  for (const theorems::Condition& condition : derivation->conditions) {
-    if (condition.verdict != Verdict::proved) {
-      return fmt::format("The contraction certificate does not cover it ({}: {})", condition.id,
-                         condition.reason);
-    }
+std::string contraction_objection(const sets::StartResult& starts) {
+  if (const theorems::Condition* open = starts.first_open_condition()) {
+    return fmt::format("The contraction certificate does not cover it ({}: {})", open->id, open->reason);
   }
   return "The contraction certificate gives no bound for the assumed start.";
 }
 
-std::string outward(const Interval& value) {
-  return rigor::to_decimal(value.upper(), 4, rigor::Direction::up);
-}
-
-Claim frequency_error_claim(const Certificate& certificate, const Assumptions& assume,
+Claim frequency_error_claim(const sets::StartResult& starts, const Assumptions& assume,
                             const Number& required) {
-  const theorems::Derivation* derivation = deciding_derivation(certificate);
-  const std::optional<Interval> bound = proved_frequency_bound(certificate);
-  const theorems::Quantity* wrong_lock =
-      derivation != nullptr ? applicable_quantity(*derivation, "wrong_lock_frequency_error") : nullptr;
+  const std::optional<Interval> bound = starts.proved_bound();
+  const std::optional<theorems::Quantity>& wrong_lock = starts.wrong_lock_frequency_error;
   Claim claim;
   claim.id = "ekf/frequency-error-bound";
   claim.statement = fmt::format("the frequency error stays below {} rad/sample for ever", required.text);
@@ -45,8 +32,9 @@ Claim frequency_error_claim(const Certificate& certificate, const Assumptions& a
   claim.position = required.position;
   if (bound && rigor::certainly_less(*bound, required.value)) {
     claim.verdict = Verdict::proved;
-    claim.reason = fmt::format("By contraction it stays at or below {} rad/sample.", outward(*bound));
-    claim.evidence = {*applicable_quantity(*derivation, "frequency_error_bound")};
+    claim.reason =
+        fmt::format("By contraction it stays at or below {} rad/sample.", rigor::upper_decimal(*bound));
+    claim.evidence = {starts.frequency_error_bound};
   } else if (same_number(required, assume.initial_frequency_error) ||
              rigor::certainly_less_equal(required.value, assume.initial_frequency_error.value)) {
     claim.verdict = Verdict::refuted;
@@ -54,101 +42,98 @@ Claim frequency_error_claim(const Certificate& certificate, const Assumptions& a
         "Witness: a start that is wrong by {} rad/sample is allowed by [assume] (initial_frequency_error) "
         "and is not below the bound at the first sample.",
         assume.initial_frequency_error.text);
-  } else if (wrong_lock != nullptr && rigor::certainly_less_equal(required.value, wrong_lock->value)) {
+  } else if (wrong_lock && wrong_lock->applies() &&
+             rigor::certainly_less_equal(required.value, wrong_lock->value)) {
     claim.verdict = Verdict::refuted;
-    claim.reason = contraction_objection(derivation);
+    claim.reason = contraction_objection(starts);
     claim.evidence = {*wrong_lock};
   } else if (bound) {
     claim.reason = fmt::format("The certified bound is {} rad/sample, which is not below {}.",
-                               outward(*bound), required.text);
+                               rigor::upper_decimal(*bound), required.text);
   } else {
-    claim.reason = contraction_objection(derivation);
+    claim.reason = contraction_objection(starts);
   }
   return claim;
 }
 
-Claim settling_claim(const Certificate& certificate, const Number& required) {
-  const theorems::Derivation* derivation = deciding_derivation(certificate);
-  const bool covered = derivation != nullptr && derivation->verdict == Verdict::proved;
-  const theorems::Quantity* samples =
-      covered ? applicable_quantity(*derivation, "settling_samples") : nullptr;
+Claim settling_claim(const sets::StartResult& starts, const Number& required) {
+  const bool covered = starts.verdict == Verdict::proved;
+  const theorems::Quantity& samples = starts.settling_samples;
   Claim claim;
   claim.id = "ekf/settling-time";
   claim.statement = fmt::format("within {} samples the frequency error comes within twice its ultimate bound",
                                 required.text);
   claim.required = true;
   claim.position = required.position;
-  if (samples != nullptr) {
-    const bool soon_enough = rigor::certainly_less_equal(samples->value, required.value);
+  if (covered && samples.applies()) {
+    const bool soon_enough = rigor::certainly_less_equal(samples.value, required.value);
     claim.verdict = soon_enough ? Verdict::proved : Verdict::undecided;
-    claim.reason = fmt::format("By contraction it takes at most {} samples{}.", outward(samples->value),
-                               soon_enough ? "" : ", which is more; a sharper certificate might do");
-    claim.evidence = {*samples};
+    claim.reason =
+        fmt::format("By contraction it takes at most {} samples{}.", rigor::upper_decimal(samples.value),
+                    soon_enough ? "" : ", which is more; a sharper certificate might do");
+    claim.evidence = {samples};
   } else if (covered) {
     claim.reason = "Without noise and slew the ultimate bound is zero, which is approached but not reached.";
   } else {
-    claim.reason = contraction_objection(derivation);
+    claim.reason = contraction_objection(starts);
   }
   return claim;
 }
 
 /// A key of [require] that asks for a certified quantity of at least that size.
 struct LeastSize {
-  const char* claim;      ///< id
-  const char* quantity;   ///< of the derivation "contraction"
+  const char* claim;  ///< id
+  const theorems::Quantity& certified;
   const char* statement;  ///< of which {} is the number as written
   const char* largest;    ///< what the quantity is, for the reason
   Interval scale;         ///< from the quantity's unit to the requirement's
 };
 
-Claim least_size_claim(const Certificate& certificate, const LeastSize& size, const Number& required) {
+Claim least_size_claim(const LeastSize& size, const Number& required) {
   Claim claim;
   claim.id = size.claim;
   claim.statement = fmt::format(fmt::runtime(size.statement), required.text);
   claim.required = true;
   claim.position = required.position;
-  const theorems::Derivation* derivation = find_derivation(certificate, "contraction");
-  const theorems::Quantity* certified =
-      derivation != nullptr ? applicable_quantity(*derivation, size.quantity) : nullptr;
-  if (certified == nullptr) {
+  if (!size.certified.applies()) {
     claim.reason = fmt::format("No {} could be certified.", size.largest);
     return claim;
   }
-  const Interval value = certified->value * size.scale;
+  const Interval value = size.certified.value * size.scale;
   claim.verdict = rigor::certainly_less_equal(required.value, value) ? Verdict::proved : Verdict::undecided;
   claim.reason = fmt::format(
-      "The largest certified {} is {}{}.", size.largest,
-      rigor::to_decimal(value.lower(), 4, rigor::Direction::down),
+      "The largest certified {} is {}{}.", size.largest, rigor::lower_decimal(value),
       claim.verdict == Verdict::proved ? std::string() : fmt::format("; {} was required", required.text));
-  claim.evidence = {*certified};
+  claim.evidence = {size.certified};
   return claim;
 }
 
 }  // namespace
 
 void add_required_claims(Certificate& certificate, const Requirements& require, const Assumptions& assume) {
+  const sets::ContractionResult& found = certificate.contraction.value();
   const auto add_least_size = [&](const std::optional<Number>& required, const LeastSize& size) {
     if (required) {
-      certificate.claims.push_back(least_size_claim(certificate, size, *required));
+      certificate.claims.push_back(least_size_claim(size, *required));
     }
   };
   if (require.frequency_error_below) {
-    certificate.claims.push_back(frequency_error_claim(certificate, assume, *require.frequency_error_below));
+    certificate.claims.push_back(frequency_error_claim(found.starts, assume, *require.frequency_error_below));
   }
   if (require.settles_within) {
-    certificate.claims.push_back(settling_claim(certificate, *require.settles_within));
+    certificate.claims.push_back(settling_claim(found.starts, *require.settles_within));
   }
   add_least_size(require.largest_noise_at_least,
-                 {"ekf/largest-noise", "largest_noise",
+                 {"ekf/largest-noise", found.largest_noise,
                   "noise of at most {} at a constant frequency is borne: a set of errors is never left",
                   "noise at a constant frequency", assume.amplitude.value});
   add_least_size(
       require.largest_slew_at_least,
-      {"ekf/largest-slew", "largest_slew",
+      {"ekf/largest-slew", found.largest_slew,
        "a slew of at most {} rad/sample per sample without noise is borne: a set of errors is never left",
        "slew without noise", Interval(1.0)});
   add_least_size(require.frequency_error_radius_at_least,
-                 {"ekf/frequency-error-radius", "frequency_error_radius",
+                 {"ekf/frequency-error-radius", found.frequency_error_radius,
                   "under the assumed noise and slew a set of errors is never left that reaches to a "
                   "frequency error of {} rad/sample",
                   "reach of such a set", Interval(1.0)});

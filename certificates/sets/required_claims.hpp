@@ -6,8 +6,8 @@
 
 namespace veritrack::certificates {
 
-/// Adds a claim for each key of [require], decided by the derivations "contraction" and "capture" of the
-/// certificate, and the certificate's verdict. Needs the upward mode.
+/// Adds a claim for each key of [require], decided by the certificate's contraction, and the certificate's
+/// verdict. Throws std::bad_optional_access when nothing was certified by contraction. Needs the upward mode.
 void add_required_claims(Certificate& certificate, const Requirements& require, const Assumptions& assume);
 
 /// Sets the certificate's verdict: all required claims together, none when nothing is required.

@@ -7,6 +7,7 @@
 
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/single_channel/single_channel.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
 
 namespace veritrack::certificates {
@@ -30,8 +31,12 @@ Interval value_of(const Derivation& derivation, const char* name) {
 }
 
 /// The frequency of a bias, as the decimal that it is.
-std::string frequency_text(const Derivation& bias) {
-  return find_quantity(bias, "frequency").formula;
+std::string frequency_text(const Certificate& certificate, const Derivation& bias) {
+  const Interval value = value_of(bias, "frequency");
+  const std::vector<BiasFrequency> all = bias_frequencies(single_channel_tables(certificate.design).assume);
+  return std::find_if(all.begin(), all.end(),
+                      [&](const BiasFrequency& one) { return rigor::identical(one.value, value); })
+      ->text;
 }
 
 /// By frequency.
@@ -43,8 +48,8 @@ std::vector<Derivation> biases(const Certificate& certificate) {
   return found;
 }
 
-std::string bias_sentence(const Derivation& bias) {
-  const std::string frequency = frequency_text(bias);
+std::string bias_sentence(const Certificate& certificate, const Derivation& bias) {
+  const std::string frequency = frequency_text(certificate, bias);
   if (bias.verdict != Verdict::proved) {
     return fmt::format("The steady-state frequency error on a noise-free tone of {} rad/sample is {}: {}",
                        frequency, markdown::verdict(bias.verdict), bias.conditions.front().reason);
@@ -66,22 +71,6 @@ std::string bias_sentence(const Derivation& bias) {
 std::string quadrature_cell(const Derivation& bias) {
   const theorems::Quantity& quantity = find_quantity(bias, "quadrature_bias");
   return quantity.not_applicable ? "not verified" : enclosure(quantity.value, 4);
-}
-
-markdown::QuantityText quantity_text(const std::string& name) {
-  const auto enclosed = [](const std::string& description) {
-    return markdown::QuantityText{description, markdown::enclosure};
-  };
-  if (name == "gain_1") {
-    return enclosed("gain of the measured channel");
-  }
-  if (name == "gain_2") {
-    return enclosed("gain of the other channel");
-  }
-  if (name == "zero_angle") {
-    return enclosed("angle of the zeros, rad/sample");
-  }
-  return enclosed(name == "pole_radius" ? "largest modulus of a pole" : name);
 }
 
 std::string process_noise_words(const SingleChannelDesignTable& design) {
@@ -107,11 +96,11 @@ std::string single_channel_headline(const Certificate& certificate) {
   return fmt::format(
       "Nothing is required of this design; PROVED of it: on a noise-free tone of {} rad/sample the "
       "steady-state frequency error has the mean {} rad/sample",
-      frequency_text(bias), enclosure(value_of(bias, "mean_bias"), 6));
+      frequency_text(certificate, bias), enclosure(value_of(bias, "mean_bias"), 6));
 }
 
 std::string single_channel_summary(const Certificate& certificate) {
-  std::string text = "- " + bias_sentence(middle_bias(certificate)) + "\n";
+  std::string text = "- " + bias_sentence(certificate, middle_bias(certificate)) + "\n";
   for (const Claim& claim : certificate.claims) {
     if (claim.id == "single-channel/exponentially-stable-steady-state") {
       text += fmt::format("- {}: {} {}\n", markdown::verdict(claim.verdict), claim.statement, claim.reason);
@@ -178,8 +167,8 @@ std::string bias_section(const Certificate& certificate) {
       return proved ? enclosure(value_of(bias, name), digits) : std::string("—");
     };
     const theorems::Quantity& around = find_quantity(bias, "mean_bias_around");
-    rows.push_back({frequency_text(bias), cell("mean_bias", 6), cell("min_error", 4), cell("max_error", 4),
-                    around.not_applicable ? "not verified" : enclosure(around.value, 4),
+    rows.push_back({frequency_text(certificate, bias), cell("mean_bias", 6), cell("min_error", 4),
+                    cell("max_error", 4), around.not_applicable ? "not verified" : enclosure(around.value, 4),
                     markdown::verdict(bias.verdict), quadrature_cell(bias),
                     proved ? cell("contraction_rate", 3) : bias.conditions.front().reason});
   }
@@ -194,8 +183,8 @@ std::string bias_section(const Certificate& certificate) {
 std::string transfer_function_section(const Certificate& certificate) {
   const Derivation derivation = derivations_of(certificate, "single-channel/transfer-function").at(0);
   return "## The frozen filter\n\n" + derivation.title + ": " + markdown::verdict(derivation.verdict) +
-         ".\n\n" + markdown::quantities_table(derivation, quantity_text) + "\n" +
-         markdown::conditions_table(derivation) + "\n" + markdown::notes_list(derivation) + "\n";
+         ".\n\n" + markdown::quantities_table(derivation) + "\n" + markdown::conditions_table(derivation) +
+         "\n" + markdown::notes_list(derivation) + "\n";
 }
 
 std::string proposition_section(const Certificate& certificate) {

@@ -13,11 +13,11 @@
 #include "analysis/single_channel/propositions.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 #include "certificates/sets/assumptions.hpp"
+#include "certificates/sets/contraction.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
-#include "certificates/single_channel/single_channel_design.hpp"
-#include "certificates/sets/contraction.hpp"
 #include "certificates/sets/statement_claim.hpp"
+#include "certificates/single_channel/single_channel_design.hpp"
 #include "trackers/tone_model.hpp"
 
 namespace veritrack::certificates {
@@ -27,31 +27,6 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 using single_channel::SteadyStateBias;
-
-/// A frequency of the band, rad/sample, with its decimal.
-struct Frequency {
-  std::string text;
-  Interval value;
-};
-
-/// Frequencies of the band at which the bias is enclosed: both ends and points between them.
-std::vector<Frequency> frequencies_of(const Assumptions& assume) {
-  const auto& [low, high] = assume.frequency;
-  if (rigor::identical(low.value, high.value)) {
-    return {{low.text, low.value}};
-  }
-  constexpr int kCount = 9;  // odd: the middle is one of them
-  std::vector<Frequency> frequencies;
-  frequencies.reserve(kCount);
-  frequencies.push_back({low.text, low.value});
-  for (int i = 1; i + 1 < kCount; ++i) {
-    const double part = static_cast<double>(i) / (kCount - 1);
-    const std::string text = fmt::format("{:.6f}", low.nearest + part * (high.nearest - low.nearest));
-    frequencies.push_back({text.substr(0, text.find_last_not_of('0') + 1), rigor::parse_decimal(text)});
-  }
-  frequencies.push_back({high.text, high.value});
-  return frequencies;
-}
 
 /// The bias of the quadrature tracker with the same design values, for comparison; empty when it is not
 /// verified at that frequency.
@@ -84,8 +59,7 @@ SteadyStateBias bias_around(const trackers::ToneModel<Interval>& design, const S
 }
 
 theorems::Derivation bias_derivation(const SteadyStateBias& bias, const SteadyStateBias& around,
-                                     const std::string& frequency, std::string id,
-                                     const Interval& quadrature) {
+                                     std::string id, const Interval& quadrature) {
   const std::string source = "this program: invariant curve over the phase";
   theorems::Derivation derivation;
   derivation.id = std::move(id);
@@ -93,7 +67,7 @@ theorems::Derivation bias_derivation(const SteadyStateBias& bias, const SteadySt
   const auto add = [&](const char* name, const char* symbol, const char* formula, const Interval& value) {
     theorems::add_quantity(derivation, {name, symbol, formula, source}, value, bias.reason + ".");
   };
-  add("frequency", "\\omega", frequency.c_str(), bias.frequency);
+  add("frequency", "\\omega", "", bias.frequency);
   add("mean_bias", "\\bar\\nu", "\\frac1\\pi \\int_0^\\pi \\nu_*(\\varphi)\\,d\\varphi", bias.mean_bias);
   add("min_error", "\\min_\\varphi \\nu_*", "", bias.min_error);
   add("max_error", "\\max_\\varphi \\nu_*", "", bias.max_error);
@@ -136,6 +110,25 @@ Claim stability_claim(const Interval& r) {
 
 }  // namespace
 
+std::vector<BiasFrequency> bias_frequencies(const Assumptions& assume) {
+  const rigor::UpwardRounding upward;
+  const auto& [low, high] = assume.frequency;
+  if (rigor::identical(low.value, high.value)) {
+    return {{low.text, low.value}};
+  }
+  constexpr int kCount = 9;  // odd: the middle is one of them
+  std::vector<BiasFrequency> frequencies;
+  frequencies.reserve(kCount);
+  frequencies.push_back({low.text, low.value});
+  for (int i = 1; i + 1 < kCount; ++i) {
+    const double part = static_cast<double>(i) / (kCount - 1);
+    const std::string text = fmt::format("{:.6f}", low.nearest + part * (high.nearest - low.nearest));
+    frequencies.push_back({text.substr(0, text.find_last_not_of('0') + 1), rigor::parse_decimal(text)});
+  }
+  frequencies.push_back({high.text, high.value});
+  return frequencies;
+}
+
 trackers::ToneModel<Interval> enclosed_values(const SingleChannelDesignTable& design) {
   using ProcessNoise = SingleChannelDesignTable::ProcessNoise;
   const Interval r = design.lambda ? design.lambda->value : design.r->value;
@@ -163,7 +156,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
   certificate.simulation = simulate_single_channel(tables);
   const trackers::ToneModel<Interval> design =
       trackers::at_unit_amplitude(enclosed_values(tables.design), tables.assume.amplitude.value);
-  const std::vector<Frequency> frequencies = frequencies_of(tables.assume);
+  const std::vector<BiasFrequency> frequencies = bias_frequencies(tables.assume);
   const std::size_t middle = frequencies.size() / 2;
 
   const bool has_steady_state = !(design.q1 == Interval(0.0)) || !(design.epsilon == Interval(0.0));
@@ -184,12 +177,14 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
       at_middle = bias;
     }
     certificate.derivations.push_back(
-        bias_derivation(bias, bias_around(design, bias), frequencies[i].text,
+        bias_derivation(bias, bias_around(design, bias),
                         i == middle ? "single-channel-bias" : "single-channel-bias/" + frequencies[i].text,
                         quadrature_bias(quadrature, frequencies[i].value)));
   }
-  certificate.derivations.push_back(
-      single_channel::certify_over_phases({contraction_question(design, tables.assume), band}).derivation);
+  single_channel::PhaseCertificate contraction =
+      single_channel::certify_over_phases({contraction_question(design, tables.assume), band});
+  certificate.derivations.push_back(std::move(contraction.derivation));
+  certificate.contraction = std::move(contraction.result);
   certificate.derivations.push_back(single_channel::transfer_function(single_channel::mean_gain(
       trackers::at_unit_amplitude(nearest_values(tables.design), tables.assume.amplitude.nearest),
       midpoint(frequencies[middle].value))));

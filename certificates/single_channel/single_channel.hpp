@@ -15,6 +15,16 @@ namespace veritrack::certificates {
 /// The same as the nearest doubles.
 [[nodiscard]] trackers::ToneModel<double> nearest_values(const SingleChannelDesignTable& design);
 
+/// A frequency of the band, rad/sample, with its decimal.
+struct BiasFrequency {
+  std::string text;
+  rigor::Interval value;
+};
+
+/// The frequencies at which the bias is enclosed: both ends of the band and points between them. Opens its
+/// own rounding scope.
+[[nodiscard]] std::vector<BiasFrequency> bias_frequencies(const Assumptions& assume);
+
 /// Evaluates everything: the simulated run, the bias at frequencies of the band, the transfer function, the
 /// propositions, and the claims of [require]. Needs the upward mode.
 void certify_single_channel(Certificate& certificate, const CertifyProgress& progress);

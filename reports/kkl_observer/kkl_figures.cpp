@@ -72,7 +72,7 @@ std::vector<Figure> draw_kkl_figures(const certificates::Certificate& certificat
   if (!lambda) {
     return {};
   }
-  const double ell = certificates::kkl_ell_in_use(certificate);
+  const double ell = certificates::kkl_ell_in_use(certificate).nearest;
   std::vector<SectionVRun> kkl;
   std::vector<SectionVRun> adaptive;
   for (const double disturbance : kkl_observer::kSectionVDisturbances) {

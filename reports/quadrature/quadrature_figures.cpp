@@ -86,7 +86,7 @@ Figure error_figure(const Certificate& certificate) {
 }
 
 /// The runs in grey, thin, under the bound, black and broad.
-Figure tube_figure(const Certificate& certificate, const certificates::Tube& tube) {
+Figure tube_figure(const Certificate& certificate, const certificates::FrequencyErrorTube& tube) {
   std::string script = over_samples(380);
   script += "$tube << END\n";
   for (std::size_t k = 0; k < tube.bound.size(); ++k) {

@@ -12,7 +12,8 @@
 using namespace veritrack;
 using namespace veritrack::certificates;
 
-TEST_CASE("every kind of tracker has a format of its design file, what each certificate needs, and one name") {
+TEST_CASE(
+    "every kind of tracker has a format of its design file, what each certificate needs, and one name") {
   std::set<std::string> names;
   const auto kinds = tracker_kinds();
   const auto formats = design_formats();

@@ -6,12 +6,12 @@
 #include "analysis/quadrature/contraction/certified_level.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/theorems/derivation_builder.hpp"
 
 namespace veritrack::quadrature {
 
 namespace {
 
-using rigor::Direction;
 using rigor::Interval;
 using rigor::Verdict;
 using theorems::Condition;
@@ -20,15 +20,11 @@ using theorems::Quantity;
 constexpr const char* kSource = "docs/contraction.md";
 constexpr std::size_t kCellsNamed = 3;
 
-std::string range(const Interval& x) {
-  return "[" + rigor::to_decimal(x.lower(), 4, Direction::down) + ", " +
-         rigor::to_decimal(x.upper(), 4, Direction::up) + "]";
-}
-
 /// Outward rounded, as a box that failed may be named larger than it is.
 std::string named(const StartBox& starts) {
-  return "frequency error in " + range(starts.frequency_error) + " rad/sample, phase error in " +
-         range(starts.phase_error) + " rad, amplitude error in " + range(starts.amplitude_error);
+  return "frequency error in " + rigor::to_decimal(starts.frequency_error, 4) +
+         " rad/sample, phase error in " + rigor::to_decimal(starts.phase_error, 4) +
+         " rad, amplitude error in " + rigor::to_decimal(starts.amplitude_error, 4);
 }
 
 std::size_t count(const Region& region, Verdict verdict) {
@@ -46,8 +42,22 @@ int capture_samples(const Region& region) {
   return samples;
 }
 
-Quantity quantity(std::string name, std::string symbol, std::string formula, const Interval& value) {
-  return {std::move(name), std::move(symbol), std::move(formula), kSource, value, std::nullopt};
+void set(Quantity& quantity, const char* formula, const std::optional<Interval>& value, const char* why_not) {
+  quantity.formula = formula;
+  quantity.source = kSource;
+  theorems::set_value(quantity, value.value_or(Interval::empty()), why_not);
+}
+
+/// A number of cells; a proof when every cell was proved.
+Quantity cells(const char* name, const char* words, std::size_t number, bool proved) {
+  return {name,
+          "",
+          "",
+          kSource,
+          Interval(static_cast<double>(number)),
+          std::nullopt,
+          proved ? theorems::Sense::equal : theorems::Sense::sampled,
+          words};
 }
 
 /// |2 pi k| less what the frequency error may differ from it in the shifted set: what starts of the refuted
@@ -103,16 +113,9 @@ CaptureTube capture_tube(const sets::ContractionQuestion& question, const Certif
   return tube;
 }
 
-void add_capture_quantities(theorems::Derivation& derivation, const CertifiedSet& set, const Region& region,
-                            const CaptureTube& tube) {
-  const bool proved = derivation.verdict == Verdict::proved;
-  const auto add = [&](const char* name, const char* symbol, const char* formula,
-                       const std::optional<Interval>& value, const char* missing) {
-    derivation.quantities.push_back(quantity(name, symbol, formula, value.value_or(Interval::empty())));
-    if (!value) {
-      derivation.quantities.back().not_applicable = missing;
-    }
-  };
+sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& set_of_capture,
+                                 const Region& region, const CaptureTube& tube) {
+  const bool proved = verdict_on_starts == Verdict::proved;
   constexpr const char* kNotAll = "Not every assumed start is proved to be captured.";
   std::optional<Interval> samples;
   std::optional<Interval> bound;
@@ -126,22 +129,35 @@ void add_capture_quantities(theorems::Derivation& derivation, const CertifiedSet
       settling = Interval(static_cast<double>(*tube.settling_samples));
     }
   }
-  add("capture_samples", "k_c", "\\min \\{k : X(k) \\in \\Omega \\text{ from every assumed start}\\}",
-      samples, kNotAll);
-  add("frequency_error_bound", "\\sup_k |\\nu(k)|",
+  sets::StartResult result;
+  result.verdict = verdict_on_starts;
+  result.capture_samples = sets::quantities::capture_samples();
+  set(*result.capture_samples, "\\min \\{k : X(k) \\in \\Omega \\text{ from every assumed start}\\}", samples,
+      kNotAll);
+  set(result.frequency_error_bound,
       "\\max(\\max_{k \\le k_c} |\\nu(k)|,\\ |T e(k_c)|\\,|e_3' T^{-1}|,\\ \\nu_\\infty)", bound, kNotAll);
-  add("ultimate_frequency_error", "\\nu_\\infty", "u\\,|e_3' T^{-1}|", ultimate, kNotAll);
-  add("settling_samples", "k_s",
+  set(result.ultimate_frequency_error, "u\\,|e_3' T^{-1}|", ultimate, kNotAll);
+  set(result.settling_samples,
       "k_c + \\min \\{k : \\kappa^{2k} |T e(k_c)|^2 + (1 - \\kappa^{2k}) u^2 \\le 4 u^2\\}", settling,
       proved ? "Without noise and slew the ultimate bound is zero, which is approached but not reached."
              : kNotAll);
-  if (const std::optional<Interval> wrong = wrong_lock(set, region)) {
-    add("wrong_lock_frequency_error", "\\liminf_k |\\nu(k)|", "2 \\pi |n| - R\\,|e_3' T^{-1}|", wrong, "");
+  if (const std::optional<Interval> wrong = wrong_lock(set_of_capture, region)) {
+    result.wrong_lock_frequency_error = sets::quantities::wrong_lock_frequency_error();
+    set(*result.wrong_lock_frequency_error, "2 \\pi |n| - R\\,|e_3' T^{-1}|", wrong, "");
   }
-  add("cells", "", "", Interval(static_cast<double>(region.cells.size())), "");
-  derivation.quantities.back().proved = proved;
-  add("cells_captured", "", "", Interval(static_cast<double>(count(region, Verdict::proved))), "");
-  derivation.quantities.back().proved = proved;
+  return result;
+}
+
+std::vector<Quantity> capture_quantities(const sets::StartResult& result, const Region& region) {
+  std::vector<Quantity> all{*result.capture_samples, result.frequency_error_bound,
+                            result.ultimate_frequency_error, result.settling_samples};
+  if (result.wrong_lock_frequency_error) {
+    all.push_back(*result.wrong_lock_frequency_error);
+  }
+  const bool proved = result.verdict == Verdict::proved;
+  all.push_back(cells("cells", "cells of assumed starts", region.cells.size(), proved));
+  all.push_back(cells("cells_captured", "of them captured", count(region, Verdict::proved), proved));
+  return all;
 }
 
 Condition set_bears_assumptions(const sets::ContractionQuestion& question, const CertifiedSet& set) {

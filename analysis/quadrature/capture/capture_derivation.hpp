@@ -8,6 +8,7 @@
 #include "analysis/quadrature/capture/capture_region.hpp"
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/sets/contraction_question.hpp"
+#include "analysis/sets/contraction_result.hpp"
 #include "analysis/theorems/derivation.hpp"
 
 namespace veritrack::quadrature {
@@ -24,11 +25,14 @@ struct CaptureTube {
 [[nodiscard]] CaptureTube capture_tube(const sets::ContractionQuestion& question, const CertifiedSet& set,
                                        const Region& region);
 
-/// Adds capture_samples, frequency_error_bound, ultimate_frequency_error, settling_samples, cells,
-/// cells_captured, and wrong_lock_frequency_error where a cell is REFUTED, to a derivation that has its
-/// verdict. Needs the upward mode.
-void add_capture_quantities(theorems::Derivation& derivation, const CertifiedSet& set, const Region& region,
-                            const CaptureTube& tube);
+/// What the cells prove of the starts, but for the conditions. Needs the upward mode.
+[[nodiscard]] sets::StartResult capture_result(rigor::Verdict verdict_on_starts,
+                                               const CertifiedSet& set_of_capture, const Region& region,
+                                               const CaptureTube& tube);
+
+/// The quantities of that result, and cells and cells_captured.
+[[nodiscard]] std::vector<theorems::Quantity> capture_quantities(const sets::StartResult& result,
+                                                                 const Region& region);
 
 /// The condition certified-set: the set bears the assumed noise and slew. Needs the upward mode.
 [[nodiscard]] theorems::Condition set_bears_assumptions(const sets::ContractionQuestion& question,

@@ -116,7 +116,9 @@ StartCapture capture_starts(const sets::ContractionQuestion& question, const Cer
   if (derivation.verdict == Verdict::proved) {
     tube = capture_tube(question, set, capture.region);
   }
-  add_capture_quantities(derivation, set, capture.region, tube);
+  capture.result = capture_result(derivation.verdict, set, capture.region, tube);
+  capture.result.conditions = derivation.conditions;
+  derivation.quantities = capture_quantities(capture.result, capture.region);
   capture.frequency_tube = std::move(tube.frequency_errors);
   return capture;
 }

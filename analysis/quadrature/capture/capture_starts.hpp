@@ -24,9 +24,9 @@ namespace veritrack::quadrature {
 
 /// What is proved of the starts.
 struct StartCapture {
-  /// Quantities capture_samples, frequency_error_bound, ultimate_frequency_error, settling_samples, cells,
-  /// cells_captured, and when REFUTED wrong_lock_frequency_error; conditions certified-set, starts-captured.
+  /// The quantities of `result`, cells and cells_captured; conditions certified-set, starts-captured.
   theorems::Derivation derivation;
+  sets::StartResult result;
   Region region;  ///< the cells of starts; none when nothing was followed
   /// Upper bounds on |frequency error| (rad/sample) after 0, 1, ... samples, for every assumed start and all
   /// noise and slew; the last one holds for ever after. Empty unless PROVED.

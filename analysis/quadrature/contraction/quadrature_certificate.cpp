@@ -14,20 +14,12 @@ namespace veritrack::quadrature {
 
 namespace {
 
-using rigor::Direction;
 using rigor::Interval;
 using rigor::IntervalVector;
 using rigor::Verdict;
 using theorems::Condition;
 
 constexpr const char* kNone = "No set could be certified.";
-
-std::string at_most(const Interval& x) {
-  return rigor::to_decimal(x.upper(), 4, Direction::up);
-}
-std::string at_least(const Interval& x) {
-  return rigor::to_decimal(x.lower(), 4, Direction::down);
-}
 
 Condition start_in_set(const sets::ContractionQuestion& question, const CertifiedSet& set,
                        bool starts_inside) {
@@ -42,20 +34,21 @@ Condition start_in_set(const sets::ContractionQuestion& question, const Certifie
   condition.reason = starts_inside ? "every assumed start lies in a certified set."
                      : certainly_less_equal(level, radius)
                          ? "the initial covariance is not certainly between the bounds of the certified set."
-                         : "the assumed start errors reach " + at_most(level) +
-                               " in a metric where the set ends at " + at_least(radius) +
+                         : "the assumed start errors reach " + rigor::upper_decimal(level) +
+                               " in a metric where the set ends at " + rigor::lower_decimal(radius) +
                                ": smaller start errors, or a proof of capture, would do.";
   return condition;
 }
 
-void add_quantity(theorems::Derivation& derivation, const char* name, const char* symbol, const char* formula,
-                  const Interval& value, std::string why_not = {}) {
-  theorems::add_quantity(derivation, {name, symbol, formula, "docs/contraction.md"}, value,
-                         std::move(why_not));
+void set(theorems::Quantity& quantity, const char* formula, const Interval& value,
+         std::string why_not = kNone) {
+  quantity.formula = formula;
+  quantity.source = "docs/contraction.md";
+  theorems::set_value(quantity, value, std::move(why_not));
 }
 
 /// The size of the set; without one the quantities are there but not applicable.
-void add_size(const std::optional<Verification>& found, theorems::Derivation& derivation) {
+void set_size(const std::optional<Verification>& found, sets::ContractionResult& result) {
   Interval rate;
   Interval radius;
   IntervalVector<3> bounds;
@@ -65,27 +58,26 @@ void add_size(const std::optional<Verification>& found, theorems::Derivation& de
     radius = Interval(found->set.radius);
     bounds = error_bounds(found->set, radius);
   }
-  add_quantity(derivation, "contraction_rate", "\\kappa", "\\sup |T e^+| / |T e|", rate, kNone);
-  add_quantity(derivation, "radius", "R", "", radius, kNone);
-  add_quantity(derivation, "frequency_error_radius", "\\nu_R", "R\\,|e_3' T^{-1}|", bounds[2], kNone);
-  add_quantity(derivation, "phase_error_radius", "\\psi_R", "R\\,|e_2' T^{-1}|", bounds[1], kNone);
-  add_quantity(derivation, "amplitude_error_radius", "a_R", "R\\,|e_1' T^{-1}|", bounds[0], kNone);
+  set(result.contraction_rate, "\\sup |T e^+| / |T e|", rate);
+  set(result.radius, "", radius);
+  set(result.frequency_error_radius, "R\\,|e_3' T^{-1}|", bounds[2]);
+  set(result.phase_error_radius, "R\\,|e_2' T^{-1}|", bounds[1]);
+  set(result.amplitude_error_radius, "R\\,|e_1' T^{-1}|", bounds[0]);
 }
 
 /// What the sets say of the assumed starts.
-void add_promises(const Promises& promises, theorems::Derivation& derivation) {
-  add_quantity(derivation, "ultimate_frequency_error", "\\nu_\\infty",
-               "u\\,|e_3' T^{-1}|,\\ u^2 = \\tfrac{L_v^2 V^2 + L_w^2 W^2}{1 - \\kappa^2}",
-               promises.ultimate_frequency_error(), kNone);
-  add_quantity(derivation, "frequency_error_bound", "\\sup_k |\\nu(k)|", "\\max(|T e(0)|, u)\\,|e_3' T^{-1}|",
-               promises.starts_inside() ? promises.frequency_error_bound() : Interval(),
-               "The assumed starts are not in a certified set.");
+void set_promises(const Promises& promises, sets::StartResult& starts) {
+  set(starts.ultimate_frequency_error,
+      "u\\,|e_3' T^{-1}|,\\ u^2 = \\tfrac{L_v^2 V^2 + L_w^2 W^2}{1 - \\kappa^2}",
+      promises.ultimate_frequency_error());
+  set(starts.frequency_error_bound, "\\max(|T e(0)|, u)\\,|e_3' T^{-1}|",
+      promises.starts_inside() ? promises.frequency_error_bound() : Interval(),
+      "The assumed starts are not in a certified set.");
   const bool settles = certainly_positive(promises.ultimate_frequency_error());
-  add_quantity(derivation, "settling_samples", "k_s", "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
-               promises.settling_samples(),
-               settles ? "No set promises from when on it holds."
-                       : "Without noise and slew the ultimate bound is zero, which is approached but not "
-                         "reached.");
+  set(starts.settling_samples, "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
+      promises.settling_samples(),
+      settles ? "No set promises from when on it holds."
+              : "Without noise and slew the ultimate bound is zero, which is approached but not reached.");
 }
 
 Condition leak(const Interval& epsilon) {
@@ -205,18 +197,17 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& ques
   if (certificate.set) {
     derivation.conditions.push_back(start_in_set(question, certificate.set->set, promises.starts_inside()));
   }
-  add_size(certificate.set, derivation);
-  add_promises(promises, derivation);
+  sets::ContractionResult& result = certificate.result;
+  set_size(certificate.set, result);
+  set_promises(promises, result.starts);
   const auto& noisy = certificate.noise_set;
   const auto& slewing = certificate.slew_set;
-  add_quantity(derivation, "largest_noise", "V_{max}", "", noisy ? Interval(noisy->set.noise) : Interval(),
-               kNone);
-  add_quantity(derivation, "largest_slew", "W_{max}", "", slewing ? Interval(slewing->set.slew) : Interval(),
-               kNone);
+  set(result.largest_noise, "", noisy ? Interval(noisy->set.noise) : Interval());
+  set(result.largest_slew, "", slewing ? Interval(slewing->set.slew) : Interval());
   if (certificate.set && question.with_samples) {
     add_sampled_quantities(question, certificate, derivation);
   }
-  theorems::conclude(derivation);
+  sets::conclude(derivation, result);
   return certificate;
 }
 

@@ -6,6 +6,7 @@
 
 #include "analysis/quadrature/contraction/verification.hpp"
 #include "analysis/sets/contraction_question.hpp"
+#include "analysis/sets/contraction_result.hpp"
 #include "analysis/theorems/derivation.hpp"
 
 namespace veritrack::quadrature {
@@ -13,13 +14,13 @@ namespace veritrack::quadrature {
 /// What was found. Each set is the best on a ladder of proposals that verified; it is evidence that
 /// verify_certified_set can check again without a search.
 struct ContractionCertificate {
-  /// id "contraction"; quantities contraction_rate, radius, frequency_error_radius, phase_error_radius,
-  /// amplitude_error_radius (all of `set`), frequency_error_bound, ultimate_frequency_error, settling_samples
-  /// (each from the set that promises most for the assumed starts), largest_noise, largest_slew; not proved:
+  /// id "contraction"; the quantities of `result`: rate and radii are those of `set`, what is said of the
+  /// assumed starts is from the set that promises most. Not proved:
   /// frequency_error_radius_sampled_limit, frequency_error_radius_share_of_limit,
   /// frequency_error_bound_tightness, ultimate_frequency_error_tightness; conditions leak,
   /// controllable-amplitude, invariant-set, start-in-set.
   theorems::Derivation derivation;
+  sets::ContractionResult result;
   std::optional<Verification> set;        ///< the largest start error under the assumed noise and slew
   std::optional<Verification> noise_set;  ///< the largest noise, without slew
   std::optional<Verification> slew_set;   ///< the largest slew, without noise

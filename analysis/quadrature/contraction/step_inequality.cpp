@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "analysis/search/golden_section.hpp"
+
 namespace veritrack::quadrature {
 
 namespace {
@@ -174,34 +176,16 @@ rigor::LowerTriangle<6> congruent(const rigor::LowerTriangle<6>& c, const Entry&
 
 RayRate propose_rate(const PolarStepForm<double, double>& form, const BlockMetric<double>& metric,
                      const StepConstants<double>& constants) {
-  constexpr double kGolden = 0.6180339887498949;
   const auto bound = [&](double log_lambda) {
     return rate_squared_with(form, metric, reduced_form(form, metric, constants, std::exp(log_lambda)));
   };
-  auto [low, high] = range_of_multipliers(form, constants);
+  const auto [low, high] = range_of_multipliers(form, constants);
   if (!(low < high)) {
     return {kInfinity, 0.0};
   }
-  double left = high - kGolden * (high - low);
-  double right = low + kGolden * (high - low);
-  double at_left = bound(left);
-  double at_right = bound(right);
-  for (int i = 0; i < 12; ++i) {
-    if (at_left < at_right) {
-      high = right;
-      right = left;
-      at_right = at_left;
-      left = high - kGolden * (high - low);
-      at_left = bound(left);
-    } else {
-      low = left;
-      left = right;
-      at_left = at_right;
-      right = low + kGolden * (high - low);
-      at_right = bound(right);
-    }
-  }
-  return at_left < at_right ? RayRate{at_left, std::exp(left)} : RayRate{at_right, std::exp(right)};
+  constexpr int kSteps = 12;
+  const search::GoldenPoint best = search::golden_section(low, high, kSteps, bound);
+  return {best.cost, std::exp(best.point)};
 }
 
 CellVerdict check_cell(const CellForms& forms, const BlockMetric<Interval>& metric,

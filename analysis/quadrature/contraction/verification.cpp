@@ -31,10 +31,6 @@ bool certainly_positive_definite(const BlockCovariance<Interval>& p) {
   return rigor::certainly_positive(p.p11) && rigor::certainly_positive_definite<2>(rest);
 }
 
-bool certainly_not_negative(const Interval& x) {
-  return certainly_less_equal(Interval(0.0), x);
-}
-
 /// The first hypothesis on the inputs that does not hold, as a sentence; empty when all hold.
 std::string objection(const Design& design, const CertifiedSet& set) {
   const Interval zero(0.0);

@@ -32,7 +32,7 @@ double sign_of_cosine(double angle) {
 
 class Search {
  public:
-  Search(const Claim& claim, const FalsifierOptions& options)
+  Search(const SetClaim& claim, const FalsifierOptions& options)
       : claim_(claim), options_(options), random_(options.seed) {
     result_.from_rim.bound = claim.bound_from_rim();
     result_.from_zero.bound = claim.bound_from_zero();
@@ -225,7 +225,7 @@ class Search {
     }
   }
 
-  const Claim& claim_;
+  const SetClaim& claim_;
   FalsifierOptions options_;
   trackers::RandomStream random_;
   Falsification result_;
@@ -236,10 +236,10 @@ class Search {
 Falsification try_to_break(const CertifiedSet& set, const trackers::ToneModel<double>& design,
                            const FalsifierOptions& options) {
   const rigor::NearestRounding nearest;
-  return try_to_break(Claim(set, design), options);
+  return try_to_break(SetClaim(set, design), options);
 }
 
-Falsification try_to_break(const Claim& claim, const FalsifierOptions& options) {
+Falsification try_to_break(const SetClaim& claim, const FalsifierOptions& options) {
   const rigor::NearestRounding nearest;
   if (options.steps < 1) {
     throw std::invalid_argument("a run has at least one step");

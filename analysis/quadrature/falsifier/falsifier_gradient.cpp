@@ -17,12 +17,12 @@ Vector9 vector_of(const PolarState& s) {
   return x;
 }
 
-Vector9 next_state(const Claim& claim, const Vector12& x) {
+Vector9 next_state(const SetClaim& claim, const Vector12& x) {
   const trackers::PolarInput<double> input{x[9], x[10], x[11], claim.frequency()};
   return vector_of(trackers::polar_frame_map<double>(state_of(x.head<9>()), input, claim.design()));
 }
 
-Vector12 pulled_back(const Claim& claim, const Vector9& weight, const PolarState& state,
+Vector12 pulled_back(const SetClaim& claim, const Vector9& weight, const PolarState& state,
                      const Eigen::Vector3d& input) {
   Vector12 x;
   x << vector_of(state), input;
@@ -42,7 +42,7 @@ Vector12 pulled_back(const Claim& claim, const Vector9& weight, const PolarState
   return gradient;
 }
 
-double own_frequency(const Claim& claim, int steps) {
+double own_frequency(const SetClaim& claim, int steps) {
   Vector12 x = Vector12::Zero();
   x.head<9>() = vector_of({{claim.center()[0], claim.center()[1], claim.center()[2]},
                            trackers::PolarCovariance<double>::from_matrix(

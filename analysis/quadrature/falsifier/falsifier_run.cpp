@@ -44,7 +44,7 @@ std::string told(const char* what, double found, double certified) {
 
 }  // namespace
 
-Claim::Claim(const CertifiedSet& set, const trackers::ToneModel<double>& design)
+SetClaim::SetClaim(const CertifiedSet& set, const trackers::ToneModel<double>& design)
     : set_(set), design_(design) {
   {
     const rigor::UpwardRounding upward;
@@ -55,8 +55,8 @@ Claim::Claim(const CertifiedSet& set, const trackers::ToneModel<double>& design)
   complete(design.epsilon == 0.0);
 }
 
-Claim::Claim(const SteadySet& set, const trackers::ToneModel<double>& design, const PolarState& steady,
-             double frequency)
+SetClaim::SetClaim(const SteadySet& set, const trackers::ToneModel<double>& design, const PolarState& steady,
+                   double frequency)
     : design_(design),
       center_(as_vector(steady.error)),
       center_covariance_(steady.covariance.matrix()),
@@ -75,7 +75,7 @@ Claim::Claim(const SteadySet& set, const trackers::ToneModel<double>& design, co
   complete(!levels_.empty() && std::isfinite(frequency));
 }
 
-void Claim::complete(bool fits) {
+void SetClaim::complete(bool fits) {
   const Eigen::LLT<Eigen::Matrix3d> factor(set_.covariance_upper - set_.covariance_lower);
   inverse_metric_ = set_.metric.inverse();
   root_ = factor.matrixL();
@@ -89,13 +89,13 @@ void Claim::complete(bool fits) {
   }
 }
 
-Eigen::Matrix3d Claim::covariance_at(const Eigen::Matrix3d& share, bool at_center) const {
+Eigen::Matrix3d SetClaim::covariance_at(const Eigen::Matrix3d& share, bool at_center) const {
   const Eigen::Matrix3d member = set_.covariance_lower + root_ * share * root_.transpose();
   const double level = at_center && !levels_.empty() ? levels_.back() : 1.0;
   return level < 1.0 ? Eigen::Matrix3d(center_covariance_ + level * (member - center_covariance_)) : member;
 }
 
-Eigen::Matrix3d Claim::share_along(const Eigen::Matrix3d& lambda) const {
+Eigen::Matrix3d SetClaim::share_along(const Eigen::Matrix3d& lambda) const {
   // The projection on the eigenvectors of C' Lambda C with positive eigenvalues.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(root_.transpose() * lambda * root_);
   Eigen::Matrix3d share = Eigen::Matrix3d::Zero();
@@ -107,15 +107,15 @@ Eigen::Matrix3d Claim::share_along(const Eigen::Matrix3d& lambda) const {
   return share;
 }
 
-bool Claim::covariance_is_inside(const Eigen::Matrix3d& covariance, double share, double room) const {
+bool SetClaim::covariance_is_inside(const Eigen::Matrix3d& covariance, double share, double room) const {
   const Eigen::Matrix3d lower = center_covariance_ + share * (set_.covariance_lower - center_covariance_);
   const Eigen::Matrix3d y = inverse_root_ * (covariance - lower) * inverse_root_.transpose();
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
   return is_positive_definite(y + room * identity) && is_positive_definite((share + room) * identity - y);
 }
 
-std::optional<std::string> Claim::broken_by(const PolarState& before, const Eigen::Vector3d& input,
-                                            const PolarState& after) const {
+std::optional<std::string> SetClaim::broken_by(const PolarState& before, const Eigen::Vector3d& input,
+                                               const PolarState& after) const {
   const double level_before = level(as_vector(before.error));
   const double level_after = level(as_vector(after.error));
   double share = 1.0;  // of the covariance bounds, that is certified after the step
@@ -148,7 +148,7 @@ std::optional<std::string> Claim::broken_by(const PolarState& before, const Eige
   return std::nullopt;
 }
 
-RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolicy& policy, int steps) {
+RunOutcome run_tracker(const SetClaim& claim, const Attack& start, const InputPolicy& policy, int steps) {
   RunOutcome outcome;
   outcome.attack = start;
   outcome.attack.inputs.clear();

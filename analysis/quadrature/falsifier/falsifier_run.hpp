@@ -16,14 +16,14 @@ using PolarState = trackers::PolarFrameState<double>;
 
 /// A claim in floating point: the set with what follows from it. With a leak it is that of a SteadySet at one
 /// constant frequency, which is a set around the steady state there; without, the centre is zero.
-class Claim {
+class SetClaim {
  public:
   /// Without a leak. Throws std::invalid_argument when the set is not one.
-  Claim(const CertifiedSet& set, const trackers::ToneModel<double>& design);
+  SetClaim(const CertifiedSet& set, const trackers::ToneModel<double>& design);
   /// With a leak, at this frequency (rad/sample) and for slew zero; `steady` is the steady state there, to
   /// rounding. Throws as above.
-  Claim(const SteadySet& set, const trackers::ToneModel<double>& design, const PolarState& steady,
-        double frequency);
+  SetClaim(const SteadySet& set, const trackers::ToneModel<double>& design, const PolarState& steady,
+           double frequency);
 
   /// With a leak: {|T (e - centre)| <= 1} x {P* - below <= P <= P* + above}, rates and gains without meaning.
   [[nodiscard]] const CertifiedSet& set() const { return set_; }
@@ -87,11 +87,11 @@ struct RunOutcome {
 /// Runs QuadratureEkf<double> for `steps` steps beside a signal of amplitude 1 and holds every step against
 /// the claim; ends early with an alarm. A start with an amplitude error of -1 or less, which no estimate
 /// has, gives an empty outcome. Needs round to nearest.
-[[nodiscard]] RunOutcome run_tracker(const Claim& claim, const Attack& start, const InputPolicy& policy,
+[[nodiscard]] RunOutcome run_tracker(const SetClaim& claim, const Attack& start, const InputPolicy& policy,
                                      int steps);
 
 /// As try_to_break of falsifier.hpp, where the centre takes the place of zero. With a leak the structure of
 /// what is certified is that of SteadySet: each step leads to the next level.
-[[nodiscard]] Falsification try_to_break(const Claim& claim, const FalsifierOptions& options = {});
+[[nodiscard]] Falsification try_to_break(const SetClaim& claim, const FalsifierOptions& options = {});
 
 }  // namespace veritrack::quadrature

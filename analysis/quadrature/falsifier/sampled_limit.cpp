@@ -20,7 +20,7 @@ constexpr Eigen::Index kAngles = 10;
 
 class Escape {
  public:
-  explicit Escape(const Claim& claim) : claim_(claim), random_(20261121) {}
+  explicit Escape(const SetClaim& claim) : claim_(claim), random_(20261121) {}
 
   /// The largest |T e+| / radius that ascent finds from the best start so far and a few new ones.
   double largest_ratio(double radius) {
@@ -63,7 +63,7 @@ class Escape {
     return claim_.level(as_vector(next.error)) / radius;
   }
 
-  const Claim& claim_;
+  const SetClaim& claim_;
   trackers::RandomStream random_;
   Eigen::VectorXd best_ = Eigen::VectorXd::Constant(kAngles, 1.0);
 };
@@ -72,10 +72,10 @@ class Escape {
 
 double sampled_radius_limit(const CertifiedSet& set, const trackers::ToneModel<double>& design) {
   const rigor::NearestRounding nearest;
-  return sampled_radius_limit(Claim(set, design));
+  return sampled_radius_limit(SetClaim(set, design));
 }
 
-double sampled_radius_limit(const Claim& claim) {
+double sampled_radius_limit(const SetClaim& claim) {
   constexpr double kGrowth = 1.2;
   constexpr int kBisections = 8;
   const rigor::NearestRounding nearest;

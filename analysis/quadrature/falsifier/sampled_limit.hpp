@@ -15,6 +15,6 @@ namespace veritrack::quadrature {
 [[nodiscard]] double sampled_radius_limit(const CertifiedSet& set, const trackers::ToneModel<double>& design);
 
 /// The same for a claim, about its centre.
-[[nodiscard]] double sampled_radius_limit(const Claim& claim);
+[[nodiscard]] double sampled_radius_limit(const SetClaim& claim);
 
 }  // namespace veritrack::quadrature

@@ -4,19 +4,19 @@
 #include <limits>
 
 #include "analysis/quadrature/falsifier/sampled_limit.hpp"
-#include "analysis/theorems/derivation_builder.hpp"
+#include "analysis/quadrature/falsifier/sampled_text.hpp"
 
 namespace veritrack::quadrature {
 
 using rigor::Interval;
 
-std::vector<Claim> claims_of(const trackers::ToneModel<Interval>& design, const sets::LockBranch& branch,
-                             const SteadySet& set) {
+std::vector<SetClaim> claims_of(const trackers::ToneModel<Interval>& design, const sets::LockBranch& branch,
+                                const SteadySet& set) {
   const rigor::NearestRounding nearest;
   const trackers::ToneModel<double> middle{midpoint(design.q1), midpoint(design.q2), midpoint(design.r),
                                            midpoint(design.epsilon)};
   const auto& cells = branch.cells;
-  std::vector<Claim> claims;
+  std::vector<SetClaim> claims;
   claims.reserve(3);
   for (const std::size_t k : {std::size_t{0}, cells.size() / 2, cells.size() - 1}) {
     const double frequency = cells[k].parameter_center;
@@ -31,7 +31,7 @@ std::vector<Claim> claims_of(const trackers::ToneModel<Interval>& design, const 
   return claims;
 }
 
-void add_steady_sampled_quantities(const std::vector<Claim>& claims, theorems::Derivation& derivation) {
+void add_steady_sampled_quantities(const std::vector<SetClaim>& claims, theorems::Derivation& derivation) {
   if (claims.empty()) {
     return;
   }
@@ -40,23 +40,19 @@ void add_steady_sampled_quantities(const std::vector<Claim>& claims, theorems::D
   double limit = std::numeric_limits<double>::infinity();
   double of_radius = 0.0;
   double of_ultimate = 0.0;
-  for (const Claim& claim : claims) {
+  for (const SetClaim& claim : claims) {
     limit = std::min(limit, sampled_radius_limit(claim));
     const Falsification found = try_to_break(claim, effort);
     of_radius = std::max(of_radius, found.from_rim.tightness());
     of_ultimate = std::max(of_ultimate, found.from_zero.tightness());
   }
-  const auto add = [&](const char* name, const char* symbol, const char* formula, double value) {
-    theorems::add_quantity(derivation, {name, symbol, formula, "docs/leak.md"}, Interval(value));
-    derivation.quantities.back().proved = false;
+  const auto add = [&](SampledText text, const char* symbol, const char* formula, double value) {
+    add_sampled(derivation, text, {symbol, formula, "docs/leak.md"}, value);
   };
-  add("frequency_error_radius_sampled_limit", "\\hat\\nu_R", "\\hat R\\,|e_3' T^{-1}|",
-      limit * claims.front().bound_from_rim());
-  add("frequency_error_radius_share_of_limit", "1 / \\hat R", "", 1.0 / limit);
-  add("frequency_error_bound_tightness", "", "\\sup_{\\text{found}} |\\nu - \\nu^*| / |e_3' T^{-1}|",
-      of_radius);
-  add("ultimate_frequency_error_tightness", "", "\\sup_{\\text{found}} |\\nu - \\nu^*| / (s_n |e_3' T^{-1}|)",
-      of_ultimate);
+  add(kRadiusLimit, "\\hat\\nu_R", "\\hat R\\,|e_3' T^{-1}|", limit * claims.front().bound_from_rim());
+  add(kShareOfLimit, "1 / \\hat R", "", 1.0 / limit);
+  add(kBoundTightness, "", "\\sup_{\\text{found}} |\\nu - \\nu^*| / |e_3' T^{-1}|", of_radius);
+  add(kUltimateTightness, "", "\\sup_{\\text{found}} |\\nu - \\nu^*| / (s_n |e_3' T^{-1}|)", of_ultimate);
 }
 
 }  // namespace veritrack::quadrature

@@ -15,7 +15,6 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 using theorems::Condition;
-using Tube = sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>;
 
 constexpr const char* kSource = "docs/leak.md";
 
@@ -45,6 +44,96 @@ std::vector<theorems::Evidence> evidence_of(const SteadySearch& search) {
   return evidence;
 }
 
+/// What was looked for, and how far it came.
+struct Search {
+  sets::LockBranch branch;
+  double largest_noise = 0.0;  ///< zero when none was certified
+  double largest_slew = 0.0;
+  std::string why;  ///< a clause: why there is no set, or the ground of the set
+};
+
+/// Looks for sets around the lock branch of the band; what is found goes to the certificate.
+Search search(const LeakQuestion& question, LeakCertificate& certificate) {
+  // Wider cells are fewer, narrower ones give larger sets.
+  constexpr double kCellWidth = 0.1;  // rad/sample
+  Search search;
+  search.branch = sets::verify_lock_branch(question.tracker.design, question.band, {.largest = kCellWidth});
+  search.why = search.branch.reason;
+  if (search.branch.verdict == Verdict::proved && is_finite(question.band) &&
+      sets::is_well_posed(question.tracker)) {
+    SteadySearch found = search_steady_sets(question.tracker, search.branch);
+    search.why = "no set was found in which the steps contract";
+    search.largest_noise = found.largest_noise();
+    search.largest_slew = found.largest_slew();
+    certificate.derivation.evidence = evidence_of(found);
+    certificate.set = std::move(found.set);
+  }
+  if (certificate.set) {
+    search.why = certificate.set->reason;
+  }
+  return search;
+}
+
+Condition invariant_set(const LeakQuestion& question, const Search& search,
+                        const std::optional<Interval>& rate) {
+  Condition invariant{"invariant-set",
+                      "\\Omega_{s_j} \\to \\Omega_{s_{j+1}}",
+                      rate ? Verdict::proved : Verdict::undecided,
+                      rate.value_or(Interval::empty()),
+                      Interval(1.0),
+                      search.why};
+  if (!rate && search.branch.verdict == Verdict::proved) {
+    invariant.reason =
+        "no set could be certified for this noise and slew: " + search.why + " Of the limits: " +
+        sets::beyond_the_limits(question.tracker, search.largest_noise, search.largest_slew) + ".";
+  }
+  return invariant;
+}
+
+void set(theorems::Quantity& quantity, const char* formula, const std::optional<Interval>& value,
+         const std::string& why_not) {
+  quantity.formula = formula;
+  quantity.source = kSource;
+  theorems::set_value(quantity, value.value_or(Interval()), why_not);
+}
+
+std::optional<Interval> above_zero(double limit) {
+  return limit > 0.0 ? std::optional(Interval(limit)) : std::nullopt;
+}
+
+/// The result; `report` is there when a set is PROVED.
+sets::ContractionResult result_of(const Search& search, const std::optional<SteadyReport>& report,
+                                  const std::optional<Interval>& rate) {
+  const std::string& why = search.why;
+  const auto said = [&](const auto& function) {
+    return report ? std::optional<Interval>(function(*report)) : std::nullopt;
+  };
+  const auto radius = [&](Eigen::Index i) {
+    return said([i](const SteadyReport& r) { return r.radius(i); });
+  };
+  sets::ContractionResult result;
+  set(result.contraction_rate, "\\max_j s_{j+1} / s_j", rate, why);
+  set(result.radius, "|T (e - e^*)| \\le 1", report ? std::optional(Interval(1.0)) : std::nullopt, why);
+  set(result.frequency_error_radius, "|e_3' T^{-1}|", radius(2), why);
+  set(result.phase_error_radius, "|e_2' T^{-1}|", radius(1), why);
+  set(result.amplitude_error_radius, "|e_1' T^{-1}|", radius(0), why);
+  sets::StartResult& starts = result.starts;
+  const std::string outside =
+      report ? "The assumed starts do not certainly come into the certified set." : why;
+  set(starts.ultimate_frequency_error, "\\sup_\\omega |\\nu^*| + s_n |e_3' T^{-1}|",
+      said([](const SteadyReport& r) { return r.ultimate(); }), why);
+  set(starts.frequency_error_bound, "\\sup_\\omega (|\\nu^*| + \\max(s(k_c), s_{j(k_c)+1}) |e_3' T^{-1}|)",
+      report ? report->bound() : std::nullopt, outside);
+  starts.capture_samples = sets::quantities::capture_samples();
+  set(*starts.capture_samples, "", report ? report->capture_samples() : std::nullopt, outside);
+  set(starts.settling_samples, "k_c + n - j(k_c),\\ s_{j(k_c)} \\ge s(k_c)",
+      said([](const SteadyReport& r) { return r.settling(); }), why);
+  set(result.largest_noise, "", above_zero(search.largest_noise), why);
+  set(result.largest_slew, "", above_zero(search.largest_slew), why);
+  result.bias_frequency = sets::frequency_bias(search.branch);
+  return result;
+}
+
 }  // namespace
 
 LeakCertificate certify_with_leak(const LeakQuestion& question) {
@@ -57,84 +146,25 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
       "Covers the tracker in exact arithmetic, for every frequency of the band, signal amplitude constant.",
       "With a leak the tracker settles off the truth: radii are about the steady state, error bounds about "
       "the truth. Amplitude error and noise are relative to the true amplitude."};
-  // Wider cells are fewer, narrower ones give larger sets.
-  constexpr double kCellWidth = 0.1;  // rad/sample
-  const sets::LockBranch branch =
-      sets::verify_lock_branch(question.tracker.design, question.band, {.largest = kCellWidth});
-  double largest_noise = 0.0;
-  double largest_slew = 0.0;
-  std::string why = branch.reason;
-  if (branch.verdict == Verdict::proved && is_finite(question.band) &&
-      sets::is_well_posed(question.tracker)) {
-    SteadySearch search = search_steady_sets(question.tracker, branch);
-    why = "no set was found in which the steps contract";
-    largest_noise = search.largest_noise();
-    largest_slew = search.largest_slew();
-    derivation.evidence = evidence_of(search);
-    certificate.set = std::move(search.set);
-  }
-  const bool proved = certificate.set && certificate.set->verdict == Verdict::proved;
-  if (certificate.set) {
-    why = certificate.set->reason;
-  }
-  Condition invariant{"invariant-set",
-                      "\\Omega_{s_j} \\to \\Omega_{s_{j+1}}",
-                      proved ? Verdict::proved : Verdict::undecided,
-                      Interval::empty(),
-                      Interval(1.0),
-                      why};
-  if (!proved && branch.verdict == Verdict::proved) {
-    invariant.reason = "no set could be certified for this noise and slew: " + why + " Of the limits: " +
-                       sets::beyond_the_limits(question.tracker, largest_noise, largest_slew) + ".";
-  }
+  const Search found = search(question, certificate);
   std::optional<SteadyReport> report;
   std::optional<Interval> rate;
-  if (proved) {
-    report.emplace(question.tracker, branch, certificate.set->set);
+  if (certificate.set && certificate.set->verdict == Verdict::proved) {
+    report.emplace(question.tracker, found.branch, certificate.set->set);
     rate = report->rate();
-    invariant.lhs = *rate;
   }
   derivation.conditions = {{"steady-state", "X^*(\\omega) = G(X^*(\\omega)) \\text{ on the band}",
-                            branch.verdict, Interval::empty(), Interval::empty(), branch.reason},
-                           invariant};
+                            found.branch.verdict, Interval::empty(), Interval::empty(), found.branch.reason},
+                           invariant_set(question, found, rate)};
   if (report) {
     derivation.conditions.push_back(report->start_in_set());
   }
-  const auto said = [&](const auto& function) {
-    return report ? std::optional<Interval>(function(*report)) : std::nullopt;
-  };
-  const auto radius = [&](Eigen::Index i) {
-    return said([i](const SteadyReport& r) { return r.radius(i); });
-  };
-  const std::string outside =
-      report ? "The assumed starts do not certainly come into the certified set." : why;
-  const auto add = [&](const char* name, const char* symbol, const char* formula,
-                       const std::optional<Interval>& value, const std::string& missing) {
-    theorems::add_quantity(derivation, {name, symbol, formula, kSource}, value.value_or(Interval()), missing);
-  };
-  add("contraction_rate", "\\kappa", "\\max_j s_{j+1} / s_j", rate, why);
-  add("radius", "R", "|T (e - e^*)| \\le 1", report ? std::optional(Interval(1.0)) : std::nullopt, why);
-  add("frequency_error_radius", "\\nu_R", "|e_3' T^{-1}|", radius(2), why);
-  add("phase_error_radius", "\\psi_R", "|e_2' T^{-1}|", radius(1), why);
-  add("amplitude_error_radius", "a_R", "|e_1' T^{-1}|", radius(0), why);
-  add("ultimate_frequency_error", "\\nu_\\infty", "\\sup_\\omega |\\nu^*| + s_n |e_3' T^{-1}|",
-      said([](const SteadyReport& r) { return r.ultimate(); }), why);
-  add("frequency_error_bound", "\\sup_k |\\nu(k)|",
-      "\\sup_\\omega (|\\nu^*| + \\max(s(k_c), s_{j(k_c)+1}) |e_3' T^{-1}|)",
-      report ? report->bound() : std::nullopt, outside);
-  add("capture_samples", "k_c", "", report ? report->capture_samples() : std::nullopt, outside);
-  add("settling_samples", "k_s", "k_c + n - j(k_c),\\ s_{j(k_c)} \\ge s(k_c)",
-      said([](const SteadyReport& r) { return r.settling(); }), why);
-  add("largest_noise", "V_{max}", "",
-      largest_noise > 0.0 ? std::optional(Interval(largest_noise)) : std::nullopt, why);
-  add("largest_slew", "W_{max}", "",
-      largest_slew > 0.0 ? std::optional(Interval(largest_slew)) : std::nullopt, why);
-  derivation.quantities.push_back(sets::frequency_bias(branch));
+  certificate.result = result_of(found, report, rate);
   if (report && question.tracker.with_samples) {
-    add_steady_sampled_quantities(claims_of(question.tracker.design, branch, certificate.set->set),
+    add_steady_sampled_quantities(claims_of(question.tracker.design, found.branch, certificate.set->set),
                                   derivation);
   }
-  theorems::conclude(derivation);
+  sets::conclude(derivation, certificate.result);
   return certificate;
 }
 

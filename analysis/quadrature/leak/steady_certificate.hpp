@@ -17,10 +17,10 @@ struct LeakQuestion {
 };
 
 struct LeakCertificate {
-  /// id "contraction"; the quantities of ContractionCertificate, about the steady state where they are
-  /// radii and about the truth where they are bounds, and bias_frequency; conditions steady-state,
-  /// invariant-set, start-in-set.
+  /// id "contraction"; the quantities of `result`, about the steady state where they are radii and about the
+  /// truth where they are bounds; conditions steady-state, invariant-set, start-in-set.
   theorems::Derivation derivation;
+  sets::ContractionResult result;
   std::optional<SteadyVerification> set;  ///< PROVED, or the last attempt
 };
 

@@ -17,9 +17,8 @@ struct SteadyMotion {
 
 /// What the slew of the set does between neighbouring samples, uniform over the branch, since a step may lead
 /// from one cell to another; nothing when it could not be enclosed. Needs the upward mode.
-[[nodiscard]] std::optional<SteadyMotion> steady_motion(
-    const trackers::ToneModel<rigor::Interval>& design,
-    const std::vector<sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>>& branch,
-    const SteadySet& set);
+[[nodiscard]] std::optional<SteadyMotion> steady_motion(const trackers::ToneModel<rigor::Interval>& design,
+                                                        const std::vector<sets::QuadratureTube>& branch,
+                                                        const SteadySet& set);
 
 }  // namespace veritrack::quadrature

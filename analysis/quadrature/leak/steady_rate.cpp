@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/rigor/small_definiteness.hpp"
+#include "analysis/search/golden_section.hpp"
 
 namespace veritrack::quadrature {
 
@@ -14,32 +15,6 @@ namespace {
 using rigor::Interval;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// The golden section's best point for a unimodal cost on [low, high].
-template <typename Cost>
-double golden_section(double low, double high, int steps, const Cost& cost) {
-  constexpr double kGolden = 0.6180339887498949;
-  double left = high - kGolden * (high - low);
-  double right = low + kGolden * (high - low);
-  double at_left = cost(left);
-  double at_right = cost(right);
-  for (int i = 0; i < steps; ++i) {
-    if (at_left < at_right) {
-      high = right;
-      right = left;
-      at_right = at_left;
-      left = high - kGolden * (high - low);
-      at_left = cost(left);
-    } else {
-      low = left;
-      left = right;
-      at_left = at_right;
-      right = low + kGolden * (high - low);
-      at_right = cost(right);
-    }
-  }
-  return at_left < at_right ? left : right;
-}
 
 /// N N' of a matrix given row by row.
 template <typename Scalar>
@@ -95,9 +70,11 @@ SteadyRate propose_rate(const SteadyStep<double>& step, const SteadyBounds<doubl
                              mu(log_mu));
   };
   const auto best_mu = [&](double log_lambda) {
-    return golden_section(-3.0, 0.3, 9, [&](double log_mu) { return cost(log_lambda, log_mu); });
+    return search::golden_section(-3.0, 0.3, 9, [&](double log_mu) { return cost(log_lambda, log_mu); })
+        .point;
   };
-  const double log_lambda = golden_section(-0.2, 6.0, 9, [&](double x) { return cost(x, best_mu(x)); });
+  const double log_lambda =
+      search::golden_section(-0.2, 6.0, 9, [&](double x) { return cost(x, best_mu(x)); }).point;
   const double log_mu = best_mu(log_lambda);
   SteadyRate rate{cost(log_lambda, log_mu), lambda(log_lambda), mu(log_mu)};
   const double left = target_squared - rate.rate_squared;

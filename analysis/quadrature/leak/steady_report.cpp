@@ -10,14 +10,6 @@ namespace veritrack::quadrature {
 using rigor::Interval;
 using rigor::Verdict;
 
-namespace {
-
-std::string at_most(double x) {
-  return rigor::to_decimal(x, 4, rigor::Direction::up);
-}
-
-}  // namespace
-
 SteadyReport::SteadyReport(const sets::ContractionQuestion& question, const sets::LockBranch& branch,
                            const SteadySet& set)
     : set_(set), starts_(follow_to_steady_set(question, branch.cells, set)), start_(joined(starts_)) {
@@ -47,13 +39,13 @@ theorems::Condition SteadyReport::start_in_set() const {
         "every assumed start comes into the certified set around the steady state of its "
         "frequency, within " +
         std::to_string(start_.samples) + " samples, in which the frequency error is at most " +
-        at_most(start_.frequency_error) +
+        rigor::upper_decimal(Interval(start_.frequency_error)) +
         " rad/sample: followed in interval arithmetic, with the assumed noise.";
   } else if (start_.level) {
     condition.reason =
-        "the assumed starts reach " + at_most(*start_.level) +
+        "the assumed starts reach " + rigor::upper_decimal(Interval(*start_.level)) +
         " in a metric where the set ends at 1, measured from the steady state, which is up to " +
-        at_most(bias_) + " rad/sample off the truth";
+        rigor::upper_decimal(Interval(bias_)) + " rad/sample off the truth";
     condition.reason += start_.failure.empty() ? "" : ", and " + start_.failure;
     condition.reason +=
         ": a smaller leak epsilon, a narrower [assume] frequency or smaller start errors would do.";

@@ -19,7 +19,6 @@ namespace {
 using rigor::Interval;
 using rigor::IntervalMatrix;
 using rigor::IntervalVector;
-using Tube = sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>;
 
 IntervalMatrix<3> covariance_of(const IntervalVector<sets::QuadraturePolarLoop::kStates>& x) {
   IntervalMatrix<3> p;
@@ -28,8 +27,8 @@ IntervalMatrix<3> covariance_of(const IntervalVector<sets::QuadraturePolarLoop::
 }
 
 /// As SteadyStart, over a part of the frequencies of a cell.
-SteadyStart start_of(const sets::ContractionQuestion& question, const Tube& cell, const Interval& part,
-                     const SteadySet& set) {
+SteadyStart start_of(const sets::ContractionQuestion& question, const sets::QuadratureTube& cell,
+                     const Interval& part, const SteadySet& set) {
   const IntervalVector<sets::QuadraturePolarLoop::kStates> steady = cell.at(part);
   const StartBox starts = assumed_starts(question);
   IntervalVector<3> error;
@@ -51,8 +50,8 @@ SteadyStart start_of(const sets::ContractionQuestion& question, const Tube& cell
 }
 
 /// Follows the starts of a part of the frequencies of a cell.
-SteadyStart follow_part(const sets::ContractionQuestion& question, const Tube& cell, const Interval& part,
-                        const SteadySet& set) {
+SteadyStart follow_part(const sets::ContractionQuestion& question, const sets::QuadratureTube& cell,
+                        const Interval& part, const SteadySet& set) {
   SteadyStart result = start_of(question, cell, part, set);
   if (result.reached || !(question.slew == Interval(0.0))) {
     return result;
@@ -89,8 +88,8 @@ SteadyStart both(const SteadyStart& a, const SteadyStart& b) {
 }
 
 /// Narrower parts of the frequencies where the whole is too much to follow at once.
-SteadyStart follow_cell(const sets::ContractionQuestion& question, const Tube& cell, const Interval& part,
-                        const SteadySet& set, int halvings) {
+SteadyStart follow_cell(const sets::ContractionQuestion& question, const sets::QuadratureTube& cell,
+                        const Interval& part, const SteadySet& set, int halvings) {
   SteadyStart whole = follow_part(question, cell, part, set);
   if (whole.reached) {
     return whole;
@@ -136,7 +135,8 @@ SteadyStart joined(const std::vector<SteadyStart>& starts) {
 }
 
 std::vector<SteadyStart> follow_to_steady_set(const sets::ContractionQuestion& question,
-                                              const std::vector<Tube>& cells, const SteadySet& set) {
+                                              const std::vector<sets::QuadratureTube>& cells,
+                                              const SteadySet& set) {
   constexpr int kHalvings = 2;
   // In blocks, so that a failure is found early, and the same one whatever the number of threads.
   constexpr std::size_t kBlock = 4;

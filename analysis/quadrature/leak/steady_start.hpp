@@ -31,9 +31,9 @@ struct SteadyStart {
 /// frequency (slew zero) and with the noise of the set, until Omega_s with s <= 1/2 does (capture.hpp). One
 /// for each cell, in their order, up to the first few that are not reached. Opens its own rounding scope;
 /// deterministic.
-[[nodiscard]] std::vector<SteadyStart> follow_to_steady_set(
-    const sets::ContractionQuestion& question,
-    const std::vector<sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>>& cells, const SteadySet& set);
+[[nodiscard]] std::vector<SteadyStart> follow_to_steady_set(const sets::ContractionQuestion& question,
+                                                            const std::vector<sets::QuadratureTube>& cells,
+                                                            const SteadySet& set);
 
 /// A level up to 1 of a ladder at which the deviation of the covariance from P* lies between the bounds of
 /// the set; nothing when there is none. Needs the upward mode.

@@ -19,15 +19,10 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-using Tube = sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>;
 using Design = trackers::ToneModel<Interval>;
 
 bool is_symmetric(const rigor::Matrix<3>& p) {
   return p(0, 1) == p(1, 0) && p(0, 2) == p(2, 0) && p(1, 2) == p(2, 1) && rigor::is_finite(p);
-}
-
-bool certainly_not_negative(const Interval& x) {
-  return certainly_less_equal(Interval(0.0), x);
 }
 
 /// The first hypothesis on the proposal that does not hold, as a sentence; empty when all hold.
@@ -105,7 +100,7 @@ struct CellResult {
 };
 
 /// X* = center + (p - p0) slope + tight.
-SteadyState<SteadySecant> steady_secants(const Tube& tube) {
+SteadyState<SteadySecant> steady_secants(const sets::QuadratureTube& tube) {
   const rigor::IntervalVector<sets::QuadraturePolarLoop::kStates> box = tube.box();
   const rigor::IntervalVector<sets::QuadraturePolarLoop::kStates> middle =
       tube.at(Interval(tube.parameter_center));
@@ -120,7 +115,7 @@ SteadyState<SteadySecant> steady_secants(const Tube& tube) {
 }
 
 /// Tries `steps` steps, from level to level.
-CellResult verify_cell(const Design& design, const Tube& tube, const SteadySet& set,
+CellResult verify_cell(const Design& design, const sets::QuadratureTube& tube, const SteadySet& set,
                        const SteadyMotion& motion, std::size_t steps) {
   const rigor::UpwardRounding upward;
   CellResult result;
@@ -189,12 +184,12 @@ std::vector<std::size_t> spread_first(std::size_t size) {
 
 }  // namespace
 
-SteadyState<Interval> steady_state(const Tube& cell, const Interval& part) {
+SteadyState<Interval> steady_state(const sets::QuadratureTube& cell, const Interval& part) {
   const rigor::IntervalVector<sets::QuadraturePolarLoop::kStates> x = cell.at(part);
   return {Interval(1.0) + x[0], x[1], x[2], {x[3], x[4], x[5], x[6], x[7], x[8]}};
 }
 
-SteadyVerification verify_steady_set(const Design& design, const std::vector<Tube>& branch,
+SteadyVerification verify_steady_set(const Design& design, const std::vector<sets::QuadratureTube>& branch,
                                      const SteadySet& proposal) {
   const rigor::UpwardRounding upward;
   SteadyVerification result;

@@ -31,13 +31,12 @@ struct SteadyVerification {
 /// Levels from the first that does not lead to the next one on are dropped, as long as one step remains.
 /// Cells run in parallel; the result does not depend on how many threads there are. Opens its own
 /// UpwardRounding scope; never throws for odd numbers.
-[[nodiscard]] SteadyVerification verify_steady_set(
-    const trackers::ToneModel<rigor::Interval>& design,
-    const std::vector<sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>>& branch,
-    const SteadySet& proposal);
+[[nodiscard]] SteadyVerification verify_steady_set(const trackers::ToneModel<rigor::Interval>& design,
+                                                   const std::vector<sets::QuadratureTube>& branch,
+                                                   const SteadySet& proposal);
 
 /// The steady state over a part of a cell. Needs the upward mode.
-[[nodiscard]] SteadyState<rigor::Interval> steady_state(
-    const sets::FixedPointTube<sets::QuadraturePolarLoop::kStates>& cell, const rigor::Interval& part);
+[[nodiscard]] SteadyState<rigor::Interval> steady_state(const sets::QuadratureTube& cell,
+                                                        const rigor::Interval& part);
 
 }  // namespace veritrack::quadrature

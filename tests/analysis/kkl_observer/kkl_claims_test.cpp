@@ -23,6 +23,9 @@ KklClaimsQuestion question(const std::vector<double>& rates, double ell) {
   q.frequency = Interval::from_bounds(1.0, 5.0);
   q.amplitude = Interval::from_bounds(1.0, 2.0);
   q.ell = Interval(ell);
+  if (rates.size() == 4) {
+    q.infimum = enclose_ell({{q.lambda[0], q.lambda[1], q.lambda[2], q.lambda[3]}, q.frequency}).value();
+  }
   return q;
 }
 

@@ -65,13 +65,15 @@ Certificate observer(const std::string& ell = "") {
   certificate.design = read_design(text, "design.toml");
   const rigor::UpwardRounding upward;
   const kkl_observer::KklRange range = kkl_range(kkl_observer_tables(certificate.design));
-  certificate.derivations.push_back(kkl_observer::derive_kkl_ell(range));
+  const auto infimum = kkl_observer::enclose_ell(range);
+  certificate.derivations.push_back(kkl_observer::derive_kkl_ell(range, infimum));
   const rigor::Interval proved = find_quantity(certificate.derivations.front(), "ell").value;
   certificate.derivations.push_back(kkl_observer::derive_kkl_claims(
       {{range.lambda.begin(), range.lambda.end()},
        range.frequency,
        rigor::Interval(1.0),
-       ell.empty() ? rigor::Interval(proved.lower()) : rigor::parse_decimal(ell)}));
+       ell.empty() ? rigor::Interval(proved.lower()) : rigor::parse_decimal(ell),
+       infimum.value()}));
   return certificate;
 }
 

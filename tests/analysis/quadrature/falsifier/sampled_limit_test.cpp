@@ -63,10 +63,10 @@ TEST_CASE("what is sampled is marked so in the certificate") {
   for (const char* name : {"frequency_error_radius_sampled_limit", "frequency_error_radius_share_of_limit",
                            "frequency_error_bound_tightness", "ultimate_frequency_error_tightness"}) {
     const theorems::Quantity& quantity = theorems::find_quantity(found.derivation, name);
-    CHECK_FALSE(quantity.proved);
+    CHECK_FALSE(quantity.is_proved());
     CHECK(quantity.value.lower() > 0.0);
   }
-  CHECK(theorems::find_quantity(found.derivation, "frequency_error_radius").proved);
+  CHECK(theorems::find_quantity(found.derivation, "frequency_error_radius").is_proved());
   CHECK(theorems::find_quantity(found.derivation, "frequency_error_radius_share_of_limit").value.upper() <
         1.0);
   CHECK(theorems::find_quantity(found.derivation, "ultimate_frequency_error_tightness").value.upper() <= 1.0);

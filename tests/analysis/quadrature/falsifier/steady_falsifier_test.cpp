@@ -67,9 +67,9 @@ TEST_CASE("with a leak: the falsifier does not break a PROVED set, and comes nea
       continue;
     }
     ++proved;
-    const std::vector<Claim> claims = claims_of(certified->design, certified->branch, certified->set);
+    const std::vector<SetClaim> claims = claims_of(certified->design, certified->branch, certified->set);
     REQUIRE(claims.size() == 3);
-    for (const Claim& claim : claims) {
+    for (const SetClaim& claim : claims) {
       const Falsification found = try_to_break(claim, effort);
       CHECK_MESSAGE(!found.alarm, (found.alarm ? found.alarm->statement : ""));
       CHECK(found.from_rim.tightness() <= 1.0 + 1e-9);

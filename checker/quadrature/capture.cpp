@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "checker/document/evidence.hpp"
 #include "checker/quadrature/followed_starts.hpp"
@@ -121,17 +123,65 @@ Ball follow_all(const Cover& cover, const Followed& followed, bool symmetric, bo
   }
   if (count < total && objections.empty()) {
     objections.push_back("a sample of " + std::to_string(count) + " of " + std::to_string(total) +
-                         " boxes holds; --full checks all");
+                         " boxes was followed, which proves nothing; --full follows all");
   }
   return largest;
 }
 
-const std::regex& reduced_noise() {
-  static const std::regex sentence(
-      "From every assumed start, with noise of at most ([-+.e0-9]+) of the amplitude and slew of at most "
-      "([-+.e0-9]+) rad/sample per sample, the tracker comes into the certified set, which it never "
-      "leaves\\.");
-  return sentence;
+/// Follows the starts in the evidence, which are boxes that cover all assumed ones, or a witness, into the
+/// set.
+void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting& set,
+                     const Design& disturbed, bool all_boxes, Captured& found, Objections& objections) {
+  const Cover cover = read_cover(evidence);
+  const Loop loop{disturbed.q1, disturbed.q2,    disturbed.r,   disturbed.epsilon,
+                  zero,         disturbed.noise, disturbed.slew};
+  const Matrix3 covariance = disturbed.covariance ? *disturbed.covariance : steady_covariance(set);
+  const bool is_symmetric = !disturbed.covariance || (certainly_equal(covariance[0][1], zero) &&
+                                                      certainly_equal(covariance[0][2], zero));
+  const bool captured = certainly_equal(cover.turns, zero);
+  // What a start in the shifted set, which is never left either, is off by at least: for the frequency
+  // error acts through its sine and cosine alone.
+  const Ball reach = set.radius * inverse_rows(set.metric)[2];
+  const Ball off = two * abs(cover.turns) * pi() - reach;
+  for (const Ball& level : cover.levels) {
+    if (!certainly_not_negative(level) || !certainly_at_most(level, set.radius)) {
+      objections.emplace_back("a level is not within the radius of the set");
+    }
+  }
+  if (captured && !covers(outward(disturbed), cover.boxes)) {
+    objections.emplace_back("the boxes do not cover all assumed starts");
+  }
+  if (!captured && (cover.boxes.size() != 1 || !covers(cover.boxes[0], {inward(disturbed)}) ||
+                    !certainly_less(reach, off))) {
+    objections.emplace_back("the witness is not one box of assumed starts, or not certainly off");
+  }
+  if (!objections.empty()) {
+    return;
+  }
+  const Followed followed(loop, covariance, set, cover.turns);
+  const Ball largest = follow_all(cover, followed, is_symmetric, all_boxes, objections);
+  if (objections.empty() && captured) {
+    conclude(cover, largest, set, disturbed, quantities, found);
+  } else if (objections.empty()) {
+    found.verdict = Verdict::refuted;
+    found.wrong_lock = off;
+    found.quantities = {{"wrong_lock_frequency_error", off, Sense::bounds_below}};
+  }
+}
+
+/// Noise and slew in the sentence of "ekf/capture-at-reduced-noise"; nothing when it is another sentence.
+std::optional<std::pair<Ball, Ball>> reduced_noise(const std::string& sentence) {
+  static const std::string start = "From every assumed start, with noise of at most ";
+  static const std::string between = " of the amplitude and slew of at most ";
+  const std::size_t at = sentence.find(between);
+  if (at == std::string::npos) {
+    return std::nullopt;
+  }
+  const auto noise = decimal_between(sentence.substr(0, at), start, "");
+  const auto slew = decimal_between(
+      sentence.substr(at), between,
+      " rad/sample per sample, the tracker comes into the certified set, which it never leaves.");
+  return noise && slew ? std::optional(std::pair(*noise, *slew)) : std::nullopt;
 }
 
 }  // namespace
@@ -157,48 +207,15 @@ Captured check_capture(const Tree& claimed, const Design& design, const std::vec
   disturbed.noise = found.noise;
   disturbed.slew = found.slew;
   const Setting* set = first_of(sets, "start-error");
-  const bool borne = set != nullptr && bears(*set, disturbed);
-  if (evidence != nullptr && borne && objections.empty()) {
-    const Cover cover = read_cover(*evidence);
-    const Loop loop{design.q1, design.q2, design.r, design.epsilon, zero, found.noise, found.slew};
-    const Matrix3 covariance = design.covariance ? *design.covariance : steady_covariance(*set);
-    const bool symmetric = !design.covariance || (certainly_equal(covariance[0][1], zero) &&
-                                                  certainly_equal(covariance[0][2], zero));
-    const bool captured = certainly_equal(cover.turns, zero);
-    // What a start in the shifted set, which is never left either, is off by at least: for the frequency
-    // error acts through its sine and cosine alone.
-    const Ball reach = set->radius * inverse_rows(set->metric)[2];
-    const Ball off = two * abs(cover.turns) * pi() - reach;
-    for (const Ball& level : cover.levels) {
-      if (!certainly_not_negative(level) || !certainly_at_most(level, set->radius)) {
-        objections.emplace_back("a level is not within the radius of the set");
-      }
-    }
-    if (captured && !covers(outward(design), cover.boxes)) {
-      objections.emplace_back("the boxes do not cover all assumed starts");
-    }
-    if (!captured && (cover.boxes.size() != 1 || !covers(cover.boxes[0], {inward(design)}) ||
-                      !certainly_less(reach, off))) {
-      objections.emplace_back("the witness is not one box of assumed starts, or not certainly off");
-    }
-    Ball largest;
-    if (objections.empty()) {
-      largest =
-          follow_all(cover, Followed(loop, covariance, *set, cover.turns), symmetric, all_boxes, objections);
-    }
-    if (objections.empty() && captured) {
-      conclude(cover, largest, *set, disturbed, claimed.at("quantities"), found);
-    } else if (objections.empty()) {
-      found.verdict = Verdict::refuted;
-      found.wrong_lock = off;
-      found.quantities = {{"wrong_lock_frequency_error", off, Sense::bounds_below}};
-    }
+  const bool tolerated = set != nullptr && tolerates(*set, disturbed);
+  if (evidence != nullptr && tolerated && objections.empty()) {
+    follow_evidence(*evidence, claimed.at("quantities"), *set, disturbed, all_boxes, found, objections);
   }
   check_derivation(
       claimed,
       {"Capture of every assumed start by the certified set",
        found.quantities,
-       {{"certified-set", R"(V \le V_\Omega,\ W \le W_\Omega)", proved_if(borne)},
+       {{"certified-set", R"(V \le V_\Omega,\ W \le W_\Omega)", proved_if(tolerated)},
         {"starts-captured", R"(X(k_c) \in \Omega \text{ from every assumed start})", found.verdict}}},
       objections);
   return found;
@@ -233,12 +250,10 @@ void check_capture_claim(const Tree& claimed, const std::map<std::string, Captur
     claim.verdict = found.verdict;
   } else {
     found = found_of("capture/reduced-noise");
-    std::smatch numbers;
     claim.statement = claimed.at("statement").text();
-    claim.verdict = proved_if(found.verdict == Verdict::proved &&
-                              std::regex_match(claim.statement, numbers, reduced_noise()) &&
-                              certainly_at_most(from_decimal(numbers[1].str()), found.noise) &&
-                              certainly_at_most(from_decimal(numbers[2].str()), found.slew));
+    const auto limits = found.verdict == Verdict::proved ? reduced_noise(claim.statement) : std::nullopt;
+    claim.verdict = proved_if(limits && certainly_at_most(limits->first, found.noise) &&
+                              certainly_at_most(limits->second, found.slew));
   }
   claim.evidence = found.quantities;
   check_claim(claimed, claim, objections);

@@ -121,7 +121,7 @@ Ball ultimate_level(const Setting& s, const Design& d) {
   return sqrt(pushed / (one - square(s.rate)));
 }
 
-bool bears(const Setting& s, const Design& d) {
+bool tolerates(const Setting& s, const Design& d) {
   return certainly_at_most(d.noise, s.noise) && certainly_at_most(d.slew, s.slew);
 }
 

@@ -28,7 +28,7 @@ CertifiedSet check_set(const Tree& set, const Design& design, std::int64_t& cell
 const Setting* first_of(const std::vector<CertifiedSet>& sets, const std::string& purpose);
 
 /// It is certified for at least the noise and slew of the design.
-bool bears(const Setting& set, const Design& design);
+bool tolerates(const Setting& set, const Design& design);
 /// Lengths of the rows of T^-1: |amplitude|, |phase|, |frequency error| are at most these times |T e|.
 std::array<Ball, 3> inverse_rows(const Metric& metric);
 /// sup |T e| over |e_i| <= bounds_i.

@@ -1,6 +1,6 @@
 #include "checker/quadrature/contraction.hpp"
 
-#include "checker/document/evidence.hpp"
+#include <algorithm>
 
 namespace veritrack::checker {
 
@@ -17,7 +17,7 @@ bool contains_starts(const Setting& s, const Design& d) {
 }
 
 /// Every trajectory in `outer` is in `inner` from some sample on.
-bool leads_into(const Setting& outer, const Setting& inner, const Design& d) {
+bool ends_in(const Setting& outer, const Setting& inner, const Design& d) {
   const Ball level = ultimate_level(outer, d);
   const std::array<Ball, 3> rows = inverse_rows(outer.metric);
   const Ball above = level * Ball(1.0 + 0x1p-20);
@@ -30,7 +30,7 @@ bool leads_into(const Setting& outer, const Setting& inner, const Design& d) {
 std::vector<const Setting*> usable(const std::vector<CertifiedSet>& sets, const Design& d) {
   std::vector<const Setting*> found;
   for (const CertifiedSet& set : sets) {
-    if (set.verified && bears(set.setting, d)) {
+    if (set.verified && tolerates(set.setting, d)) {
       found.push_back(&set.setting);
     }
   }
@@ -43,89 +43,110 @@ void improve(std::optional<Ball>& best, const Ball& bound) {
   }
 }
 
-}  // namespace
-
-Promises check_contraction(const Tree& claimed, const Design& design, const std::vector<CertifiedSet>& sets,
-                           Objections& objections) {
+/// What the sets promise of the assumed starts, and the sets that hold them. When none does: of every start
+/// in the set "start-error".
+struct Starts {
   Promises promises;
-  const std::vector<const Setting*> useful = usable(sets, design);
   std::vector<const Setting*> bases;
+};
+Starts follow_starts(const std::vector<CertifiedSet>& sets, const Setting* whole, const Design& design) {
+  Starts found;
+  Promises& promises = found.promises;
+  const std::vector<const Setting*> useful = usable(sets, design);
   for (const Setting* set : useful) {
     if (contains_starts(*set, design)) {
-      bases.push_back(set);
+      found.bases.push_back(set);
       improve(promises.ultimate, ultimate_level(*set, design) / set->metric.frequency);
       improve(promises.bound,
               max(start_level(*set, design), ultimate_level(*set, design)) / set->metric.frequency);
     }
   }
-  promises.starts_inside = !bases.empty();
-  const Setting* whole = first_of(sets, "start-error");
-  // Without a set that holds the starts, what is said is said of every start in the set "start-error".
-  std::vector<const Setting*> outer = bases;
-  if (outer.empty() && whole != nullptr && bears(*whole, design)) {
-    outer = {whole};
+  promises.starts_inside = !found.bases.empty();
+  if (!promises.starts_inside && whole != nullptr && tolerates(*whole, design)) {
+    found.bases = {whole};
     improve(promises.ultimate, ultimate_level(*whole, design) / whole->metric.frequency);
   }
-  for (const Setting* base : outer) {
+  for (const Setting* base : found.bases) {
     for (const Setting* inner : useful) {
-      if (leads_into(*base, *inner, design)) {
+      if (ends_in(*base, *inner, design)) {
         improve(promises.ultimate, ultimate_level(*inner, design) / inner->metric.frequency);
       }
     }
   }
+  return found;
+}
 
-  const Ball nothing = Ball::everything();
-  Derivation found;
-  found.title = "Contraction of the errors in a set that the tracker never leaves";
-  const auto add = [&](const char* name, const Ball& value, Sense sense) {
-    found.quantities.push_back({name, value, sense});
-  };
-  if (whole != nullptr) {
-    const std::array<Ball, 3> rows = inverse_rows(whole->metric);
-    if (bears(*whole, design)) {
-      promises.reach = whole->radius * rows[2];
-    }
-    add("contraction_rate", whole->rate, Sense::encloses);
-    add("radius", whole->radius, Sense::encloses);
-    add("frequency_error_radius", whole->radius * rows[2], Sense::encloses);
-    add("phase_error_radius", whole->radius * rows[1], Sense::encloses);
-    add("amplitude_error_radius", whole->radius * rows[0], Sense::encloses);
-  }
-  add("ultimate_frequency_error", promises.ultimate.value_or(nothing), Sense::bounds_above);
-  add("frequency_error_bound", promises.bound.value_or(nothing), Sense::bounds_above);
-  const Setting* noisy = first_of(sets, "largest-noise");
-  const Setting* slewing = first_of(sets, "largest-slew");
-  promises.noise = noisy != nullptr ? std::optional(noisy->noise) : std::nullopt;
-  promises.slew = slewing != nullptr ? std::optional(slewing->slew) : std::nullopt;
-  add("largest_noise", promises.noise.value_or(nothing), Sense::bounds_below);
-  add("largest_slew", promises.slew.value_or(nothing), Sense::bounds_below);
-  if (const auto claim = settling_claim(claimed.at("quantities"))) {
-    const Ball& count = claim->samples;
-    bool settles = false;
-    for (const Setting* base : outer) {
-      const Ball start = promises.starts_inside ? start_level(*base, design) : base->radius;
-      settles = settles || (certainly_not_negative(count) &&
-                            settled(*base, design, start, claim->twice_ultimate, count));
-    }
-    if (settles && promises.starts_inside) {
-      promises.settling = count;
-    }
-    add("settling_samples", settles ? count : nothing, Sense::bounds_above);
-  }
+/// Is it true of the starts of some base?
+bool settles(const Starts& starts, const Design& design, const SettlingClaim& claim) {
+  return certainly_not_negative(claim.samples) &&
+         std::any_of(starts.bases.begin(), starts.bases.end(), [&](const Setting* base) {
+           const Ball level = starts.promises.starts_inside ? start_level(*base, design) : base->radius;
+           return settled(*base, design, level, claim.twice_ultimate, claim.samples);
+         });
+}
 
-  found.conditions = {{"leak", R"(\epsilon = 0)", proved_if(design.without_leak()), design.epsilon, zero},
-                      {"controllable-amplitude", "q_1 > 0", decide_less(zero, design.q1), design.q1, zero},
-                      {"invariant-set", R"(\kappa^2 R^2 + L_v^2 V^2 + L_w^2 W^2 \le R^2)",
-                       proved_if(whole != nullptr && bears(*whole, design))}};
+std::vector<Quantity> size_of(const Setting& set) {
+  const std::array<Ball, 3> rows = inverse_rows(set.metric);
+  return {{"contraction_rate", set.rate},
+          {"radius", set.radius},
+          {"frequency_error_radius", set.radius * rows[2]},
+          {"phase_error_radius", set.radius * rows[1]},
+          {"amplitude_error_radius", set.radius * rows[0]}};
+}
+
+std::vector<Condition> conditions_of(const Setting* whole, const Promises& promises, const Design& design) {
+  std::vector<Condition> conditions{
+      {"leak", R"(\epsilon = 0)", proved_if(design.without_leak()), design.epsilon, zero},
+      {"controllable-amplitude", "q_1 > 0", decide_less(zero, design.q1), design.q1, zero},
+      {"invariant-set", R"(\kappa^2 R^2 + L_v^2 V^2 + L_w^2 W^2 \le R^2)",
+       proved_if(whole != nullptr && tolerates(*whole, design))}};
   if (whole != nullptr) {
-    Condition& invariant = found.conditions.back();
+    Condition& invariant = conditions.back();
     invariant.lhs = square(whole->rate * whole->radius) + square(whole->noise_gain * whole->noise) +
                     square(whole->slew_gain * whole->slew);
     invariant.rhs = square(whole->radius);
-    found.conditions.push_back({"start-in-set", R"(|T e(0)| \le R,\ P_{lo} \le P(0) \le P_{hi})",
-                                proved_if(promises.starts_inside), start_level(*whole, design), whole->radius,
-                                Sense::bounds_above});
+    conditions.push_back({"start-in-set", R"(|T e(0)| \le R,\ P_{lo} \le P(0) \le P_{hi})",
+                          proved_if(promises.starts_inside), start_level(*whole, design), whole->radius,
+                          Sense::bounds_above});
   }
+  return conditions;
+}
+
+}  // namespace
+
+Promises check_contraction(const Tree& claimed, const Design& design, const std::vector<CertifiedSet>& sets,
+                           Objections& objections) {
+  const Setting* whole = first_of(sets, "start-error");
+  const Setting* noisy = first_of(sets, "largest-noise");
+  const Setting* slewing = first_of(sets, "largest-slew");
+  Starts starts = follow_starts(sets, whole, design);
+  Promises& promises = starts.promises;
+  Derivation found;
+  found.title = "Contraction of the errors in a set that the tracker never leaves";
+  if (whole != nullptr) {
+    found.quantities = size_of(*whole);
+    if (tolerates(*whole, design)) {
+      promises.reach = whole->radius * inverse_rows(whole->metric)[2];
+    }
+  }
+  promises.noise = noisy != nullptr ? std::optional(noisy->noise) : std::nullopt;
+  promises.slew = slewing != nullptr ? std::optional(slewing->slew) : std::nullopt;
+  const auto add = [&](const char* name, const std::optional<Ball>& value, Sense sense) {
+    found.quantities.push_back({name, value.value_or(Ball::everything()), sense});
+  };
+  add("ultimate_frequency_error", promises.ultimate, Sense::bounds_above);
+  add("frequency_error_bound", promises.bound, Sense::bounds_above);
+  add("largest_noise", promises.noise, Sense::bounds_below);
+  add("largest_slew", promises.slew, Sense::bounds_below);
+  if (const auto claim = settling_claim(claimed.at("quantities"))) {
+    const std::optional<Ball> samples =
+        settles(starts, design, *claim) ? std::optional(claim->samples) : std::nullopt;
+    if (promises.starts_inside) {
+      promises.settling = samples;
+    }
+    add("settling_samples", samples, Sense::bounds_above);
+  }
+  found.conditions = conditions_of(whole, promises, design);
   check_derivation(claimed, found, objections);
   return promises;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "checker/quadrature/multipliers.hpp"
 
@@ -46,6 +47,60 @@ Matrix<Ball> congruent(const Matrix<Ball>& c, const Matrix<Ball>& m) {
     }
   }
   return result;
+}
+
+/// fixed + lambda by_lambda + by_inverse / lambda, of a part of each entry.
+template <typename S, typename Part>
+Matrix<Ball> combined(const Form<S>& form, double lambda, const Part& part) {
+  const Ball over_lambda = one / Ball(lambda);
+  Matrix<Ball> m;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      m[i][j] = part(form.fixed[i][j]) + Ball(lambda) * part(form.by_lambda[i][j]) +
+                over_lambda * part(form.by_inverse[i][j]);
+    }
+  }
+  return m;
+}
+
+/// Multipliers, and a C for which C m C' is near the identity in the middle of a cell: any will do.
+struct Proposal {
+  double lambda, tau;
+  Matrix<Ball> inverse_factor;
+};
+std::optional<Proposal> propose(const Form<Ball>& at, const Ball& tangent_squared) {
+  const Form<double> rough{near(at.fixed), near(at.by_lambda), near(at.by_inverse), true};
+  const double lambda = propose_lambda(rough);
+  Proposal proposal{lambda, propose_tau(rough, lambda, std::sqrt(tangent_squared.near())), {}};
+  if (!(proposal.lambda > 0.0) || !(proposal.tau >= 0.0)) {
+    return std::nullopt;
+  }
+  Matrix<double> proposed = with_lambda(rough, lambda);
+  proposed[kAlong][kAlong] -= proposal.tau * tangent_squared.near();
+  proposed[kAcross][kAcross] += proposal.tau;
+  const Matrix<double> factor = inverse_factor(proposed);
+  for (std::size_t i = 0; i < kSize; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (!std::isfinite(factor[i][j])) {
+        return std::nullopt;
+      }
+      proposal.inverse_factor[i][j] = Ball(factor[i][j]);
+    }
+  }
+  return proposal;
+}
+
+/// Adds slope times way to the sum; how far that moves it, all entries together.
+double add_moved(const Matrix<Ball>& slope, const Ball& way, Matrix<Ball>& sum) {
+  double influence = 0.0;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      const Ball moved = slope[i][j] * way;
+      influence += moved.upper_double();
+      sum[i][j] += moved;
+    }
+  }
+  return influence;
 }
 
 class Cover {
@@ -107,53 +162,20 @@ class Cover {
     }
     const Ball angle = range[1].value - middle[1];
     const Ball tangent_squared = square(sin(angle) / cos(angle)).upper();
-    const Form<double> rough{near(at.fixed), near(at.by_lambda), near(at.by_inverse), true};
-    const double lambda = propose_lambda(rough);
-    const double tau = propose_tau(rough, lambda, std::sqrt(tangent_squared.near()));
-    if (!(lambda > 0.0) || !(tau >= 0.0) || !certainly_positive(cos(angle))) {
+    const auto proposal = propose(at, tangent_squared);
+    if (!proposal || !certainly_positive(cos(angle))) {
       return false;
     }
-    Matrix<double> proposed = with_lambda(rough, lambda);
-    proposed[kAlong][kAlong] -= tau * tangent_squared.near();
-    proposed[kAcross][kAcross] += tau;
-    const Matrix<double> factor = inverse_factor(proposed);
-    Matrix<Ball> c;
-    for (std::size_t i = 0; i < kSize; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) {
-        if (!std::isfinite(factor[i][j])) {
-          return false;
-        }
-        c[i][j] = Ball(factor[i][j]);
-      }
-    }
-    const Ball over_lambda = one / Ball(lambda);
-    Matrix<Ball> m;
-    for (std::size_t i = 0; i < kSize; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) {
-        m[i][j] = at.fixed[i][j] + Ball(lambda) * at.by_lambda[i][j] + over_lambda * at.by_inverse[i][j];
-      }
-    }
-    m[kAlong][kAlong] -= Ball(tau) * tangent_squared;
-    m[kAcross][kAcross] += Ball(tau);
-    Matrix<Ball> sum = congruent(c, m);
+    Matrix<Ball> m = combined(at, proposal->lambda, [](const Ball& entry) { return entry; });
+    m[kAlong][kAlong] -= Ball(proposal->tau) * tangent_squared;
+    m[kAcross][kAcross] += Ball(proposal->tau);
+    Matrix<Ball> sum = congruent(proposal->inverse_factor, m);
     double most = 0.0;
     for (std::size_t variable = 0; variable < kVariables; ++variable) {
-      for (std::size_t i = 0; i < kSize; ++i) {
-        for (std::size_t j = 0; j <= i; ++j) {
-          m[i][j] = over.fixed[i][j].along[variable] + Ball(lambda) * over.by_lambda[i][j].along[variable] +
-                    over_lambda * over.by_inverse[i][j].along[variable];
-        }
-      }
-      const Ball way = range[variable].value - middle[variable];
-      const Matrix<Ball> slope = congruent(c, m);
-      double influence = 0.0;
-      for (std::size_t i = 0; i < kSize; ++i) {
-        for (std::size_t j = 0; j <= i; ++j) {
-          const Ball moved = slope[i][j] * way;
-          influence += moved.upper_double();
-          sum[i][j] += moved;
-        }
-      }
+      const Matrix<Ball> slope = congruent(
+          proposal->inverse_factor,
+          combined(over, proposal->lambda, [&](const Slope& entry) { return entry.along[variable]; }));
+      const double influence = add_moved(slope, range[variable].value - middle[variable], sum);
       if (influence > most && std::isfinite(influence)) {
         most = influence;
         side = variable;

@@ -7,7 +7,7 @@ namespace veritrack::checker {
 
 namespace {
 
-bool bears(const SteadySet& set, const Design& design) {
+bool tolerates(const SteadySet& set, const Design& design) {
   return certainly_at_most(design.noise, set.noise) && certainly_at_most(design.slew, set.slew);
 }
 
@@ -24,91 +24,113 @@ void improve(std::optional<Ball>& most, const Ball& value) {
   most = most ? max(*most, value) : value;
 }
 
+/// The set for the assumed noise and slew; none when it is not verified.
+const SteadySet* whole_of(const std::vector<SteadySet>& sets, const Design& design) {
+  const SteadySet* whole = nullptr;
+  for (const SteadySet& set : sets) {
+    whole = set.verified && set.name == "start-error" && tolerates(set, design) ? &set : whole;
+  }
+  return whole;
+}
+
+/// nu* over the band.
+Range bias_of(const std::vector<SteadyCell>& branch) {
+  std::optional<Ball> low;
+  std::optional<Ball> high;
+  for (const SteadyCell& cell : branch) {
+    const Ball bias = cell.at(cell.frequency)[2];
+    low = low ? min(*low, bias.lower()) : bias.lower();
+    high = high ? max(*high, bias.upper()) : bias.upper();
+  }
+  return {low.value_or(Ball::everything()), high.value_or(Ball::everything())};
+}
+
+/// What the certificate says of the assumed starts, which is as far as they are looked at.
+SteadyStartClaim start_claim(const Tree& claimed) {
+  const Tree& quantities = claimed.at("quantities");
+  const auto said = [&](const char* name) {
+    const Tree* quantity = quantities.find(name);
+    return quantity != nullptr ? std::optional(high_of(*quantity)) : std::nullopt;
+  };
+  std::optional<Ball> level;
+  const auto& conditions = claimed.at("conditions").elements();
+  if (const Tree* lhs = conditions.empty() ? nullptr : conditions.back().find("lhs")) {
+    level = high_of(*lhs);
+  }
+  return {said("capture_samples"), level, said("frequency_error_bound"), said("settling_samples")};
+}
+
+/// What the set and the starts that come into it give.
+void add_whole(const SteadySet& whole, const std::optional<SteadyStart>& start, const Promises& promises,
+               Derivation& found) {
+  const Ball nothing = Ball::everything();
+  const std::array<Ball, 3> radii = error_radii(whole);
+  const Ball rate = slowest(whole);
+  // From the start, or from level 1 when the starts are not known to come into the set.
+  const Ball settling = start ? start->settling : Ball(static_cast<double>(whole.levels.size() - 1));
+  const std::vector<Quantity> quantities{
+      {"contraction_rate", rate, Sense::bounds_above},
+      {"radius", one},
+      {"frequency_error_radius", radii[2]},
+      {"phase_error_radius", radii[1]},
+      {"amplitude_error_radius", radii[0]},
+      {"ultimate_frequency_error", promises.ultimate.value_or(nothing), Sense::bounds_above},
+      {"settling_samples", settling, Sense::bounds_above},
+      {"frequency_error_bound", promises.bound.value_or(nothing), Sense::bounds_above},
+      {"capture_samples", start ? start->samples : nothing, Sense::bounds_above}};
+  found.quantities.insert(found.quantities.end(), quantities.begin(), quantities.end());
+  found.conditions.back().lhs = rate;
+  found.conditions.back().lhs_sense = Sense::bounds_above;
+  found.conditions.push_back(
+      {"start-in-set", R"(|T (e - e^*)| \le 1,\ -\Delta_{lo} \le P - P^* \le \Delta_{hi})",
+       proved_if(start.has_value()), start ? start->level : nothing, one, Sense::bounds_above});
+}
+
 }  // namespace
 
 Promises check_steady_contraction(const Tree& claimed, const Design& design, std::int64_t& cells,
                                   Objections& objections) {
-  Promises promises;
-  Derivation found;
-  found.title = "Contraction in a set around the steady state of every frequency of the band";
   // Wide cells are few, narrow ones say more of the steady state.
   const auto branch = steady_branch(design, 0.3, 1e-4);
   const auto fine = branch ? steady_branch(design, 0.05, 2e-5) : std::nullopt;
   const Tree* evidence = claimed.find("evidence");
   std::vector<SteadySet> sets;
+  Promises promises;
   if (fine && evidence != nullptr) {
-    for (const Tree& one_set : evidence->elements()) {
-      sets.push_back(check_steady_set(one_set, design, *branch, cells, objections));
+    for (const Tree& item : evidence->elements()) {
+      const SteadySet& set = sets.emplace_back(check_steady_set(item, design, *branch, cells, objections));
+      if (set.verified) {
+        improve(promises.noise, set.noise);
+        improve(promises.slew, set.slew);
+      }
     }
   }
-  const SteadySet* whole = nullptr;
-  for (const SteadySet& set : sets) {
-    if (set.verified) {
-      improve(promises.noise, set.noise);
-      improve(promises.slew, set.slew);
-      whole = set.name == "start-error" && bears(set, design) ? &set : whole;
-    }
-  }
+  const SteadySet* whole = whole_of(sets, design);
 
-  const Ball nothing = Ball::everything();
-  const auto add = [&](const char* name, const Range& value, Sense sense) {
-    found.quantities.push_back({name, value, sense});
-  };
+  Derivation found;
+  found.title = "Contraction in a set around the steady state of every frequency of the band";
   found.conditions = {
       {"steady-state", R"(X^*(\omega) = G(X^*(\omega)) \text{ on the band})", proved_if(fine.has_value())},
       {"invariant-set", R"(\Omega_{s_j} \to \Omega_{s_{j+1}})", proved_if(whole != nullptr)}};
   found.conditions.back().rhs = one;
-  std::optional<Ball> low;
-  std::optional<Ball> high;
+  const Range bias = fine ? bias_of(*fine) : Range(Ball::everything());
   if (fine) {
-    for (const SteadyCell& cell : *fine) {
-      const Ball bias = cell.at(cell.frequency)[2];
-      low = low ? min(*low, bias.lower()) : bias.lower();
-      high = high ? max(*high, bias.upper()) : bias.upper();
-    }
-    add("bias_frequency", Range(*low, *high), Sense::encloses);
+    found.quantities.push_back({"bias_frequency", bias});
   }
   if (whole != nullptr) {
-    const std::array<Ball, 3> radii = error_radii(*whole);
-    const Tree& quantities = claimed.at("quantities");
-    const auto said = [&](const char* name) {
-      const Tree* quantity = quantities.find(name);
-      return quantity != nullptr ? std::optional(high_of(*quantity)) : std::nullopt;
-    };
-    std::optional<Ball> level;
-    const auto& conditions = claimed.at("conditions").elements();
-    if (const Tree* lhs = conditions.empty() ? nullptr : conditions.back().find("lhs")) {
-      level = high_of(*lhs);
-    }
-    const auto start = steady_start(
-        design, *whole, *fine,
-        {said("capture_samples"), level, said("frequency_error_bound"), said("settling_samples")});
+    const auto start = steady_start(design, *whole, *fine, start_claim(claimed));
     promises.starts_inside = start.has_value();
-    promises.ultimate = max(abs(*low), abs(*high)) + whole->levels.back() * radii[2];
-    promises.reach = radii[2];
+    promises.reach = error_radii(*whole)[2];
+    promises.ultimate = max(abs(bias.low), abs(bias.high)) + whole->levels.back() * *promises.reach;
     if (start) {
       promises.bound = start->bound;
       promises.settling = start->settling;
     }
-    add("contraction_rate", slowest(*whole), Sense::bounds_above);
-    add("radius", one, Sense::encloses);
-    add("frequency_error_radius", radii[2], Sense::encloses);
-    add("phase_error_radius", radii[1], Sense::encloses);
-    add("amplitude_error_radius", radii[0], Sense::encloses);
-    add("ultimate_frequency_error", *promises.ultimate, Sense::bounds_above);
-    // From the start, or from level 1 when the starts are not known to come into the set.
-    add("settling_samples", start ? start->settling : Ball(static_cast<double>(whole->levels.size() - 1)),
-        Sense::bounds_above);
-    add("frequency_error_bound", promises.bound.value_or(nothing), Sense::bounds_above);
-    add("capture_samples", start ? start->samples : nothing, Sense::bounds_above);
-    found.conditions.back().lhs = slowest(*whole);
-    found.conditions.back().lhs_sense = Sense::bounds_above;
-    found.conditions.push_back(
-        {"start-in-set", R"(|T (e - e^*)| \le 1,\ -\Delta_{lo} \le P - P^* \le \Delta_{hi})",
-         proved_if(start.has_value()), start ? start->level : nothing, one, Sense::bounds_above});
+    add_whole(*whole, start, promises, found);
   }
-  add("largest_noise", promises.noise.value_or(nothing), Sense::bounds_below);
-  add("largest_slew", promises.slew.value_or(nothing), Sense::bounds_below);
+  const Ball nothing = Ball::everything();
+  found.quantities.push_back({"largest_noise", promises.noise.value_or(nothing), Sense::bounds_below});
+  found.quantities.push_back({"largest_slew", promises.slew.value_or(nothing), Sense::bounds_below});
   check_derivation(claimed, found, objections);
   return promises;
 }

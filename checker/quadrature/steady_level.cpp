@@ -121,6 +121,70 @@ std::size_t most_blurred(const Row<Chord>& row, const SteadySetting& setting, co
   return side;
 }
 
+/// A cell: all of it, its middle, and the way from there.
+struct Whereabouts {
+  Way range, middle, way;
+};
+Whereabouts whereabouts_of(const DiscCell& cell) {
+  Whereabouts where;
+  where.range = {Ball::hull(Ball(cell.low[0]), Ball(cell.high[0])),
+                 Ball::hull(Ball(cell.low[1]), Ball(cell.high[1])),
+                 Ball::hull(Ball(cell.from), Ball(cell.to))};
+  for (std::size_t i = 0; i < kSides; ++i) {
+    where.middle[i] = where.range[i].middle();
+    where.way[i] = where.range[i] - where.middle[i];
+  }
+  return where;
+}
+
+SteadyPlace<Chord> place_of(const SteadyLevel& level, const Whereabouts& where, const SteadyCell& steady) {
+  SteadyPlace<Chord> place;
+  place.level = level.level;
+  place.x = Chord(where.middle[kX], where.range[kX], kX, one);
+  place.y = Chord(where.middle[kY], where.range[kY], kY, one);
+  const StateVector at = steady.at(where.middle[kFrequency]);
+  const StateVector around = steady.at(where.range[kFrequency]);
+  for (std::size_t i = 0; i < kStates; ++i) {
+    (i < 3 ? place.steady.error[i] : place.steady.covariance[i - 3]) =
+        Chord(at[i], around[i], kFrequency, steady.slope[i]);
+  }
+  return place;
+}
+
+Row<Ball> centre_of(const Row<Chord>& row) {
+  Row<Ball> centre;
+  for (std::size_t i = 0; i < kColumns; ++i) {
+    centre[i] = row[i].centre;
+  }
+  return centre;
+}
+
+/// Is it true of the row at all corners of a cell, with whichever slopes there are?
+template <typename Predicate>
+bool all_corners(const Row<Chord>& row, const DiscCell& cell, const Way& middle, const Predicate& fits) {
+  std::array<Row<Ball>, 2> ends;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Ball offset = Ball(end == 0 ? cell.from : cell.to) - middle[kFrequency];
+    for (std::size_t i = 0; i < kColumns; ++i) {
+      ends[end][i] = row[i].centre + row[i].by[kFrequency] * offset;
+    }
+  }
+  for (const Point& point : cell.corners()) {
+    const Ball x = Ball(point[0]) - middle[kX];
+    const Ball y = Ball(point[1]) - middle[kY];
+    std::array<Row<Ball>, 2> corner = ends;
+    for (std::size_t i = 0; i < kColumns; ++i) {
+      const Ball move = row[i].by[kX] * x + row[i].by[kY] * y;
+      corner[0][i] += move;
+      corner[1][i] += move;
+    }
+    if (!fits(corner[0]) || !fits(corner[1])) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 bool SteadyCover::maps_into_next(const SteadyLevel& level) {
@@ -156,27 +220,10 @@ bool SteadyCover::holds(const SteadyLevel& level, const DiscCell& cell, int dept
 }
 
 bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::size_t& side) {
-  const Way range{Ball::hull(Ball(cell.low[0]), Ball(cell.high[0])),
-                  Ball::hull(Ball(cell.low[1]), Ball(cell.high[1])),
-                  Ball::hull(Ball(cell.from), Ball(cell.to))};
-  Way middle;
-  Way way;
-  for (std::size_t i = 0; i < kSides; ++i) {
-    middle[i] = range[i].middle();
-    way[i] = range[i] - middle[i];
-  }
-  SteadyPlace<Chord> place;
-  place.level = level.level;
-  place.x = Chord(middle[kX], range[kX], kX, one);
-  place.y = Chord(middle[kY], range[kY], kY, one);
-  const StateVector at = steady_.at(middle[kFrequency]);
-  const StateVector around = steady_.at(range[kFrequency]);
-  for (std::size_t i = 0; i < kStates; ++i) {
-    (i < 3 ? place.steady.error[i] : place.steady.covariance[i - 3]) =
-        Chord(at[i], around[i], kFrequency, steady_.slope[i]);
-  }
+  const Whereabouts where = whereabouts_of(cell);
+  const SteadyPlace<Chord> place = place_of(level, where, steady_);
   const SteadyStep<Chord> step = steady_step(setting_, place);
-  const Added more = added(setting_, level, step, way);
+  const Added more = added(setting_, level, step, where.way);
   if (!more.meaningful) {
     side = cell.high[0] - cell.low[0] >= cell.high[1] - cell.low[1] ? kX : kY;
     return false;
@@ -185,8 +232,8 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
   turn.range += Ball::within(more.turn);
   const Symmetric<Chord> low = turned_deviation(place, step.low, turn);
   const Symmetric<Chord> high = turned_deviation(place, step.high, turn);
-  const std::array<Symmetric<Ball>, 2> reach{reach_of(place, low, way, more.turn),
-                                             reach_of(place, high, way, more.turn)};
+  const std::array<Symmetric<Ball>, 2> reach{reach_of(place, low, where.way, more.turn),
+                                             reach_of(place, high, where.way, more.turn)};
   Row<Chord> row = row_of(step, low, high);
   for (std::size_t i = kGram; i < kEta; ++i) {
     row[i] = more.gram_factor * row[i];
@@ -194,7 +241,7 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
   for (const Entry k : {k11, k22, k33}) {
     row[kGram + std::size_t{k}].centre += more.gram_rest;
   }
-  side = most_blurred(row, setting_, way);
+  side = most_blurred(row, setting_, where.way);
 
   // What noise and slew leave of the level for the errors, and for the covariance.
   const Ball left = (level.next - more.noise_gain * level.noise - level.motion) / level.level;
@@ -203,10 +250,7 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
     return false;
   }
   const Ball limit = square(left);
-  Row<Ball> centre;
-  for (std::size_t i = 0; i < kColumns; ++i) {
-    centre[i] = row[i].centre;
-  }
+  const Row<Ball> centre = centre_of(row);
   const Multipliers multipliers = propose(centre, limit);
   const auto fits = [&](const Row<Ball>& point) {
     return keeps_covariance(point, reach, setting_, share) && contracts(point, limit, multipliers);
@@ -216,28 +260,7 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
     hopeless_ = cell.high[0] - cell.low[0] < kSmall && cell.high[1] - cell.low[1] < kSmall;
     return false;
   }
-  // In the corners, with whichever slopes there are.
-  std::array<Row<Ball>, 2> ends;
-  for (std::size_t end = 0; end < 2; ++end) {
-    const Ball offset = Ball(end == 0 ? cell.from : cell.to) - middle[kFrequency];
-    for (std::size_t i = 0; i < kColumns; ++i) {
-      ends[end][i] = centre[i] + row[i].by[kFrequency] * offset;
-    }
-  }
-  for (const Point& point : cell.corners()) {
-    const Ball x = Ball(point[0]) - middle[kX];
-    const Ball y = Ball(point[1]) - middle[kY];
-    std::array<Row<Ball>, 2> corner = ends;
-    for (std::size_t i = 0; i < kColumns; ++i) {
-      const Ball move = row[i].by[kX] * x + row[i].by[kY] * y;
-      corner[0][i] += move;
-      corner[1][i] += move;
-    }
-    if (!fits(corner[0]) || !fits(corner[1])) {
-      return false;
-    }
-  }
-  return true;
+  return all_corners(row, cell, where.middle, fits);
 }
 
 }  // namespace veritrack::checker

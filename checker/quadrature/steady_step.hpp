@@ -68,102 +68,124 @@ struct SteadyStep {
   Symmetric<S> low, high;    ///< in the frame of the steady estimate
 };
 
+/// What the parts of a step share: the steady step, in which the estimate turns by -nu*, and the way from it.
 template <typename S>
-SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& place) {
-  const Ball over_r = one / setting.r;
-  const S& s = place.level;
-  const S alpha = setting.a11 * place.x;
-  const S c = setting.a21 * place.x + setting.a22 * place.y;
-  const S steady_rho = place.steady.error[0] + one;
-  const S rho = steady_rho + s * alpha;
-  const S swing = s * c;
-  SteadyStep<S> step;
-  step.swing = swing;
+struct SteadyTurn {
+  S alpha, c, swing;                      ///< swing = s c
+  S steady_rho, rho;                      ///< |z*| and |z| before the step
+  S sine, cosine;                         ///< of nu*
+  S ratio, less;                          ///< sin(swing)/swing and (1 - cos(swing))/swing
+  std::array<S, 2> by_c;                  ///< Q signal*
+  std::array<S, 2> estimate, innovation;  ///< the predicted estimate and i*, steady
+  Gain<S> gain;                           ///< steady
+  /// Q p.
+  [[nodiscard]] std::array<S, 2> quarter(const S& first, const S& second) const {
+    return {ratio * second - less * first, -(ratio * first) - less * second};
+  }
+};
 
-  // The steady step: the estimate turns by -nu*.
+template <typename S>
+SteadyTurn<S> steady_turn(const SteadySetting& setting, const SteadyPlace<S>& place) {
+  const Ball over_r = one / setting.r;
+  SteadyTurn<S> turn;
+  turn.alpha = setting.a11 * place.x;
+  turn.c = setting.a21 * place.x + setting.a22 * place.y;
+  turn.swing = place.level * turn.c;
+  turn.steady_rho = place.steady.error[0] + one;
+  turn.rho = turn.steady_rho + place.level * turn.alpha;
   const S& nu = place.steady.error[2];
   const S chi = place.steady.error[1] + nu;
-  const S sine = sin(nu);
-  const S cosine = cos(nu);
+  turn.sine = sin(nu);
+  turn.cosine = cos(nu);
+  turn.ratio = sine_over(turn.swing);
+  turn.less = half * turn.swing * square(sine_over(half * turn.swing));
   const std::array<S, 2> signal{cos(chi), -sin(chi)};
-  const std::array<S, 2> steady_estimate{steady_rho * cosine, -(steady_rho * sine)};
-  const std::array<S, 2> steady_innovation{signal[0] - steady_rho, signal[1]};
+  turn.by_c = turn.quarter(signal[0], signal[1]);
+  turn.estimate = {turn.steady_rho * turn.cosine, -(turn.steady_rho * turn.sine)};
+  turn.innovation = {signal[0] - turn.steady_rho, signal[1]};
+  const Symmetric<S> filtered = turned(place.steady.covariance, S(-turn.sine), turn.cosine);
+  turn.gain = {{{over_r * filtered[k11], over_r * filtered[k12]},
+                {over_r * filtered[k12], over_r * filtered[k22]},
+                {over_r * filtered[k13], over_r * filtered[k23]}}};
+  return turn;
+}
+
+/// The covariance after the update, Phi* + s (low or high), in the frame of the prediction.
+template <typename S>
+struct SteadyUpdate {
+  Gain<S> mean, largest;          ///< gains
+  Symmetric<S> middle, by_alpha;  ///< (low + high)/2 = middle + alpha by_alpha
+  Symmetric<S> low, high, spread;
+};
+
+template <typename S>
+SteadyUpdate<S> steady_update(const SteadySetting& setting, const SteadyPlace<S>& place,
+                              const SteadyTurn<S>& turn) {
+  const S& s = place.level;
   const Symmetric<S>& covariance = place.steady.covariance;
-  const Symmetric<S> filtered = turned(covariance, S(-sine), cosine);
-  const Gain<S> steady_gain{{{over_r * filtered[k11], over_r * filtered[k12]},
-                             {over_r * filtered[k12], over_r * filtered[k22]},
-                             {over_r * filtered[k13], over_r * filtered[k23]}}};
-
-  // Q p.
-  const S ratio = sine_over(swing);
-  const S less = half * swing * square(sine_over(half * swing));
-  const auto quarter = [&](const S& first, const S& second) -> std::array<S, 2> {
-    return {ratio * second - less * first, -(ratio * first) - less * second};
-  };
-  const std::array<S, 2> by_c = quarter(signal[0], signal[1]);
-  const std::array<S, 2> innovation{steady_innovation[0] + s * (c * by_c[0] - alpha),
-                                    steady_innovation[1] + swing * by_c[1]};
-
-  // The covariance.
-  Symmetric<S> predicted = carried(covariance, steady_rho, setting.retention);
+  Symmetric<S> predicted = carried(covariance, turn.steady_rho, setting.retention);
   predicted[k11] = predicted[k11] + setting.q1;
   predicted[k22] = predicted[k22] + setting.q1;
   predicted[k33] = predicted[k33] + setting.q2;
   const Symmetric<S> drift{S(zero),
                            covariance[k13],
                            S(zero),
-                           two * covariance[k23] + (rho + steady_rho) * covariance[k33],
+                           two * covariance[k23] + (turn.rho + turn.steady_rho) * covariance[k33],
                            setting.retention * covariance[k33],
                            S(zero)};
-  const Symmetric<S> above = carried(setting.above, rho, setting.retention);
-  const Symmetric<S> below = carried(setting.below, rho, setting.retention);
-  const Symmetric<S> drifted = predicted + scaled(S(s * alpha), drift);
+  const Symmetric<S> above = carried(setting.above, turn.rho, setting.retention);
+  const Symmetric<S> below = carried(setting.below, turn.rho, setting.retention);
+  const Symmetric<S> drifted = predicted + scaled(S(s * turn.alpha), drift);
   const Gain<S> high_gain = gain_of(drifted + scaled(s, above), setting.r);
   const Gain<S> low_gain = gain_of(drifted + scaled(S(-s), below), setting.r);
-  const Symmetric<S> up = corrected(high_gain, above, steady_gain);
-  const Symmetric<S> down = corrected(low_gain, below, steady_gain);
-  const Symmetric<S> drift_high = corrected(high_gain, drift, steady_gain);
-  const Symmetric<S> drift_low = corrected(low_gain, drift, steady_gain);
-  const Symmetric<S> high = up + scaled(alpha, drift_high);
-  const Symmetric<S> low = scaled(Ball(-1.0), down) + scaled(alpha, drift_low);
-  step.spread = scaled(half, corrected(high_gain, above + below, low_gain));
-  step.high = turned(high, sine, cosine);
-  step.low = turned(low, sine, cosine);
-  Gain<S> k;
+  const Symmetric<S> up = corrected(high_gain, above, turn.gain);
+  const Symmetric<S> down = scaled(Ball(-1.0), corrected(low_gain, below, turn.gain));
+  const Symmetric<S> drift_high = corrected(high_gain, drift, turn.gain);
+  const Symmetric<S> drift_low = corrected(low_gain, drift, turn.gain);
+  SteadyUpdate<S> update;
+  update.high = up + scaled(turn.alpha, drift_high);
+  update.low = down + scaled(turn.alpha, drift_low);
+  update.spread = scaled(half, corrected(high_gain, above + below, low_gain));
+  update.middle = scaled(half, up + down);
+  update.by_alpha = scaled(half, drift_high + drift_low);
   for (std::size_t i = 0; i < 3; ++i) {
-    k[i] = {half * (low_gain[i][0] + high_gain[i][0]), half * (low_gain[i][1] + high_gain[i][1])};
+    update.mean[i] = {half * (low_gain[i][0] + high_gain[i][0]), half * (low_gain[i][1] + high_gain[i][1])};
   }
-  step.largest = {high_gain[0][0], high_gain[0][1], high_gain[1][1]};
-  const auto form = [](const Symmetric<S>& p, const std::array<S, 2>& v) {
-    return p[k11] * square(v[0]) + p[k22] * square(v[1]) + two * (p[k12] * (v[0] * v[1]));
-  };
-  step.eta_squared = form(step.spread, innovation);
+  update.largest = high_gain;
+  return update;
+}
 
+/// Where the mean gain takes the estimate: sets constant, slope, turn, forward and along. Returns z.
+template <typename S>
+std::array<S, 2> move_estimate(const SteadySetting& setting, const S& s, const SteadyTurn<S>& turn,
+                               const SteadyUpdate<S>& update, SteadyStep<S>& step) {
   // (z - z*)/s and the correction of the frequency over s: what belongs to 1, to alpha and to c.
+  const Ball over_r = one / setting.r;
+  const Gain<S>& k = update.mean;
   const auto moved = [&](const Symmetric<S>& mean) -> std::array<S, 3> {
-    const S first = over_r * steady_innovation[0];
-    const S second = over_r * steady_innovation[1];
+    const S first = over_r * turn.innovation[0];
+    const S second = over_r * turn.innovation[1];
     return {mean[k11] * first + mean[k12] * second, mean[k12] * first + mean[k22] * second,
             mean[k13] * first + mean[k23] * second};
   };
+  const auto pulled = [&](std::size_t i) { return k[i][0] * turn.by_c[0] + k[i][1] * turn.by_c[1]; };
   std::array<std::array<S, 3>, 3> parts{
-      moved(scaled(half, up + scaled(Ball(-1.0), down))),
-      moved(scaled(half, drift_high + drift_low)),
-      {k[0][0] * by_c[0] + k[0][1] * by_c[1], k[1][0] * by_c[0] + k[1][1] * by_c[1],
-       k[2][0] * by_c[0] + k[2][1] * by_c[1]}};
+      moved(update.middle), moved(update.by_alpha), {pulled(0), pulled(1), pulled(2)}};
   parts[1] = {parts[1][0] + one - k[0][0], parts[1][1] - k[1][0], parts[1][2] - k[2][0]};
 
-  const auto total = [&](std::size_t i) -> S { return parts[0][i] + alpha * parts[1][i] + c * parts[2][i]; };
+  const auto total = [&](std::size_t i) -> S {
+    return parts[0][i] + turn.alpha * parts[1][i] + turn.c * parts[2][i];
+  };
   const std::array<S, 2> moved_by{total(0), total(1)};
-  const std::array<S, 2> z{steady_estimate[0] + s * moved_by[0], steady_estimate[1] + s * moved_by[1]};
-  const Secant<S> from_steady = secant(steady_estimate, z);
+  const std::array<S, 2> z{turn.estimate[0] + s * moved_by[0], turn.estimate[1] + s * moved_by[1]};
+  const Secant<S> from_steady = secant(turn.estimate, z);
   step.turn = from_steady.angle[0] * moved_by[0] + from_steady.angle[1] * moved_by[1];
-  const std::array<S, 2> turned_away = quarter(steady_estimate[0], steady_estimate[1]);
-  parts[2] = {parts[2][0] - turned_away[0], parts[2][1] - turned_away[1], parts[2][2]};
-  const Secant<S> rows =
-      secant({steady_estimate[0] + swing * turned_away[0], steady_estimate[1] + swing * turned_away[1]}, z);
-  step.forward = rows.dot;
   step.along = from_steady.dot;
+  const std::array<S, 2> away = turn.quarter(turn.estimate[0], turn.estimate[1]);
+  parts[2] = {parts[2][0] - away[0], parts[2][1] - away[1], parts[2][2]};
+  const Secant<S> rows =
+      secant({turn.estimate[0] + turn.swing * away[0], turn.estimate[1] + turn.swing * away[1]}, z);
+  step.forward = rows.dot;
   std::array<std::array<S, 3>, 3> images;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::array<S, 3>& d = parts[i];
@@ -180,6 +202,13 @@ SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& pl
                          S(inverse[2][j] * kept[i]);
     }
   }
+  return z;
+}
+
+/// What noise and the spread of the gain add at the corrected estimate z: sets distance, noise and gram.
+template <typename S>
+void add_gains(const SteadySetting& setting, const std::array<S, 2>& z, const SteadyUpdate<S>& update,
+               SteadyStep<S>& step) {
   step.distance = sqrt(square(z[0]) + square(z[1]));
   const S over = reciprocal(step.distance);
   const std::array<S, 2> direction{z[0] * over, z[1] * over};
@@ -188,13 +217,13 @@ SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& pl
       setting.metric.image<S>(direction[0], -(direction[1] * over), none),
       setting.metric.image<S>(direction[1], direction[0] * over, none),
       setting.metric.image<S>(none, none, S(one))};
-  const Symmetric<S> scaled_spread = scaled(square(over_r), step.spread);
+  const Symmetric<S> m = scaled(square(one / setting.r), update.spread);
+  const Gain<S>& k = update.mean;
   std::array<std::array<S, 3>, 3> half_gram;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto along = [&](const S& x, const S& y, const S& w) {
       return columns[0][i] * x + columns[1][i] * y + columns[2][i] * w;
     };
-    const Symmetric<S>& m = scaled_spread;
     half_gram[i] = {along(m[k11], m[k12], m[k13]), along(m[k12], m[k22], m[k23]),
                     along(m[k13], m[k23], m[k33])};
     step.noise[i] = {along(k[0][0], k[1][0], k[2][0]), along(k[0][1], k[1][1], k[2][1])};
@@ -204,6 +233,25 @@ SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& pl
            half_gram[i][2] * columns[2][j];
   };
   step.gram = {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
+}
+
+template <typename S>
+SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& place) {
+  const S& s = place.level;
+  const SteadyTurn<S> turn = steady_turn(setting, place);
+  const SteadyUpdate<S> update = steady_update(setting, place, turn);
+  SteadyStep<S> step;
+  step.swing = turn.swing;
+  step.spread = update.spread;
+  step.high = turned(update.high, turn.sine, turn.cosine);
+  step.low = turned(update.low, turn.sine, turn.cosine);
+  step.largest = {update.largest[0][0], update.largest[0][1], update.largest[1][1]};
+  const std::array<S, 2> innovation{turn.innovation[0] + s * (turn.c * turn.by_c[0] - turn.alpha),
+                                    turn.innovation[1] + turn.swing * turn.by_c[1]};
+  const Symmetric<S>& d = step.spread;
+  step.eta_squared = d[k11] * square(innovation[0]) + d[k22] * square(innovation[1]) +
+                     two * (d[k12] * (innovation[0] * innovation[1]));
+  add_gains(setting, move_estimate(setting, s, turn, update, step), update, step);
   return step;
 }
 

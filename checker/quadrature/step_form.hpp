@@ -34,17 +34,13 @@ std::array<S, 3> image(const Metric& t, const S& amplitude, const S& phase, cons
   return {t.amplitude * amplitude, t.phase * phase + t.coupling * frequency, t.frequency * frequency};
 }
 
-/// `x` is (s, beta, d1, d2), `axis` = (cos, sin) of the axis that x and y of the document refer to.
-template <typename S>
-Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, const std::array<Ball, 2>& axis) {
-  const Metric& t = setting.metric;
-  Form<S> form;
-  Matrix<S>& m = form.fixed;
+/// The errors (a, chi) that belong to a unit along and across the axis.
+using AxisErrors = std::array<std::array<Ball, 2>, 2>;
 
-  // |T e|^2 and the errors (a, chi) that belong to a unit along and across the axis.
-  const std::array<std::array<Ball, 2>, 2> errors{
-      {{-(setting.largest_amplitude * axis[1]), setting.largest_chi * axis[0]},
-       {setting.largest_amplitude * axis[0], setting.largest_chi * axis[1]}}};
+/// Rows of the errors: rate^2 |T e|^2.
+template <typename S>
+void add_size(const Setting& setting, const AxisErrors& errors, Matrix<S>& m) {
+  const Metric& t = setting.metric;
   const Matrix3 before{{{zero, t.coupling - t.phase, t.frequency},
                         image(t, errors[0][0], errors[0][1], zero),
                         image(t, errors[1][0], errors[1][1], zero)}};
@@ -53,26 +49,19 @@ Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, cons
       m[kNu + i][kNu + j] = square(setting.rate) * dot(before[i], before[j]);
     }
   }
+}
 
-  const S a = x[0] * setting.largest_amplitude * cos(x[1]);
-  const S chi = x[0] * setting.largest_chi * sin(x[1]);
-  const Correction<S> c = correction(setting, a, chi);
-  const Secant<S> left = secant(c.signal, c.mean);
-  const Secant<S> moved = secant(c.mean, {c.mean[0] + x[2], c.mean[1] + x[3]});
-  form.meaningful = certainly_positive(value_of(left.dot)) && certainly_positive(value_of(moved.dot)) &&
-                    certainly_positive(value_of(c.mean[0]) - c.reach[0]) &&
-                    certainly_positive(one + value_of(a));
-
-  // The step under the mean gain.
+/// T e+ by the errors: the step under the mean gain.
+template <typename S>
+void add_mean_step(const Metric& t, const Correction<S>& c, const Secant<S>& left,
+                   const std::array<std::array<S, 2>, 2>& innovation, Matrix<S>& m) {
   const std::array<Ball, 3> carried{zero, t.coupling, t.frequency};
-  const S rest1 = one - c.k1;
-  const S rest2 = one - c.k2;
-  std::array<std::array<S, 2>, 2> innovation;
   for (std::size_t k = 0; k < 3; ++k) {
     m[kNu][kNext + k] = carried[k];
   }
+  const S rest1 = one - c.k1;
+  const S rest2 = one - c.k2;
   for (std::size_t i = 0; i < 2; ++i) {
-    innovation[i] = c.innovation(errors[i][0], errors[i][1]);
     const S d1 = -(rest1 * innovation[i][0]);
     const S d2 = -(rest2 * innovation[i][1]);
     const std::array<S, 3> after = image<S>(t, left.length[0] * d1 + left.length[1] * d2,
@@ -81,28 +70,36 @@ Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, cons
       m[kAcross + i][kNext + k] = after[k];
     }
   }
+}
 
-  // What noise and the spread of the gain add: T J for a correction along, across, and of the frequency.
-  const std::array<std::array<S, 3>, 3> b{{image<S>(t, moved.length[0], moved.angle[0], zero),
-                                           image<S>(t, moved.length[1], moved.angle[1], zero),
-                                           {S(zero), S(t.coupling), S(t.frequency)}}};
+/// What the spread of the gain adds to T e+, and the slew. `b` is T J for a correction along, across, and of
+/// the frequency.
+template <typename S>
+void add_spread(const Setting& setting, const Covariance<S>& spread, const std::array<std::array<S, 3>, 3>& b,
+                Form<S>& form) {
+  const std::array<Ball, 3> carried{zero, setting.metric.coupling, setting.metric.frequency};
   const Ball over_r2 = one / square(setting.r);
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t l = 0; l <= k; ++l) {
-      form.by_inverse[kNext + k][kNext + l] =
-          -(over_r2 *
-            (c.spread.p11 * b[0][k] * b[0][l] + c.spread.p22 * b[1][k] * b[1][l] +
-             c.spread.p23 * (b[1][k] * b[2][l] + b[2][k] * b[1][l]) + c.spread.p33 * b[2][k] * b[2][l]));
-      m[kNext + k][kNext + l] = Ball(k == l ? 1.0 : 0.0);
+      form.by_inverse[kNext + k][kNext + l] = -(
+          over_r2 * (spread.p11 * b[0][k] * b[0][l] + spread.p22 * b[1][k] * b[1][l] +
+                     spread.p23 * (b[1][k] * b[2][l] + b[2][k] * b[1][l]) + spread.p33 * b[2][k] * b[2][l]));
+      S& entry = form.fixed[kNext + k][kNext + l];
+      entry = Ball(k == l ? 1.0 : 0.0);
       if (setting.slewing) {
-        m[kNext + k][kNext + l] =
-            m[kNext + k][kNext + l] - carried[k] * carried[l] / square(setting.slew_gain);
+        entry = entry - carried[k] * carried[l] / square(setting.slew_gain);
       }
     }
   }
+}
+
+/// The innovation, by the errors and by the noise; and T e+ by the noise.
+template <typename S>
+void add_innovation(const Setting& setting, const Correction<S>& c, const std::array<std::array<S, 3>, 3>& b,
+                    const std::array<std::array<S, 2>, 2>& innovation, Form<S>& form) {
   const std::array<S, 2> spread{c.spread.p11, c.spread.p22};
   for (std::size_t j = 0; j < 2; ++j) {
-    m[j][j] = setting.noisy ? square(setting.noise_gain) : one;
+    form.fixed[j][j] = setting.noisy ? square(setting.noise_gain) : one;
     for (std::size_t i = 0; i < 2; ++i) {
       const S pull = spread[j] * innovation[i][j];
       for (std::size_t l = 0; l <= i; ++l) {
@@ -119,10 +116,38 @@ Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, cons
   }
   if (setting.noisy) {
     for (std::size_t k = 0; k < 3; ++k) {
-      m[kNext + k][0] = b[0][k] * c.k1;
-      m[kNext + k][1] = b[1][k] * c.k2 + b[2][k] * c.k3;
+      form.fixed[kNext + k][0] = b[0][k] * c.k1;
+      form.fixed[kNext + k][1] = b[1][k] * c.k2 + b[2][k] * c.k3;
     }
   }
+}
+
+/// `x` is (s, beta, d1, d2), `axis` = (cos, sin) of the axis that x and y of the document refer to.
+template <typename S>
+Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, const std::array<Ball, 2>& axis) {
+  const Metric& t = setting.metric;
+  const AxisErrors errors{{{-(setting.largest_amplitude * axis[1]), setting.largest_chi * axis[0]},
+                           {setting.largest_amplitude * axis[0], setting.largest_chi * axis[1]}}};
+  const S a = x[0] * setting.largest_amplitude * cos(x[1]);
+  const S chi = x[0] * setting.largest_chi * sin(x[1]);
+  const Correction<S> c = correction(setting, a, chi);
+  const Secant<S> left = secant(c.signal, c.mean);
+  const Secant<S> moved = secant(c.mean, {c.mean[0] + x[2], c.mean[1] + x[3]});
+  Form<S> form;
+  form.meaningful = certainly_positive(value_of(left.dot)) && certainly_positive(value_of(moved.dot)) &&
+                    certainly_positive(value_of(c.mean[0]) - c.reach[0]) &&
+                    certainly_positive(one + value_of(a));
+  std::array<std::array<S, 2>, 2> innovation;
+  for (std::size_t i = 0; i < 2; ++i) {
+    innovation[i] = c.innovation(errors[i][0], errors[i][1]);
+  }
+  const std::array<std::array<S, 3>, 3> b{{image<S>(t, moved.length[0], moved.angle[0], zero),
+                                           image<S>(t, moved.length[1], moved.angle[1], zero),
+                                           {S(zero), S(t.coupling), S(t.frequency)}}};
+  add_size(setting, errors, form.fixed);
+  add_mean_step(t, c, left, innovation, form.fixed);
+  add_spread(setting, c.spread, b, form);
+  add_innovation(setting, c, b, innovation, form);
   return form;
 }
 

@@ -11,6 +11,8 @@ namespace {
 const std::string kBound = "ekf/frequency-error-bound";
 const std::string kSettling = "ekf/settling-time";
 const std::string kSentence = "ekf/guarantee";
+const std::string kStays = "the frequency error stays below ";
+const std::string kForEver = " rad/sample for ever";
 
 /// A key of [require] that asks for a set of at least some size.
 struct LeastSize {
@@ -52,6 +54,67 @@ std::string assumptions(const Tree& design, Frequencies frequencies) {
          words("initial_amplitude_error") + " of the amplitude (" + words("amplitude") + "), ";
 }
 
+Ball bound_of(const Promises& promises) {
+  return promises.bound.value_or(Ball::everything());
+}
+
+/// What [require] asks of the frequency error, and whether it is so; no text when it asks for nothing.
+struct Limit {
+  std::string text;
+  Verdict below = Verdict::undecided;
+};
+Limit limit_of(const Tree& design, const Promises& promises, Objections& objections) {
+  const Tree* asked = design.at("require").find("frequency_error_below");
+  if (asked == nullptr) {
+    return {};
+  }
+  const Ball value = read_number(*asked, objections);
+  const Limit limit{asked->at("text").text(), proved_if(certainly_less(bound_of(promises), value))};
+  if (limit.below == Verdict::proved) {
+    return limit;
+  }
+  // A start that is off by as much is allowed, and is not below.
+  const Ball start = read_number(design.at("assume").at("initial_frequency_error"), objections);
+  const bool exceeded = certainly_at_most(value, start) ||
+                        (promises.wrong_lock && certainly_at_most(value, *promises.wrong_lock));
+  return {limit.text, exceeded ? Verdict::refuted : Verdict::undecided};
+}
+
+Claim settling_of(const Tree& design, const Promises& promises, Objections& objections) {
+  const Tree& asked = design.at("require").at("settles_within");
+  const Ball samples = promises.settling.value_or(Ball::everything());
+  return {"within " + asked.at("text").text() +
+              " samples the frequency error comes within twice its ultimate bound",
+          proved_if(certainly_at_most(samples, read_number(asked, objections))),
+          {{"settling_samples", samples, Sense::bounds_above}}};
+}
+
+Claim size_of(const LeastSize& size, const Tree& design, const Promises& promises, Objections& objections) {
+  const Tree& asked = design.at("require").at(size.key);
+  const Ball certified = (promises.*(size.size)).value_or(Ball::everything());
+  // Noise is certified relative to the amplitude.
+  const Ball unit =
+      size.quantity == "largest_noise" ? read_number(design.at("assume").at("amplitude"), objections) : one;
+  // The reach is an enclosure; the other two are the numbers that a set gives.
+  const Sense sense = size.quantity == "frequency_error_radius" ? Sense::encloses : Sense::bounds_below;
+  return {size.before + asked.at("text").text() + size.after,
+          proved_if(certainly_at_most(read_number(asked, objections), certified * unit)),
+          {{size.quantity, certified, sense}}};
+}
+
+/// The guarantee: that the error stays below the limit, and what it never exceeds when the statement says so.
+Claim sentence_of(const std::string& statement, const std::string& start, const Limit& limit,
+                  const Promises& promises) {
+  const std::string stays = start + kStays + limit.text + kForEver;
+  const std::string exceeds =
+      limit.text.empty() ? start + "the frequency error never exceeds " : stays + ": it never exceeds ";
+  if (const auto number = decimal_between(statement, exceeds, " rad/sample.")) {
+    const bool stays_below = limit.text.empty() || limit.below == Verdict::proved;
+    return {statement, proved_if(stays_below && certainly_at_most(bound_of(promises), *number)), {}};
+  }
+  return {stays + ".", limit.below, {}};
+}
+
 }  // namespace
 
 bool is_guarantee(const std::string& id) {
@@ -84,63 +147,23 @@ std::optional<SettlingClaim> settling_claim(const Tree& quantities) {
 void check_guarantee(const Tree& claim, const Tree& certificate, const Promises& promises,
                      Frequencies frequencies, Objections& objections) {
   const std::string& id = claim.at("id").text();
-  const Tree& tables = certificate.at("design");
-  const Tree& require = tables.at("require");
-  const auto assumed = [&](const char* name) {
-    return read_number(tables.at("assume").at(name), objections);
-  };
-  const Ball bound = promises.bound.value_or(Ball::everything());
+  const Tree& design = certificate.at("design");
+  const Limit limit = limit_of(design, promises, objections);
+  const auto& sizes = least_sizes();
+  const auto size =
+      std::find_if(sizes.begin(), sizes.end(), [&](const LeastSize& known) { return known.claim == id; });
   Claim found;
-  found.evidence = {
-      {"frequency_error_bound", bound, Sense::bounds_above},
-      {"wrong_lock_frequency_error", promises.wrong_lock.value_or(Ball::everything()), Sense::bounds_below}};
-  Verdict below = Verdict::undecided;
-  std::string limit;
-  if (const Tree* asked = require.find("frequency_error_below")) {
-    const Ball value = read_number(*asked, objections);
-    limit = asked->at("text").text();
-    // A start that is off by as much is allowed, and is not below.
-    below = certainly_less(bound, value) ? Verdict::proved
-            : certainly_at_most(value, assumed("initial_frequency_error")) ||
-                    (promises.wrong_lock && certainly_at_most(value, *promises.wrong_lock))
-                ? Verdict::refuted
-                : Verdict::undecided;
-  }
   if (id == kSettling) {
-    const Tree& asked = require.at("settles_within");
-    const Ball samples = promises.settling.value_or(Ball::everything());
-    found.statement = "within " + asked.at("text").text() +
-                      " samples the frequency error comes within twice its ultimate bound";
-    found.verdict = proved_if(certainly_at_most(samples, read_number(asked, objections)));
-    found.evidence = {{"settling_samples", samples, Sense::bounds_above}};
-  } else if (const auto size = std::find_if(least_sizes().begin(), least_sizes().end(),
-                                            [&](const LeastSize& known) { return known.claim == id; });
-             size != least_sizes().end()) {
-    const Tree& asked = require.at(size->key);
-    const Ball certified = (promises.*(size->size)).value_or(Ball::everything());
-    // Noise is certified relative to the amplitude.
-    const Ball unit = size->quantity == "largest_noise" ? assumed("amplitude") : one;
-    found.statement = size->before + asked.at("text").text() + size->after;
-    found.verdict = proved_if(certainly_at_most(read_number(asked, objections), certified * unit));
-    // The reach is an enclosure; the other two are the numbers that a set gives.
-    found.evidence = {{size->quantity, certified,
-                       size->quantity == "frequency_error_radius" ? Sense::encloses : Sense::bounds_below}};
-  } else if (id == kBound) {
-    found.statement = "the frequency error stays below " + limit + " rad/sample for ever";
-    found.verdict = below;
+    found = settling_of(design, promises, objections);
+  } else if (size != sizes.end()) {
+    found = size_of(*size, design, promises, objections);
   } else {
-    const std::string start = assumptions(tables, frequencies);
-    const std::string stays = start + "the frequency error stays below " + limit + " rad/sample for ever";
-    const std::string& statement = claim.at("statement").text();
-    found.statement = stays + ".";
-    found.verdict = below;
-    const std::string exceeds =
-        limit.empty() ? start + "the frequency error never exceeds " : stays + ": it never exceeds ";
-    if (const auto number = decimal_between(statement, exceeds, " rad/sample.")) {
-      found.statement = statement;
-      found.verdict =
-          proved_if((limit.empty() || below == Verdict::proved) && certainly_at_most(bound, *number));
-    }
+    found = id == kBound ? Claim{kStays + limit.text + kForEver, limit.below, {}}
+                         : sentence_of(claim.at("statement").text(), assumptions(design, frequencies), limit,
+                                       promises);
+    found.evidence = {{"frequency_error_bound", bound_of(promises), Sense::bounds_above},
+                      {"wrong_lock_frequency_error", promises.wrong_lock.value_or(Ball::everything()),
+                       Sense::bounds_below}};
   }
   check_claim(claim, found, objections);
 }

@@ -5,116 +5,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "checker/numbers/cell_series.hpp"
-#include "checker/numbers/matrix3.hpp"
+#include "checker/single_channel/cell_covariance.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-/// A symmetric matrix over a cell of phases and frequencies, by its lower triangle.
-struct Covariance {
-  CellSeries p11, p21, p22, p31, p32, p33;
-};
-
-Covariance diagonal(const Ball& signal, const Ball& frequency) {
-  return {signal, zero, signal, zero, zero, frequency};
-}
-
-/// a - factor b.
-Covariance less(const Covariance& a, const Ball& factor, const Covariance& b) {
-  return {a.p11 - factor * b.p11, a.p21 - factor * b.p21, a.p22 - factor * b.p22,
-          a.p31 - factor * b.p31, a.p32 - factor * b.p32, a.p33 - factor * b.p33};
-}
-
-/// D_ii = sum_j s_ij w_j / w_i: whatever w > 0, a symmetric matrix with entries of at most s_ij lies between
-/// -D and D. The w are those of a matrix in the middle of the cell.
-template <typename Size>
-std::array<Ball, 3> row_sums(const Covariance& p, const Size& size) {
-  const auto root = [](const CellSeries& x) {
-    return Ball(std::sqrt(std::max(x.constant().near(), 1e-200)));
-  };
-  const Ball w1 = root(p.p11);
-  const Ball w2 = root(p.p22);
-  const Ball w3 = root(p.p33);
-  const Ball s21 = size(p.p21);
-  const Ball s31 = size(p.p31);
-  const Ball s32 = size(p.p32);
-  return {size(p.p11) + (s21 * w2 + s31 * w3) / w1, size(p.p22) + (s21 * w1 + s32 * w3) / w2,
-          size(p.p33) + (s31 * w1 + s32 * w2) / w3};
-}
-
-/// True only when the matrix is positive definite all over the cell: where it is at the corners, less a bound
-/// on what is quadratic, for what is linear is between its values there.
-bool definite(const Covariance& a) {
-  const auto [d1, d2, d3] = row_sums(a, [](const CellSeries& x) { return x.bend(); });
-  for (const int x : {-1, 1}) {
-    for (const int y : {-1, 1}) {
-      Matrix3 corner =
-          checker::diagonal(a.p11.corner(x, y) - d1, a.p22.corner(x, y) - d2, a.p33.corner(x, y) - d3);
-      corner[1][0] = a.p21.corner(x, y);
-      corner[2][0] = a.p31.corner(x, y);
-      corner[2][1] = a.p32.corner(x, y);
-      if (!checker::definite(corner)) {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
-/// How the signal comes to a sample: it turns by the frequency (once), into the phase `here`.
-struct Turn {
-  SineCosine once, twice, here;
-};
-
-/// keep A P A' + diag(q1 + added, q1 + added, q2): A turns the first two components by the frequency and adds
-/// the third, times i e^{i here}.
-Covariance predicted(const Covariance& p, const Turn& turn, const Ball& keep, const Ball& added,
-                     const SingleChannelDesign& d) {
-  const CellSeries mean = half * (p.p11 + p.p22);
-  const CellSeries difference = half * (p.p11 - p.p22);
-  const CellSeries turned = turn.twice.cosine * difference - turn.twice.sine * p.p21;
-  const CellSeries t31 = turn.once.cosine * p.p31 - turn.once.sine * p.p32;
-  const CellSeries t32 = turn.once.sine * p.p31 + turn.once.cosine * p.p32;
-  const CellSeries g1 = -turn.here.sine;
-  const CellSeries& g2 = turn.here.cosine;
-  const CellSeries p31 = t31 + p.p33 * g1;
-  const CellSeries p32 = t32 + p.p33 * g2;
-  const CellSeries a1 = t31 + p31;
-  const CellSeries a2 = t32 + p32;
-  const CellSeries noise = d.q1 + added;
-  return {keep * (mean + turned + a1 * g1) + noise,
-          keep * (turn.twice.sine * difference + turn.twice.cosine * p.p21 + half * (a1 * g2 + a2 * g1)),
-          keep * (mean - turned + a2 * g2) + noise,
-          keep * p31,
-          keep * p32,
-          keep * p.p33 + d.q2};
-}
-
-/// After a measurement of the first component with variance r. A bound on P gives one on the updated P,
-/// whatever its sign, only where P11 + r > 0: nothing is known of the result elsewhere.
-Covariance updated(const Covariance& p, const Ball& r) {
-  const CellSeries variance = p.p11 + r;
-  const CellSeries over = certainly_positive(variance.range()) ? reciprocal(variance) : Ball::everything();
-  const CellSeries left = r * over;
-  const CellSeries k2 = p.p21 * over;
-  const CellSeries k3 = p.p31 * over;
-  return {left * p.p11, left * p.p21,       p.p22 - k2 * p.p21,
-          left * p.p31, p.p32 - k2 * p.p31, p.p33 - k3 * p.p31};
-}
-
-/// A matrix without remainders, at least (sign 1) or at most (sign -1) every one that `p` holds.
-Covariance without_remainder(Covariance p, const Ball& sign) {
-  const auto [d1, d2, d3] = row_sums(p, [](const CellSeries& x) { return x.remainder(); });
-  for (CellSeries* entry : {&p.p11, &p.p21, &p.p22, &p.p31, &p.p32, &p.p33}) {
-    entry->drop_remainder();
-  }
-  p.p11 += sign * d1.upper();
-  p.p22 += sign * d2.upper();
-  p.p33 += sign * d3.upper();
-  return p;
-}
 
 /// Goes through the window over one cell.
 class Window {
@@ -143,8 +38,8 @@ class Window {
                   SineCosine(phase + Ball(sample - known) * frequency + Ball::within(drift))};
     };
     // [[A, x], [x', c]] <= 2 diag(A, c).
-    Covariance upper = diagonal(two * s_.signal_variance, two * s_.frequency_variance);
-    Covariance lower = diagonal(zero, zero);
+    CellCovariance upper = diagonal(two * s_.signal_variance, two * s_.frequency_variance);
+    CellCovariance lower = diagonal(zero, zero);
     // A bound from above is one with a larger r, too: so the first samples, which find so much, are smoothed.
     Ball r = four * d_.r;
     for (int sample = 1 - before; sample <= window; ++sample) {
@@ -175,7 +70,7 @@ class Window {
  private:
   /// At least |E x|^2 for E = U(nu) F(1 + delta) - F and all x with x' P^-1 x <= 1, P <= `bound`: |E x| <=
   /// |nu| |x_z| + (|delta| + |nu|) |x_3|, |nu| <= R a, |delta| <= R b.
-  [[nodiscard]] Ball disturbance(const Covariance& bound) const {
+  [[nodiscard]] Ball disturbance(const CellCovariance& bound) const {
     const Ball p11 = bound.p11.range();
     const Ball p22 = bound.p22.range();
     const Ball most =
@@ -186,23 +81,23 @@ class Window {
   }
   /// The prediction, from above and from below: (F + E) P (F + E)' lies between (1 -+ eta) F P F' -+ (1/eta
   /// -+ 1) E P E'.
-  [[nodiscard]] Covariance above(const Covariance& p, const Turn& turn) const {
+  [[nodiscard]] CellCovariance above(const CellCovariance& p, const Turn& turn) const {
     return predicted(p, turn, one + s_.loosening, (one / s_.loosening + one) * disturbance(p), d_);
   }
-  [[nodiscard]] Covariance beneath(const Covariance& p, const Turn& turn) const {
+  [[nodiscard]] CellCovariance beneath(const CellCovariance& p, const Turn& turn) const {
     return predicted(p, turn, one - s_.loosening, -((one / s_.loosening - one) * disturbance(p)), d_);
   }
 
-  [[nodiscard]] bool keeps_variances(const Covariance& upper) const {
+  [[nodiscard]] bool keeps_variances(const CellCovariance& upper) const {
     return definite({s_.signal_variance - upper.p11, -upper.p21, s_.signal_variance - upper.p22, zero, zero,
                      s_.frequency_variance - upper.p33});
   }
-  [[nodiscard]] bool is_large(const Covariance& lower, const SineCosine& last) const {
+  [[nodiscard]] bool is_large(const CellCovariance& lower, const SineCosine& last) const {
     // The prediction turns the first two components as a whole, to which diag(1, 1, 0) is the same.
-    const Covariance prediction = beneath(lower, {SineCosine(zero), SineCosine(zero), last});
+    const CellCovariance prediction = beneath(lower, {SineCosine(zero), SineCosine(zero), last});
     return definite(less(prediction, one, diagonal(s_.signal_uncertainty, zero)));
   }
-  [[nodiscard]] bool is_above_least(const Covariance& lower, const SineCosine& last) const {
+  [[nodiscard]] bool is_above_least(const CellCovariance& lower, const SineCosine& last) const {
     // In the frame of the true phase, P11 and P22 are mean +- turned.
     const CellSeries& s = last.sine;
     const CellSeries& c = last.cosine;
@@ -215,7 +110,7 @@ class Window {
   }
   /// 2 curvature I - C P C' > 0, C with the rows sqrt(weight) e3 and (I, g) / sqrt(weight), g = i e^{i phase}
   /// / 2: 2 |nu| |delta + i nu/2| <= |C e|^2.
-  [[nodiscard]] bool curves_little(const Covariance& p, const SineCosine& last) const {
+  [[nodiscard]] bool curves_little(const CellCovariance& p, const SineCosine& last) const {
     const Ball over = one / s_.curvature_weight;
     const CellSeries g1 = -half * last.sine;
     const CellSeries g2 = half * last.cosine;
@@ -226,7 +121,7 @@ class Window {
                           over * (p.p21 + g2 * p.p31 + g1 * p32), over * (p.p22 + g2 * (p.p32 + p32))}));
   }
   /// P - e e' / level^2 > 0, e e' <= diag(|delta|^2/weight, |delta|^2/weight, nu^2/(1 - weight)).
-  [[nodiscard]] bool holds_starts(const Covariance& lower) const {
+  [[nodiscard]] bool holds_starts(const CellCovariance& lower) const {
     const Ball level = square(s_.start_level);
     return !s_.has_starts ||
            definite(less(lower, one,

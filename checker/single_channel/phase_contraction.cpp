@@ -138,7 +138,7 @@ std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& 
   return std::nullopt;
 }
 
-bool bears(const ErrorSet& set, const SingleChannelDesign& design) {
+bool tolerates(const ErrorSet& set, const SingleChannelDesign& design) {
   return certainly_at_most(design.noise, set.noise()) && certainly_at_most(design.slew, set.window().slew);
 }
 
@@ -167,69 +167,86 @@ void add_size(const ErrorSet& set, Derivation& found) {
       {"bias_frequency", zero}};
 }
 
+/// The verified sets of the evidence, by what they are for.
+struct ErrorSets {
+  std::optional<ErrorSet> whole, bound, noisy, slewing;
+};
+
+/// A set, and the level of the starts in it of which something is said.
+struct Starts {
+  const ErrorSet& set;
+  Ball level;
+};
+
+/// The assumed starts in the set that bounds their errors; when it does not hold them, every start in the set
+/// "start-error".
+std::optional<Starts> starts_of(const ErrorSets& sets, bool starts_inside, bool invariant) {
+  if (starts_inside) {
+    return Starts{*sets.bound, sets.bound->window().start_level};
+  }
+  return invariant ? std::optional(Starts{*sets.whole, sets.whole->start()}) : std::nullopt;
+}
+
+bool settles(const Starts& starts, const SettlingClaim& claim) {
+  constexpr double kMost = 10000.0;
+  return certainly_not_negative(claim.samples) && certainly_at_most(claim.samples, Ball(kMost)) &&
+         starts.set.settled(starts.level, claim.twice_ultimate,
+                            static_cast<std::size_t>(claim.samples.near()));
+}
+
+std::vector<Condition> conditions_of(const ErrorSets& sets, const SingleChannelDesign& design, bool invariant,
+                                     bool inside) {
+  std::vector<Condition> conditions{
+      {"leak", R"(\epsilon = 0)", proved_if(design.without_leak()), design.epsilon, zero},
+      {"controllable-amplitude", "q_1 > 0", decide_less(zero, design.q1), design.q1, zero},
+      {"invariant-set", R"((\kappa_n + c R \sum_m \kappa_m) R + \sqrt n\,u \le R)", proved_if(invariant)}};
+  if (sets.whole) {
+    conditions.back().lhs = sets.whole->after(sets.whole->window().radius);
+    conditions.back().rhs = sets.whole->window().radius;
+    conditions.push_back({"start-in-set", R"(e(0)' P(0)^{-1} e(0) \le R_0^2)", proved_if(inside),
+                          inside ? sets.bound->window().start_level : Ball::everything(),
+                          inside ? sets.bound->start() : sets.whole->start()});
+  }
+  return conditions;
+}
+
 }  // namespace
 
 Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign& design, std::int64_t& cells,
                                  Objections& objections) {
-  const auto whole = verified_set(claimed, "start-error", design, cells, objections);
-  const auto bound = verified_set(claimed, "frequency-error-bound", design, cells, objections);
-  const auto noisy = verified_set(claimed, "largest-noise", design, cells, objections);
-  const auto slewing = verified_set(claimed, "largest-slew", design, cells, objections);
+  const ErrorSets sets{verified_set(claimed, "start-error", design, cells, objections),
+                       verified_set(claimed, "frequency-error-bound", design, cells, objections),
+                       verified_set(claimed, "largest-noise", design, cells, objections),
+                       verified_set(claimed, "largest-slew", design, cells, objections)};
   Promises promises;
-  promises.starts_inside = bound && bears(*bound, design) && holds_starts(*bound, design);
-  if (noisy) {
-    promises.noise = noisy->noise();
-  }
-  if (slewing) {
-    promises.slew = slewing->window().slew;
-  }
-  const Ball nothing = Ball::everything();
+  promises.starts_inside = sets.bound && tolerates(*sets.bound, design) && holds_starts(*sets.bound, design);
+  promises.noise = sets.noisy ? std::optional(sets.noisy->noise()) : std::nullopt;
+  promises.slew = sets.slewing ? std::optional(sets.slewing->window().slew) : std::nullopt;
   Derivation found;
   found.title = "Contraction of the errors over all phases and the band of frequencies";
-  const bool invariant = whole && bears(*whole, design);
+  const bool invariant = sets.whole && tolerates(*sets.whole, design);
   if (invariant) {
-    add_size(*whole, found);
-    promises.reach = whole->start() * root_of_non_negative(max(whole->window().least_p33, zero));
+    add_size(*sets.whole, found);
+    promises.reach = sets.whole->start() * root_of_non_negative(max(sets.whole->window().least_p33, zero));
   }
-  // Without a set that holds the starts, what is said is said of every start in the set "start-error".
-  const ErrorSet* set = promises.starts_inside ? &*bound : invariant ? &*whole : nullptr;
-  if (set != nullptr) {
-    const Ball start = promises.starts_inside ? set->window().start_level : set->start();
-    promises.ultimate = set->frequency_error(set->ultimate());
+  if (const auto starts = starts_of(sets, promises.starts_inside, invariant)) {
+    promises.ultimate = starts->set.frequency_error(starts->set.ultimate());
     if (promises.starts_inside) {
-      promises.bound = set->frequency_error(set->largest(start));
+      promises.bound = starts->set.frequency_error(starts->set.largest(starts->level));
     }
-    if (const auto claim = settling_claim(claimed.at("quantities"))) {
-      constexpr double kMost = 10000.0;
-      const Ball& count = claim->samples;
-      if (certainly_not_negative(count) && certainly_at_most(count, Ball(kMost)) &&
-          set->settled(start, claim->twice_ultimate, static_cast<std::size_t>(count.near()))) {
-        found.quantities.push_back({"settling_samples", count, Sense::bounds_above});
-        promises.settling = promises.starts_inside ? std::optional(count) : std::nullopt;
-      }
+    if (const auto claim = settling_claim(claimed.at("quantities")); claim && settles(*starts, *claim)) {
+      found.quantities.push_back({"settling_samples", claim->samples, Sense::bounds_above});
+      promises.settling = promises.starts_inside ? std::optional(claim->samples) : std::nullopt;
     }
   }
   const auto add = [&](const char* name, const std::optional<Ball>& value, Sense sense) {
-    found.quantities.push_back({name, value.value_or(nothing), sense});
+    found.quantities.push_back({name, value.value_or(Ball::everything()), sense});
   };
   add("ultimate_frequency_error", promises.ultimate, Sense::bounds_above);
   add("frequency_error_bound", promises.bound, Sense::bounds_above);
   add("largest_noise", promises.noise, Sense::bounds_below);
   add("largest_slew", promises.slew, Sense::bounds_below);
-
-  found.conditions = {
-      {"leak", R"(\epsilon = 0)", proved_if(design.without_leak()), design.epsilon, zero},
-      {"controllable-amplitude", "q_1 > 0", decide_less(zero, design.q1), design.q1, zero},
-      {"invariant-set", R"((\kappa_n + c R \sum_m \kappa_m) R + \sqrt n\,u \le R)", proved_if(invariant)}};
-  if (whole) {
-    found.conditions.back().lhs = whole->after(whole->window().radius);
-    found.conditions.back().rhs = whole->window().radius;
-    found.conditions.push_back(
-        {"start-in-set", R"(e(0)' P(0)^{-1} e(0) \le R_0^2)", proved_if(promises.starts_inside)});
-    const bool inside = promises.starts_inside;
-    found.conditions.back().lhs = inside ? bound->window().start_level : nothing;
-    found.conditions.back().rhs = inside ? bound->start() : whole->start();
-  }
+  found.conditions = conditions_of(sets, design, invariant, promises.starts_inside);
   check_derivation(claimed, found, objections);
   return promises;
 }

@@ -64,11 +64,12 @@ Range negative(const Range& x) {
   return {-x.high, -x.low};
 }
 
-}  // namespace
-
-void check_table_3_1(const Tree& derivation, const Design& d, bool printed, Objections& objections) {
-  const Constants29 c = constants_2_9(d, printed ? Reading::printed : Reading::errata);
-  const Table t{one / (d.r * c.b_1), d.r * c.b_2, square(c.rho_1)};
+/// Derivatives of the measures of alpha and beta, by q1 and by q2, for q1, q2 and r from half to twice the
+/// design's.
+struct Slopes {
+  Range alpha_q1, alpha_q2, beta_q1, beta_q2;
+};
+Slopes slopes_of(const Table& t, const Design& d) {
   const Ball low1 = half * d.q1;
   const Ball high1 = two * d.q1;
   const Ball low2 = half * d.q2;
@@ -76,9 +77,7 @@ void check_table_3_1(const Tree& derivation, const Design& d, bool printed, Obje
   const Ball low_r = half * d.r;
   const Ball high_r = two * d.r;
   const Ball rho = one + t.rho2;
-
-  // -d(s p^2 q)/dq1 = p^2 ((1 + rho^2) q + s)/q1^2 and d(s p^2 q)/dq2 = 2 p s q, over the box of halves and
-  // doubles.
+  // -d(s p^2 q)/dq1 = p^2 ((1 + rho^2) q + s)/q1^2 and d(s p^2 q)/dq2 = 2 p s q.
   const auto alpha_q1 = [&](const Ball& q1, const Ball& q2) {
     return over_r(
         d.r, [&](const Ball& r) { return square(t.p(q2, r) / q1); },
@@ -89,46 +88,65 @@ void check_table_3_1(const Tree& derivation, const Design& d, bool printed, Obje
         d.r, [&](const Ball& r) { return two * t.p(q2, r); },
         [&](const Ball& r) { return t.s(q1, r) * t.q(q1, r); });
   };
-  const Range of_alpha_q1(alpha_q1(high1, low2).low, alpha_q1(low1, high2).high);
-  const Range of_alpha_q2(alpha_q2(high1, low2).low, alpha_q2(low1, high2).high);
-  const Range of_beta_q1(t.p(low2, low_r) / square(high1), t.p(high2, high_r) / square(low1));
-  const Range of_beta_q2(t.q(high1, high_r), t.q(low1, low_r));
+  return {negative({alpha_q1(high1, low2).low, alpha_q1(low1, high2).high}),
+          {alpha_q2(high1, low2).low, alpha_q2(low1, high2).high},
+          negative({t.p(low2, low_r) / square(high1), t.p(high2, high_r) / square(low1)}),
+          {t.q(high1, high_r), t.q(low1, low_r)}};
+}
 
-  const Ball r_alpha = stationary_alpha(t, d.q1, d.q2);
-  const Ball r_beta = sqrt(d.q1 * d.q2 * t.b2 / t.b1);
-  const Ball harmonic = t.p(d.q2, r_alpha) * (one / t.s(d.q1, r_alpha) + one / t.q(d.q1, r_alpha));
+/// Where alpha and beta are stationary in r, and what the formulas of the table give for it.
+struct StationaryR {
+  Ball alpha, beta, alpha_formula, beta_formula;
+};
+StationaryR stationary_r(const Table& t, const Design& d, bool printed) {
+  StationaryR r;
+  r.alpha = stationary_alpha(t, d.q1, d.q2);
+  r.beta = sqrt(d.q1 * d.q2 * t.b2 / t.b1);
+  const Ball harmonic = t.p(d.q2, r.alpha) * (one / t.s(d.q1, r.alpha) + one / t.q(d.q1, r.alpha));
   const Ball u = sqrt(two) * d.sigma;
   const Ball common = square(u * (two - u)) * (one - square(u) / four);
-  const Ball alpha_formula =
-      printed ? sqrt(Ball(0.75) * common * harmonic) : sqrt(Ball(1.25) * d.sigma * harmonic);
-  const Ball beta_formula = printed ? sqrt(Ball(1.5) * common * t.p(d.q2, r_beta) / t.q(d.q1, r_beta))
-                                    : sqrt(Ball(2.5) * d.q1 * d.q2 * d.sigma);
-  const Range alpha_off(zero, abs(alpha_formula / r_alpha - one).upper());
-  const Range beta_off(zero, abs(beta_formula / r_beta - one).upper());
+  r.alpha_formula = printed ? sqrt(Ball(0.75) * common * harmonic) : sqrt(Ball(1.25) * d.sigma * harmonic);
+  r.beta_formula = printed ? sqrt(Ball(1.5) * common * t.p(d.q2, r.beta) / t.q(d.q1, r.beta))
+                           : sqrt(Ball(2.5) * d.q1 * d.q2 * d.sigma);
+  return r;
+}
+
+/// The formula gives r to three digits.
+Condition agrees(const std::string& id, const std::string& statement, const Ball& formula, const Ball& r) {
   const Ball three_digits(0.001);
+  const Range off(zero, abs(formula / r - one).upper());
+  return {id, statement, proved_if(certainly_less(off.high, three_digits)), off, three_digits};
+}
+
+}  // namespace
+
+void check_table_3_1(const Tree& derivation, const Design& d, bool printed, Objections& objections) {
+  const Constants29 c = constants_2_9(d, printed ? Reading::printed : Reading::errata);
+  const Table t{one / (d.r * c.b_1), d.r * c.b_2, square(c.rho_1)};
+  const Slopes slopes = slopes_of(t, d);
+  const StationaryR r = stationary_r(t, d, printed);
   const Verdict minimum = printed ? Verdict::refuted : Verdict::proved;
 
   Derivation found;
   found.title = printed ? "Table 3.1 of the thesis as printed: alpha and beta by q1, q2 and r"
                         : "Table 3.1 of the thesis with the errata sheet: alpha and beta by q1, q2 and r";
-  found.quantities = {{"r_alpha", r_alpha},
-                      {"r_alpha_formula", alpha_formula},
-                      {"r_beta", r_beta},
-                      {"r_beta_formula", beta_formula}};
+  found.quantities = {{"r_alpha", r.alpha},
+                      {"r_alpha_formula", r.alpha_formula},
+                      {"r_beta", r.beta},
+                      {"r_beta_formula", r.beta_formula}};
   found.conditions = {
-      sign("alpha-q1", R"(\alpha \text{ decreases with } q_1)", negative(of_alpha_q1), false),
-      sign("beta-q1", R"(\beta \text{ decreases with } q_1)", negative(of_beta_q1), false),
-      sign("alpha-q2", R"(\alpha \text{ increases with } q_2)", of_alpha_q2, true),
-      sign("beta-q2", R"(\beta \text{ increases with } q_2)", of_beta_q2, true),
+      sign("alpha-q1", R"(\alpha \text{ decreases with } q_1)", slopes.alpha_q1, false),
+      sign("beta-q1", R"(\beta \text{ decreases with } q_1)", slopes.beta_q1, false),
+      sign("alpha-q2", R"(\alpha \text{ increases with } q_2)", slopes.alpha_q2, true),
+      sign("beta-q2", R"(\beta \text{ increases with } q_2)", slopes.beta_q2, true),
       {"alpha-r",
        printed ? R"(\alpha \text{ is maximised at } r_\alpha)"
                : R"(\alpha \text{ is minimised at } r_\alpha)",
-       r_alpha.finite() ? minimum : Verdict::undecided, r_alpha},
-      {"beta-r", R"(\beta \text{ is minimised at } r_\beta)", proved_if(certainly_positive(r_beta)), r_beta},
-      {"r_alpha", R"(r_\alpha \text{ is what the formula gives, to } 10^{-3})",
-       proved_if(certainly_less(alpha_off.high, three_digits)), alpha_off, three_digits},
-      {"r_beta", R"(r_\beta \text{ is what the formula gives, to } 10^{-3})",
-       proved_if(certainly_less(beta_off.high, three_digits)), beta_off, three_digits}};
+       r.alpha.finite() ? minimum : Verdict::undecided, r.alpha},
+      {"beta-r", R"(\beta \text{ is minimised at } r_\beta)", proved_if(certainly_positive(r.beta)), r.beta},
+      agrees("r_alpha", R"(r_\alpha \text{ is what the formula gives, to } 10^{-3})", r.alpha_formula,
+             r.alpha),
+      agrees("r_beta", R"(r_\beta \text{ is what the formula gives, to } 10^{-3})", r.beta_formula, r.beta)};
   check_derivation(derivation, found, objections);
 }
 

@@ -131,20 +131,15 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
   }
   promises.noise = noisy != nullptr ? std::optional(noisy->noise) : std::nullopt;
   promises.slew = slewing != nullptr ? std::optional(slewing->slew) : std::nullopt;
-  const auto add = [&](const char* name, const std::optional<Ball>& value, Sense sense) {
-    found.quantities.push_back({name, value.value_or(Ball::everything()), sense});
-  };
-  add("ultimate_frequency_error", promises.ultimate, Sense::bounds_above);
-  add("frequency_error_bound", promises.bound, Sense::bounds_above);
-  add("largest_noise", promises.noise, Sense::bounds_below);
-  add("largest_slew", promises.slew, Sense::bounds_below);
+  add_bounds(promises, found);
   if (const auto claim = settling_claim(claimed.at("quantities"))) {
     const std::optional<Ball> samples =
         settles(starts, design, *claim) ? std::optional(claim->samples) : std::nullopt;
     if (promises.starts_inside) {
       promises.settling = samples;
     }
-    add("settling_samples", samples, Sense::bounds_above);
+    found.quantities.push_back(
+        {"settling_samples", samples.value_or(Ball::everything()), Sense::bounds_above});
   }
   found.conditions = conditions_of(whole, promises, design);
   check_derivation(claimed, found, objections);

@@ -239,13 +239,7 @@ Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign&
       promises.settling = promises.starts_inside ? std::optional(claim->samples) : std::nullopt;
     }
   }
-  const auto add = [&](const char* name, const std::optional<Ball>& value, Sense sense) {
-    found.quantities.push_back({name, value.value_or(Ball::everything()), sense});
-  };
-  add("ultimate_frequency_error", promises.ultimate, Sense::bounds_above);
-  add("frequency_error_bound", promises.bound, Sense::bounds_above);
-  add("largest_noise", promises.noise, Sense::bounds_below);
-  add("largest_slew", promises.slew, Sense::bounds_below);
+  add_bounds(promises, found);
   found.conditions = conditions_of(sets, design, invariant, promises.starts_inside);
   check_derivation(claimed, found, objections);
   return promises;

@@ -45,12 +45,12 @@ void improve(std::optional<Ball>& best, const Ball& bound) {
 
 /// What the sets promise of the assumed starts, and the sets that contain them. When none does: of every
 /// start in the set "start-error".
-struct Starts {
+struct StartSets {
   Promises promises;
   std::vector<const Setting*> bases;
 };
-Starts follow_starts(const std::vector<CertifiedSet>& sets, const Setting* whole, const Design& design) {
-  Starts found;
+StartSets follow_starts(const std::vector<CertifiedSet>& sets, const Setting* whole, const Design& design) {
+  StartSets found;
   Promises& promises = found.promises;
   const std::vector<const Setting*> useful = usable(sets, design);
   for (const Setting* set : useful) {
@@ -77,7 +77,7 @@ Starts follow_starts(const std::vector<CertifiedSet>& sets, const Setting* whole
 }
 
 /// Is it true of the starts of some base?
-bool settles(const Starts& starts, const Design& design, const SettlingClaim& claim) {
+bool settles(const StartSets& starts, const Design& design, const SettlingClaim& claim) {
   return certainly_not_negative(claim.samples) &&
          std::any_of(starts.bases.begin(), starts.bases.end(), [&](const Setting* base) {
            const Ball level = starts.promises.starts_inside ? start_level(*base, design) : base->radius;
@@ -119,7 +119,7 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
   const Setting* whole = first_of(sets, "start-error");
   const Setting* noisy = first_of(sets, "largest-noise");
   const Setting* slewing = first_of(sets, "largest-slew");
-  Starts starts = follow_starts(sets, whole, design);
+  StartSets starts = follow_starts(sets, whole, design);
   Promises& promises = starts.promises;
   Derivation found;
   found.title = "Contraction of the errors in a set that the tracker never leaves";

@@ -69,7 +69,7 @@ Limit limit_of(const Tree& design, const Promises& promises, Objections& objecti
     return {};
   }
   const Ball value = read_number(*asked, objections);
-  const Limit limit{asked->at("text").text(), proved_if(certainly_less(bound_of(promises), value))};
+  Limit limit{asked->at("text").text(), proved_if(certainly_less(bound_of(promises), value))};
   if (limit.below == Verdict::proved) {
     return limit;
   }

@@ -19,7 +19,7 @@ using rigor::to_hexadecimal;
 
 namespace {
 
-constexpr std::int64_t kCases = 200'000;
+constexpr std::int64_t kDecimalCases = 200'000;
 
 /// MPFR's own reading of a decimal, at 2000 bits, with the side on which it was rounded.
 void read(Oracle& number, const std::string& text) {
@@ -64,7 +64,7 @@ TEST_CASE("decimals are read into the tightest interval, which holds the nearest
   std::int64_t above_range = 0;
   std::int64_t wrong = 0;
   std::string first_wrong;
-  for (std::int64_t round = effort(kCases); round > 0; --round) {
+  for (std::int64_t round = effort(kDecimalCases); round > 0; --round) {
     const std::string text = random_decimal(random);
     read(number, text);
     const bool representable = number.is_at_least(-kLargest) && number.is_at_most(kLargest);
@@ -90,7 +90,7 @@ TEST_CASE("decimals next to doubles and half way between them are read exactly")
   Oracle number(2400);
   Oracle other(2400);
   Misses misses;
-  for (std::int64_t round = effort(kCases / 20); round > 0; --round) {
+  for (std::int64_t round = effort(kDecimalCases / 20); round > 0; --round) {
     const double value = operands.number();
     const double next = std::nextafter(value, 0.0);
     other = value;
@@ -190,7 +190,7 @@ TEST_CASE("what is not a finite decimal is refused") {
 TEST_CASE("hexadecimal floats go out and come back unchanged, and mean what strtod reads") {
   Operands operands(32);
   Misses misses;
-  for (std::int64_t round = effort(kCases); round > 0; --round) {
+  for (std::int64_t round = effort(kDecimalCases); round > 0; --round) {
     const double value = operands.number();
     const std::string text = to_hexadecimal(value);
     const Interval parsed = parse_hexadecimal(text);
@@ -231,7 +231,7 @@ TEST_CASE("decimals are written outward, and as closely as their digits allow") 
   Oracle value(2000);
   Oracle error(2000);
   Misses misses;
-  for (std::int64_t round = effort(kCases); round > 0; --round) {
+  for (std::int64_t round = effort(kDecimalCases); round > 0; --round) {
     const double x = operands.number();
     const int digits = 1 + static_cast<int>(operands.random().below(40));
     const std::string down = to_decimal(x, digits, Direction::down);
@@ -258,7 +258,7 @@ TEST_CASE("decimals are written outward, and as closely as their digits allow") 
 TEST_CASE("an interval written and read again holds the interval") {
   Operands operands(34);
   Misses misses;
-  for (std::int64_t round = effort(kCases / 4); round > 0; --round) {
+  for (std::int64_t round = effort(kDecimalCases / 4); round > 0; --round) {
     const Interval x = operands.interval();
     if (!rigor::is_finite(x) || rigor::magnitude(x) > 1e308) {
       continue;

@@ -11,11 +11,7 @@ using rigor::Interval;
 
 namespace {
 
-constexpr std::int64_t kCases = 200'000;
-
-Interval bounds(double lower, double upper) {
-  return Interval::from_bounds(lower, upper);
-}
+constexpr std::int64_t kIntervalCases = 200'000;
 
 /// The smallest lower and the largest upper bound of an operation at the corners of a box.
 template <typename Function>
@@ -47,7 +43,7 @@ TEST_CASE("sum, difference, product and quotient hold every value and are the ti
   Oracle t;
   Oracle exact;
   Misses misses;
-  for (std::int64_t round = effort(kCases); round > 0; --round) {
+  for (std::int64_t round = effort(kIntervalCases); round > 0; --round) {
     const Interval x = operands.interval();
     const Interval y = operands.interval();
     const double point_of_x = operands.point_of(x);
@@ -85,7 +81,7 @@ TEST_CASE("sum, difference, product and quotient hold every value and are the ti
 TEST_CASE("operations on points are at most one unit in the last place wide") {
   Operands operands(11);
   Misses misses;
-  for (std::int64_t round = effort(kCases); round > 0; --round) {
+  for (std::int64_t round = effort(kIntervalCases); round > 0; --round) {
     const Interval x(operands.number());
     const Interval y(operands.number());
     const rigor::UpwardRounding mode;
@@ -106,7 +102,7 @@ TEST_CASE("square, square root and integer powers hold every value") {
   Oracle s;
   Oracle exact;
   Misses misses;
-  for (std::int64_t round = effort(kCases); round > 0; --round) {
+  for (std::int64_t round = effort(kIntervalCases); round > 0; --round) {
     const Interval x = operands.interval();
     const double point = operands.point_of(x);
     const int exponent = static_cast<int>(operands.random().below(20)) - 7;
@@ -148,7 +144,7 @@ TEST_CASE("powers of points are tight, signs included") {
 TEST_CASE("abs, min, max, hull and intersection hold every value") {
   Operands operands(13);
   Misses misses;
-  for (std::int64_t round = effort(kCases); round > 0; --round) {
+  for (std::int64_t round = effort(kIntervalCases); round > 0; --round) {
     const Interval x = operands.interval();
     const Interval y = operands.coin() ? operands.interval() : operands.around(operands.point_of(x));
     const double s = operands.point_of(x);
@@ -177,7 +173,7 @@ TEST_CASE("midpoint, radius, width, magnitude and mignitude bound what they say"
   Oracle m;
   Oracle distance;
   Misses misses;
-  for (std::int64_t round = effort(kCases); round > 0; --round) {
+  for (std::int64_t round = effort(kIntervalCases); round > 0; --round) {
     const Interval x = operands.interval();
     const double point = operands.point_of(x);
     const double middle = upward([&] { return midpoint(x); });

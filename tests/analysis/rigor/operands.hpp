@@ -21,6 +21,10 @@ inline constexpr double kLargest = std::numeric_limits<double>::max();
 inline constexpr double kSmallestNormal = std::numeric_limits<double>::min();
 inline constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 
+inline rigor::Interval bounds(double lower, double upper) {
+  return rigor::Interval::from_bounds(lower, upper);
+}
+
 /// Runs `computation` with the upward mode held, and nothing else: oracles stay outside.
 template <typename Computation>
 auto upward(Computation computation) {

@@ -6,7 +6,7 @@
 namespace veritrack::checker {
 
 /// Throws Malformed for what is not a certificate of this format. Of very many boxes of starts only a sample
-/// is looked at unless `all_boxes`, and the certificate is then not verified.
+/// is followed unless `all_boxes`, and the certificate is then not verified.
 Verification verify(const Tree& certificate, bool all_boxes = false);
 
 }  // namespace veritrack::checker

@@ -1,4 +1,4 @@
-// What the checker knows of a derivation, and how it is held against what the certificate says.
+// What the checker knows of a derivation, and how it is compared with what the certificate says.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace veritrack::checker {
 
 enum class Verdict { undecided, proved, refuted };
 
-/// Is x < y, or x <= y? PROVED or REFUTED only when it holds, or its negation holds, for all points.
+/// Is x < y, or x <= y? PROVED or REFUTED only when it, or its negation, is true of all points.
 Verdict decide_less(const Ball& x, const Ball& y);
 Verdict decide_at_most(const Ball& x, const Ball& y);
 /// REFUTED when one is, PROVED when all are, and there is one.
@@ -73,7 +73,7 @@ void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections
 void check_verdict(const std::string& claimed, Verdict found, const std::string& name,
                    Objections& objections);
 
-/// Holds the title, all quantities, all conditions and the verdict of `claimed` against `found`. Quantities
+/// Compares the title, all quantities, all conditions and the verdict of `claimed` with `found`. Quantities
 /// that are said not to be proved, and those that are said not to be applicable, claim nothing.
 void check_derivation(const Tree& claimed, const Derivation& found, Objections& objections);
 

@@ -21,7 +21,7 @@ KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
   if (const Tree* ell = chosen.find("ell")) {
     design.ell = positive(*ell);
   }
-  // A range is the hull of the two enclosures, which hold the decimals.
+  // A range is the hull of the two enclosures, which contain the decimals.
   const auto range = [&](const Tree& ends, Ball& low, Ball& high) {
     positive(ends.at(0));
     positive(ends.at(1));

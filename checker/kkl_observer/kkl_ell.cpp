@@ -50,7 +50,7 @@ class Infimum {
   Infimum(const KklDesign& design, Ball bound) : design_(design), bound_(std::move(bound)) {}
 
   /// True only when the ratio is at least the bound from `low` to `high`.
-  [[nodiscard]] bool holds(const Ball& low, const Ball& high, int depth) const {
+  [[nodiscard]] bool is_bound(const Ball& low, const Ball& high, int depth) const {
     const Slope ratio = ratio_at(design_.lambda, Slope::variable(Ball::hull(low, high), 0));
     const bool falls = certainly_less(ratio.along[0], zero);
     const bool at_end = (falls && at_least(high)) || (certainly_positive(ratio.along[0]) && at_least(low));
@@ -58,7 +58,7 @@ class Infimum {
       return true;
     }
     const Ball middle = (half * (low + high)).lower();
-    return depth > 0 && holds(low, middle, depth - 1) && holds(middle, high, depth - 1);
+    return depth > 0 && is_bound(low, middle, depth - 1) && is_bound(middle, high, depth - 1);
   }
 
  private:
@@ -100,7 +100,7 @@ bool is_true(const EllEnclosure& enclosure, const KklDesign& design) {
   const bool inside =
       certainly_at_most(design.frequency_low, attained) && certainly_at_most(attained, design.frequency_high);
   return inside && certainly_at_most(ratio_at(design.lambda, attained), high) &&
-         Infimum(design, low).holds(design.frequency_low, design.frequency_high, kDepth);
+         Infimum(design, low).is_bound(design.frequency_low, design.frequency_high, kDepth);
 }
 
 std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& design,

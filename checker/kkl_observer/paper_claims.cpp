@@ -113,7 +113,7 @@ Range smallest_eigenvalue(const std::vector<Ball>& lambda) {
   return found;
 }
 
-/// A bound on the slope of gamma on an annulus that holds T of the assumed range: docs/kkl-observer.md,
+/// A bound on the slope of gamma on an annulus that contains T of the assumed range: docs/kkl-observer.md,
 /// Continuity.
 Ball continuity_modulus(const KklDesign& design, const Ball& ell) {
   const auto& l = design.lambda;
@@ -143,12 +143,12 @@ Ball continuity_modulus(const KklDesign& design, const Ball& ell) {
   const Ball length = sqrt(squares + four + square(upper));  // of L
   const Ball driven = largest * upper;                       // of F^2 xi
   const Ball gamma = length * driven / smallest;
-  // |M|^2 <= 2 gram: M holds each difference of rates twice, in both signs.
+  // |M|^2 <= 2 gram: M contains each difference of rates twice, in both signs.
   const Ball phi_slope = two * length + two * ell * upper + Ball(8.0) * gram * upper;
   return (driven + length * largest + phi_slope * gamma) / smallest;
 }
 
-/// What holds, or fails, for every design; then section V, with lambda = (1, 2, 3, 4) and w = 3.
+/// What is true, or false, for every design; then section V, with lambda = (1, 2, 3, 4) and w = 3.
 std::vector<Condition> claims_of_every_design() {
   const Verdict invariant = vanishes<4>([](const Four& p) { return residual(-one, p); }, 2);
   // From x = (1, 1, 1) the formula's signal, sqrt(2) sin(t + pi/4), rises. With the signs for which T of (6)

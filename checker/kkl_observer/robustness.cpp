@@ -34,9 +34,9 @@ void check_kkl_robustness(const Tree& claimed, const KklDesign& design, const Ba
   const SignalCells cells(design, settling_time);
   // A bound that all cells have, or nothing.
   const auto established = [&](const Ball& bound, auto statement) {
-    const bool holds =
+    const bool is_proved =
         bound.finite() && cells.always([&](const KklCell& cell) { return (cells.*statement)(cell, bound); });
-    return holds ? bound : Ball::everything();
+    return is_proved ? bound : Ball::everything();
   };
   const Ball largest_ell =
       established(end_of(quantities.find("largest_ell"), "lo"), &SignalCells::ratio_at_least);

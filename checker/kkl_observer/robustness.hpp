@@ -5,7 +5,7 @@
 
 namespace veritrack::checker {
 
-/// Holds every bound of the derivation against cells of all signals of the range: from the settling time on,
+/// Checks every bound of the derivation on cells of all signals of the range: from the settling time on,
 /// for filters that start at rest, and `ell` in use in (9). The mathematics is that of docs/kkl-observer.md,
 /// section Robustness.
 void check_kkl_robustness(const Tree& derivation, const KklDesign& design, const Ball& ell,

@@ -123,10 +123,10 @@ KklSignal<S> SignalCells::signal(const std::array<S, kVariables>& x) const {
 
 bool SignalCells::always(const Statement& statement) const {
   int cells = kCells;
-  return holds(statement, box_, kDepth, cells);
+  return is_true(statement, box_, kDepth, cells);
 }
 
-bool SignalCells::holds(const Statement& statement, const Box& box, int depth, int& cells) const {
+bool SignalCells::is_true(const Statement& statement, const Box& box, int depth, int& cells) const {
   KklCell cell;
   std::array<Ball, kVariables> middle;
   std::array<Slope, kVariables> over;
@@ -156,7 +156,7 @@ bool SignalCells::holds(const Statement& statement, const Box& box, int depth, i
   Box upper = box;
   lower[widest].high = middle[widest];
   upper[widest].low = middle[widest];
-  return holds(statement, lower, depth - 1, cells) && holds(statement, upper, depth - 1, cells);
+  return is_true(statement, lower, depth - 1, cells) && is_true(statement, upper, depth - 1, cells);
 }
 
 template <typename Function>

@@ -41,7 +41,7 @@ class SignalCells {
   /// True only when the statement is true of each of some cells that cover all signals.
   [[nodiscard]] bool always(const Statement& statement) const;
 
-  // Statements that hold for all points of a cell when true.
+  // Statements about all points of a cell.
   /// 2 |M xi|^2 / |xi|^2 >= bound.
   [[nodiscard]] bool ratio_at_least(const KklCell& cell, const Ball& bound) const;
   /// x3_hat / w^2 >= bound.
@@ -68,7 +68,7 @@ class SignalCells {
   [[nodiscard]] Triple triple(std::size_t first) const;
   template <typename S>
   [[nodiscard]] KklSignal<S> signal(const std::array<S, kVariables>& x) const;
-  [[nodiscard]] bool holds(const Statement& statement, const Box& box, int depth, int& cells) const;
+  [[nodiscard]] bool is_true(const Statement& statement, const Box& box, int depth, int& cells) const;
   /// The largest size of the sum of weights_j row_j'(F^2 + w^2) u over a cell.
   template <typename Function>
   [[nodiscard]] Size largest(const KklCell& cell, const Function& weights) const;

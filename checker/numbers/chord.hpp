@@ -35,7 +35,7 @@ struct Chord {
     }
     return z;
   }
-  /// Holds (f(x) + f(c))/2.
+  /// Contains (f(x) + f(c))/2.
   [[nodiscard]] Ball mean() const { return half * (centre + range); }
 };
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMostBoxes = 200;
 constexpr int kHalvings = 2;
 
-/// A box that holds all assumed starts, and one that they hold.
+/// A box that contains all assumed starts, and one that they contain.
 StartBox outward(const Design& d) {
   return {{-d.amplitude_error.upper(), -d.phase_error.upper(), -d.frequency_error.upper()},
           {d.amplitude_error.upper(), d.phase_error.upper(), d.frequency_error.upper()}};
@@ -70,7 +70,7 @@ class Followed {
   Ball shift_;
 };
 
-/// What the verified set, with what was found on the way to it, says of starts that come into it.
+/// What the verified set, with what was found on the way to it, says of starts that enter it.
 void conclude(const Cover& cover, const Ball& largest, const Setting& set, const Design& disturbed,
               const Tree& quantities, Captured& found) {
   const Ball ultimate = ultimate_level(set, disturbed) / set.metric.frequency;
@@ -139,8 +139,8 @@ void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting
   const bool is_symmetric = !disturbed.covariance || (certainly_equal(covariance[0][1], zero) &&
                                                       certainly_equal(covariance[0][2], zero));
   const bool captured = certainly_equal(cover.turns, zero);
-  // What a start in the shifted set, which is never left either, is off by at least: for the frequency
-  // error acts through its sine and cosine alone.
+  // The least frequency error in the shifted set, which is invariant, too: for the frequency error acts
+  // through its sine and cosine alone.
   const Ball reach = set.radius * inverse_rows(set.metric)[2];
   const Ball off = two * abs(cover.turns) * pi() - reach;
   for (const Ball& level : cover.levels) {

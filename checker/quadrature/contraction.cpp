@@ -43,8 +43,8 @@ void improve(std::optional<Ball>& best, const Ball& bound) {
   }
 }
 
-/// What the sets promise of the assumed starts, and the sets that hold them. When none does: of every start
-/// in the set "start-error".
+/// What the sets promise of the assumed starts, and the sets that contain them. When none does: of every
+/// start in the set "start-error".
 struct Starts {
   Promises promises;
   std::vector<const Setting*> bases;

@@ -15,7 +15,7 @@ struct DiscCell {
 
   /// No point of the box is in the unit disc, for certain.
   [[nodiscard]] bool is_outside() const;
-  /// Corners of a polygon that holds what the box has in the unit disc.
+  /// Corners of a polygon that contains what the box has in the unit disc.
   [[nodiscard]] std::vector<Point> corners() const;
   /// The two halves: 0 and 1 along x and y, 2 along the frequencies.
   [[nodiscard]] std::array<DiscCell, 2> halves(std::size_t side) const;

@@ -10,9 +10,9 @@
 //     z+ = Rot (z + K_z j),  nu+ = (1 - epsilon) nu - epsilon omega - w + K_3 j,  P+ = Rot (P^ - K S K')
 //     Rot^-1.
 //
-// The enclosure. {p(s) + e}: p polynomials in the start errors, e in a zonotope, which holds everything else.
-// A step G takes it into {G(p(s), 0) + G_x e + G_v v}, the derivatives over all that lies between (mean value
-// theorem).
+// The enclosure. {p(s) + e}: p polynomials in the start errors, e in a zonotope, which contains everything
+// else. A step G takes it into {G(p(s), 0) + G_x e + G_v v}, the derivatives over all that lies between (mean
+// value theorem).
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ namespace veritrack::checker {
 /// The tracker and what drives it.
 struct Loop {
   Ball q1, q2, r, epsilon;
-  Ball frequency;    ///< holds every omega, rad/sample; without effect when epsilon = 0
+  Ball frequency;    ///< contains every omega, rad/sample; without effect when epsilon = 0
   Ball noise, slew;  ///< |v| <= noise, |w| <= slew, rad/sample per sample
 };
 
@@ -97,7 +97,7 @@ State<S> step(const Loop& loop, const State<S>& x, const std::array<S, 2>& noise
   return next;
 }
 
-/// How all states of an enclosure lie to a point.
+/// All states of an enclosure, relative to a point.
 struct PolarEnclosure {
   std::array<Ball, 3> error;  ///< metric (e - origin), the phase error a value near that of the middle
   Matrix3 covariance;         ///< in the frame of the estimated phase

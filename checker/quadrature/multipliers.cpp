@@ -23,7 +23,7 @@ bool eliminate(Matrix<double>& m, std::size_t rows) {
   return true;
 }
 
-/// The largest k for which k |T e|^2 could be taken away, rate^2 = 1, with nothing across the axis: the
+/// The largest k for which k |T e|^2 could be subtracted, rate^2 = 1, with nothing across the axis: the
 /// smaller root of det(left - k size) = 0 over (nu, along).
 double room(const Form<double>& form, double lambda) {
   Matrix<double> left = with_lambda(form, lambda);

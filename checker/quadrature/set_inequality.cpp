@@ -107,7 +107,7 @@ class Cover {
  public:
   Cover(const Setting& setting, std::int64_t& cells) : setting_(setting), cells_(cells) {}
 
-  bool holds(Cell cell, int depth) {
+  bool is_proved(Cell cell, int depth) {
     if (++cells_ > kMostCells || !clip(cell)) {
       return false;
     }
@@ -121,7 +121,7 @@ class Cover {
     Cell first = cell;
     Cell second = cell;
     first.high[side] = second.low[side] = cell.middle(side);
-    return holds(first, depth - 1) && holds(second, depth - 1);
+    return is_proved(first, depth - 1) && is_proved(second, depth - 1);
   }
 
  private:
@@ -204,7 +204,7 @@ bool contracts(const Setting& setting, std::int64_t& cells) {
       const Cell cell{
           {i / static_cast<double>(kScales), half_turn * j / kAngles, -HUGE_VAL, -HUGE_VAL},
           {(i + 1) / static_cast<double>(kScales), half_turn * (j + 1) / kAngles, HUGE_VAL, HUGE_VAL}};
-      if (!cover.holds(cell, kDepth)) {
+      if (!cover.is_proved(cell, kDepth)) {
         return false;
       }
     }

@@ -1,4 +1,4 @@
-// Does |T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2 w^2 hold for every step from a set?
+// Is |T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2 w^2 for every step from a set?
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace veritrack::checker {
 
-/// True only when it does: condition (a) of the theorem of docs/contraction.md. `cells` counts the boxes that
+/// True only when it is: condition (a) of the theorem of docs/contraction.md. `cells` counts the boxes that
 /// were looked at.
 bool contracts(const Setting& setting, std::int64_t& cells);
 

@@ -45,7 +45,7 @@ Range bias_of(const std::vector<SteadyCell>& branch) {
   return {low.value_or(Ball::everything()), high.value_or(Ball::everything())};
 }
 
-/// What the certificate says of the assumed starts, which is as far as they are looked at.
+/// What the certificate says of the assumed starts, which is as far as they are followed.
 SteadyStartClaim start_claim(const Tree& claimed) {
   const Tree& quantities = claimed.at("quantities");
   const auto said = [&](const char* name) {
@@ -60,13 +60,13 @@ SteadyStartClaim start_claim(const Tree& claimed) {
   return {said("capture_samples"), level, said("frequency_error_bound"), said("settling_samples")};
 }
 
-/// What the set and the starts that come into it give.
+/// What the set and the starts that enter it give.
 void add_whole(const SteadySet& whole, const std::optional<SteadyStart>& start, const Promises& promises,
                Derivation& found) {
   const Ball nothing = Ball::everything();
   const std::array<Ball, 3> radii = error_radii(whole);
   const Ball rate = slowest(whole);
-  // From the start, or from level 1 when the starts are not known to come into the set.
+  // From the start, or from level 1 when the starts are not known to enter the set.
   const Ball settling = start ? start->settling : Ball(static_cast<double>(whole.levels.size() - 1));
   const std::vector<Quantity> quantities{
       {"contraction_rate", rate, Sense::bounds_above},

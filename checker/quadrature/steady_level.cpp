@@ -195,14 +195,14 @@ bool SteadyCover::maps_into_next(const SteadyLevel& level) {
     proved_ = {{{-1.0, -1.0}, {1.0, 1.0}, steady_.from, steady_.to}};
   }
   for (const DiscCell& cell : std::exchange(proved_, {})) {
-    if (!holds(level, cell, kDepth)) {
+    if (!is_proved(level, cell, kDepth)) {
       return false;
     }
   }
   return true;
 }
 
-bool SteadyCover::holds(const SteadyLevel& level, const DiscCell& cell, int depth) {
+bool SteadyCover::is_proved(const SteadyLevel& level, const DiscCell& cell, int depth) {
   if (cell.is_outside()) {
     return true;
   }
@@ -216,7 +216,7 @@ bool SteadyCover::holds(const SteadyLevel& level, const DiscCell& cell, int dept
     return false;
   }
   const auto [first, second] = cell.halves(side);
-  return holds(level, first, depth - 1) && holds(level, second, depth - 1);
+  return is_proved(level, first, depth - 1) && is_proved(level, second, depth - 1);
 }
 
 bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::size_t& side) {

@@ -1,4 +1,4 @@
-// Does every step from one level of a set around the steady state lead to the next one? With a leak.
+// Does every step from one level of a set around the steady state end in the next one? With a leak.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ class SteadyCover {
   [[nodiscard]] std::int64_t cells() const { return cells_; }
 
  private:
-  bool holds(const SteadyLevel& level, const DiscCell& cell, int depth);
+  bool is_proved(const SteadyLevel& level, const DiscCell& cell, int depth);
   /// `side` is where to cut a cell for which it fails.
   bool proves(const SteadyLevel& level, const DiscCell& cell, std::size_t& side);
 

@@ -20,7 +20,7 @@ class Part {
   Part(const Design& design, const SteadySet& set, const SteadyCell& cell, const Ball& frequency)
       : design_(design), set_(set), frequency_(frequency), steady_(cell.at(frequency)) {}
 
-  /// A level of the set that holds errors and covariances: balls of e and of P. Everything when none does.
+  /// A level of the set that contains errors and covariances: balls of e and of P. Everything when none does.
   [[nodiscard]] Ball level_of(const std::array<Ball, 3>& image, const Matrix3& covariance) const {
     constexpr int kSteps = 40;
     const Matrix3 deviation = covariance - steady_covariance();

@@ -1,4 +1,5 @@
-// Do the assumed starts, which are about the truth, come into a set around the steady state? With a leak.
+// Do the assumed starts, which are errors from the true signal, enter a set around the steady state? With a
+// leak.
 #pragma once
 
 #include <optional>
@@ -8,7 +9,7 @@
 
 namespace veritrack::checker {
 
-/// What holds for all starts at all frequencies that were looked at: upper bounds.
+/// Of all starts at all frequencies that were checked: upper bounds.
 struct SteadyStart {
   Ball samples = zero;   ///< after which they are in Omega_1
   Ball level = zero;     ///< and at which level then
@@ -16,13 +17,13 @@ struct SteadyStart {
   Ball settling = zero;  ///< samples until they are in the last level
 };
 
-/// What the certificate says of them, which is as far as they are looked at: frequencies are cut until it
-/// holds.
+/// What the certificate says of them, which is as far as they are followed: frequencies are cut until it
+/// is proved.
 struct SteadyStartClaim {
   std::optional<Ball> samples, level, bound, settling;
 };
 
-/// Nothing when some start does not certainly come into the set. Starts outside are followed, with the
+/// Nothing when some start does not certainly enter the set. Starts outside are followed, with the
 /// design's noise, when there is no slew.
 std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& set,
                                         const std::vector<SteadyCell>& branch, const SteadyStartClaim& claim);

@@ -40,7 +40,7 @@ Linearized linearized(const Design& design, const StateVector& x, const Ball& om
   return result;
 }
 
-/// Holds A^-1 b for every A = 1 - dG/dX of the Jacobians; nothing when one of them may be singular.
+/// Contains A^-1 b for every A = 1 - dG/dX of the Jacobians; nothing when one of them may be singular.
 std::optional<StateVector> solved(const Linearized& local, const StateVector& b) {
   arb_mat_t a;
   arb_mat_t x;
@@ -171,7 +171,7 @@ std::optional<SteadyCell> steady_cell(const Design& design, const StateVector& s
 std::optional<StateVector> steady_state_at_zero(const Design& design) {
   constexpr int kSteps = 400;
   const Ball large = Ball(1000.0) * (design.r + design.q1 + design.q2);
-  // Exact matrices below (-1) or above (1) what a step leads to.
+  // Exact matrices below (-1) or above (1) the image of a step.
   const auto follow = [&](Symmetric<Ball> p, double side, int steps) {
     for (int i = 0; i < steps; ++i) {
       const Symmetric<Ball> next = polar_step<Ball>(design, {{zero, zero, zero}, p}, zero).covariance;

@@ -14,15 +14,15 @@ namespace veritrack::checker {
 constexpr std::size_t kStates = 9;
 using StateVector = std::array<Ball, kStates>;
 
-/// At every frequency of a cell, `middle + slope (omega - centre) + unique` holds exactly one fixed point,
-/// and `tight` in the place of `unique` holds it as well. `middle` and `slope` are exact.
+/// At every frequency of a cell, `middle + slope (omega - centre) + unique` contains exactly one fixed point,
+/// and `tight` in the place of `unique` contains it as well. `middle` and `slope` are exact.
 struct SteadyCell {
   double from, to;         ///< rad/sample
   Ball frequency, centre;  ///< all of them, and one
   StateVector middle, slope, unique, tight;
-  StateVector derivative;  ///< holds dX*/domega
+  StateVector derivative;  ///< contains dX*/domega
 
-  /// Holds X* at all of these frequencies of the cell.
+  /// Contains X* at all of these frequencies of the cell.
   [[nodiscard]] StateVector at(const Ball& omega) const;
 };
 

@@ -73,7 +73,7 @@ Limit limit_of(const Tree& design, const Promises& promises, Objections& objecti
   if (limit.below == Verdict::proved) {
     return limit;
   }
-  // A start that is off by as much is allowed, and is not below.
+  // A start with that much error is allowed, and is not below.
   const Ball start = read_number(design.at("assume").at("initial_frequency_error"), objections);
   const bool exceeded = certainly_at_most(value, start) ||
                         (promises.wrong_lock && certainly_at_most(value, *promises.wrong_lock));

@@ -8,14 +8,14 @@
 
 namespace veritrack::checker {
 
-/// What the verified sets that bear the assumed noise and slew prove of the assumed starts.
+/// What the verified sets that tolerate the assumed noise and slew prove of the assumed starts.
 struct Promises {
   bool starts_inside = false;
   std::optional<Ball> ultimate;    ///< limsup of |frequency error|, rad/sample: an upper bound
   std::optional<Ball> bound;       ///< of |frequency error| at every sample, rad/sample
   std::optional<Ball> settling;    ///< samples until it is within twice the ultimate bound that is claimed
   std::optional<Ball> wrong_lock;  ///< what |frequency error| ends above from some start: a lower bound
-  // Of sets that are never left, whatever the start: noise without slew (relative to the amplitude), slew
+  // Of invariant sets, whatever the start: noise without slew (relative to the amplitude), slew
   // without noise, and how far the set for the assumed noise and slew reaches in frequency, rad/sample. Lower
   // bounds.
   std::optional<Ball> noise, slew, reach;

@@ -14,7 +14,7 @@ class QuadratureBranch {
  public:
   explicit QuadratureBranch(const TrackerValues<Ball>& values) : values_(values) {}
 
-  /// Holds nu*(frequency), rad/sample; a ball of everything where the branch could not be followed.
+  /// Contains nu*(frequency), rad/sample; a ball of everything where the branch could not be followed.
   [[nodiscard]] Ball error_at(const Ball& frequency);
 
  private:

@@ -24,7 +24,7 @@ struct SteadyStateBias {
   Range frequency, mean;
 };
 
-/// Objects unless every quantity holds at the quantity "frequency", and those named ..._around at all
+/// Objects unless every quantity is true at the quantity "frequency", and those named ..._around at all
 /// frequencies within 0.002 rad/sample of it, and contraction_rate bounds the rate at which an invariant
 /// curve attracts in some norms.
 std::optional<SteadyStateBias> check_bias(const Tree& derivation, const SingleChannelDesign& design,

@@ -35,7 +35,7 @@ CellCovariance predicted(const CellCovariance& p, const Turn& turn, const Ball& 
 /// whatever its sign, only where P11 + r > 0: nothing is known of the result elsewhere.
 CellCovariance updated(const CellCovariance& p, const Ball& r);
 
-/// A matrix without remainders, at least (sign 1) or at most (sign -1) every one that `p` holds.
+/// A matrix without remainders, at least (sign 1) or at most (sign -1) every one that `p` contains.
 CellCovariance without_remainder(CellCovariance p, const Ball& sign);
 
 }  // namespace veritrack::checker

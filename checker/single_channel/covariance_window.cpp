@@ -23,7 +23,7 @@ class Window {
   /// `phase` and `frequency` of a sample that is among the last shares.size() samples of the window: there
   /// the phases should be known best. Before those samples, of which the lower bound is made, the signal
   /// turns by `settling` radians.
-  [[nodiscard]] bool holds(const CellSeries& phase, const CellSeries& frequency, double settling) const {
+  [[nodiscard]] bool is_proved(const CellSeries& phase, const CellSeries& frequency, double settling) const {
     constexpr double kMost = 50.0;
     const int before =
         static_cast<int>(std::ceil(std::clamp(settling / frequency.constant().near(), 1.0, kMost)));
@@ -40,7 +40,7 @@ class Window {
     // [[A, x], [x', c]] <= 2 diag(A, c).
     CellCovariance upper = diagonal(two * s_.signal_variance, two * s_.frequency_variance);
     CellCovariance lower = diagonal(zero, zero);
-    // A bound from above is one with a larger r, too: so the first samples, which find so much, are smoothed.
+    // Increasing r keeps the upper bound valid; we do so at first, when updates are large.
     Ball r = four * d_.r;
     for (int sample = 1 - before; sample <= window; ++sample) {
       const Turn turn = turn_into(sample);
@@ -144,28 +144,28 @@ struct Part {
   }
 };
 
-/// Bisects cells of phases and frequencies until the window holds in each, or there are too many.
+/// Bisects cells of phases and frequencies until the window is proved in each, or there are too many.
 class Cover {
  public:
   Cover(const Window& window, std::int64_t& cells) : window_(window), cells_(cells) {}
 
-  bool holds(const Part& phase, const Part& frequency, double settling, int level) {
+  bool is_proved(const Part& phase, const Part& frequency, double settling, int level) {
     ++cells_;
-    if (window_.holds({phase.middle(), phase.half_width(), zero},
-                      {frequency.middle(), zero, frequency.half_width()}, settling)) {
+    if (window_.is_proved({phase.middle(), phase.half_width(), zero},
+                          {frequency.middle(), zero, frequency.half_width()}, settling)) {
       return true;
     }
     constexpr int kDeepest = 32;
     if (level == kDeepest || --left_ < 0) {
       return false;
     }
-    // Where not even the middle alone does, the window is too short. At first this is looked at now and then;
-    // small cells bear a longer one.
+    // Where the middle alone fails, too, the window is too short. At first this is checked now and then;
+    // small cells allow a longer one.
     constexpr int kFirst = 12;
     constexpr int kNowAndThen = 4;
     constexpr double kLongest = 30.0;  // rad
     while (level <= kFirst && level % kNowAndThen == 0 && settling < kLongest &&
-           !window_.holds(phase.middle(), frequency.middle(), settling)) {
+           !window_.is_proved(phase.middle(), frequency.middle(), settling)) {
       settling *= 2.0;
     }
     const double next = level < kFirst ? settling : 1.2 * settling;
@@ -173,10 +173,10 @@ class Cover {
     constexpr double kMemory = 4.0;  // samples
     if (phase.high - phase.low > kMemory * (frequency.high - frequency.low)) {
       const auto [first, second] = phase.halves();
-      return holds(first, frequency, next, level + 1) && holds(second, frequency, next, level + 1);
+      return is_proved(first, frequency, next, level + 1) && is_proved(second, frequency, next, level + 1);
     }
     const auto [first, second] = frequency.halves();
-    return holds(phase, first, next, level + 1) && holds(phase, second, next, level + 1);
+    return is_proved(phase, first, next, level + 1) && is_proved(phase, second, next, level + 1);
   }
 
  private:
@@ -204,7 +204,8 @@ bool is_sensible(const WindowStatement& s, const SingleChannelDesign& d) {
 
 }  // namespace
 
-bool window_holds(const WindowStatement& statement, const SingleChannelDesign& design, std::int64_t& cells) {
+bool window_is_proved(const WindowStatement& statement, const SingleChannelDesign& design,
+                      std::int64_t& cells) {
   if (!is_sensible(statement, design)) {
     return false;
   }
@@ -215,7 +216,7 @@ bool window_holds(const WindowStatement& statement, const SingleChannelDesign& d
   const double highest = min(half * pi(), min(design.highest, pi() - design.lowest)).upper_double();
   const Window window(statement, design);
   constexpr double kSettling = 3.4;  // rad
-  return Cover(window, cells).holds({0.0, period}, {lowest, highest}, kSettling, 0);
+  return Cover(window, cells).is_proved({0.0, period}, {lowest, highest}, kSettling, 0);
 }
 
 }  // namespace veritrack::checker

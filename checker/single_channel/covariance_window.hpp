@@ -33,8 +33,9 @@ struct WindowStatement {
   Ball start_level, start_weight, start_signal, start_frequency;
 };
 
-/// True only when all of it holds at every phase, for every frequency of the design's band. Counts the cells
-/// of phase and frequency that it takes.
-bool window_holds(const WindowStatement& statement, const SingleChannelDesign& design, std::int64_t& cells);
+/// True only when all of it is proved at every phase, for every frequency of the design's band. Counts the
+/// cells of phase and frequency that it takes.
+bool window_is_proved(const WindowStatement& statement, const SingleChannelDesign& design,
+                      std::int64_t& cells);
 
 }  // namespace veritrack::checker

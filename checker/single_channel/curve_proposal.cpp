@@ -16,7 +16,7 @@ State image(const State& x, double phase, double frequency, const TrackerValues<
   return tone_step(x, frequency, phase + frequency, values);
 }
 
-/// Where the tracker is at `phase` long after it started from the truth.
+/// Where the tracker is at `phase` long after it started from an exact estimate.
 State settled(const TrackerValues<double>& values, double frequency, double phase) {
   constexpr int kSamples = 1000;
   State x{0.0, 0.0, 0.0, values.r + values.q1, 0.0, values.r + values.q1, 0.0, 0.0, values.q2};

@@ -19,7 +19,7 @@ class ErrorSet {
       kappa_.push_back(sqrt(one - share));
       sum_ += kappa_[kappa_.size() - 2];
     }
-    // |delta nu + i nu^2/2| falls short of the truth by at most |nu|^3/6, |nu| <= x sqrt(P33).
+    // |delta nu + i nu^2/2| falls short of the exact innovation by at most |nu|^3/6, |nu| <= x sqrt(P33).
     const Ball& variance = window_.frequency_variance;
     curvature_ = (window_.curvature + window_.radius * variance * sqrt(variance) / Ball(6.0)) /
                  sqrt(window_.signal_uncertainty);
@@ -94,7 +94,7 @@ class ErrorSet {
   Ball curvature_, input_;   ///< c, u
 };
 
-/// The set of this name, verified; none when the evidence has none, or it does not hold.
+/// The set of this name, verified; none when the evidence has none, or not all that it says is proved.
 std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& name,
                                      const SingleChannelDesign& design, std::int64_t& cells,
                                      Objections& objections) {
@@ -131,7 +131,7 @@ std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& 
   }
   const ErrorSet set(window, design, number("noise"), number("start_level"));
   if (certainly_not_negative(set.noise()) && certainly_positive(set.start()) && set.keeps(set.start()) &&
-      window_holds(window, design, cells)) {
+      window_is_proved(window, design, cells)) {
     return set;
   }
   objections.push_back("the set \"" + name + "\" is not certainly what its evidence says");
@@ -178,7 +178,7 @@ struct Starts {
   Ball level;
 };
 
-/// The assumed starts in the set that bounds their errors; when it does not hold them, every start in the set
+/// The assumed starts in the set that bounds their errors; when they are not in it, every start in the set
 /// "start-error".
 std::optional<Starts> starts_of(const ErrorSets& sets, bool starts_inside, bool invariant) {
   if (starts_inside) {

@@ -8,7 +8,7 @@
 
 namespace veritrack::checker {
 
-/// By id. They hold, or fail, for every design.
+/// By id. They are true, or false, for every design.
 std::map<std::string, Claim> proposition_claims();
 
 }  // namespace veritrack::checker

@@ -46,8 +46,8 @@ std::vector<Quantity> quantities_of(const ErrorEquation& e) {
 
 Condition start_covariance(const ErrorEquation& e, const Design& d) {
   const bool known = e.smallest.finite() && e.largest.finite();
-  const bool holds = d.covariance.has_value() || d.without_leak();
-  return {"start-covariance", R"(\underline p I \le P(0 \mid 0) \le \bar p I)", proved_if(known && holds),
+  const bool is_kept = d.covariance.has_value() || d.without_leak();
+  return {"start-covariance", R"(\underline p I \le P(0 \mid 0) \le \bar p I)", proved_if(known && is_kept),
           e.smallest, e.largest};
 }
 

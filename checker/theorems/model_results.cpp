@@ -79,13 +79,13 @@ Derivation riccati_bounds(const Design& d, const Tree& /*claimed*/) {
     found.quantities.push_back({"q_" + name, c.q});
     // Only what a filter attains refutes.
     const Ball reached = phase_frequency_covariance(d.q1, d.q2, d.r, d.epsilon, m);
-    const bool holds = certainly_at_most(sound, c.p);
+    const bool is_proved = certainly_at_most(sound, c.p);
     Condition p{"p-" + name,
                 R"(\lVert P(k \mid k) \rVert \le p \text{ for } \bigl||z| - 1\bigr| \le \epsilon_r)",
-                holds                          ? Verdict::proved
+                is_proved                      ? Verdict::proved
                 : certainly_less(c.p, reached) ? Verdict::refuted
                                                : Verdict::undecided,
-                holds ? sound : reached,
+                is_proved ? sound : reached,
                 c.p,
                 Sense::bounds_above};
     found.conditions.push_back(p);

@@ -40,7 +40,7 @@ void check_feasibility(const Tree& claimed, const std::optional<Tube>& noise, co
     objections.emplace_back("feasibility: not shown for every design");
   }
   if (verdict == Verdict::refuted) {
-    // F P F' <= mu Q holds for no mu: alpha = 1, and no radius bears any noise.
+    // F P F' <= mu Q for no mu: alpha = 1, and no radius tolerates any noise.
     check_verdict("refuted", certainly_equal(d.q1, zero) ? Verdict::refuted : Verdict::undecided,
                   "feasibility", objections);
     if (const Tree* bound = claimed.find("lower_bound")) {
@@ -49,23 +49,23 @@ void check_feasibility(const Tree& claimed, const std::optional<Tube>& noise, co
     return;
   }
   if (!noise) {
-    objections.emplace_back("feasibility: no tube in the evidence bears noise");
+    objections.emplace_back("feasibility: no tube in the evidence tolerates noise");
     return;
   }
   const Tree& witness = claimed.at("witness");
   const Ball w = read_enclosure(witness.at("c_1"), "c_1", objections) * sqrt(d.q2);
   const Ball v = read_enclosure(witness.at("c_2"), "c_2", objections) * sqrt(d.r);
   const Ball start = noise->radius / sqrt(noise->q());
-  const bool holds = certainly_positive(w) && certainly_positive(v) && certainly_positive(start) &&
-                     noise->invariant(noise->disturbance(w, v));
-  check_verdict("proved", proved_if(holds), "feasibility", objections);
+  const bool is_proved = certainly_positive(w) && certainly_positive(v) && certainly_positive(start) &&
+                         noise->invariant(noise->disturbance(w, v));
+  check_verdict("proved", proved_if(is_proved), "feasibility", objections);
   check_enclosure(witness.at("window"), {"window", Ball(noise->window)}, objections);
   check_enclosure(witness.at("epsilon_r"), {"epsilon_r", noise->plane}, objections);
   check_enclosure(witness.at("frequency_tube"), {"frequency_tube", noise->frequency}, objections);
   check_enclosure(witness.at("radius"), {"radius", noise->radius}, objections);
   check_enclosure(witness.at("initial_error_bound"), {"initial_error_bound", start}, objections);
   if (witness.members().size() != 7) {
-    objections.emplace_back("feasibility: the witness holds more than was checked");
+    objections.emplace_back("feasibility: the witness contains more than was checked");
   }
 }
 
@@ -85,11 +85,11 @@ void check_repaired_theorem(const Tree& claimed, const Design& d, Objections& ob
   }
   if (noise && noise->invariant(zero)) {
     found.quantities.push_back(
-        {"noise_bound", noise->borne() / noise->measurement_gain, Sense::bounds_below});
+        {"noise_bound", noise->tolerated() / noise->measurement_gain, Sense::bounds_below});
   }
   if (process && process->invariant(zero)) {
     found.quantities.push_back(
-        {"process_noise_bound", process->borne() / process->process_gain, Sense::bounds_below});
+        {"process_noise_bound", process->tolerated() / process->process_gain, Sense::bounds_below});
   }
   const Ball smallest = min(d.q1, d.q2);
   found.conditions = {

@@ -117,7 +117,7 @@ void check_feasibility(const Tree& claimed, const Design& d, Reading reading, Ob
     check_enclosure(best->at("lhs_2_43"), {"best found", c.beta * (c.zeta + c.eta) + one - c.one_minus_alpha},
                     objections);
     if (best->members().size() != 5) {
-      objections.emplace_back("feasibility: best_found holds more than a point and its value");
+      objections.emplace_back("feasibility: best_found contains more than a point and its value");
     }
   }
 }

@@ -37,10 +37,10 @@ class TubeCheck {
         noise_(diagonal(design.q1, design.q1, design.q2)),
         alpha2_(square(one - tube.one_minus_alpha)) {}
 
-  [[nodiscard]] bool holds() const {
+  [[nodiscard]] bool is_proved() const {
     return definite(lower_) && definite(tube_.upper - lower_) &&
-           (tube_.window == 0 ? keeps_bounds() : window_holds()) &&
-           everywhere([&](const Matrix3& step) { return constants_hold(step); });
+           (tube_.window == 0 ? keeps_bounds() : window_is_proved()) &&
+           everywhere([&](const Matrix3& step) { return constants_are_proved(step); });
   }
 
  private:
@@ -55,16 +55,16 @@ class TubeCheck {
   }
 
   /// For all amplitudes and turns of the tube.
-  [[nodiscard]] bool everywhere(const Predicate& holds) const {
+  [[nodiscard]] bool everywhere(const Predicate& predicate) const {
     const Ball turn = two * arcsine(tube_.plane) + tube_.frequency;
     const double half_turn = turn.upper_double();
     const double width = tube_.plane.upper_double();
-    return certainly_less(turn, one) && holds_over(holds, -width, width, -half_turn, half_turn, kDepth);
+    return certainly_less(turn, one) && is_true_over(predicate, -width, width, -half_turn, half_turn, kDepth);
   }
 
-  [[nodiscard]] bool holds_over(const Predicate& holds, double a_low, double a_high, double turn_low,
-                                double turn_high, int depth) const {
-    if (holds(
+  [[nodiscard]] bool is_true_over(const Predicate& predicate, double a_low, double a_high, double turn_low,
+                                  double turn_high, int depth) const {
+    if (predicate(
             step(one + Ball::hull(Ball(a_low), Ball(a_high)), Ball::hull(Ball(turn_low), Ball(turn_high))))) {
       return true;
     }
@@ -73,10 +73,10 @@ class TubeCheck {
     }
     const double a = 0.5 * (a_low + a_high);
     const double turn = 0.5 * (turn_low + turn_high);
-    return depth % 2 == 0 ? holds_over(holds, a_low, a, turn_low, turn_high, depth - 1) &&
-                                holds_over(holds, a, a_high, turn_low, turn_high, depth - 1)
-                          : holds_over(holds, a_low, a_high, turn_low, turn, depth - 1) &&
-                                holds_over(holds, a_low, a_high, turn, turn_high, depth - 1);
+    return depth % 2 == 0 ? is_true_over(predicate, a_low, a, turn_low, turn_high, depth - 1) &&
+                                is_true_over(predicate, a, a_high, turn_low, turn_high, depth - 1)
+                          : is_true_over(predicate, a_low, a_high, turn_low, turn, depth - 1) &&
+                                is_true_over(predicate, a_low, a_high, turn, turn_high, depth - 1);
   }
 
   /// P(k+1|k+1) of a P(k|k).
@@ -108,7 +108,7 @@ class TubeCheck {
 
   /// After window + 1 updates from any P >= 0 the covariance is in its bounds: update by update, between
   /// matrices near those of exact estimates, with more room than the tube takes.
-  [[nodiscard]] bool window_holds() const {
+  [[nodiscard]] bool window_is_proved() const {
     bool above = false;
     bool below = false;
     for (const double room : {0x1p-20, 0x1p-16, 0x1p-13, 0x1p-10, 0x1p-7, 0x1p-4}) {
@@ -160,7 +160,7 @@ class TubeCheck {
     return result;
   }
 
-  [[nodiscard]] bool constants_hold(const Matrix3& step) const {
+  [[nodiscard]] bool constants_are_proved(const Matrix3& step) const {
     const Matrix3 carried = congruent(step, tube_.upper);
     const Matrix3 most = carried + noise_;
     const Matrix3 least = congruent(step, lower_) + noise_;
@@ -216,7 +216,8 @@ std::optional<Tube> verified_tube(const Tree& derivation, const std::string& nam
                         certainly_positive(tube.process_gain) && certainly_positive(tube.measurement_gain) &&
                         certainly_positive(design.q1) && certainly_not_negative(design.epsilon) &&
                         certainly_less(design.epsilon, one);
-  if (sensible && symmetric(tube.upper) && symmetric(tube.information) && TubeCheck(tube, design).holds()) {
+  if (sensible && symmetric(tube.upper) && symmetric(tube.information) &&
+      TubeCheck(tube, design).is_proved()) {
     return tube;
   }
   objections.push_back("the tube \"" + name + "\" is not certainly what its evidence says");

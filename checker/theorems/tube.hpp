@@ -15,7 +15,7 @@ struct Tube {
   Ball plane, frequency;  ///< |z(k|k) - z(k)| and |x3(k|k) - x3(k)| at most
   Ball one_minus_alpha, curvature, process_gain, measurement_gain, s, radius;
   Matrix3 upper, information;  ///< P(k|k) <= upper, P(k|k)^-1 <= information
-  int window = 0;  ///< they hold after so many steps whatever P(0|0) was; 0: the filter does not leave them
+  int window = 0;  ///< they are true after so many steps whatever P(0|0) was; 0: the filter keeps them
   [[nodiscard]] Ball plane_gain() const {
     return sqrt(larger_eigenvalue(upper[0][0], upper[1][0], upper[1][1]));
   }
@@ -31,11 +31,11 @@ struct Tube {
            certainly_at_most(radius, frequency / frequency_gain()) &&
            certainly_at_most(curvature * square(radius) + disturbance, one_minus_alpha * radius);
   }
-  /// The largest disturbance that its radius bears.
-  [[nodiscard]] Ball borne() const { return one_minus_alpha * radius - curvature * square(radius); }
+  /// The largest disturbance that its radius tolerates.
+  [[nodiscard]] Ball tolerated() const { return one_minus_alpha * radius - curvature * square(radius); }
 };
 
-/// The tube of this name, verified; none when the evidence has none, or it does not hold.
+/// The tube of this name, verified; none when the evidence has none, or not all that it says is proved.
 std::optional<Tube> verified_tube(const Tree& derivation, const std::string& name, const Design& design,
                                   Objections& objections);
 

@@ -6,7 +6,7 @@
 
 using namespace veritrack::checker;
 
-TEST_CASE("a tree holds what the text says, in its order") {
+TEST_CASE("a tree contains what the text says, in its order") {
   const Tree tree = read_json(R"({"b": [true, "x", 3, null], "a": {"c": false}})");
   CHECK(tree.kind() == Tree::Kind::object);
   REQUIRE(tree.members().size() == 2);

@@ -60,7 +60,7 @@ TEST_CASE("verdicts together") {
   CHECK_THROWS_AS((void)verdict_from("PROVED"), Malformed);
 }
 
-TEST_CASE("an enclosure holds a value, or bounds it") {
+TEST_CASE("an enclosure contains a value, or bounds it") {
   const Ball inside(1.5);
   const Ball outside(2.5);
   CHECK(objections_to(enclosure(), {"q", inside}).empty());

@@ -57,21 +57,21 @@ Eigen::Vector4d random_rest(test::Random& random) {
   return rest;
 }
 
-/// All bounds hold with room to spare and none does that was seen broken.
+/// All bounds are proved with room to spare, and none that was seen broken.
 void check_bounds(const checker::KklDesign& design, const Errors& seen, double room) {
   using checker::SignalCells;
   const SignalCells cells(design, Ball(kSettlingTime));
-  const auto holds = [&](auto statement, double bound) {
+  const auto is_proved = [&](auto statement, double bound) {
     return cells.always([&](const checker::KklCell& cell) { return (cells.*statement)(cell, Ball(bound)); });
   };
-  CHECK(holds(&SignalCells::frequency_error_at_most, room * seen.frequency));
-  CHECK(holds(&SignalCells::amplitude_error_at_most, 1.1 * room * seen.amplitude));
-  CHECK(holds(&SignalCells::relative_square_at_least, 1.0 - room * (1.0 - seen.least_square)));
-  CHECK(holds(&SignalCells::ratio_at_least, seen.least_ratio / room));
-  CHECK(!holds(&SignalCells::frequency_error_at_most, 0.95 * seen.frequency));
-  CHECK(!holds(&SignalCells::amplitude_error_at_most, 0.95 * seen.amplitude));
-  CHECK(!holds(&SignalCells::relative_square_at_least, 1.0 - 0.95 * (1.0 - seen.least_square)));
-  CHECK(!holds(&SignalCells::ratio_at_least, seen.least_ratio / 0.95));
+  CHECK(is_proved(&SignalCells::frequency_error_at_most, room * seen.frequency));
+  CHECK(is_proved(&SignalCells::amplitude_error_at_most, 1.1 * room * seen.amplitude));
+  CHECK(is_proved(&SignalCells::relative_square_at_least, 1.0 - room * (1.0 - seen.least_square)));
+  CHECK(is_proved(&SignalCells::ratio_at_least, seen.least_ratio / room));
+  CHECK(!is_proved(&SignalCells::frequency_error_at_most, 0.95 * seen.frequency));
+  CHECK(!is_proved(&SignalCells::amplitude_error_at_most, 0.95 * seen.amplitude));
+  CHECK(!is_proved(&SignalCells::relative_square_at_least, 1.0 - 0.95 * (1.0 - seen.least_square)));
+  CHECK(!is_proved(&SignalCells::ratio_at_least, seen.least_ratio / 0.95));
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ TEST_CASE(
 TEST_CASE("without a disturbance, what is left of the start") {
   using checker::SignalCells;
   const SignalCells cells(design(), Ball(kSettlingTime));
-  const auto holds = [&](double bound) {
+  const auto is_proved = [&](double bound) {
     return cells.always(
         [&](const checker::KklCell& cell) { return cells.frequency_error_at_most(cell, Ball(bound)); });
   };
@@ -133,6 +133,6 @@ TEST_CASE("without a disturbance, what is left of the start") {
   for (std::int64_t i = 0; i < test::effort(5'000); ++i) {
     seen.look(random.uniform(0.0, 6.3), random_rest(random));
   }
-  CHECK(holds(1.5 * seen.frequency));
-  CHECK(!holds(0.95 * seen.frequency));
+  CHECK(is_proved(1.5 * seen.frequency));
+  CHECK(!is_proved(0.95 * seen.frequency));
 }

@@ -35,7 +35,7 @@ inline bool verified(const Json& certificate) {
 }
 
 /// An accepted certificate, and in how many places each test changes it: as many as cost it a second or two.
-/// With VERITRACK_TEST_EFFORT=40 in all of them.
+/// With VERITRACK_TEST_EFFORT=60 in all of them.
 struct Subject {
   const char* name;
   std::int64_t places;

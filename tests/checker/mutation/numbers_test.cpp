@@ -20,7 +20,7 @@ bool is_evidence(const std::string& place) {
          (place.starts_with("/derivations/") && place.find("/evidence/") != std::string::npos);
 }
 
-/// Bounds on the KKL observer's errors, and the time from which they hold: what is a little better may be
+/// Bounds on the KKL observer's errors, and the time from which they are true: what is a little better may be
 /// proved anew, on the checker's own cells.
 bool is_kkl_bound(const std::string& name, const Pointer& at) {
   static const std::set<std::string> bounds{"frequency_error_bound", "amplitude_error_bound", "settling_time",
@@ -53,7 +53,7 @@ void move(Json& enclosure, double factor) {
 }
 
 /// A bound made weaker (lhs: of an inequality that is proved all the same); another design, of which
-/// everything that is said was proved anew; an enclosure wider than the change, which may hold the value
+/// everything that is said was proved anew; an enclosure wider than the change, which may contain the value
 /// before and after; or another point of the search, at which the value is the same to as many digits as the
 /// enclosure has.
 bool says_no_more(const Json& enclosure, const Pointer& at, double factor) {
@@ -105,7 +105,7 @@ TEST_CASE("numbers one part in a thousand away") {
         ++count.harmless;
         // Harmless: an end of an enclosure moved outward, which the decimals beside it do not allow; or
         // another set, of which everything that the certificate says was proved anew.
-        // Or an end of an enclosure so wide that it holds the value all the same.
+        // Or an end of an enclosure so wide that it contains the value all the same.
         const Json& owner = certificate[at.parent_pointer()];
         const bool wide = owner.is_object() && owner.contains("hi") &&
                           std::fabs(number_of(owner["hi"]) - number_of(owner["lo"])) >

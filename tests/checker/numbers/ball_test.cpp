@@ -14,7 +14,7 @@ namespace {
 using namespace veritrack;
 using namespace veritrack::checker;
 
-bool holds(const Ball& ball, const Ball& point) {
+bool contains(const Ball& ball, const Ball& point) {
   return arb_contains(ball.raw(), point.raw()) != 0;
 }
 
@@ -35,8 +35,8 @@ TEST_CASE("what is not a number, or may be infinite, is certain of nothing") {
 TEST_CASE("decimals and hexadecimal numbers") {
   CHECK(certainly_equal(from_decimal("0.5"), Ball(0.5)));
   CHECK(certainly_equal(from_decimal("-1_000.25e+1"), Ball(-10002.5)));
-  CHECK(holds(from_decimal("0.1") * Ball(10.0), Ball(1.0)));
-  CHECK(!holds(from_decimal("0.1"), Ball(0.1)));  // the double is another number
+  CHECK(contains(from_decimal("0.1") * Ball(10.0), Ball(1.0)));
+  CHECK(!contains(from_decimal("0.1"), Ball(0.1)));  // the double is another number
   for (const char* text : {"", "-", ".5", "1.", "1e", "1e+", "0x1p+0", "nan", "inf", "1 ", " 1", "1__0", "_1",
                            "1_", "1e99999", "1,5", "[1 +/- 2]", "1e5.5"}) {
     CHECK_THROWS_AS_MESSAGE((void)from_decimal(text), std::invalid_argument, text);
@@ -50,7 +50,7 @@ TEST_CASE("decimals and hexadecimal numbers") {
   }
 }
 
-TEST_CASE("ratios over balls hold their values at points of them") {
+TEST_CASE("ratios over balls contain their values at points of them") {
   test::Random random(73);
   for (std::int64_t i = 0; i < test::effort(2000); ++i) {
     const double centre = random.uniform(-2.9, 2.9) * std::exp2(-static_cast<double>(random.below(60)));
@@ -99,7 +99,7 @@ TEST_CASE("matrices: eigenvalues, inverse, definiteness") {
       for (std::size_t column = 0; column < 3; ++column) {
         const Ball product =
             p[row][0] * over[0][column] + p[row][1] * over[1][column] + p[row][2] * over[2][column];
-        CHECK(holds(product, Ball(row == column ? 1.0 : 0.0)));
+        CHECK(contains(product, Ball(row == column ? 1.0 : 0.0)));
       }
     }
   }

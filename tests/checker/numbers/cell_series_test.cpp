@@ -37,7 +37,7 @@ void check_contains(const CellSeries& series, double value) {
   CHECK(value - 1e-12 <= range.upper().near());
 }
 
-TEST_CASE("a series holds every value over its cell") {
+TEST_CASE("a series contains every value over its cell") {
   veritrack::test::Random random;
   const auto runs = veritrack::test::effort(200);
   for (std::int64_t run = 0; run < runs; ++run) {

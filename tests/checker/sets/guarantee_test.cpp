@@ -30,9 +30,9 @@ const std::string start =
     "(2.0), ";
 const std::string below = R"({"frequency_error_below": )" + exactly("0.75", "0x1.8p-1") + "}";
 
-bool holds(const std::string& id, const std::string& statement, const std::string& verdict,
-           const std::string& tables, const Promises& promises,
-           Frequencies frequencies = Frequencies::every) {
+bool is_verified(const std::string& id, const std::string& statement, const std::string& verdict,
+                 const std::string& tables, const Promises& promises,
+                 Frequencies frequencies = Frequencies::every) {
   const Tree certificate = read_json(R"({"design": )" + tables + "}");
   const Tree claim = read_json(R"({"id": ")" + id + R"(", "statement": ")" + statement +
                                R"(", "verdict": ")" + verdict + R"(", "evidence": {}})");
@@ -54,14 +54,16 @@ TEST_CASE("the frequency error stays below what is asked") {
   const std::string statement = "the frequency error stays below 0.75 rad/sample for ever";
   const char* id = "ekf/frequency-error-bound";
   CHECK(requirements(read_json(tables)) == std::vector<std::string>{id});
-  CHECK(holds(id, statement, "proved", tables, bound(0.7)));
-  CHECK(!holds(id, statement, "proved", tables, bound(0.75)));
-  CHECK(!holds(id, statement, "proved", tables, Promises{}));
-  CHECK(!holds(id, statement, "refuted", tables, Promises{}));
-  CHECK(!holds(id, "the frequency error stays below 0.7 rad/sample for ever", "proved", tables, bound(0.6)));
+  CHECK(is_verified(id, statement, "proved", tables, bound(0.7)));
+  CHECK(!is_verified(id, statement, "proved", tables, bound(0.75)));
+  CHECK(!is_verified(id, statement, "proved", tables, Promises{}));
+  CHECK(!is_verified(id, statement, "refuted", tables, Promises{}));
+  CHECK(!is_verified(id, "the frequency error stays below 0.7 rad/sample for ever", "proved", tables,
+                     bound(0.6)));
   // A start that is off by as much as the limit refutes it.
   const std::string less = design(R"({"frequency_error_below": )" + exactly("0.5", "0x1p-1") + "}");
-  CHECK(holds(id, "the frequency error stays below 0.5 rad/sample for ever", "refuted", less, Promises{}));
+  CHECK(is_verified(id, "the frequency error stays below 0.5 rad/sample for ever", "refuted", less,
+                    Promises{}));
 }
 
 TEST_CASE("the sentence is the one that the assumptions make") {
@@ -71,12 +73,13 @@ TEST_CASE("the sentence is the one that the assumptions make") {
   const auto sentence = [&](const std::string& number) {
     return assumed + start + stays + number + " rad/sample.";
   };
-  CHECK(holds("ekf/guarantee", sentence("0.7"), "proved", tables, bound(0.7)));
-  CHECK(!holds("ekf/guarantee", sentence("0.69"), "proved", tables, bound(0.7)));
-  CHECK(!holds("ekf/guarantee", sentence("0.8"), "proved", tables, bound(0.8)));
-  CHECK(!holds("ekf/guarantee", sentence("0.7"), "proved", tables, Promises{}));
+  CHECK(is_verified("ekf/guarantee", sentence("0.7"), "proved", tables, bound(0.7)));
+  CHECK(!is_verified("ekf/guarantee", sentence("0.69"), "proved", tables, bound(0.7)));
+  CHECK(!is_verified("ekf/guarantee", sentence("0.8"), "proved", tables, bound(0.8)));
+  CHECK(!is_verified("ekf/guarantee", sentence("0.7"), "proved", tables, Promises{}));
   const std::string quieter = "With measurement noise of at most 0.25 and at a constant frequency, ";
-  CHECK(!holds("ekf/guarantee", quieter + start + stays + "0.7 rad/sample.", "proved", tables, bound(0.7)));
+  CHECK(!is_verified("ekf/guarantee", quieter + start + stays + "0.7 rad/sample.", "proved", tables,
+                     bound(0.7)));
 }
 
 TEST_CASE("a guarantee for the assumed band says so, and no other") {
@@ -85,7 +88,8 @@ TEST_CASE("a guarantee for the assumed band says so, and no other") {
   const std::string unbanded = "With measurement noise of at most 0.125 and at a constant frequency, ";
   const std::string ends = "the frequency error never exceeds 0.7 rad/sample.";
   const auto is_proved = [&](const std::string& assumed, Frequencies frequencies) {
-    return holds("ekf/guarantee", assumed + start + ends, "proved", design("{}"), bound(0.7), frequencies);
+    return is_verified("ekf/guarantee", assumed + start + ends, "proved", design("{}"), bound(0.7),
+                       frequencies);
   };
   CHECK(is_proved(banded, Frequencies::assumed_band));
   CHECK(!is_proved(unbanded, Frequencies::assumed_band));
@@ -99,10 +103,10 @@ TEST_CASE("sizes of sets: noise is certified relative to the amplitude") {
       "noise of at most 0.5 at a constant frequency is borne: a set of errors is never left";
   Promises promises;
   promises.noise = Ball(0.25);
-  CHECK(holds("ekf/largest-noise", statement, "proved", tables, promises));
+  CHECK(is_verified("ekf/largest-noise", statement, "proved", tables, promises));
   promises.noise = Ball(0.24);
-  CHECK(!holds("ekf/largest-noise", statement, "proved", tables, promises));
-  CHECK(!holds("ekf/largest-noise", statement, "proved", tables, Promises{}));
+  CHECK(!is_verified("ekf/largest-noise", statement, "proved", tables, promises));
+  CHECK(!is_verified("ekf/largest-noise", statement, "proved", tables, Promises{}));
 }
 
 TEST_CASE("a requirement that is not known has no claim") {

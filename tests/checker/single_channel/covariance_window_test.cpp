@@ -78,20 +78,20 @@ WindowStatement true_statement(const Extremes& seen) {
   return statement;
 }
 
-bool holds(const WindowStatement& statement, const checker::SingleChannelDesign& design) {
+bool is_proved(const WindowStatement& statement, const checker::SingleChannelDesign& design) {
   std::int64_t cells = 0;
-  return window_holds(statement, design, cells);
+  return window_is_proved(statement, design, cells);
 }
 
 TEST_CASE("what is true of the tracker that runs is accepted, what is not is refused") {
   const Extremes seen = along_a_tone();
   const checker::SingleChannelDesign design = design_of_the_tone();
   const WindowStatement statement = true_statement(seen);
-  REQUIRE(holds(statement, design));
+  REQUIRE(is_proved(statement, design));
   const auto refused = [&](Ball WindowStatement::*number, double value) {
     WindowStatement changed = statement;
     changed.*number = Ball(value);
-    return !holds(changed, design);
+    return !is_proved(changed, design);
   };
   CHECK(refused(&WindowStatement::frequency_variance, 0.999 * seen.most_p33));
   CHECK(refused(&WindowStatement::signal_variance, 0.999 * seen.most_signal));
@@ -105,20 +105,20 @@ TEST_CASE("what is true of the tracker that runs is accepted, what is not is ref
   CHECK(refused(&WindowStatement::slew, 0.1));
   WindowStatement all_forgotten = statement;
   all_forgotten.shares = {Ball(0.9)};
-  CHECK(!holds(all_forgotten, design));
+  CHECK(!is_proved(all_forgotten, design));
   WindowStatement empty = statement;
   empty.shares.clear();
-  CHECK(!holds(empty, design));
+  CHECK(!is_proved(empty, design));
 }
 
 TEST_CASE("a window is only for a tracker without a leak, with process noise in the amplitude") {
   const WindowStatement statement = true_statement(along_a_tone());
   checker::SingleChannelDesign leaking = design_of_the_tone();
   leaking.epsilon = Ball(1e-6);
-  CHECK(!holds(statement, leaking));
+  CHECK(!is_proved(statement, leaking));
   checker::SingleChannelDesign undriven = design_of_the_tone();
   undriven.q1 = Ball(0.0);
-  CHECK(!holds(statement, undriven));
+  CHECK(!is_proved(statement, undriven));
 }
 
 TEST_CASE("a frequency and pi less it are the same to the covariance") {
@@ -126,9 +126,9 @@ TEST_CASE("a frequency and pi less it are the same to the covariance") {
   checker::SingleChannelDesign mirrored = design_of_the_tone();
   mirrored.lowest = mirrored.highest = checker::pi() - Ball(kFrequency);
   WindowStatement statement = true_statement(seen);
-  CHECK(holds(statement, mirrored));
+  CHECK(is_proved(statement, mirrored));
   statement.frequency_variance = Ball(0.999 * seen.most_p33);
-  CHECK(!holds(statement, mirrored));
+  CHECK(!is_proved(statement, mirrored));
 }
 
 }  // namespace

@@ -45,12 +45,12 @@ void improve(std::optional<Ball>& best, const Ball& bound) {
 
 /// What the sets promise of the assumed starts, and the sets that contain them. When none does: of every
 /// start in the set "start-error".
-struct Starts {
+struct StartSets {
   Promises promises;
   std::vector<const Setting*> bases;
 };
-Starts follow_starts(const std::vector<CertifiedSet>& sets, const Setting* whole, const Design& design) {
-  Starts found;
+StartSets follow_starts(const std::vector<CertifiedSet>& sets, const Setting* whole, const Design& design) {
+  StartSets found;
   Promises& promises = found.promises;
   const std::vector<const Setting*> useful = usable(sets, design);
   for (const Setting* set : useful) {
@@ -77,7 +77,7 @@ Starts follow_starts(const std::vector<CertifiedSet>& sets, const Setting* whole
 }
 
 /// Is it true of the starts of some base?
-bool settles(const Starts& starts, const Design& design, const SettlingClaim& claim) {
+bool settles(const StartSets& starts, const Design& design, const SettlingClaim& claim) {
   return certainly_not_negative(claim.samples) &&
          std::any_of(starts.bases.begin(), starts.bases.end(), [&](const Setting* base) {
            const Ball level = starts.promises.starts_inside ? start_level(*base, design) : base->radius;
@@ -119,7 +119,7 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
   const Setting* whole = first_of(sets, "start-error");
   const Setting* noisy = first_of(sets, "largest-noise");
   const Setting* slewing = first_of(sets, "largest-slew");
-  Starts starts = follow_starts(sets, whole, design);
+  StartSets starts = follow_starts(sets, whole, design);
   Promises& promises = starts.promises;
   Derivation found;
   found.title = "Contraction of the errors in a set that the tracker never leaves";
@@ -131,20 +131,15 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
   }
   promises.noise = noisy != nullptr ? std::optional(noisy->noise) : std::nullopt;
   promises.slew = slewing != nullptr ? std::optional(slewing->slew) : std::nullopt;
-  const auto add = [&](const char* name, const std::optional<Ball>& value, Sense sense) {
-    found.quantities.push_back({name, value.value_or(Ball::everything()), sense});
-  };
-  add("ultimate_frequency_error", promises.ultimate, Sense::bounds_above);
-  add("frequency_error_bound", promises.bound, Sense::bounds_above);
-  add("largest_noise", promises.noise, Sense::bounds_below);
-  add("largest_slew", promises.slew, Sense::bounds_below);
+  add_bounds(promises, found);
   if (const auto claim = settling_claim(claimed.at("quantities"))) {
     const std::optional<Ball> samples =
         settles(starts, design, *claim) ? std::optional(claim->samples) : std::nullopt;
     if (promises.starts_inside) {
       promises.settling = samples;
     }
-    add("settling_samples", samples, Sense::bounds_above);
+    found.quantities.push_back(
+        {"settling_samples", samples.value_or(Ball::everything()), Sense::bounds_above});
   }
   found.conditions = conditions_of(whole, promises, design);
   check_derivation(claimed, found, objections);

@@ -103,9 +103,9 @@ double add_moved(const Matrix<Ball>& slope, const Ball& way, Matrix<Ball>& sum) 
   return influence;
 }
 
-class Cover {
+class CellCover {
  public:
-  Cover(const Setting& setting, std::int64_t& cells) : setting_(setting), cells_(cells) {}
+  CellCover(const Setting& setting, std::int64_t& cells) : setting_(setting), cells_(cells) {}
 
   bool is_proved(Cell cell, int depth) {
     if (++cells_ > kMostCells || !clip(cell)) {
@@ -196,7 +196,7 @@ bool contracts(const Setting& setting, std::int64_t& cells) {
   constexpr int kAngles = 8;
   constexpr int kDepth = 24;
   const double half_turn = pi().upper_double();
-  Cover cover(setting, cells);
+  CellCover cover(setting, cells);
   for (int i = 0; i < kScales; ++i) {
     for (int j = 0; j < kAngles; ++j) {
       // The mirror image (psi, nu, P12, P13, v2, w) -> -(...) commutes with the step: 0 <= beta <= pi

@@ -177,7 +177,7 @@ std::array<S, 2> move_estimate(const SteadySetting& setting, const S& s, const S
     return parts[0][i] + turn.alpha * parts[1][i] + turn.c * parts[2][i];
   };
   const std::array<S, 2> moved_by{total(0), total(1)};
-  const std::array<S, 2> z{turn.estimate[0] + s * moved_by[0], turn.estimate[1] + s * moved_by[1]};
+  std::array<S, 2> z{turn.estimate[0] + s * moved_by[0], turn.estimate[1] + s * moved_by[1]};
   const Secant<S> from_steady = secant(turn.estimate, z);
   step.turn = from_steady.angle[0] * moved_by[0] + from_steady.angle[1] * moved_by[1];
   step.along = from_steady.dot;

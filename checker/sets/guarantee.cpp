@@ -69,7 +69,7 @@ Limit limit_of(const Tree& design, const Promises& promises, Objections& objecti
     return {};
   }
   const Ball value = read_number(*asked, objections);
-  const Limit limit{asked->at("text").text(), proved_if(certainly_less(bound_of(promises), value))};
+  Limit limit{asked->at("text").text(), proved_if(certainly_less(bound_of(promises), value))};
   if (limit.below == Verdict::proved) {
     return limit;
   }
@@ -116,6 +116,16 @@ Claim sentence_of(const std::string& statement, const std::string& start, const 
 }
 
 }  // namespace
+
+void add_bounds(const Promises& promises, Derivation& found) {
+  const auto add = [&](const char* name, const std::optional<Ball>& value, Sense sense) {
+    found.quantities.push_back({name, value.value_or(Ball::everything()), sense});
+  };
+  add("ultimate_frequency_error", promises.ultimate, Sense::bounds_above);
+  add("frequency_error_bound", promises.bound, Sense::bounds_above);
+  add("largest_noise", promises.noise, Sense::bounds_below);
+  add("largest_slew", promises.slew, Sense::bounds_below);
+}
 
 bool is_guarantee(const std::string& id) {
   const auto& sizes = least_sizes();

@@ -21,6 +21,10 @@ struct Promises {
   std::optional<Ball> noise, slew, reach;
 };
 
+/// The bounds on the frequency error, and on the noise and slew that are tolerated, as a derivation states
+/// them.
+void add_bounds(const Promises& promises, Derivation& found);
+
 /// The frequencies of which a guarantee speaks: those that are assumed, or every one below Nyquist.
 enum class Frequencies { assumed_band, every };
 

@@ -145,9 +145,9 @@ struct Part {
 };
 
 /// Bisects cells of phases and frequencies until the window is proved in each, or there are too many.
-class Cover {
+class WindowCover {
  public:
-  Cover(const Window& window, std::int64_t& cells) : window_(window), cells_(cells) {}
+  WindowCover(const Window& window, std::int64_t& cells) : window_(window), cells_(cells) {}
 
   bool is_proved(const Part& phase, const Part& frequency, double settling, int level) {
     ++cells_;
@@ -216,7 +216,7 @@ bool window_is_proved(const WindowStatement& statement, const SingleChannelDesig
   const double highest = min(half * pi(), min(design.highest, pi() - design.lowest)).upper_double();
   const Window window(statement, design);
   constexpr double kSettling = 3.4;  // rad
-  return Cover(window, cells).is_proved({0.0, period}, {lowest, highest}, kSettling, 0);
+  return WindowCover(window, cells).is_proved({0.0, period}, {lowest, highest}, kSettling, 0);
 }
 
 }  // namespace veritrack::checker

@@ -45,9 +45,9 @@ TrackerValues<Model> lifted(const TrackerValues<Ball>& values) {
 }
 
 /// {|x|_phi <= radius about the family, with the norms; bounds on absolute values are states as well.
-class Tube {
+class CurveTube {
  public:
-  Tube(const TrackerValues<Ball>& values, const CurveFamily& family, const Ball& frequency)
+  CurveTube(const TrackerValues<Ball>& values, const CurveFamily& family, const Ball& frequency)
       : values_(values), family_(family), frequency_(frequency) {}
 
   /// Bounds on G_phi(C(phi)) - C(phi + omega) for all phases, C the curve at t.
@@ -256,7 +256,7 @@ std::optional<InvariantCurve> establish_invariant_curve(const TrackerValues<Ball
     return (spread * root_of_non_negative(sum) / (one - rate)).upper();
   };
 
-  const Tube tube(values, *family, frequency);
+  const CurveTube tube(values, *family, frequency);
   const ToneState<Ball> here = tube.residual(curve.here, frequency);
   ToneState<Ball> everywhere = here;
   if (half_width != 0.0) {

@@ -173,21 +173,21 @@ struct ErrorSets {
 };
 
 /// A set, and the level of the starts in it of which something is said.
-struct Starts {
+struct StartSet {
   const ErrorSet& set;
   Ball level;
 };
 
 /// The assumed starts in the set that bounds their errors; when they are not in it, every start in the set
 /// "start-error".
-std::optional<Starts> starts_of(const ErrorSets& sets, bool starts_inside, bool invariant) {
+std::optional<StartSet> starts_of(const ErrorSets& sets, bool starts_inside, bool invariant) {
   if (starts_inside) {
-    return Starts{*sets.bound, sets.bound->window().start_level};
+    return StartSet{*sets.bound, sets.bound->window().start_level};
   }
-  return invariant ? std::optional(Starts{*sets.whole, sets.whole->start()}) : std::nullopt;
+  return invariant ? std::optional(StartSet{*sets.whole, sets.whole->start()}) : std::nullopt;
 }
 
-bool settles(const Starts& starts, const SettlingClaim& claim) {
+bool settles(const StartSet& starts, const SettlingClaim& claim) {
   constexpr double kMost = 10000.0;
   return certainly_not_negative(claim.samples) && certainly_at_most(claim.samples, Ball(kMost)) &&
          starts.set.settled(starts.level, claim.twice_ultimate,
@@ -239,13 +239,7 @@ Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign&
       promises.settling = promises.starts_inside ? std::optional(claim->samples) : std::nullopt;
     }
   }
-  const auto add = [&](const char* name, const std::optional<Ball>& value, Sense sense) {
-    found.quantities.push_back({name, value.value_or(Ball::everything()), sense});
-  };
-  add("ultimate_frequency_error", promises.ultimate, Sense::bounds_above);
-  add("frequency_error_bound", promises.bound, Sense::bounds_above);
-  add("largest_noise", promises.noise, Sense::bounds_below);
-  add("largest_slew", promises.slew, Sense::bounds_below);
+  add_bounds(promises, found);
   found.conditions = conditions_of(sets, design, invariant, promises.starts_inside);
   check_derivation(claimed, found, objections);
   return promises;

@@ -32,6 +32,21 @@ TEST_CASE("what is not a number, or may be infinite, is certain of nothing") {
   }
 }
 
+TEST_CASE("what is certainly not negative") {
+  CHECK(certainly_not_negative(zero));
+  CHECK(certainly_not_negative(Ball::hull(one, two)));
+  CHECK(!certainly_not_negative(Ball(-1.0)));
+  CHECK(!certainly_not_negative(Ball::within(one)));
+}
+
+TEST_CASE("a ball has its middle and its radius") {
+  const Ball ball = Ball::hull(one, Ball(3.0));
+  CHECK(certainly_equal(ball.middle(), two));
+  CHECK(certainly_equal(one.radius(), zero));
+  CHECK(certainly_at_most(one, ball.radius()));
+  CHECK(certainly_less(ball.radius(), Ball(1.0 + 0x1p-20)));
+}
+
 TEST_CASE("decimals and hexadecimal numbers") {
   CHECK(certainly_equal(from_decimal("0.5"), Ball(0.5)));
   CHECK(certainly_equal(from_decimal("-1_000.25e+1"), Ball(-10002.5)));

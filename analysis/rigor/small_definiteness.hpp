@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "analysis/rigor/interval.hpp"
-#include "trackers/scalar_functions.hpp"
 
 namespace veritrack::rigor {
 
@@ -37,8 +36,7 @@ template <std::size_t Size, typename Scalar>
       for (std::size_t j = k + 1; j < i; ++j) {
         a[i][j] -= factor * a[j][k];
       }
-      // A square, not a product of dependent factors.
-      a[i][i] -= trackers::detail::square(a[i][k]) * reciprocal;
+      a[i][i] -= a[i][k] * a[i][k] * reciprocal;
     }
   }
   return true;

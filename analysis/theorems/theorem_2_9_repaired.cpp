@@ -2,8 +2,8 @@
 
 #include "analysis/theorems/comparison.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
-#include "analysis/theorems/error_recursion_search.hpp"
 #include "analysis/theorems/signal_model.hpp"
+#include "analysis/theorems/theorem_2_9_repaired_search.hpp"
 
 namespace veritrack::theorems {
 
@@ -12,77 +12,12 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-constexpr const char* kProof = "docs/repaired-theorem.md";
 constexpr const char* kNotBorne = "No tube was found that bears the assumed noise.";
-constexpr const char* kNoRecursion =
-    "No tube around the signal was found in which the covariance bounds make the error shrink.";
-
-/// The parts of the derivation. A recursion is empty if none was found.
-struct Repaired {
-  IntervalDesign design;
-  std::optional<ErrorRecursion> start, noise, process, assumed;
-  Interval start_radius;  ///< of `start`, without noise
-  Interval disturbance;   ///< assumed: g_w |w| + g_v |v|
-  Interval assumed_radius;
-};
-
-/// W(0) <= R is certain for |e(0)| <= R / sqrt(q).
-Interval start_error(const ErrorRecursion& recursion, const Interval& radius) {
-  return radius / sqrt(recursion.q);
-}
-
-/// The same for an error of the frequency alone.
-Interval start_frequency_error(const ErrorRecursion& recursion, const Interval& radius) {
-  return radius / sqrt(recursion.range.information(2, 2));
-}
-
-Interval disturbance_of(const ErrorRecursion& recursion, const Interval& process_noise,
-                        const Interval& measurement_noise) {
-  return recursion.process_gain * process_noise + recursion.measurement_gain * measurement_noise;
-}
-
-/// A radius that is verified to be invariant under the disturbance; empty otherwise.
-Interval verified_radius(const ErrorRecursion& recursion, const Interval& disturbance) {
-  const Interval radius = recursion.propose_radius(disturbance);
-  return recursion.decide_invariant(radius, disturbance) == Verdict::proved ? radius : Interval::empty();
-}
-
-Repaired search(const Theorem29Input& input) {
-  Repaired found;
-  found.design = {input.q1, input.q2, input.r, input.epsilon};
-  const Interval zero(0.0);
-  const std::vector<ErrorRecursion> ladder = recursion_ladder(found.design);
-  found.start = best_recursion(ladder, [&](const ErrorRecursion& recursion) {
-    return start_frequency_error(recursion, verified_radius(recursion, zero)).lower();
-  });
-  found.noise = best_recursion(ladder, [](const ErrorRecursion& recursion) {
-    return (recursion.largest_disturbance() / recursion.measurement_gain).lower();
-  });
-  found.process = best_recursion(ladder, [](const ErrorRecursion& recursion) {
-    return (recursion.largest_disturbance() / recursion.process_gain).lower();
-  });
-  if (found.start) {
-    found.start_radius = verified_radius(*found.start, zero);
-  }
-  if (input.process_noise && input.measurement_noise) {
-    const auto disturbance = [&](const ErrorRecursion& recursion) {
-      return disturbance_of(recursion, *input.process_noise, *input.measurement_noise);
-    };
-    found.assumed = best_recursion(ladder, [&](const ErrorRecursion& recursion) {
-      return start_error(recursion, verified_radius(recursion, disturbance(recursion))).lower();
-    });
-    if (found.assumed) {
-      found.disturbance = disturbance(*found.assumed);
-      found.assumed_radius = verified_radius(*found.assumed, found.disturbance);
-    }
-  }
-  return found;
-}
 
 void add_quantities(Derivation& derivation, const Repaired& found) {
   const Interval none;
   const auto add = [&](const char* name, const char* symbol, const char* formula, const Interval& value) {
-    add_quantity(derivation, {name, symbol, formula, kProof}, value, kNoRecursion);
+    add_quantity(derivation, {name, symbol, formula, kRepairedProof}, value, kNoRepairedRecursion);
   };
   const auto of_start = [&](auto value) { return found.start ? value(*found.start) : none; };
   using R = const ErrorRecursion&;
@@ -191,87 +126,16 @@ void add_conditions(Derivation& derivation, const Repaired& found, const Theorem
 void add_assured(Derivation& derivation, const Repaired& found) {
   constexpr const char* kWhyNot = "The conditions are not all proved.";
   const bool assured = derivation.verdict == Verdict::proved;
-  add_quantity(derivation,
-               {"frequency_error_bound", R"(\sup_k \lvert e_3(k) \rvert)", R"(P_{33}^{1/2} R)", kProof},
-               assured ? found.assumed->frequency_gain * found.assumed_radius : Interval::empty(), kWhyNot);
   add_quantity(
       derivation,
-      {"ultimate_frequency_error", R"(\limsup_k \lvert e_3(k) \rvert)", R"(P_{33}^{1/2} R_-)", kProof},
-      assured ? found.assumed->frequency_gain * found.assumed->ultimate_radius(found.disturbance)
-              : Interval::empty(),
-      kWhyNot);
-}
-
-/// The ends of the constants used by the bounds, and the matrices they are computed from.
-Evidence evidence_of(const char* name, const ErrorRecursion& recursion, const Interval& radius) {
-  const auto point = [](const rigor::IntervalMatrix<3>& matrix) {
-    return rigor::Matrix<3>(matrix.unaryExpr([](const Interval& entry) { return entry.upper(); }));
-  };
-  return {name,
-          {{"window", static_cast<double>(recursion.window)},
-           {"plane_error", recursion.tube.plane_error.upper()},
-           {"frequency_error", recursion.tube.frequency_error.upper()},
-           {"one_minus_alpha", recursion.one_minus_alpha.lower()},
-           {"curvature", recursion.curvature.upper()},
-           {"process_gain", recursion.process_gain.upper()},
-           {"measurement_gain", recursion.measurement_gain.upper()},
-           {"s", recursion.s.upper()},
-           {"radius", radius.lower()}},
-          {{"covariance_upper", point(recursion.range.upper)},
-           {"information_upper", point(recursion.range.information)}}};
-}
-
-std::vector<Evidence> evidence_of(const Repaired& found) {
-  std::vector<Evidence> evidence;
-  if (found.start) {
-    evidence.push_back(evidence_of("start", *found.start, found.start_radius));
-  }
-  if (found.noise) {
-    evidence.push_back(evidence_of("noise", *found.noise, found.noise->toughest_radius()));
-  }
-  if (found.process) {
-    evidence.push_back(evidence_of("process-noise", *found.process, found.process->toughest_radius()));
-  }
-  if (found.assumed) {
-    evidence.push_back(evidence_of("assumed", *found.assumed, found.assumed_radius));
-  }
-  return evidence;
-}
-
-/// A point with positive noise bounds and a positive start error, or the reason why there is none.
-Feasibility feasibility_of(const Repaired& found) {
-  Feasibility feasibility;
-  if (found.noise) {
-    const ErrorRecursion& r = *found.noise;
-    const Interval radius = r.toughest_radius();
-    const Interval quarter(0.25);
-    const Interval v(rigor::midpoint(quarter * r.largest_disturbance() / r.measurement_gain));
-    const Interval w(rigor::midpoint(quarter * r.largest_disturbance() / r.process_gain));
-    const Interval start = start_error(r, radius);
-    feasibility.verdict = rigor::conjunction({r.decide_invariant(radius, disturbance_of(r, w, v)),
-                                              decide_less(Interval(0.0), v), decide_less(Interval(0.0), w),
-                                              decide_less(Interval(0.0), start)});
-    feasibility.argument =
-        "The witness satisfies the invariance condition with positive noise and start bounds.";
-    const auto quantity = [](const char* name, const char* symbol, const Interval& value) {
-      return Quantity{name, symbol, "", kProof, value, std::nullopt};
-    };
-    feasibility.witness = {quantity("window", "N", Interval(r.window)),
-                           quantity("epsilon_r", R"(\epsilon_r)", r.tube.plane_error),
-                           quantity("frequency_tube", "", r.tube.frequency_error),
-                           quantity("radius", "R", radius),
-                           quantity("c_1", "c_1", w / sqrt(found.design.q2)),
-                           quantity("c_2", "c_2", v / sqrt(found.design.r)),
-                           quantity("initial_error_bound", "", start)};
-  } else if (found.design.q1 == Interval(0.0)) {
-    feasibility.verdict = Verdict::refuted;
-    feasibility.argument =
-        "q_1 = 0: F P F' <= mu Q holds for no mu, so alpha = 1 and no radius is invariant under any noise.";
-    feasibility.lower_bound = Interval(1.0);
-  } else {
-    feasibility.argument = kNoRecursion;
-  }
-  return feasibility;
+      {"frequency_error_bound", R"(\sup_k \lvert e_3(k) \rvert)", R"(P_{33}^{1/2} R)", kRepairedProof},
+      assured ? found.assumed->frequency_gain * found.assumed_radius : Interval::empty(), kWhyNot);
+  add_quantity(derivation,
+               {"ultimate_frequency_error", R"(\limsup_k \lvert e_3(k) \rvert)", R"(P_{33}^{1/2} R_-)",
+                kRepairedProof},
+               assured ? found.assumed->frequency_gain * found.assumed->ultimate_radius(found.disturbance)
+                       : Interval::empty(),
+               kWhyNot);
 }
 
 }  // namespace
@@ -279,7 +143,7 @@ Feasibility feasibility_of(const Repaired& found) {
 Derivation derive_repaired_theorem(const TrackerInput& question) {
   const rigor::UpwardRounding upward;
   const Theorem29Input input = with_finite_members(question.theorem_2_9);
-  const Repaired found = search(input);
+  const Repaired found = search_repaired(input);
   Derivation derivation;
   derivation.id = "theorem-2.9/repaired";
   derivation.title = "Theorem 2.9 repaired: error and noise bounds with every gap of the proof closed";
@@ -287,8 +151,8 @@ Derivation derive_repaired_theorem(const TrackerInput& question) {
   add_conditions(derivation, found, input, question.initial_covariance);
   conclude(derivation);
   add_assured(derivation, found);
-  derivation.feasibility = feasibility_of(found);
-  derivation.evidence = evidence_of(found);
+  derivation.feasibility = repaired_feasibility(found);
+  derivation.evidence = repaired_evidence(found);
   derivation.notes = {
       "W(k)^2 = e(k)' P(k|k)^-1 e(k) with the filter's own P(k|k), whatever its past: nothing depends on how "
       "P "

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "certificates/document/tracker_kind.hpp"
-#include "certificates/sets/markdown_contraction.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/markdown_assumptions.hpp"
+#include "certificates/sets/markdown_contraction.hpp"
 #include "certificates/single_channel/coq_proposition_1.hpp"
 #include "certificates/single_channel/markdown_single_channel.hpp"
 #include "certificates/single_channel/single_channel.hpp"

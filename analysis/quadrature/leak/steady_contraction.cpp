@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/quadrature/leak/steady_rate.hpp"
 #include "analysis/quadrature/leak/steady_setting.hpp"
@@ -34,28 +35,13 @@ class Cover {
       reason_ = "more than " + std::to_string(most_cells_) + " cells were needed.";
       return false;
     }
-    const SteadyStep<SteadySecant> secants =
-        steady_step(settings_.secants, {SteadySecant(Interval(level_)),
-                                        SteadySecant::variable(cell.side(kX), cell.middle(kX), kX),
-                                        SteadySecant::variable(cell.side(kY), cell.middle(kY), kY)});
-    const SteadyStep<Interval> step = enclosure(secants, offset_box(cell, settings_.frequencies));
-    const std::vector<SteadyOffset> corners = corner_offsets(cell, settings_.frequencies);
-    const Interval level(level_);
-    const SteadyBounds<Interval> bounds = steady_bounds(step, settings_.over_cell, level, disturbance_.noise);
-    // What noise and slew leave for the rest.
-    const Interval left(
-        (rate_ - (bounds.noise_gain * disturbance_.noise + disturbance_.motion) / level).lower());
-    const Interval share((rate_ - disturbance_.covariance_motion / level).lower());
-    const SteadyOrder order =
-        keeps_covariance(settings_, corners, secants, level_, bounds.tangent_reach, share);
-    const bool contracts = order.kept && certainly_positive(left) && certainly_positive(bounds.least_along) &&
-                           certainly_positive(step.along) && certainly_less(abs(step.swing), Interval(1.5)) &&
-                           contracts_by(left, secants, step, bounds, corners);
-    if (contracts) {
-      noise_gain_ = std::max(noise_gain_, bounds.noise_gain.upper());
+    const CellOutcome outcome = try_cell(cell);
+    if (outcome.contracts) {
       return true;
     }
-    const bool fails_inside = order.hopeless || (order.kept && !may_contract(cell, square(left).lower()));
+    const SteadyOrder& order = outcome.order;
+    const bool fails_inside =
+        order.hopeless || (order.kept && !may_contract(cell, square(outcome.left).lower()));
     const bool hopeless = depth == 0 || (fails_inside && std::hypot(cell.middle(kX), cell.middle(kY)) <= 1.0);
     if (hopeless) {
       reason_ = "at level " + rigor::to_decimal(level_, 3, rigor::Direction::up) +
@@ -63,13 +49,7 @@ class Cover {
                             : " of the set the covariance could not be shown to stay between its bounds.");
       return false;
     }
-    const double blur_x = order.blur[kX] * cell.width(kX);
-    const double blur_y = order.blur[kY] * cell.width(kY);
-    const bool known = std::isfinite(blur_x + blur_y);
-    const std::size_t side = (known ? blur_x >= blur_y : cell.width(kX) >= cell.width(kY)) ? kX : kY;
-    SteadyCell first = cell;
-    SteadyCell second = cell;
-    first.high[side] = second.low[side] = cell.middle(side);
+    const auto [first, second] = halves(cell, order);
     return proves(first, depth - 1) && proves(second, depth - 1);
   }
 
@@ -83,6 +63,49 @@ class Cover {
   }
 
  private:
+  /// How one cell fared.
+  struct CellOutcome {
+    bool contracts = false;
+    SteadyOrder order;
+    Interval left;  ///< what noise and slew leave of the rate
+  };
+
+  /// Does every step from the cell lead to the next level?
+  [[nodiscard]] CellOutcome try_cell(const SteadyCell& cell) {
+    const SteadyStep<SteadySecant> secants =
+        steady_step(settings_.secants, {SteadySecant(Interval(level_)),
+                                        SteadySecant::variable(cell.side(kX), cell.middle(kX), kX),
+                                        SteadySecant::variable(cell.side(kY), cell.middle(kY), kY)});
+    const SteadyStep<Interval> step = enclosure(secants, offset_box(cell, settings_.frequencies));
+    const std::vector<SteadyOffset> corners = corner_offsets(cell, settings_.frequencies);
+    const Interval level(level_);
+    const SteadyBounds<Interval> bounds = steady_bounds(step, settings_.over_cell, level, disturbance_.noise);
+    CellOutcome outcome;
+    outcome.left =
+        Interval((rate_ - (bounds.noise_gain * disturbance_.noise + disturbance_.motion) / level).lower());
+    const Interval share((rate_ - disturbance_.covariance_motion / level).lower());
+    outcome.order = keeps_covariance(settings_, corners, secants, level_, bounds.tangent_reach, share);
+    outcome.contracts = outcome.order.kept && certainly_positive(outcome.left) &&
+                        certainly_positive(bounds.least_along) && certainly_positive(step.along) &&
+                        certainly_less(abs(step.swing), Interval(1.5)) &&
+                        contracts_by(outcome.left, secants, step, bounds, corners);
+    if (outcome.contracts) {
+      noise_gain_ = std::max(noise_gain_, bounds.noise_gain.upper());
+    }
+    return outcome;
+  }
+
+  /// Cut where the covariance is blurred the most, or else where the cell is widest.
+  static std::pair<SteadyCell, SteadyCell> halves(const SteadyCell& cell, const SteadyOrder& order) {
+    const double blur_x = order.blur[kX] * cell.width(kX);
+    const double blur_y = order.blur[kY] * cell.width(kY);
+    const bool known = std::isfinite(blur_x + blur_y);
+    const std::size_t side = (known ? blur_x >= blur_y : cell.width(kX) >= cell.width(kY)) ? kX : kY;
+    std::pair<SteadyCell, SteadyCell> both{cell, cell};
+    both.first.high[side] = both.second.low[side] = cell.middle(side);
+    return both;
+  }
+
   /// By multipliers that have served another cell, or by new ones.
   [[nodiscard]] bool contracts_by(const Interval& left, const SteadyStep<SteadySecant>& secants,
                                   const SteadyStep<Interval>& step, const SteadyBounds<Interval>& bounds,

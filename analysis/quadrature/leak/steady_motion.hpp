@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/quadrature/leak/steady_set.hpp"
-#include "analysis/sets/fixed_point_quadrature.hpp"
+#include "analysis/sets/fixed_point_bias.hpp"
 
 namespace veritrack::quadrature {
 

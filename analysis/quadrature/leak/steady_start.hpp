@@ -7,7 +7,7 @@
 
 #include "analysis/quadrature/leak/steady_set.hpp"
 #include "analysis/sets/contraction_question.hpp"
-#include "analysis/sets/fixed_point_quadrature.hpp"
+#include "analysis/sets/fixed_point_bias.hpp"
 
 namespace veritrack::quadrature {
 

@@ -306,6 +306,15 @@ TEST_CASE("decimals: known texts") {
   CHECK_THROWS_AS((void)to_decimal(1.0, 41, Direction::up), std::invalid_argument);
 }
 
+TEST_CASE("the ends of an interval are told outward") {
+  const Interval third = Interval::from_bounds(0.33333333, 0.33333334);
+  CHECK(lower_decimal(third) == "0.3333");
+  CHECK(upper_decimal(third) == "0.3334");
+  CHECK(lower_decimal(Interval(0.5), 2) == "0.5");
+  CHECK(upper_decimal(Interval(0.5), 2) == "0.5");
+  CHECK(lower_decimal(Interval::from_bounds(-0.33333334, 0.0)) == "-0.3334");
+}
+
 TEST_CASE("the rounding mode of the caller changes nothing, and comes back") {
   const rigor::UpwardRounding mode;
   CHECK(identical(parse_decimal("0.1"), Interval::from_bounds(0x1.9999999999999p-4, 0x1.999999999999ap-4)));

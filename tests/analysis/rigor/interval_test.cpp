@@ -260,6 +260,7 @@ TEST_CASE("empty and unbounded intervals satisfy no predicate") {
     CHECK_FALSE(rigor::is_finite(x));
     CHECK_FALSE(certainly_positive(x));
     CHECK_FALSE(certainly_negative(x));
+    CHECK_FALSE(certainly_not_negative(x));
     for (const Interval& other : others) {
       CHECK_FALSE(certainly_less(x, other));
       CHECK_FALSE(certainly_less(other, x));
@@ -278,6 +279,9 @@ TEST_CASE("predicates are true only when certain") {
   CHECK(certainly_positive(Interval(kSmallest)));
   CHECK_FALSE(certainly_positive(Interval(0.0)));
   CHECK_FALSE(certainly_negative(Interval(-0.0)));
+  CHECK(certainly_not_negative(Interval(0.0)));
+  CHECK(certainly_not_negative(bounds(0.0, 1.0)));
+  CHECK_FALSE(certainly_not_negative(bounds(-kSmallest, 1.0)));
   CHECK(certainly_negative(Interval(-kSmallest)));
   CHECK(Interval(0.0) == Interval(-0.0));
   CHECK_FALSE(bounds(0.0, 1.0) == bounds(0.0, 1.0));

@@ -1,0 +1,21 @@
+// The parts of the derivation "kkl-paper" and how they are made.
+#pragma once
+
+#include <string>
+
+#include "analysis/kkl_observer/kkl_claims.hpp"
+
+namespace veritrack::kkl_observer::detail {
+
+[[nodiscard]] theorems::Condition condition(std::string id, std::string statement, rigor::Verdict verdict,
+                                            std::string reason,
+                                            const rigor::Interval& lhs = rigor::Interval(),
+                                            const rigor::Interval& rhs = rigor::Interval());
+
+/// The quantity, not applicable where its value is empty.
+[[nodiscard]] theorems::Quantity bounded(theorems::Quantity quantity);
+
+/// Adds what is said of gamma, for four filters. Needs the upward mode.
+void add_inverse(const KklClaimsQuestion& question, theorems::Derivation& derivation);
+
+}  // namespace veritrack::kkl_observer::detail

@@ -17,10 +17,9 @@ constexpr int kNotVerified = 1;
 constexpr int kMalformed = 2;
 
 constexpr const char* kUsage =
-    "usage: veritrack-verify [--precision BITS] [--full] CERTIFICATE.json\n"
-    "Re-establishes every claim of the certificate from its evidence; with --full also from more boxes of "
-    "starts\n"
-    "than are followed in seconds. Exit status: 0 VERIFIED, 1 NOT VERIFIED, 2 malformed.\n";
+    "usage: veritrack-verify [--precision BITS] [--full] CERTIFICATE.json\nVerifies every claim of the "
+    "certificate from its evidence. With more than 200 boxes of starts only a sample is\nchecked, and the "
+    "part is NOT VERIFIED unless --full is given. Exit status: 0 VERIFIED, 1 NOT VERIFIED, 2 malformed.\n";
 
 int run(const std::string& path, bool all_boxes) {
   using namespace veritrack::checker;

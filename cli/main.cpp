@@ -38,7 +38,7 @@ int run(int argc, char** argv) {
 
   CheckOptions check_options;
   CLI::App* check =
-      app.add_subcommand("check", "the same verdicts without the documents: a line per requirement");
+      app.add_subcommand("check", "the same verdicts without the documents, one line per requirement");
   check->add_option("DESIGN", check_options.designs, "design files (TOML)")->required();
   check->add_option("--junit", check_options.junit, "also write the verdicts as JUnit XML");
   check->add_option("--sarif", check_options.sarif, "also write what is not PROVED as SARIF 2.1.0");
@@ -70,8 +70,8 @@ int run(int argc, char** argv) {
   ReproduceOptions reproduce_options;
   CLI::App* reproduce =
       app.add_subcommand("reproduce",
-                         "make a report of docs/reports anew: the published examples of the single-channel "
-                         "tracker, or how close the trackers come to the Cramer-Rao bounds");
+                         "regenerate a report of docs/reports: the published examples of the single-channel "
+                         "tracker, or the comparison of the trackers with the Cramer-Rao bounds");
   reproduce->add_option("REPORT", reproduce_options.report, "which report")
       ->check(CLI::IsMember({kExampleReport, kLimitReport}))
       ->capture_default_str();

@@ -32,7 +32,7 @@ std::string percent(double rate) {
   return fmt::format("{:.1f} %", 100.0 * rate);
 }
 
-/// A panel: what stands above it, and the run.
+/// A panel: its title, and the run.
 struct Panel {
   std::string title;
   ExampleRun run;
@@ -148,11 +148,11 @@ std::string document(const std::vector<StartRates>& rates, int seeds, std::uint6
   text += fmt::format(
       "The paper prints the process noise covariance as $`q I_3`$ and defines $`I_3`$ as "
       "$`\\mathrm{{diag}}(0, 0, 1)`$. Both readings were simulated over {} noise seeds for each of {} starts "
-      "of the tracker, which the paper does not give. A rate is the share of the seeds for which a statement "
-      "of the text or of a figure came out. Locked means: over the 100 samples before the frequency first "
-      "changes, or the last 100, the mean error is below 0.35 rad/sample and the deviation about the mean "
-      "below 0.5 rad/sample; an estimate that settles on an alias, off by a multiple of $`2\\pi`$, is not "
-      "locked. These are simulations in double precision; they prove nothing.\n\n",
+      "of the tracker, which the paper does not give. A rate is the fraction of the seeds for which a "
+      "statement of the text or of a figure was reproduced. Locked means: over the 100 samples before the "
+      "frequency first changes, or the last 100, the mean error is below 0.35 rad/sample and the deviation "
+      "about the mean below 0.5 rad/sample; an estimate that settles at an alias, a multiple of $`2\\pi`$ "
+      "away, is not locked. These are simulations in double precision; they prove nothing.\n\n",
       seeds, rates.size());
   text += rate_table(rates) + "\n";
   text +=
@@ -164,32 +164,22 @@ std::string document(const std::vector<StartRates>& rates, int seeds, std::uint6
       "## Figure 3\n\n![Three panels: the estimate for lambda = 0, 1 and 10](figures/figure-3.svg)\n\n"
       "*Example 2, the same start and reading, seed " +
       std::to_string(figure_3_seed) +
-      ", the first for which all three panels come out as published.*\n\n"
-      "## Proposition 2 when P(0) is not scaled\n\n"
-      "![The difference of the estimates falls below rounding](figures/start-influence.svg)\n\n"
-      "*Example 1 without leak, the same start, reading and seed: difference between the frequency estimates "
-      "with "
-      "(q, r) = (0.005, 0.01) and with both multiplied by α, P(0) = I in all cases; rad/sample, logarithmic, "
-      "cut "
-      "off at 1e-17.* Only with P(0) multiplied by α too are the estimates the same from the start, which is "
-      "proved; with the same P(0) they differ, and the difference dies out with the influence of the "
-      "start.\n\n"
-      "## The tracker that settles near frequency zero\n\n"
-      "![The frequency estimate near zero, the quadrature part large](figures/near-zero.svg)\n\n"
-      "*Example 1 with Q = q diag(0, 0, 1), ε = 0, the same start.*\n\n"
-      "Only one channel is measured, so that nothing in the measurements bounds the other one. Near $`\\hat "
-      "x_3 = "
-      "0`$ the prediction is $`\\hat x_1 - \\hat x_3 \\hat x_2`$: with a large, nearly constant $`\\hat "
-      "x_2`$ a "
-      "frequency estimate that swings by a little about zero, $`\\hat x_3(t) \\approx \\omega \\sin(\\omega "
-      "t) / "
-      "\\hat x_2`$, explains any measured sinusoid of amplitude 1. It is the explanation that a model "
-      "prefers in "
-      "which only the frequency is driven by noise, and the larger $`\\hat x_2`$ the less noise it needs. "
-      "Process "
-      "noise on $`x_1`$ and $`x_2`$ takes that advantage away, but a start without a guess of the frequency "
-      "still "
-      "ends there.\n";
+      ", the first for which all three panels agree with the published ones.*\n\n## Proposition 2 when P(0) "
+      "is not scaled\n\n![The difference of the estimates falls below "
+      "rounding](figures/start-influence.svg)\n\n*Example 1 without leak, the same start, reading and seed: "
+      "difference between the frequency estimates with (q, r) = (0.005, 0.01) and with both multiplied by α, "
+      "P(0) = I in all cases; rad/sample, logarithmic, cut off at 1e-17.* The estimates are the same from "
+      "the start only if P(0) is also multiplied by α, which is proved. With the same P(0) they differ, and "
+      "the difference decays with the influence of the start.\n\n## The tracker that settles near frequency "
+      "zero\n\n![The frequency estimate near zero, the quadrature part "
+      "large](figures/near-zero.svg)\n\n*Example 1 with Q = q diag(0, 0, 1), ε = 0, the same start.*\n\nOnly "
+      "one channel is measured, so the measurements do not bound the other one. Near $`\\hat x_3 = 0`$ the "
+      "prediction is $`\\hat x_1 - \\hat x_3 \\hat x_2`$: with a large, nearly constant $`\\hat x_2`$ a "
+      "frequency estimate that oscillates slightly about zero, $`\\hat x_3(t) \\approx \\omega \\sin(\\omega "
+      "t) / \\hat x_2`$, explains any measured sinusoid of amplitude 1. A model in which noise drives only "
+      "the frequency prefers this explanation: the larger $`\\hat x_2`$, the less noise it needs. Process "
+      "noise on $`x_1`$ and $`x_2`$ removes that advantage, but a start without a guess of the frequency "
+      "still ends there.\n";
   return text;
 }
 
@@ -218,15 +208,15 @@ std::string reading_sentence(const std::vector<StartRates>& rates) {
   const auto printed = starts_of(&StartRates::frequency_only);
   const auto identity = starts_of(&StartRates::identity);
   const std::string criterion =
-      " (a start exists for which every statement comes out for at least a tenth of the seeds)";
+      " (for some start every statement is reproduced for at least a tenth of the seeds)";
   if (printed.empty() && identity.empty()) {
     return "Neither reading reproduces every statement of the examples for any of the starts tried.";
   }
   if (!printed.empty() && !identity.empty()) {
-    return "The published figures can have come from either reading" + criterion + ".";
+    return "Either reading can have produced the published figures" + criterion + ".";
   }
   return fmt::format(
-      "Of the two readings the published figures can have come from Q = q diag({}) only{}: the other one "
+      "Of the two readings only Q = q diag({}) can have produced the published figures{}: the other one "
       "fails for every start tried.",
       printed.empty() ? "1, 1, 1" : "0, 0, 1", criterion);
 }

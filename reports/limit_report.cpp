@@ -146,7 +146,7 @@ std::string floor_table(const LimitStudy& study) {
       rows);
 }
 
-/// What stands at the top: every number in it is from the study.
+/// The summary at the top: every number in it is from the study.
 std::string summary(const LimitStudy& study) {
   constexpr double kFast = limits::kWalkVariances.back();
   const auto words = [&](Channels channels, double q1_share) {
@@ -155,17 +155,17 @@ std::string summary(const LimitStudy& study) {
   constexpr int kAverage = 1000;
   const double noise = limits::noise_variance_of(limits::kOverTimeDecibels);
   return fmt::format(
-      "**What an engineer learns.** (1) With $`q_2`$ and $`r`$ set to what the signal really does, a "
-      "cleverer filter has little left to gain: from its threshold on, each tracker has a mean square "
-      "frequency error at most ≈ {:.1f} dB above the least that any estimator can have. For a frequency that "
-      "wanders by {:.3f} rad/sample a sample the threshold is {} for the quadrature tracker and {} for the "
-      "single-channel one. (2) $`q_1`$ is not a detail when one channel is measured: the signal has no such "
+      "**Results for an engineer.** (1) With $`q_2`$ and $`r`$ equal to the variances of the signal, no "
+      "filter can do much better: from its threshold on, each tracker has a mean square frequency error at "
+      "most ≈ {:.1f} dB above the bound for any estimator. For a frequency that changes by {:.3f} rad/sample "
+      "per sample (standard deviation) the threshold is {} for the quadrature tracker and {} for the "
+      "single-channel one. (2) $`q_1`$ is important when one channel is measured: the signal has no such "
       "noise, but with $`q_1`$ = {} the same threshold of the single-channel tracker is {}. With $`q_1 = 0`$ "
-      "and little measurement noise that filter is too sure of a linearisation that the frequency's own "
-      "steps outrun. (3) Measuring one channel in place of two costs what twice the noise would cost. (4) "
-      "For a constant frequency all depends on $`q_2`$: the error stops falling after about "
+      "and little measurement noise that filter trusts its linearisation too much for the steps of the "
+      "frequency. (3) Measuring one channel instead of two has the same effect as twice the noise. (4) For a "
+      "constant frequency everything depends on $`q_2`$: the error stops decreasing after about "
       "$`3.2\\,(\\rho/q_2)^{{1/4}}`$ samples, $`\\rho`$ the noise variance over the squared amplitude, so "
-      "that averaging over $`N`$ samples takes $`q_2 \\approx \\rho\\,(3.2/N)^4`$ (at {:.0f} dB and $`N`$ = "
+      "that averaging over $`N`$ samples needs $`q_2 \\approx \\rho\\,(3.2/N)^4`$ (at {:.0f} dB and $`N`$ = "
       "{}: ≈ {:.0e} (rad/sample)²).\n\n",
       worst_above_threshold(study), std::sqrt(kFast), words(Channels::quadrature, 0.0),
       words(Channels::single, 0.0), q1_words(limits::kSomeQ1), words(Channels::single, limits::kSomeQ1),
@@ -174,23 +174,17 @@ std::string summary(const LimitStudy& study) {
 
 std::string setting_text(const LimitStudy& study) {
   return fmt::format(
-      "Everything on this page is floating point and simulation. It proves nothing; ≈ stands before what is "
-      "simulated or rounded.\n\n"
-      "## What is compared\n\n"
-      "A sinusoid of amplitude 1 whose frequency is $`\\omega(k+1) = \\omega(k) + w(k)`$, $`w`$ normal with "
-      "the walk variance "
-      "(zero: constant), in normal noise. The signal-to-noise ratio (SNR) is half the squared amplitude over "
-      "the noise variance "
-      "of a channel, which is also the ratio of the complex signal. The trackers are those of `trackers/`, "
-      "without leak, "
-      "$`r`$ the noise variance; they start with deviations of 0.1 in amplitude, 0.1 rad in phase and 0.05 "
-      "rad/sample in "
-      "frequency (mean 1.5 rad/sample), known to them as P(0). Errors are mean squares over {} runs (noise "
-      "seeds 1 to {}, the same for every "
-      "entry), lost runs included; ± is their standard error. A run is lost when its root mean square "
-      "frequency error over the last {} samples is above {} rad/sample. "
-      "The threshold is the lowest SNR of the grid from which on the error stays within {:.0f} dB of the "
-      "bound.\n\n",
+      "Everything on this page is floating point and simulation. It proves nothing; ≈ marks simulated or "
+      "rounded values.\n\n## What is compared\n\nA sinusoid of amplitude 1 whose frequency is $`\\omega(k+1) "
+      "= \\omega(k) + w(k)`$, $`w`$ normal with the walk variance (zero: constant), in normal noise. The "
+      "signal-to-noise ratio (SNR) is half the squared amplitude over the noise variance of a channel, which "
+      "is also the ratio of the complex signal. The trackers are those of `trackers/`, without leak, $`r`$ "
+      "the noise variance; they start with deviations of 0.1 in amplitude, 0.1 rad in phase and 0.05 "
+      "rad/sample in frequency (mean 1.5 rad/sample), known to them as P(0). Errors are mean squares over {} "
+      "runs (noise seeds 1 to {}, the same for every entry), lost runs included; ± is their standard error. "
+      "A run is lost when its root mean square frequency error over the last {} samples is above {} "
+      "rad/sample. The threshold is the lowest SNR of the grid from which on the error stays within {:.0f} "
+      "dB of the bound.\n\n",
       study.runs, study.runs, limits::kLockWindow, limits::kLockThreshold, limits::kNearBound);
 }
 
@@ -202,20 +196,17 @@ LimitStudy simulate_limits(int runs) {
 }
 
 std::string limit_document(const LimitStudy& study) {
-  std::string text = "# Where the trackers stand against the Cramér–Rao bound\n\n" + summary(study);
+  std::string text = "# The trackers compared with the Cramér–Rao bound\n\n" + summary(study);
   text += setting_text(study);
   text +=
-      "## A frequency that is a random walk\n\n"
-      "The trackers' $`q_2`$ is the walk variance, their $`q_1`$ zero as in the signal, or a tenth of "
-      "$`q_2`$. Runs of 200 samples; error and bound are means over the last 100. "
-      "The bound is the posterior Cramér–Rao bound of Tichavský, Muravchik and Nehorai (IEEE Trans. Signal "
-      "Processing 46(5), 1998), "
-      "$`J(k+1) = D^{22} - D^{21}(J(k) + D^{11})^{-1}D^{12}`$. In the coordinates amplitude, phase, "
-      "frequency the dynamics is "
-      "linear, and the recursion is $`J(k+1) = (F J(k)^{-1} F' + Q)^{-1} + \\mathrm{E}[h_x' R^{-1} h_x]`$, "
-      "the expectation in closed form "
+      "## A frequency that is a random walk\n\nThe trackers' $`q_2`$ is the walk variance, their $`q_1`$ "
+      "zero as in the signal, or a tenth of $`q_2`$. Runs of 200 samples; error and bound are means over the "
+      "last 100. The bound is the posterior Cramér–Rao bound of Tichavský, Muravchik and Nehorai (IEEE "
+      "Trans. Signal Processing 46(5), 1998), $`J(k+1) = D^{22} - D^{21}(J(k) + D^{11})^{-1}D^{12}`$. In the "
+      "coordinates amplitude, phase, frequency the dynamics is linear, and the recursion is $`J(k+1) = (F "
+      "J(k)^{-1} F' + Q)^{-1} + \\mathrm{E}[h_x' R^{-1} h_x]`$, the expectation in closed form "
       "(`analysis/limits/posterior_bound.hpp`). It bounds the mean square error of every estimator, biased "
-      "or not; an entry slightly below it is chance.\n\n" +
+      "or not; an entry slightly below it is due to chance.\n\n" +
       threshold_table(study) +
       "\n![Error of the two trackers and the bound over the signal-to-noise "
       "ratio](figures/random-walk.svg)\n\n"
@@ -231,28 +222,23 @@ std::string limit_document(const LimitStudy& study) {
     }
   }
   text +=
-      "## A constant frequency\n\n"
-      "The bound for $`N`$ samples and nothing known beforehand is $`12\\rho/(N(N^2 - 1))`$ for complex "
-      "samples (Rife and Boorstyn, IEEE Trans. "
-      "Information Theory 20(5), 1974), and about twice that for real ones (exactly: the inverse of the "
-      "Fisher "
-      "information of amplitude, phase and frequency). The trackers know a little beforehand; with that as "
-      "one more measurement the bound is the "
-      "recursion above with $`Q = 0`$. It holds for unbiased estimators.\n\n"
-      "![Error of the two trackers and the bound over the number of samples](figures/constant.svg)\n\n"
-      "*Mean square frequency error at 20 dB over the number of samples, both logarithmic: bound (broad "
-      "grey), bound without knowledge of the start (dotted grey), "
-      "trackers (black) by their q2 in (rad/sample)².*\n\n"
-      "A tracker whose $`q_2`$ is not zero settles: at $`\\rho^{1/4} q_2^{3/4}/(2\\sqrt 2)`$, a quarter of "
-      "the variance that it believes, and from about "
-      "$`3.2\\,(\\rho/q_2)^{1/4}`$ samples on ($`2\\rho`$ in place of $`\\rho`$ for one channel). At 20 "
-      "dB:\n\n" +
+      "## A constant frequency\n\nWithout prior knowledge the bound for $`N`$ samples is $`12\\rho/(N(N^2 - "
+      "1))`$ for complex samples (Rife and Boorstyn, IEEE Trans. Information Theory 20(5), 1974), and about "
+      "twice that for real ones (exactly: the inverse of the Fisher information of amplitude, phase and "
+      "frequency). The trackers have some prior knowledge; with this as a further measurement the bound is "
+      "the recursion above with $`Q = 0`$. It applies to unbiased estimators.\n\n![Error of the two trackers "
+      "and the bound over the number of samples](figures/constant.svg)\n\n*Mean square frequency error at 20 "
+      "dB over the number of samples, both logarithmic: bound (broad grey), bound without knowledge of the "
+      "start (dotted grey), trackers (black) by their q2 in (rad/sample)².*\n\nA tracker whose $`q_2`$ is "
+      "not zero settles: at $`\\rho^{1/4} q_2^{3/4}/(2\\sqrt 2)`$, a quarter of the variance that it "
+      "computes itself, and from about $`3.2\\,(\\rho/q_2)^{1/4}`$ samples on ($`2\\rho`$ in place of "
+      "$`\\rho`$ for one channel). At 20 dB:\n\n" +
       floor_table(study) +
       "\nWith $`q_1 = 0`$ and $`q_2`$ = " + fmt::format("{:.0e}", limits::kNearlyZeroQ2) +
       " (rad/sample)², nearly zero, over the SNR (bounds in (rad/sample)²):\n\n" + constant_table(study) +
-      "\nAn extended Kalman filter that assumes a constant frequency never forgets: what its first, "
-      "linearised steps got wrong at a low SNR stays in "
-      "the estimate, and is the more above the bound the longer one averages.\n";
+      "\nAn extended Kalman filter that assumes a constant frequency never forgets: the errors of its first, "
+      "linearised steps at a low SNR stay in the estimate, and exceed the bound by more, the longer one "
+      "averages.\n";
   return text;
 }
 

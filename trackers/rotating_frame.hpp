@@ -16,7 +16,7 @@ namespace veritrack::trackers {
 template <typename Scalar>
 using RotatingFrameState = Eigen::Matrix<Scalar, 9, 1>;
 
-/// Where the entries of X stand.
+/// The positions of the entries of X.
 enum RotatingFrameIndex : Eigen::Index {
   kDeltaInPhase = 0,
   kDeltaQuadrature = 1,

@@ -15,7 +15,7 @@ namespace veritrack::kkl_observer {
 /// The variables are (w, p, -, y1, y2), with (y1, y2) the move of N'xi / A. At each such point the errors are
 /// linear in the filters' moves u, sums q_j v_j'(F^2 + s) u over the rows v_j of [lambda 1]^+ and N', whose
 /// largest value KernelNorm bounds. The lowest amplitude is the worst for what the disturbance does, the
-/// highest for what is left of the start. The functions have no derivatives.
+/// highest for the remaining effect of the start. The functions have no derivatives.
 class BoundedErrors {
   using Interval = rigor::Interval;
   using Map = KklErrorMap<Interval>;
@@ -93,7 +93,7 @@ class BoundedErrors {
   /// middle of q and s, and by how much it can change from there.
   [[nodiscard]] Interval disturbed(const Weights& q, const Interval& s) const;
 
-  /// The same for what is left of the start, relative to the signal's amplitude.
+  /// The same for the remaining effect of the start, relative to the signal's amplitude.
   [[nodiscard]] Interval left_over(const Weights& q, const Map::Signal<Interval>& signal) const;
 
   [[nodiscard]] double largest(const Weights& q, const Map::Signal<Interval>& signal) const {

@@ -30,26 +30,26 @@ std::vector<Condition> claims_of_every_design() {
       "invariance", "\\tfrac{\\partial T}{\\partial x} f = F T + G h", transform_is_invariant(),
       "an identity in all rates and states with x1' = -x2, x2' = x3 x1, the signs of the paper's proof: its "
       "residual is the zero polynomial, by exact evaluation on a grid."));
-  claims.push_back(condition(
-      "phase-formula", "\\Phi = \\tan^{-1}(\\sqrt{x_{30}}\\, x_{10} / x_{20})",
-      transform_is_invariant_with_other_sign(),
-      "Witness x(0) = (1, 1, 1): the formula gives y(t) = sqrt(2) sin(t + pi/4), which rises at 0, while T "
-      "of (6) solves (3) only with x1' = -x2, which falls. With (6) the phase is atan2(w x1, -x2)."));
+  claims.push_back(condition("phase-formula", "\\Phi = \\tan^{-1}(\\sqrt{x_{30}}\\, x_{10} / x_{20})",
+                             transform_is_invariant_with_other_sign(),
+                             "Witness x(0) = (1, 1, 1): the formula gives y(t) = sqrt(2) sin(t + pi/4), "
+                             "which increases at 0, but T of (6) solves (3) only with x1' = -x2, under which "
+                             "x1 decreases. With (6) the phase is atan2(w x1, -x2)."));
   claims.push_back(
       condition("determinant", "\\det(L^T L) = |M\\xi|^2", determinant_is_excitation(),
                 "an identity in all rates and all xi, by exact evaluation on a grid of 6561 points."));
   claims.push_back(condition("null-space", "M\\lambda = 0,\\ M 1 = 0", null_space_holds_lambda_and_one(),
-                             "an identity in all rates, by exact evaluation on a grid; with distinct rates "
-                             "M has rank 2, so that this is all of its null space."));
+                             "an identity in all rates, by exact evaluation on a grid; with distinct rates M "
+                             "has rank 2, so that these two vectors span its null space."));
   // L has a column for each component of the state.
   const Interval columns(static_cast<int>(trackers::OscillatorState<double>::RowsAtCompileTime));
   const Interval printed(4.0);
   claims.push_back(condition("dimensions",
                              "\\Phi = L^T L + \\mu I,\\ I \\in R^{4 \\times 4}: \\dim I \\le \\dim L^T L",
                              rigor::decide_less_equal(printed, columns),
-                             "Witness: L has three columns, so that L'L is 3 x 3 and I must be, where 4 x 4 "
-                             "is printed; for the same reason gamma_0, \"a real number\" in print, must have "
-                             "three components. Read so, (8) is well formed.",
+                             "Witness: L has three columns, so that L'L is 3 x 3, and so must I be; 4 x 4 is "
+                             "printed. For the same reason gamma_0, \"a real number\" in print, must have "
+                             "three components. With these corrections (8) is well formed.",
                              printed, columns));
   return claims;
 }
@@ -60,12 +60,13 @@ Condition section_v_claim() {
   const Interval largest = Interval(2.0) * ExcitationRatio<Interval>(lambda).at(Interval(3.0));
   const Interval printed(5.0);
   const Verdict verdict = rigor::decide_less_equal(printed, largest);
-  return condition(
-      "section-v-ell", "5 \\le 2 \\inf |MT|^2 / |T|^2 \\text{ at } \\omega = 3,\\ \\lambda = (1, 2, 3, 4)",
-      verdict,
-      "the largest ell for which mu vanishes along the signal of section V is " +
-          rigor::upper_decimal(largest) + " (with the factor 2 of (9)), in every range that holds 3 rad/s.",
-      printed, largest);
+  return condition("section-v-ell",
+                   "5 \\le 2 \\inf |MT|^2 / |T|^2 \\text{ at } \\omega = 3,\\ \\lambda = (1, 2, 3, 4)",
+                   verdict,
+                   "the largest ell for which mu vanishes along the signal of section V is " +
+                       rigor::upper_decimal(largest) +
+                       " (with the factor 2 of (9)), in every range that contains 3 rad/s.",
+                   printed, largest);
 }
 
 /// Distinct rates, and with them the Vandermonde matrix's smallest singular value.
@@ -105,9 +106,9 @@ void add_injectivity(const KklClaimsQuestion& question, theorems::Derivation& de
       "injectivity", "|\\Delta x_1| + |\\Delta x_2| + c |\\Delta x_3| \\le d\\, |\\Delta T|", verdict,
       verdict == Verdict::proved
           ? "the Vandermonde matrix of the rates has full rank, with a verified smallest singular value; d "
-            "carries a factor that the paper's last step leaves out (from the sum of four terms to their "
-            "norm)."
-          : "the Vandermonde matrix of the rates is too near to a singular one for its rank to be verified.",
+            "contains a factor that the paper's last step omits (from the sum of four terms to their norm)."
+          : "the Vandermonde matrix of the rates is too close to a singular matrix for its rank to be "
+            "verified.",
       smallest));
 }
 
@@ -129,14 +130,14 @@ theorems::Derivation derive_kkl_claims(const KklClaimsQuestion& question) {
     add_inverse(question, derivation);
   } else {
     derivation.notes.emplace_back(
-        "The paper gives its inverse for four filters: of a design with more, "
-        "injectivity alone is certified.");
+        "The paper gives its inverse for four filters. For a design with more, only injectivity is "
+        "certified.");
   }
   // A REFUTED claim is a slip of the paper's, not a fault of the design; together they have no verdict.
   derivation.verdict = Verdict::undecided;
   derivation.notes.emplace_back(
-      "A claim that is REFUTED here is the paper's as printed. The verdict on all of "
-      "them together is none on the design.");
+      "A claim that is REFUTED here is refuted as the paper prints it. These verdicts concern the paper, not "
+      "this design.");
   return derivation;
 }
 

@@ -135,9 +135,9 @@ theorems::Condition solver_condition(const std::string& id, const std::string& s
   } else if (rigor::is_finite(enclosure)) {
     condition.verdict = Verdict::refuted;
     condition.reason = solver + " FAILED: its value " + rigor::to_decimal(value, 12, rigor::Direction::down) +
-                       " is not the minimum, which the verified enclosure holds.";
+                       " is not the minimum, which lies in the verified enclosure.";
   } else {
-    condition.reason = "without a verified enclosure nothing can be said of " + solver + "'s value.";
+    condition.reason = "without a verified enclosure nothing can be said about " + solver + "'s value.";
   }
   return condition;
 }
@@ -165,21 +165,22 @@ theorems::Derivation derive_kkl_ell(const KklRange& range, const search::Verifie
                  solve_reduced(at, search::SearchMethod::direct)};
   }
   const rigor::UpwardRounding upward;
-  // Wider than the enclosure by what values computed in double may differ: they are to be held against it.
+  // Wider than the enclosure by the rounding errors of double, because values computed in double are compared
+  // with it.
   constexpr double kComparison = 4e-10;
   const Interval ell = minimum.value() * (Interval(1.0) + rigor::symmetric(kComparison));
   theorems::Derivation derivation;
   derivation.id = "kkl-ell";
-  derivation.title = "The constant of (10): how far T(x) stays from the singular set of the inverse";
+  derivation.title = "The constant of (10): the distance of T(x) from the singular set of the inverse";
   const std::string reduced = "\\min_\\omega \\lambda_{min}(A^T M^T M A, A^T A)";
   derivation.quantities = {quantity("ell", "\\ell", "\\inf_{|T(x)| = 1} |M T(x)|^2", ell, Sense::enclosure,
                                     "the constant of (10)"),
                            quantity("ell_ipopt", "\\ell_{Ipopt}", "\\inf_{|T(x)| = 1} |M T(x)|^2",
-                                    Interval(proposals[0]), Sense::sampled, "what Ipopt finds for (10)"),
+                                    Interval(proposals[0]), Sense::sampled, "value found by Ipopt for (10)"),
                            quantity("ell_nlopt", "\\ell_{NLopt}", reduced, Interval(proposals[1]),
-                                    Sense::sampled, "what NLopt finds locally"),
+                                    Sense::sampled, "value found by NLopt, local search"),
                            quantity("ell_nlopt_global", "\\ell_{DIRECT}", reduced, Interval(proposals[2]),
-                                    Sense::sampled, "what NLopt finds globally"),
+                                    Sense::sampled, "value found by NLopt, global search"),
                            quantity("argmin_omega", "\\omega_\\ell", "\\arg" + reduced, minimum.where(0),
                                     Sense::enclosure, "the frequencies that can attain it, rad/s")};
 
@@ -195,7 +196,7 @@ theorems::Derivation derive_kkl_ell(const KklRange& range, const search::Verifie
   tight.reason = tight.verdict == Verdict::proved
                      ? "branch and bound over the frequency, " + std::to_string(minimum.cells) + " cells."
                      : "branch and bound over the frequency ended after " + std::to_string(minimum.cells) +
-                           " cells without an enclosure as narrow as that.";
+                           " cells without a sufficiently narrow enclosure.";
   theorems::Condition positive;
   positive.id = "positive";
   positive.statement = "\\ell > 0";
@@ -212,7 +213,7 @@ theorems::Derivation derive_kkl_ell(const KklRange& range, const search::Verifie
   derivation.verdict = rigor::conjunction({tight.verdict, positive.verdict});
   derivation.notes = {
       "The values of Ipopt (on (10) as the paper states it) and of NLopt (on the reduced problem, locally "
-      "and globally) are proposals: they are held against the enclosure and enter no proof."};
+      "and globally) are proposals: they are compared with the enclosure, and no proof uses them."};
   return derivation;
 }
 

@@ -1,5 +1,5 @@
 // The constant ell of the KKL observer (trackers/kkl_observer/kkl_observer.hpp): problem (10) of its paper,
-// solved as it stands, solved in its reduced form, and enclosed.
+// solved as stated, solved in its reduced form, and enclosed.
 #pragma once
 
 #include "analysis/rigor/matrix.hpp"

@@ -49,7 +49,7 @@ void add_left_inverse(const KklRange& range, const KklClaimsQuestion& question,
     vanishes.verdict = inverse.verdict = Verdict::proved;
     vanishes.reason = "the ell in use is at most twice the verified infimum; the factor is that of (9).";
     inverse.reason =
-        "mu vanishes on T(O_r), where det(L'L) = |M xi|^2 is positive: (15) has the solution x alone.";
+        "mu vanishes on T(O_r), where det(L'L) = |M xi|^2 is positive: (15) has x as its only solution.";
   } else if (const auto witness = find_inverse_witness(range, question.ell)) {
     const rigor::IntervalVector<4> xi = trackers::kkl_transform<Interval, 4>(witness->state(), range.lambda);
     const trackers::OscillatorState<Interval> found =
@@ -110,7 +110,7 @@ void add_continuity(const KklRange& range, const KklClaimsQuestion& question,
       rigor::is_finite(modulus) ? Verdict::proved : Verdict::undecided,
       rigor::is_finite(modulus)
           ? "on the annulus " + decimal(lower.lower()) + " <= |xi| <= " + rigor::upper_decimal(upper) +
-                ", which holds T of the assumed range; K bounds the slope."
+                ", which contains T of the assumed range; K bounds the slope."
           : "no finite bound on the slope was found.",
       modulus));
 }
@@ -182,7 +182,7 @@ Interval continuity_modulus(const rigor::IntervalVector<4>& lambda, const Interv
       gram += square(lambda(i) - lambda(j));
     }
   }
-  const Interval matrix_norm = Interval(2.0) * gram;  // of M, squared: each difference stands in it twice
+  const Interval matrix_norm = Interval(2.0) * gram;  // of M, squared: each difference occurs in it twice
   const Interval four(4.0);
   const Interval two(2.0);
   const Interval one(1.0);

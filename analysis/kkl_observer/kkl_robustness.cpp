@@ -26,7 +26,7 @@ KklRobustness search_errors(const Errors& errors, const KklRobustnessQuestion& q
     settings.cells = question.cells;
     settings.batch = 256;
     settings.importance = errors.importance();
-    settings.of_lower_ends = true;  // what is left of the start is anywhere in its intervals
+    settings.of_lower_ends = true;  // the remaining effect of the start lies anywhere in its intervals
     auto minimum = search::minimize_globally<kKklSearchVariables>(function, errors.box(), settings);
     result.cells += minimum.cells;
     return minimum;

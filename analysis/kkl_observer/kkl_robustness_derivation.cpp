@@ -21,7 +21,7 @@ theorems::Quantity quantity(std::string name, std::string symbol, std::string fo
       std::move(name), std::move(symbol), std::move(formula), kSource, value, std::nullopt,
       sense,           std::move(words)};
   if (rigor::is_empty(value)) {
-    result.not_applicable = "No bound was found that applies: see the conditions.";
+    result.not_applicable = "No applicable bound was found: see the conditions.";
   }
   return result;
 }
@@ -31,19 +31,19 @@ theorems::Condition regular_condition(const KklRobustness& found, const Interval
       "regular", "\\ell \\le 2 \\inf |M\\xi|^2 / |\\xi|^2", Verdict::undecided, ell, found.largest_ell, {}};
   if (rigor::certainly_less_equal(ell, found.largest_ell)) {
     condition.verdict = Verdict::proved;
-    condition.reason = "mu of (9) vanishes wherever the disturbance can take the filters: the bounds apply.";
+    condition.reason =
+        "mu of (9) vanishes at every filter state that the disturbance can cause: the bounds apply.";
   } else {
     condition.reason =
-        "the ell in use is not certainly small enough for mu of (9) to vanish under the "
-        "disturbance (" +
+        "the ell in use is not proved to be small enough for mu of (9) to vanish under the disturbance (" +
         rigor::lower_decimal(found.largest_ell) +
-        " would be): the bounds are those of an observer with a smaller ell.";
+        " is small enough): the bounds are for an observer with a smaller ell.";
   }
   return condition;
 }
 
 constexpr const char* kOtherObserver =
-    "what was bounded is an observer with an ell for which mu of (9) vanishes, not the one in use.";
+    "the bounds are for an observer with an ell for which mu of (9) vanishes, not for the one in use.";
 
 theorems::Condition frequency_condition(const KklRobustness& found, bool regular) {
   theorems::Condition condition{"frequency-exists", "\\hat x_3 / x_3 > 0",
@@ -56,8 +56,8 @@ theorems::Condition frequency_condition(const KklRobustness& found, bool regular
     condition.reason = "the estimate of the squared frequency stays positive under the disturbance.";
   } else {
     condition.reason =
-        "the disturbance may take the estimate of the squared frequency to zero, where no "
-        "frequency can be read off it.";
+        "under the disturbance the estimate of the squared frequency may reach zero, where it gives no "
+        "frequency.";
   }
   return condition;
 }
@@ -94,7 +94,7 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question
   const auto bound = [applies](const Interval& value) { return applies ? value : Interval(); };
   theorems::Derivation derivation;
   derivation.id = "kkl-robustness";
-  derivation.title = "What the assumed disturbance does to the estimates";
+  derivation.title = "Bounds on the estimation errors under the assumed disturbance";
   derivation.quantities = {
       quantity("frequency_error_bound", "b_\\omega", "\\sup_{t \\ge t_s} |\\hat\\omega - \\omega|",
                bound(found.frequency_error_bound), Sense::at_most, "frequency error once settled, rad/s"),
@@ -112,10 +112,10 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question
   derivation.verdict = rigor::conjunction(
       {derivation.conditions[0].verdict, derivation.conditions[1].verdict, derivation.conditions[2].verdict});
   derivation.notes = {
-      "The bounds hold from the settling time on, for every signal of the assumed range, when the filters "
-      "start at rest with the signal. A sinusoidal disturbance may have any phase and any frequency from the "
-      "assumed one up.",
-      "The simulated errors are the largest over a grid of signals; they prove nothing and show how tight "
+      "The bounds are valid from the settling time on, for every signal of the assumed range, if the filters "
+      "start at rest with the signal. A sinusoidal disturbance may have any phase and any frequency at or "
+      "above the assumed one.",
+      "The simulated errors are the largest over a grid of signals. They prove nothing, but show how tight "
       "the bounds are."};
   return derivation;
 }

@@ -88,7 +88,7 @@ long steps_a_period(double disturbance_frequency) {
   return std::lround(std::max(kFewest, kStepsADisturbance * disturbance_frequency));
 }
 
-/// What the captions print: mean and deviation, and how many digits stand behind the point of the mean.
+/// The captions: mean and deviation, and the number of digits after the decimal point of the mean.
 struct Caption {
   double amplitude_mean, amplitude_deviation, frequency_mean, frequency_deviation;
   double mean_unit;  ///< one unit of the last digit of the means
@@ -145,7 +145,7 @@ SectionVRun run_adaptive_section_v(double disturbance_frequency) {
 theorems::Derivation derive_kkl_section_v(const Eigen::Vector4d& lambda, double ell) {
   theorems::Derivation derivation;
   derivation.id = "kkl-section-v";
-  derivation.title = "The simulations of section V, run again";
+  derivation.title = "The simulations of section V, repeated";
   int exact = 0;
   int close = 0;
   const auto compare = [&](double found, double printed, double unit) {
@@ -177,15 +177,15 @@ theorems::Derivation derive_kkl_section_v(const Eigen::Vector4d& lambda, double 
   count("captions_reproduced", exact, "captions of Figures 1 to 6 reproduced to the last digit, of twelve");
   count("captions_within_one_unit", close, "within one unit of the last digit, of twelve");
   derivation.notes = {
-      "Printed are, as mean and deviation: amplitude 1.9999 and 0.0947 (10 rad/s), 2.0 and 0.0108 (100 "
+      "The paper prints, as mean and deviation: amplitude 1.9999 and 0.0947 (10 rad/s), 2.0 and 0.0108 (100 "
       "rad/s), 2.0 and 0.0011 (1000 rad/s); frequency 2.9956 and 0.1164, 3.0 and 0.0142, 3.0 and 0.0014 "
       "rad/s.",
-      "The captions cannot tell one ell from another: every ell for which mu vanishes along the run gives "
-      "the same numbers. They do tell such an ell from a larger one.",
-      "Printed for the adaptive observer (Figures 7 to 9): 2.6677 and 0.8463, 3.7028 and 1.1004, 2.8141 and "
-      "0.5285 rad/s. Its parameters here are ours (lambda = 5, alpha = 1, all gains 1, started at 2 rad/s): "
-      "the paper's are in a work that was not at hand, and the numbers are not to be compared for "
-      "agreement."};
+      "The captions do not determine ell: every ell for which mu vanishes along the run gives the same "
+      "numbers. They do distinguish such an ell from a larger one.",
+      "For the adaptive observer (Figures 7 to 9) the paper prints 2.6677 and 0.8463, 3.7028 and 1.1004, "
+      "2.8141 and 0.5285 rad/s. The parameters used here are our own (lambda = 5, alpha = 1, all gains 1, "
+      "started at 2 rad/s), because the paper's are in a work that was not available; the numbers cannot be "
+      "compared for agreement."};
   return derivation;
 }
 

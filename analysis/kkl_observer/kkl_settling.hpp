@@ -6,9 +6,9 @@
 
 namespace veritrack::kkl_observer {
 
-/// What is left of the start after `time` (s), filter by filter and relative to the signal's amplitude A:
-/// exp(-lambda t) (|T(x(0))| + |response to the disturbance at 0|) / A. It bounds what is left at any later
-/// time too. Needs the upward mode.
+/// The remaining effect of the start after `time` (s), filter by filter and relative to the signal's
+/// amplitude A: exp(-lambda t) (|T(x(0))| + |response to the disturbance at 0|) / A. It bounds the remaining
+/// effect at any later time too. Needs the upward mode.
 [[nodiscard]] KklErrorMap<rigor::Interval>::Filters<rigor::Interval> transient_at(
     const KklRobustnessQuestion& question, const rigor::Interval& time);
 

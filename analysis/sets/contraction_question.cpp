@@ -42,8 +42,9 @@ std::string beyond_the_limits(const ContractionQuestion& question, const std::op
   if (!text.empty()) {
     return text;
   }
-  return largest_noise && largest_slew ? "each alone is within its limit, the two together are not certified"
-                                       : "none is certified for smaller ones either";
+  return largest_noise && largest_slew
+             ? "noise and slew are each within their limits, but are not certified together"
+             : "no set is certified for smaller noise or slew either";
 }
 
 }  // namespace veritrack::sets

@@ -29,7 +29,7 @@ struct ContractionQuestion {
 /// questions have no answer. Needs the upward mode.
 [[nodiscard]] bool is_well_posed(const ContractionQuestion& question);
 
-/// Why no set bears the assumed noise and slew: which of the two is beyond the largest that was certified
+/// Why no set tolerates the assumed noise and slew: which of the two is beyond the largest that was certified
 /// without the other, and by how much; a clause. Needs the upward mode.
 [[nodiscard]] std::string beyond_the_limits(const ContractionQuestion& question,
                                             const std::optional<double>& largest_noise,

@@ -24,26 +24,26 @@ Quantity unset(const char* name, const char* symbol, const char* words, Sense se
 }  // namespace
 
 Quantity contraction_rate() {
-  return unset("contraction_rate", "\\kappa", "factor by which the error shrinks, per sample",
+  return unset("contraction_rate", "\\kappa", "largest factor of the error per sample, before noise and slew",
                Sense::at_most);
 }
 Quantity radius() {
   return unset("radius", "R", "radius of the certified set, in its metric", Sense::equal);
 }
 Quantity frequency_error_radius() {
-  return unset("frequency_error_radius", "\\nu_R", "frequency error to which the set reaches, rad/sample",
+  return unset("frequency_error_radius", "\\nu_R", "frequency errors in the set up to, rad/sample",
                Sense::at_least);
 }
 Quantity phase_error_radius() {
-  return unset("phase_error_radius", "\\psi_R", "phase error to which the set reaches, rad", Sense::at_least);
+  return unset("phase_error_radius", "\\psi_R", "phase errors in the set up to, rad", Sense::at_least);
 }
 Quantity amplitude_error_radius() {
-  return unset("amplitude_error_radius", "a_R", "amplitude error to which the set reaches, relative",
+  return unset("amplitude_error_radius", "a_R", "amplitude errors in the set up to, relative",
                Sense::at_least);
 }
 Quantity frequency_error_bound() {
   return unset("frequency_error_bound", "\\sup_k |\\nu(k)|",
-               "frequency error at any sample from the assumed start on, rad/sample", Sense::at_most);
+               "frequency error at every sample, from the assumed start on, rad/sample", Sense::at_most);
 }
 Quantity ultimate_frequency_error() {
   return unset("ultimate_frequency_error", "\\nu_\\infty", "frequency error in the long run, rad/sample",
@@ -58,7 +58,7 @@ Quantity capture_samples() {
 }
 Quantity wrong_lock_frequency_error() {
   return unset("wrong_lock_frequency_error", "\\liminf_k |\\nu(k)|",
-               "frequency error that a start ends with, rad/sample", Sense::at_least);
+               "frequency error at the wrong lock, rad/sample", Sense::at_least);
 }
 Quantity largest_noise() {
   return unset("largest_noise", "V_{max}",
@@ -69,7 +69,7 @@ Quantity largest_slew() {
                Sense::at_least);
 }
 Quantity bias_frequency() {
-  return unset("bias_frequency", "\\nu^*", "steady-state frequency error of the leak, rad/sample",
+  return unset("bias_frequency", "\\nu^*", "steady-state frequency error due to the leak, rad/sample",
                Sense::enclosure);
 }
 

@@ -54,6 +54,8 @@ struct StartResult {
 struct ContractionResult {
   // Of the largest certified set under the assumed noise and slew.
   theorems::Quantity contraction_rate = quantities::contraction_rate();
+  int rate_window = 1;              ///< samples over which the rate is a geometric mean
+  bool about_steady_state = false;  ///< radii are measured from a biased steady state, not from the truth
   theorems::Quantity radius = quantities::radius();
   theorems::Quantity frequency_error_radius = quantities::frequency_error_radius();
   theorems::Quantity phase_error_radius = quantities::phase_error_radius();

@@ -34,12 +34,11 @@ UncontrollableMode find_uncontrollable_mode(const trackers::ToneModel<Interval>&
   const bool numbers = is_finite(mode.transition) && is_finite(mode.process_noise) && is_finite(design.r);
   const bool without_leak = design.epsilon == zero;
   if (!numbers || !without_leak) {
-    // With a leak and omega != 0 the fixed point is off the truth, where F turns the amplitude into the phase
+    // With a leak and omega != 0 the fixed point is biased, where F turns the amplitude into the phase
     // that q2 drives: this witness says nothing there.
-    mode.reason = numbers
-                      ? "with a leak the estimate settles off the truth, where the amplitude is not a mode "
-                        "of its own"
-                      : "a design value is not finite";
+    mode.reason =
+        numbers ? "with a leak the estimate settles with a bias, where the amplitude is not a separate mode"
+                : "a design value is not finite";
     return mode;
   }
   const rigor::IntervalMatrix<1, 3> w = rigor::to_interval(mode.left_eigenvector).transpose();
@@ -52,8 +51,8 @@ UncontrollableMode find_uncontrollable_mode(const trackers::ToneModel<Interval>&
   mode.verdict = rigor::Verdict::proved;
   mode.reason =
       "with q1 = 0 and epsilon = 0 no process noise reaches the amplitude, a mode with eigenvalue 1: its "
-      "variance and its gain decay like 1/k, and there is no steady state from which errors die out "
-      "exponentially; q1 > 0 repairs it";
+      "variance and its gain decay like 1/k, and no steady state is exponentially stable; q1 > 0 remedies "
+      "this";
   return mode;
 }
 

@@ -98,7 +98,7 @@ std::string explain_end(double reached, const char* side) {
          rigor::to_decimal(reached, 6, toward_zero) + " rad/sample, and the band's " + side +
          " end lies beyond: the steady state may cease to exist there; restrict [assume] frequency to at " +
          (reached > 0.0 ? "most " : "least ") + rigor::to_decimal(reached, 4, toward_zero) +
-         " rad/sample, or take a smaller leak epsilon or a larger q2, which carry it farther";
+         " rad/sample, or take a smaller leak epsilon or a larger q2, which extend the verified branch";
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ LockBranch verify_lock_branch(const trackers::ToneModel<Interval>& design, const
         design.q1 == Interval(0.0)
             ? "with q1 = 0 the amplitude is an uncontrollable mode on the unit circle at frequency 0, from "
               "where the lock branch is continued, so that there is no isolated steady state to start with "
-              "(a leak mends this at other frequencies only); any q1 > 0 repairs it"
+              "(a leak remedies this only at other frequencies); any q1 > 0 remedies this"
             : "no isolated positive definite steady-state covariance could be verified at frequency 0";
     return branch;
   }
@@ -163,7 +163,7 @@ LockBranch verify_lock_branch(const trackers::ToneModel<Interval>& design, const
   }
   branch.verdict = Verdict::proved;
   branch.reason = "verified by Krawczyk's operator in " + std::to_string(branch.cells.size()) +
-                  " cells that join, continued from the exact estimate at frequency 0";
+                  " adjoining cells, continued from the exact estimate at frequency 0";
   return branch;
 }
 

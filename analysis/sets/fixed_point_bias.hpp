@@ -1,7 +1,7 @@
 // The steady state of the quadrature tracker: where it settles without noise on a tone of constant frequency,
 // and so its bias.
 //
-// Without a leak (epsilon = 0) it settles on the truth at every frequency. With a leak the prediction pulls
+// Without a leak (epsilon = 0) it settles without bias at every frequency. With a leak the prediction pulls
 // the frequency towards zero, and the steady state is a fixed point X*(omega) of the polar-frame map away
 // from the truth. That map has several fixed points; the one meant is on the lock branch, which starts at
 // omega = 0 from the exact estimate.
@@ -21,7 +21,7 @@ namespace veritrack::sets {
 /// Fixed points of the quadrature tracker over a range of frequencies.
 using QuadratureTube = FixedPointTube<QuadraturePolarLoop::kStates>;
 
-/// What the steady state is off by, over a range of frequencies.
+/// The bias of the steady state, over a range of frequencies.
 struct SteadyStateError {
   rigor::Interval frequency;        ///< the true frequencies covered, rad/sample
   rigor::Interval frequency_error;  ///< nu*, rad/sample

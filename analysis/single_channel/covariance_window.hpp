@@ -2,10 +2,10 @@
 // phase.
 //
 // One step maps P to update(U(nu) F(z) P F(z)' U(nu)' + Q), F(z) = [[I, J z], [0, 1]], by the measurement in
-// the direction (cos phi, -sin phi) of the new phase. For estimates near the truth, z near 1 and nu near 0, U
-// F differs little from F = F(1). The step is monotone in the Loewner order, so that bounds on an old
-// covariance become, run through a window of phases, bounds on the new one that hardly depend on the old one.
-// docs/single-channel.md, section 4.
+// the direction (cos phi, -sin phi) of the new phase. For estimates near the true signal, z near 1 and nu
+// near 0, U F differs little from F = F(1). The step is monotone in the Loewner order, so that bounds on an
+// old covariance become, run through a window of phases, bounds on the new one that hardly depend on the old
+// one. docs/single-channel.md, section 4.
 //
 // The template runs on double, to propose, and on Taylor models in (phase, frequency), for bounds that hold
 // over a cell of both.
@@ -81,7 +81,7 @@ struct WindowAssumption {
 };
 
 /// A bound t with E P E' <= t diag(1, 1, 0), E = U(nu) F(z) - F, for every covariance P that is at most
-/// `bound` and keeps to the assumption. |E x| <= |nu| |x_z| + (|delta| + |nu|) |x_3|. Needs the upward mode.
+/// `bound` and satisfies the assumption. |E x| <= |nu| |x_z| + (|delta| + |nu|) |x_3|. Needs the upward mode.
 [[nodiscard]] rigor::Interval disturbance(const WindowAssumption& assumption,
                                           const PhaseCovariance<rigor::Interval>& bound);
 
@@ -125,7 +125,7 @@ template <typename Scalar>
                                                         double drift);
 
 /// The phase so many samples after `phase` (before it, when negative), when the frequency is `frequency`
-/// there, give or take the drift.
+/// there, up to the drift.
 [[nodiscard]] OverPhaseAndFrequency advanced(const OverPhaseAndFrequency& phase,
                                              const OverPhaseAndFrequency& frequency, int samples,
                                              double drift);

@@ -97,9 +97,9 @@ theorems::Derivation transfer_function(const FrozenGain<double>& gain) {
   derivation.conditions.push_back(compare("jury-at-minus-1", "0 < D(-1)", theorems::zero(),
                                           {"D(-1)", one + polynomial.trace + polynomial.determinant}));
   derivation.notes.emplace_back(
-      "The gain of the tracker never stands still, not even in its steady state: it turns with the phase of "
-      "the signal. Frozen here is its mean over the phase, as a simulation gives it; the verdicts are about "
-      "exactly these numbers. Stability of the frozen filter is no statement about the tracker itself.");
+      "The gain of the tracker is never constant, not even in its steady state: it varies with the phase of "
+      "the signal. The frozen gain is its mean over the phase, from a simulation; the verdicts concern "
+      "exactly these numbers. Stability of the frozen filter says nothing about the tracker itself.");
   theorems::conclude(derivation);
   return derivation;
 }

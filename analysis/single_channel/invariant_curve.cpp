@@ -31,7 +31,7 @@ Interval mean_error(const InvariantTube& tube) {
   return mean;
 }
 
-/// What the verified curve says of the frequency error, within `distance` of the family.
+/// The frequency error on the verified curve, within `distance` of the family.
 void read_off(const InvariantTube& tube, SteadyStateBias& bias) {
   using Model = rigor::TaylorModel<2, 5>;
   const bool no_leak = tube.design.epsilon == Interval(0.0);
@@ -65,8 +65,8 @@ void read_off(const InvariantTube& tube, SteadyStateBias& bias) {
   }
   if (!locked) {
     bias.reason =
-        "a steady state is verified, but on it the tracker is not shown to be within a quarter turn of the "
-        "signal";
+        "a steady state is verified, but the tracker is not proved to stay within a quarter turn of the "
+        "signal there";
     return;
   }
   if (no_leak) {

@@ -36,7 +36,7 @@
 
 namespace veritrack::single_channel {
 
-/// The steady-state error of the frequency estimate, nu = estimate - truth, rad/sample.
+/// The steady-state error of the frequency estimate, nu = estimate - true frequency, rad/sample.
 struct SteadyStateBias {
   /// PROVED: the enclosures hold for the steady state of every start in a neighbourhood of the curve, and the
   /// tracker is locked on it: the estimate z stays within a quarter turn of the signal at every phase.

@@ -28,8 +28,8 @@ Condition leak(const Interval& epsilon) {
           epsilon,
           Interval(0.0),
           none ? "there is no leak, so the errors settle at zero."
-               : "with a leak the errors settle on a function of the phase, not at zero; this certificate "
-                 "does not cover that: without the leak it may."};
+               : "with a leak the errors settle at a function of the phase, not at zero; this certificate "
+                 "does not cover that, but may cover the design without its leak."};
 }
 
 Condition controllable_amplitude(const trackers::ToneModel<Interval>& design) {
@@ -86,15 +86,12 @@ Condition start_in_set(const PhaseQuestion& question, const PhaseCertificate& ce
     condition.rhs = Interval(certificate.bound_set->start_level);
     condition.reason = "every assumed start lies in a certified set.";
   } else if (question.tracker.initial_covariance) {
-    condition.reason =
-        "a given P(0) is not covered; leave initial_covariance away to start with the steady state.";
+    condition.reason = "a given P(0) is not covered; omit initial_covariance to start with the steady state.";
   } else {
-    condition.reason = "the assumed start errors reach about " +
+    condition.reason = "the assumed starts have level about " +
                        rigor::to_decimal(level_seen, 3, Direction::up) +
-                       " in a metric where the set of "
-                       "starts ends at " +
-                       rigor::lower_decimal(condition.rhs) +
-                       ": smaller start errors or a narrower [assume] frequency would do.";
+                       "; the certified set of starts has level " + rigor::lower_decimal(condition.rhs) +
+                       ". Smaller start errors or a narrower [assume] frequency would help.";
   }
   return condition;
 }
@@ -147,6 +144,11 @@ Interval settling_samples(const PhaseQuestion& question, const PhaseSet& set, do
 void set_size(const PhaseQuestion& question, const std::optional<PhaseSet>& set_found,
               sets::ContractionResult& result) {
   const Reach reach = set_found ? reach_of(*set_found) : Reach{};
+  if (set_found) {
+    result.rate_window = errors_of(question, *set_found).window();
+  }
+  result.contraction_rate.words =
+      "factor of the error per sample, the mean over a window, before noise and slew";
   set(result.contraction_rate, "(\\kappa_n + c R \\textstyle\\sum_m \\kappa_m)^{1/n}",
       set_found ? errors_of(question, *set_found).rate() : Interval());
   result.radius.symbol = "R_0";
@@ -171,7 +173,7 @@ void set_promises(const PhaseQuestion& question, const PhaseCertificate& certifi
   set(starts.settling_samples, "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
       best && disturbed ? settling_samples(question, *best, start) : Interval(),
       !best       ? kNone
-      : disturbed ? "No set promises from when on it holds."
+      : disturbed ? "No certified set gives a settling time."
                   : "Without noise and slew the ultimate bound is zero, which is approached but not "
                     "reached.");
 }
@@ -227,8 +229,8 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
   derivation.title = "Contraction of the errors over all phases and the band of frequencies";
   derivation.notes = {
       "Covers the tracker in exact arithmetic, at every phase, for every frequency that stays in the band, "
-      "signal amplitude constant.",
-      "The metric is the inverse of the tracker's own covariance, in which errors shrink over a window of "
+      "for a signal of constant amplitude.",
+      "The metric is the inverse of the tracker's own covariance, in which errors decrease over a window of "
       "samples. Amplitude error and noise are relative to the true amplitude."};
   const bool sensible = sets::is_well_posed(question.tracker) && is_finite(question.band);
   derivation.conditions = {leak(question.tracker.design.epsilon),

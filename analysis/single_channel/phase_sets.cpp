@@ -15,7 +15,7 @@ using rigor::Interval;
 constexpr double kUsualSlack = 0.025;
 constexpr std::size_t kTries = 8;
 
-/// The largest level of starts that keep to the radius; 0 when none was found.
+/// The largest level of starts that stay within the radius; 0 when none was found.
 double largest_start(const WindowErrors& errors, double radius) {
   if (!errors.keeps_radius()) {
     return 0.0;
@@ -138,12 +138,12 @@ std::optional<PhaseSet> PhaseSearch::largest_set() const {
 std::optional<PhaseSet> PhaseSearch::least_bound() const {
   const rigor::UpwardRounding upward;
   const sets::ContractionQuestion& tracker = question_.tracker;
-  // Sets the level that holds the assumed starts, give or take what the grid does not see.
+  // Sets the level that contains the assumed starts, up to the resolution of the grid.
   const auto within = [&](PhaseSet& set, double margin) {
     const StartProposal start = propose_start(request_, set.claim, box_);
     set.assumed_level = margin * start.level;
     set.start_weight = start.weight;
-    // The steady state of a start that is turned by the phase error: z is off by at most that all along.
+    // The steady state of a start that is turned by the phase error: the error in z never exceeds this value.
     const Interval reach =
         Interval(set.claim.assumption.radius) * sqrt(Interval(set.claim.assumption.signal_variance));
     const bool turns_little = certainly_less_equal(tracker.initial_phase_error, reach);
@@ -210,7 +210,7 @@ std::optional<PhaseSet> PhaseSearch::largest_slew() const {
     const Interval input = WindowErrors(design, claim, zero, zero).largest_input();
     return (input * sqrt(design.q2)).lower();
   };
-  // The slew that the recursion would bear if it did not blur the phases in the window, and parts of it.
+  // The slew that the recursion would tolerate if it did not blur the phases in the window, and parts of it.
   const std::vector<WindowClaim> still = best_first(still_proposals_, room_for);
   if (still.empty()) {
     return std::nullopt;

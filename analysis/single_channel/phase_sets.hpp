@@ -24,7 +24,7 @@ struct PhaseSet {
   rigor::Interval slew;   ///< rad/sample per sample
   /// A start with e' P^-1 e <= start_level^2 keeps e' P^-1 e <= R^2 for ever.
   double start_level = 0.0;
-  /// The level that the assumed starts keep to, and the weight that shows it (certainly_holds_start); only
+  /// The level of the assumed starts, and the weight that proves it (certainly_holds_start); only
   /// when they are certainly in the set.
   std::optional<double> assumed_level;
   double start_weight = 0.5;

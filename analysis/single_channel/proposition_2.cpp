@@ -37,7 +37,7 @@ Verdict update_is_scaled() {
       3);
 }
 
-/// One entry of sum_kl f_ik p_kl f_jl + q_ij is linear in (p, q): one term and the noise stand for all.
+/// One entry of sum_kl f_ik p_kl f_jl + q_ij is linear in (p, q): one term and the noise represent all.
 Verdict prediction_is_scaled() {
   return vanishes<5>(
       [](const std::array<Interval, 5>& x) {

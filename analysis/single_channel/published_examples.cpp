@@ -136,7 +136,7 @@ std::vector<StatementRate> statement_rates(ProcessNoiseReading reading, const Ex
   }
   return {
       {"Example 1, ε = 0.05: locks at both frequencies", share(leaking, both_locked)},
-      {"Example 1, ε = 0.05: estimates too low, by more than 0.03 rad/sample, and the more the higher the "
+      {"Example 1, ε = 0.05: estimates too low by more than 0.03 rad/sample, and lower still at the higher "
        "frequency",
        share(leaking,
              [&](const RunSummary& run) {

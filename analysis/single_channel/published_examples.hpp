@@ -21,7 +21,8 @@ struct ExampleStart {
   double in_phase, quadrature, frequency, variance;
 };
 
-/// Plausible starts: nothing known, a guess of the frequency, and the truth, with a large and a small P(0|0).
+/// Plausible starts: nothing known, a guess of the frequency, and the exact state, with a large and a small
+/// P(0|0).
 [[nodiscard]] std::vector<ExampleStart> example_starts();
 
 enum class ProcessNoiseReading { frequency_only, identity };

@@ -132,8 +132,8 @@ TubeVerification verify(const InvariantTube& tube) {
     return failed(TubeAttempt::wants_smaller_cells,
                   "the proposed curve could not be shown to be nearly invariant");
   }
-  // Any radius will do that (c) allows; twice the distance that a rate leads to leaves room. The expected
-  // rate is that of vanishing cells; the second round has seen these.
+  // Any radius that (c) allows is valid; twice the distance that follows from a rate leaves a margin. The
+  // expected rate is that of vanishing cells; the second round has seen these.
   double seen_rate = tube.expected_rate;
   for (int round = 0; round < 2; ++round) {
     const double tube_radius = 2.0 * rho / (1.0 - seen_rate);

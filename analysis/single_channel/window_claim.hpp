@@ -39,8 +39,8 @@ struct StartBox {
 
 /// The floor when the claim holds for every design in `design` (amplitude 1, epsilon = 0), every phase and
 /// every frequency of `band` (rad/sample), nothing otherwise:
-///   (a) every covariance that keeps to the assumption for a window keeps to its two variances afterwards;
-///   (b) shares, curvature and signal_uncertainty are as they say.
+///   (a) every covariance that satisfies the assumption for a window stays below its two variances
+///   afterwards; (b) shares, curvature and signal_uncertainty are as they say.
 /// Cells of phase and frequency, in parallel; the result does not depend on the number of threads. Opens its
 /// own rounding modes.
 [[nodiscard]] std::optional<WindowFloor> verify_window(const trackers::ToneModel<rigor::Interval>& design,

@@ -20,7 +20,7 @@ WindowErrors::WindowErrors(const trackers::ToneModel<Interval>& design, const Wi
   for (const double share : claim.shares) {
     shrinkage_.push_back(sqrt(max(one - Interval(share), zero)));
   }
-  // |delta nu + i nu^2 / 2| falls short of the truth by at most |nu|^3 / 6, |nu| <= R sqrt(P33).
+  // |delta nu + i nu^2 / 2| is less than the exact term by at most |nu|^3 / 6, |nu| <= R sqrt(P33).
   const Interval variance(claim.assumption.frequency_variance);
   const Interval cubic = radius_ * variance * sqrt(variance) / Interval(6.0);
   curvature_ = (Interval(claim.curvature) + cubic) / sqrt(Interval(claim.signal_uncertainty));

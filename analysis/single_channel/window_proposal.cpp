@@ -146,7 +146,7 @@ std::optional<WindowClaim> best_length(const WindowRequest& request, const Windo
 std::optional<WindowClaim> propose_window(const WindowRequest& request, WindowAssumption assumption) {
   const double settled = assumption.signal_variance;
   constexpr int kRounds = 6;
-  constexpr double kMargin = 1.004;  // so that the rounds end above the variances that they ask for
+  constexpr double kMargin = 1.004;  // so that the iteration ends above the variances that it requires
   constexpr double kTooLarge = 5.0;
   for (int round = 0; round < kRounds; ++round) {
     assumption = variances_of(request, assumption);

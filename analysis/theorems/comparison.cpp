@@ -49,7 +49,7 @@ std::string explain(const Side& left, const Side& right, Verdict verdict) {
     const auto shown = [](const Side& side) {
       return side.is_literal ? side.words : side.words + " in " + enclosed(side.value);
     };
-    return shown(left) + " and " + shown(right) + " are not told apart.";
+    return shown(left) + " and " + shown(right) + " cannot be separated.";
   }
   const bool holds = verdict == Verdict::proved;
   const std::string left_end =

@@ -70,7 +70,7 @@ Derivation evaluate_baras_bensoussan_james(const TrackerInput& unchecked) {
       "Baras, Bensoussan and James 1988 (thesis, theorem 2.2) for the matching continuous-time oscillator";
   const std::string no_leak = "Without a leak the pair is not detectable in the theorem's sense.";
   add_quantity(derivation,
-               {"epsilon_c", R"(\epsilon_c)", R"(-\log(1 - \epsilon))", "matching decay a sample"}, c.leak);
+               {"epsilon_c", R"(\epsilon_c)", R"(-\log(1 - \epsilon))", "matching decay per sample"}, c.leak);
   add_quantity(
       derivation,
       {"q", "q", R"(\lVert N_0 \rVert + \frac{\lVert Q^{1/2} \rVert^2 + \lVert \Lambda \rVert^2}{2\alpha_0})",
@@ -83,7 +83,7 @@ Derivation evaluate_baras_bensoussan_james(const TrackerInput& unchecked) {
   add_quantity(derivation,
                {"printed_start_bound_rescaled", R"(\lvert x_0 - m_0 \rvert)",
                 R"(\frac{q_0}{n^2 p^{1/2} \lVert P_0^{1/2} \rVert})",
-                "thesis, (2.16), the state counted in units of 1/1024"},
+                "thesis, (2.16), with the state in units of 1/1024"},
                rescaled);
   add_guarantee(derivation, {c.sound, Interval::empty(), Interval::empty()}, "docs/published-results.md",
                 "The theorem is for signals without noise.");
@@ -110,18 +110,15 @@ Derivation evaluate_baras_bensoussan_james(const TrackerInput& unchecked) {
               {"the largest |w| + |v| allowed", noise.process + noise.measurement}, zero(), Strictness::weak),
       start_error(input, R"(\frac{q_0}{q^{3/2} \lVert P_0^{1/2} \rVert})", c.sound)};
   derivation.notes = {
-      "(2.16) as printed depends on the units in which the state is counted, so that it can be made to admit "
-      "any start: "
-      "p bounds the inverse of the covariance where its proof needs the bound q on the covariance, to the "
+      "(2.16) as printed depends on the units of the state, so that suitable units make it admit any start: "
+      "p bounds the inverse of the covariance, but its proof needs the bound q on the covariance, to the "
       "power 3/2.",
       "Definition 2.2 pairs F with Q, theorem 2.1 with a square root of Q: with Q Gamma the term in p is "
       "that of "
       "Q^(1/2) Gamma. Also N_0 = P_0^-1 is the covariance, P its inverse.",
-      "The conditions ask one bounded Lambda and Gamma for all states. Near the signal both exist if there "
-      "is a leak; "
-      "initial_frequency_error_bound is for that neighbourhood, any start with N(0) = nu I, and a signal "
-      "that follows the "
-      "model."};
+      "The conditions require one bounded Lambda and Gamma for all states. Near the signal both exist if "
+      "there is a leak; initial_frequency_error_bound is for that neighbourhood, any start with N(0) = nu I, "
+      "and a signal that follows the model."};
   conclude(derivation);
   return derivation;
 }

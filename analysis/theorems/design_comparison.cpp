@@ -102,7 +102,8 @@ Derivation evaluate_theorem_3_2(const TrackerInput& unchecked) {
   derivation.id = "theorem-3.2";
   derivation.title =
       "Over-design and under-design of the filter (thesis, theorem 3.2), linearised at |z| = 1";
-  const std::string unknown = "The differences could not be told from 0, or q_1 may be 0 in this design.";
+  const std::string unknown =
+      "The differences could not be distinguished from 0, or q_1 may be 0 in this design.";
   const Interval over_gap = smallest_gap(over, true);
   const Interval under_gap = smallest_gap(under, false);
   add_quantity(derivation,
@@ -131,15 +132,14 @@ Derivation evaluate_theorem_3_2_any_start() {
   const rigor::UpwardRounding upward;
   Derivation derivation;
   derivation.id = "theorem-3.2/any-start";
-  derivation.title = "Theorem 3.2 of the thesis as printed, which asks nothing of the start";
+  derivation.title = "Theorem 3.2 of the thesis as printed, without a condition on the start";
   derivation.conditions.push_back(
       compare("any-start", R"(P^p(0 \mid -1) \le P^d(0 \mid -1) \text{ for any two})",
               {"P^p at a start with the variance 1", Interval(1.0)},
-              {"P^d of a filter that is told 0", Interval(0.0)}, Strictness::weak));
+              {"P^d of a filter that starts with 0", Interval(0.0)}, Strictness::weak));
   derivation.notes.emplace_back(
-      "The theorem needs the order at the start too: a filter that starts over-confident computes less than "
-      "it "
-      "performs, however large its Q and R.");
+      "The theorem also needs the order at the start: a filter that starts over-confident computes a smaller "
+      "covariance than it attains, however large its Q and R.");
   conclude(derivation);
   return derivation;
 }

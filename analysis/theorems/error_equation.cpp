@@ -61,12 +61,13 @@ void add_guarantee(Derivation& derivation, const Guarantee& guarantee, const std
   add_quantity(derivation,
                {"initial_frequency_error_bound", R"(\lvert e_0 \rvert)", "", source,
                 "largest certified initial error, rad/sample", Sense::at_least},
-               guarantee.initial_frequency_error, "The conditions hold for no initial error of this design.");
+               guarantee.initial_frequency_error,
+               "No initial error satisfies the conditions for this design.");
   add_quantity(derivation,
                {"noise_bound", R"(\lvert v(k) \rvert)", "", source,
                 "largest certified noise, over the amplitude", Sense::at_least},
                guarantee.noise,
-               no_noise.empty() ? "The conditions hold for no noise with this design." : no_noise);
+               no_noise.empty() ? "No noise bound satisfies the conditions for this design." : no_noise);
   add_quantity(derivation, {"rate", "", "", source}, guarantee.rate, "No rate follows for this design.");
 }
 
@@ -97,13 +98,14 @@ Condition start_covariance(const TrackerInput& input, const ErrorEquation& equat
   const bool known = is_finite(equation.covariance.smallest) && is_finite(equation.covariance.largest);
   if (known && input.initial_covariance) {
     condition.verdict = Verdict::proved;
-    condition.reason = "The range was widened by the P(0|0) that is given.";
+    condition.reason = "The range was widened to include the given P(0|0).";
   } else if (known && epsilon == Interval(0.0)) {
     condition.verdict = Verdict::proved;
-    condition.reason = "P(0|0) is the steady state, which obeys the bounds of its own past.";
+    condition.reason =
+        "P(0|0) is the steady state, which satisfies the bounds because its whole past is the steady state.";
   } else if (known) {
     condition.reason =
-        "With a leak the steady state has |z| other than 1; that the range holds it is not shown.";
+        "With a leak the steady state has |z| different from 1; it is not proved that the range contains it.";
   } else {
     condition.reason =
         "The range of the covariance is undefined, or overflows, for the values of this design.";
@@ -115,7 +117,7 @@ Condition start_error(const TrackerInput& input, const std::string& bound_in_lat
   const std::string statement = R"(\lvert e_0 \rvert < )" + bound_in_latex;
   if (!input.theorem_2_9.initial_error) {
     return {"start",           statement, Verdict::undecided,
-            Interval::empty(), bound,     "Nothing is assumed of the initial error."};
+            Interval::empty(), bound,     "Nothing is assumed about the initial error."};
   }
   return compare("start", statement, {"the largest |e_0| allowed", *input.theorem_2_9.initial_error},
                  {"the bound on it", bound});

@@ -71,16 +71,12 @@ Derivation evaluate_lemma_3_1(const TrackerInput& unchecked) {
               {"the linearised phase variance for P = diag(0, 0, 1)", one},
               {"the exact one, (1 - e^-2)/2,", exact}, Strictness::weak)};
   derivation.notes = {
-      "The printed term is the square of the bias that the second-order terms cause. It is no part of the "
-      "covariance "
-      "about the mean; the covariance of the truncated series gains (1/2) tr(H_i P H_j P), and the mean "
-      "square about "
-      "f(x) both.",
-      "That linearisation always under-estimates the covariance holds for the series cut off at second order "
-      "only. "
-      "First-order times third-order terms are of the same order in P and negative: a frequency error turns "
-      "the "
-      "signal, which bounds what it does to the phase."};
+      "The printed term is the square of the bias that the second-order terms cause. It is not part of the "
+      "covariance about the mean. The second-order terms add (1/2) tr(H_i P H_j P) to the covariance of the "
+      "truncated series, and both terms to the mean square about f(x).",
+      "Linearisation always under-estimates the covariance only for the series truncated at second order. "
+      "First-order times third-order terms are of the same order in P and negative: a frequency error "
+      "rotates the signal, which bounds its effect on the phase."};
   conclude(derivation);
   return derivation;
 }

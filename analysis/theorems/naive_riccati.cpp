@@ -109,11 +109,10 @@ Derivation evaluate_riccati_bounds(const TrackerInput& unchecked) {
                largest_information(input), "It divides by q_1, which may be 0 in this design.");
   derivation.notes = {
       "P(k|k) <= O^-1 + C is false for two states or more; P(k|k)^-1 <= C^-1 + O is true for N = 1. Where p "
-      "of a "
-      "reading holds, it does so because its b_1 is far below the smallest eigenvalue of the Gramian.",
-      "The bounds hold once the window's two measurements are processed: from k = 1 on for a start P(0|-1), "
-      "from "
-      "k = 2 on for a start P(0|0), while the thesis uses them from k = 0."};
+      "of a reading is a bound, the reason is that its b_1 is far below the smallest eigenvalue of the "
+      "Gramian.",
+      "The bounds are valid once the window's two measurements are processed: from k = 1 on for a start "
+      "P(0|-1), from k = 2 on for a start P(0|0). The thesis uses them from k = 0 on."};
   conclude(derivation);
   return derivation;
 }

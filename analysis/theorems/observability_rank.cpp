@@ -122,7 +122,7 @@ Derivation evaluate_observability_to_the_letter(const TrackerInput& unchecked) {
   const Interval epsilon = with_finite_members(unchecked.theorem_2_9).epsilon;
   Derivation derivation;
   derivation.id = "theorem-3.1/to-the-letter";
-  derivation.title = "What section 3.2.1 of the thesis prints besides, taken to the letter";
+  derivation.title = "Further statements of section 3.2.1 of the thesis, taken literally";
   derivation.conditions.push_back(compare("rank-everywhere", R"(0 < \det J'J \text{ for every } x)", zero(),
                                           {"the determinant at z = 0", determinant(Interval(0.0), epsilon)}));
   // In the scan the entry reads -2 x2 - 1 - epsilon x2, without the parentheses; at x = (1, 0, 0):
@@ -130,15 +130,14 @@ Derivation evaluate_observability_to_the_letter(const TrackerInput& unchecked) {
   derivation.conditions.push_back(
       compare("gram-entry", R"((J'J)_{13} \le -2x_2 - 1 - \epsilon x_2)",
               {"the entry at x = (1, 0, 0)", observability_gram(witness, epsilon)(0, 2)},
-              {"what is printed there, without parentheses,", Interval(-1.0)}, Strictness::weak));
+              {"the printed entry, without parentheses,", Interval(-1.0)}, Strictness::weak));
   // Two states that differ in frequency alone have the same output at k = 0.
   derivation.conditions.push_back(
       compare("definition-3.1", R"(h(f^k(x)) \ne h(f^k(\bar x)) \text{ for every } k = 0, \ldots, n-1)",
               zero(), {"the distance of the outputs of (1, 0, 0) and (1, 0, 1) at k = 0", Interval(0.0)}));
   derivation.notes.emplace_back(
-      "Corollary 3.1.1 does not apply: the rank is not full at z = 0. Definition 3.1 must ask that the "
-      "outputs differ "
-      "at some k.");
+      "Corollary 3.1.1 does not apply: the rank is not full at z = 0. Definition 3.1 must require that the "
+      "outputs differ at some k.");
   conclude(derivation);
   return derivation;
 }

@@ -92,11 +92,10 @@ Derivation evaluate_reif(const TrackerInput& unchecked) {
           "noise",
           R"(\lvert w \rvert + \frac{\bar a \bar p}{\underline r} \lvert v \rvert < \left(1 - \sqrt{1 - \alpha/2}\right) \epsilon (\underline p / \bar p)^{1/2})",
           {"the largest disturbance allowed", noise.process + gain * noise.measurement},
-          {"what the ball bears", largest_noise})};
+          {"the disturbance that the ball tolerates", largest_noise})};
   derivation.notes = {
-      "The paper treats the filter that linearises at the prediction; these constants are for that relative "
-      "of the "
-      "tracker, started with a covariance within its bounds.",
+      "The paper treats the filter that linearises at the prediction; these constants are for that variant "
+      "of the tracker, started with a covariance within its bounds.",
       "The paper's condition |e_0| <= epsilon keeps V from growing only while |e_k| <= epsilon, and V <= V_0 "
       "gives "
       "|e_k| <= sqrt(p_hi / p_lo) |e_0|: the start needs the factor sqrt(p_lo / p_hi)."};
@@ -145,11 +144,10 @@ Derivation evaluate_reif_two_step(const TrackerInput& unchecked) {
           R"(\frac{\lvert w \rvert}{\sqrt{\underline q}} + \frac{\lvert v \rvert}{\sqrt r} < (1 - \alpha - L\epsilon) \frac{\epsilon}{\sqrt{\bar p}})",
           {"the largest disturbance allowed",
            noise.process / sqrt(equation.process) + noise.measurement / sqrt(equation.measurement)},
-          {"what the ball bears", margin})};
+          {"the disturbance that the ball tolerates", margin})};
   derivation.notes = {
-      "A leak acts like process noise of size epsilon |omega|: the model expects the frequency to decay, the "
-      "signal "
-      "keeps it.",
+      "A leak acts like process noise of size epsilon |omega|: the model expects the frequency to decay, but "
+      "the signal keeps its frequency.",
       "noise_bound is for |w(k)| = 0."};
   conclude(derivation);
   return derivation;

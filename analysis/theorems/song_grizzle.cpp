@@ -63,8 +63,7 @@ Derivation evaluate_song_grizzle(const TrackerInput& unchecked) {
   add_guarantee(derivation, {Interval::empty(), Interval::empty(), Interval::empty()}, kTheorem,
                 "The theorem is for signals without noise.");
   derivation.notes.emplace_back(
-      "The assumptions are about every state; see song-grizzle/local for what the argument gives near the "
-      "signal.");
+      "The assumptions concern every state; song-grizzle/local evaluates the argument near the signal.");
   conclude(derivation);
   return derivation;
 }
@@ -115,8 +114,8 @@ Derivation evaluate_song_grizzle_local(const TrackerInput& unchecked) {
               {"the largest |w| + |v| allowed", noise.process + noise.measurement}, zero(), Strictness::weak),
       start_error(input, R"(\frac{q^{1/2} V(0, e_0)^{1/2}}{\bar a (pq)^{1/2}})", start(c))};
   derivation.notes.emplace_back(
-      "The theorem is about the prediction error; an initial filtered error grows by at most a_bar on its "
-      "way there.");
+      "The theorem concerns the prediction error; the first prediction multiplies an initial filtered error "
+      "by at most a_bar.");
   conclude(derivation);
   return derivation;
 }

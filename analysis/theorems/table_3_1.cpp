@@ -113,8 +113,8 @@ Condition extremum(std::string id, std::string statement, const Interval& point,
   Condition condition{std::move(id), std::move(statement), Verdict::undecided, point, Interval::empty(), ""};
   if (is_finite(point)) {
     condition.verdict = minimum ? Verdict::proved : Verdict::refuted;
-    condition.reason = "In r it falls below the stationary point, at least " + at_least(point) +
-                       ", and rises above it: a minimum.";
+    condition.reason = "In r it decreases below the stationary point, which is at least " + at_least(point) +
+                       ", and increases above it: a minimum.";
   } else {
     condition.reason = "No stationary point in r was enclosed for the values of this design.";
   }

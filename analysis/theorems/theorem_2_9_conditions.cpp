@@ -51,7 +51,7 @@ void require_noise_bound(Condition& condition, const std::optional<Interval>& no
   const Verdict verdict = decide_less_equal(largest.value, bound.value);
   if (verdict != Verdict::proved) {
     condition.verdict = verdict;
-    condition.reason = noise ? explain(largest, bound, verdict) : "Nothing is assumed of " + name + ".";
+    condition.reason = noise ? explain(largest, bound, verdict) : "Nothing is assumed about " + name + ".";
   }
 }
 
@@ -65,7 +65,7 @@ Condition bounded_state(const Theorem29Input& input, const Theorem29Constants& c
             Verdict::undecided,
             Interval::empty(),
             c.state_bound,
-            "Nothing is assumed of |x(k)|."};
+            "Nothing is assumed about |x(k)|."};
   }
   const Side state = input.largest_state ? Side{"the largest |x(k)| allowed", *input.largest_state}
                                          : Side{"|x(k)| on the unit circle", Interval(1.0)};
@@ -127,7 +127,7 @@ void add_stability_conditions(std::vector<Condition>& conditions, const Theorem2
     conditions.push_back(compare("2.45", start, {"the largest |e_0| allowed", *input.initial_error}, bound));
   } else {
     conditions.push_back({"2.45", start, Verdict::undecided, Interval::empty(), bound.value,
-                          "Nothing is assumed of the initial error."});
+                          "Nothing is assumed about the initial error."});
   }
 }
 

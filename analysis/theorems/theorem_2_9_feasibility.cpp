@@ -89,12 +89,11 @@ std::string argument(Theorem29Variant variant, const Interval& lower_bound, cons
          " for every sigma, eta >= 2 p q rho_1 by (2.40) and rho_1 >= 2 R_x, so that beta eta >= 4 "
          "(b_2/b_1)^(3/2) R_x, which is at least " +
          at_least(every_design) +
-         " for every design, gamma, sigma, c_1 and c_2: (2.43) cannot hold. For this design the left side is "
-         "at "
-         "least " +
+         " for every design, gamma, sigma, c_1 and c_2: (2.43) cannot be satisfied. For this design the left "
+         "side is at least " +
          at_least(lower_bound) +
-         ". The term to blame is 2 p q rho_1, a bound on the slope of the linearisation error that does not "
-         "shrink with the ball.";
+         ". The cause is the term 2 p q rho_1, a bound on the slope of the linearisation error that does not "
+         "decrease with the ball.";
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ Statement predicted_for_design(const Reading& reading, const Readings& readings)
                                                      : Verdict::undecided;
   return make_statement(
       gap_id("s", reading.name),
-      "For this design P(k+1|k) <= s I for all k >= 2, whatever P(0|0), along estimates with |e| <= eps_r.",
+      "For this design P(k+1|k) <= s I for all k >= 2 and every P(0|0), along estimates with |e| <= eps_r.",
       verdict,
       "Sound bounds: the largest eigenvalue of P(k+1|k) is at least " + at_least(largest_variance) +
           " and at most " + at_most(upper) + "; s is " + enclosed(c.s) + ".",
@@ -56,7 +56,7 @@ Statement start_statement(const Readings& readings) {
   const Interval& p = readings.printed().p;
   const Interval start = Interval(2.0) * p;
   return make_statement(gap_id("bounds-from-the-start"),
-                        "P(0|0) <= p I, which the proofs use at k = 0, holds for every start P(0|0) >= 0.",
+                        "P(0|0) <= p I, which the proofs use at k = 0, is true for every start P(0|0) >= 0.",
                         decide_less_equal(start, p),
                         "P(0|0) = 2 p I, allowed by the theorem: its eigenvalue is " + enclosed(start) +
                             ", p is " + enclosed(p) + ".",
@@ -72,8 +72,8 @@ Statement displayed_recursion_statement(const Readings& readings) {
       gap_id("decrease-factor", "displayed"),
       "|z|^2/p <= V <= q |z|^2 and V(k+1) <= V(k) - gamma |z(k)|^2 imply V(k+1) <= (1 - gamma p) V(k).",
       decide_less_equal(claimed, decrease),
-      "V(k) = q |z|^2 and V(k+1) = V(k) - gamma |z|^2: V falls by the share gamma/q, " + enclosed(decrease) +
-          "; claimed is gamma p, " + enclosed(claimed) + ".",
+      "V(k) = q |z|^2 and V(k+1) = V(k) - gamma |z|^2: V decreases by the fraction gamma/q, " +
+          enclosed(decrease) + "; the claimed fraction is gamma p, " + enclosed(claimed) + ".",
       {evidence("decrease", R"(\frac{\gamma}{q})", "", decrease),
        evidence("claimed_decrease", R"(\gamma p)", "", claimed)});
 }
@@ -86,7 +86,7 @@ Statement concluded_recursion_statement(const Readings& readings) {
       "|z|^2/p <= V <= q |z|^2 and V(k+1) <= V(k) - gamma |z(k)|^2 imply V(k+1) <= (1 - gamma/q) V(k), a "
       "factor between 0 and 1.",
       rigor::conjunction({decide_less(Interval(0.0), decrease), decide_less(decrease, Interval(1.0))}),
-      "|z|^2 >= V/q, so V falls by the share gamma/q at least, " + enclosed(decrease) + ".",
+      "|z|^2 >= V/q, so V decreases by at least the fraction gamma/q, " + enclosed(decrease) + ".",
       {evidence("decrease", R"(\frac{\gamma}{q})", "", decrease)});
 }
 
@@ -111,9 +111,9 @@ Statement past_errors_statement(const Readings& readings) {
       gap_id("past-errors"),
       "fbar(k, z) of (2.34) is a function of z(k) alone, as Theorem 2.7 and Lemmas 2.3 and 2.5 treat it.",
       differ ? Verdict::refuted : Verdict::undecided,
-      "P(0|0) = r I and |xhat(0|0)| = 1 or 0.75 lead to the same xhat(1|1) = (1, 0, 0) (with suitable "
-      "measurements) but to the gain K_32(2) = " +
-          enclosed(exact) + " or " + enclosed(smaller) + ": equal z(1), another z(2).",
+      "P(0|0) = r I and |xhat(0|0)| = 1 or 0.75 give the same xhat(1|1) = (1, 0, 0) (with suitable "
+      "measurements) but the gains K_32(2) = " +
+          enclosed(exact) + " or " + enclosed(smaller) + ": equal z(1), different z(2).",
       {evidence("gain_after_1", "K_{32}(2)", "", exact),
        evidence("gain_after_three_quarters", "K_{32}(2)", "", smaller)});
 }
@@ -126,8 +126,8 @@ Statement second_order_statement() {
   const Interval exact = square(Interval(1.0) - rigor::exp(-variance)) / Interval(2.0);
   return make_statement(
       gap_id("lemma-3.1"),
-      "The second-order term of Lemma 3.1, (1/4)(P d^2 f)(P d^2 f)', is what the curvature of f adds to the "
-      "covariance of the prediction, to within a tenth of it.",
+      "The second-order term of Lemma 3.1, (1/4)(P d^2 f)(P d^2 f)', is the contribution of the curvature of "
+      "f to the covariance of the prediction, to within a tenth of it.",
       decide_less_equal(abs(exact - claimed), exact / Interval(10.0)),
       "Estimate (1, 0, 0), Gaussian error of variance 1/64 in the frequency alone, first component: the "
       "variance of cos e3 is " +

@@ -45,8 +45,8 @@ Statement eta_size_statement(const Reading& reading) {
   const Interval needed = certainly_positive(left) ? c.eta_size / left : Interval::empty();
   return make_statement(
       gap_id("eta-size", reading.name),
-      "The eta of (2.40) meets Theorem 2.7's |g| <= eta (r_x - beta_1 r_z), |g| bounded by the first entry "
-      "of (2.40).",
+      "The eta of (2.40) satisfies Theorem 2.7's |g| <= eta (r_x - beta_1 r_z), |g| bounded by the first "
+      "entry of (2.40).",
       decide_less_equal(needed, c.eta),
       "The bound on |g| over r_x - beta_1 r_z is " + enclosed(needed) + "; eta is " + enclosed(c.eta) + ".",
       {evidence("needed", "", "", needed), evidence("eta", R"(\eta)", "", c.eta)});
@@ -58,8 +58,8 @@ Statement eta_slope_statement(const Reading& reading) {
   const Interval needed = Interval(2.0) * c.eta_slope;
   return make_statement(
       gap_id("eta-slope", reading.name),
-      "The eta of (2.40) meets Theorem 2.7's ||dg/dx|| <= eta/2, ||dg/dx|| bounded by the second entry of "
-      "(2.40). (The proof of Theorem 2.7 needs eta in place of eta/2 only.)",
+      "The eta of (2.40) satisfies Theorem 2.7's ||dg/dx|| <= eta/2, ||dg/dx|| bounded by the second entry "
+      "of (2.40). (The proof of Theorem 2.7 needs eta in place of eta/2 only.)",
       decide_less_equal(needed, c.eta),
       "Twice the second entry is " + enclosed(needed) + "; eta is " + enclosed(c.eta) + ".",
       {evidence("needed", "", "", needed), evidence("eta", R"(\eta)", "", c.eta)});
@@ -91,7 +91,8 @@ Statement sum_statement() {
       "Theorem 2.7 concludes at k = 0.",
       decide_less_equal(sum, Interval(1.0)),
       "beta_1 = beta_2 = 1, alpha_2 = zeta = 0, eta = 7/8, r_x = 1, |x0| = r_z = 7/8: the sum is " +
-          enclosed(sum) + ". (delta(0) = 0, so the second term is superfluous; without it the claim holds.)",
+          enclosed(sum) +
+          ". (delta(0) = 0, so the second term is superfluous; without it the claim is true.)",
       {evidence("sum", "", "", sum)});
 }
 
@@ -112,13 +113,12 @@ Statement second_condition_statement(const Reading& reading) {
 /// Lemma 2.3 ends with the rate alpha + zeta_z beta; the proof of Theorem 2.9 continues with alpha.
 Statement rate_statement(const Reading& reading) {
   const Theorem29Constants& c = reading.constants;
-  return make_statement(
-      gap_id("linearised-rate", reading.name),
-      "Lemma 2.3's rate alpha + zeta_z beta of the linearised equation is at most the alpha with which the "
-      "proof of Theorem 2.9 meets condition C2.",
-      decide_less_equal(c.perturbation_2_44, Interval(0.0)),
-      "zeta_z beta is " + enclosed(c.perturbation_2_44) + ".",
-      {evidence("rate_excess", R"(\beta\zeta_z)", "", c.perturbation_2_44)});
+  return make_statement(gap_id("linearised-rate", reading.name),
+                        "Lemma 2.3's rate alpha + zeta_z beta of the linearised equation is at most the "
+                        "alpha with which the proof of Theorem 2.9 satisfies condition C2.",
+                        decide_less_equal(c.perturbation_2_44, Interval(0.0)),
+                        "zeta_z beta is " + enclosed(c.perturbation_2_44) + ".",
+                        {evidence("rate_excess", R"(\beta\zeta_z)", "", c.perturbation_2_44)});
 }
 
 /// Theorem 2.7 needs r_x > beta_1 r_z; Theorem 2.9's proof asserts it.

@@ -109,7 +109,7 @@ std::optional<std::string> why_not_applicable(const std::string& name, const The
     if (row.divides_by_q1_through == kDirectly) {
       sentence += " divides by a_2 = q_1, which ";
     } else {
-      sentence += " is made of ";
+      sentence += " depends on ";
       sentence += row.divides_by_q1_through;
       sentence += ", and so divides by a_2 = q_1, which ";
     }

@@ -12,7 +12,7 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-constexpr const char* kNotBorne = "No tube was found that bears the assumed noise.";
+constexpr const char* kNotBorne = "No tube was found that tolerates the assumed noise.";
 
 void add_quantities(Derivation& derivation, const Repaired& found) {
   const Interval none;
@@ -63,7 +63,7 @@ Condition start_covariance(const Repaired& found,
                            const std::optional<rigor::IntervalMatrix<3>>& initial_covariance) {
   Condition condition =
       not_found("P(0|0)", R"(q^{-1} I \le P(k|k) \le p I \text{ from } k = 0)",
-                "Whether the bounds on P(k|k) hold before the window is full is not shown.");
+                "It is not proved that the bounds on P(k|k) are valid before the window is full.");
   if (!found.assumed) {
     condition.reason = kNotBorne;
     return condition;
@@ -79,12 +79,12 @@ Condition start_covariance(const Repaired& found,
   } else if (found.design.epsilon == Interval(0.0)) {
     condition.verdict = Verdict::proved;
     condition.reason =
-        "The steady state is what an infinite past of exact estimates leaves; the window reaches into it.";
+        "The steady state is the result of an infinite past of exact estimates, into which the window "
+        "extends.";
   } else {
     condition.reason =
-        "With a leak the filter's steady state depends on the frequency; the bounds hold for the steady "
-        "state "
-        "along exact estimates.";
+        "With a leak the filter's steady state depends on the frequency; the bounds are valid for the steady "
+        "state along exact estimates.";
   }
   return condition;
 }
@@ -154,13 +154,13 @@ Derivation derive_repaired_theorem(const TrackerInput& question) {
   derivation.feasibility = repaired_feasibility(found);
   derivation.evidence = repaired_evidence(found);
   derivation.notes = {
-      "W(k)^2 = e(k)' P(k|k)^-1 e(k) with the filter's own P(k|k), whatever its past: nothing depends on how "
-      "P "
-      "came about, only on bounds that hold for every run in the tube.",
-      "The largest start and the largest noise are each certified on their own: the start without noise, the "
-      "noise from an exact start. initial_frequency_error_bound is for exact phase and amplitude.",
-      "Start and noise bounds are for w = 0, a frequency that leaks as (3.1) says; with a leak a constant "
-      "frequency omega is a process noise epsilon omega, which process_noise_bound must bear.",
+      "W(k)^2 = e(k)' P(k|k)^-1 e(k) with the filter's own P(k|k), for any past: the proof uses only bounds "
+      "on P that are valid for every run in the tube.",
+      "The largest start and the largest noise are certified separately: start errors assume no noise; noise "
+      "limits assume an exact start. initial_frequency_error_bound assumes exact phase and amplitude.",
+      "Start and noise bounds are for w = 0, a frequency that leaks as in (3.1). With a leak, a constant "
+      "frequency omega is modelled as process noise epsilon omega, which must not exceed "
+      "process_noise_bound.",
       "The start covariance is the filter's steady state along exact estimates unless the design file gives "
       "a "
       "matrix."};

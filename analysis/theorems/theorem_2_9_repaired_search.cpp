@@ -125,7 +125,7 @@ Feasibility repaired_feasibility(const Repaired& found) {
   } else if (found.design.q1 == Interval(0.0)) {
     feasibility.verdict = Verdict::refuted;
     feasibility.argument =
-        "q_1 = 0: F P F' <= mu Q holds for no mu, so alpha = 1 and no radius is invariant under any noise.";
+        "q_1 = 0: no mu satisfies F P F' <= mu Q, so alpha = 1 and no radius is invariant under any noise.";
     feasibility.lower_bound = Interval(1.0);
   } else {
     feasibility.argument = kNoRepairedRecursion;

@@ -12,7 +12,7 @@ namespace veritrack::theorems {
 
 inline constexpr const char* kRepairedProof = "docs/repaired-theorem.md";
 inline constexpr const char* kNoRepairedRecursion =
-    "No tube around the signal was found in which the covariance bounds make the error shrink.";
+    "No tube around the signal was found in which the covariance bounds make the error decrease.";
 
 /// The parts of the derivation. A recursion is empty if none was found.
 struct Repaired {

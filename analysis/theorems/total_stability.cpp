@@ -82,11 +82,9 @@ Derivation evaluate(const TrackerInput& unchecked, bool with_noise) {
                                             {"beta (zeta + eta)", equation.beta * (zeta + eta)}, margin));
     derivation.notes.emplace_back(
         "The thesis prints beta (alpha + zeta beta)^k |z_0| + beta eta r / (1 - alpha - zeta beta) <= r. "
-        "That is false "
-        "(alpha = zeta = 0, beta = r = 1, eta = |z_0| = 0.9, k = 0: it is 1.8); |z(k)| <= r holds all the "
-        "same, since the "
-        "geometric sum ends at k.");
-    derivation.notes.emplace_back("noise_bound is for |w(k)| = 0; every smaller noise is borne.");
+        "That is false (alpha = zeta = 0, beta = r = 1, eta = |z_0| = 0.9, k = 0: the left side is 1.8); "
+        "|z(k)| <= r is true nevertheless, since the geometric sum ends at k.");
+    derivation.notes.emplace_back("noise_bound is for |w(k)| = 0; every smaller noise is tolerated, too.");
   } else {
     add_guarantee(derivation, {start, Interval::empty(), Interval(1.0) - gap}, "thesis, corollary 2.6.1",
                   "The corollary is for signals without noise.");
@@ -159,11 +157,9 @@ Derivation evaluate_theorem_2_7_printed(const TrackerInput& unchecked) {
   }
   derivation.conditions.push_back(condition);
   derivation.notes.emplace_back(
-      "zeta = 2 sup |Df| bounds a difference of two derivatives by their sum. As 1 - K_1 does not depend on "
-      "the size of "
-      "the region, no region, start or noise is small enough: the condition needs a map that halves every "
-      "error. Three "
-      "times 1 - K_1 is 1 or more for every design with q_1 <= 4r/3.");
+      "zeta = 2 sup |Df| bounds a difference of two derivatives by their sum. Since 1 - K_1 does not depend "
+      "on the size of the region, no region, start or noise is small enough: the condition requires a map "
+      "that halves every error. Three times 1 - K_1 is 1 or more for every design with q_1 <= 4r/3.");
   conclude(derivation);
   return derivation;
 }
@@ -213,8 +209,7 @@ Derivation evaluate_theorem_2_7_corrected(const TrackerInput& unchecked) {
       start_error(input, "r_z", r_z)};
   derivation.notes.emplace_back(
       "The term beta_2 (alpha_2 + zeta beta_2)^k |x_0| of the bound is not needed: the difference of the two "
-      "solutions "
-      "begins at 0. noise_bound is for |w(k)| = 0; every smaller noise is borne.");
+      "solutions begins at 0. noise_bound is for |w(k)| = 0; every smaller noise is tolerated, too.");
   conclude(derivation);
   return derivation;
 }

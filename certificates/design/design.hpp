@@ -1,5 +1,5 @@
 // A design file, read: what the engineer chose, what is known, what is required; every number with the
-// interval it stands for and the place it came from.
+// interval it represents and its position in the file.
 #pragma once
 
 #include <any>
@@ -37,7 +37,7 @@ struct Design {
   std::string tracker;
   std::string source;
   std::any tables;
-  /// Where the value of each key that the file gives stands, by its path, e.g. "design.q1"; defaults are not
+  /// The position of the value of each key in the file, by its path, e.g. "design.q1"; defaults are not
   /// in it.
   std::map<std::string, Position> positions;
 };

@@ -94,7 +94,7 @@ std::vector<std::string> known_paths(const BoundTable& top, const std::vector<Bo
 /// A key that means nothing.
 struct UnknownKey {
   std::string path;
-  std::string table;  ///< where it stands; empty at the top
+  std::string table;  ///< its table; empty at the top
   Position position;
 };
 
@@ -191,7 +191,7 @@ const toml::table* find_table(const TomlSource& source, std::string_view name) {
 }
 
 /// The format that the file should have: that of its tracker. A tracker that is missing or unknown is
-/// reported when the key is read; until then the file is taken for one of the first tracker.
+/// reported when the key is read; until then the file is treated as one for the first tracker.
 const DesignFormat& expected_format(const TomlSource& source) {
   const std::string_view tracker = source.root()["tracker"].value<std::string_view>().value_or("");
   const auto formats = design_formats();

@@ -13,7 +13,7 @@ namespace veritrack::certificates {
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The element of `known` (dotted paths, not empty) that is nearest to `path`: by the whole path, or by its
-/// last part alone at the price of one more edit, since a key may stand in the wrong table. The first one
+/// last part alone at the price of one more edit, since a key may be in the wrong table. The first one
 /// when several are.
 [[nodiscard]] const std::string& nearest_key(std::string_view path, std::span<const std::string> known);
 

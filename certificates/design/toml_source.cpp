@@ -25,7 +25,7 @@ bool is_ascii(char byte) {
   return static_cast<unsigned char>(byte) < 0x80;
 }
 
-// toml++ 3.3.0 runs into undefined behaviour (its issue 190) where a character that is not ASCII stands
+// toml++ 3.3.0 runs into undefined behaviour (its issue 190) where a character that is not ASCII occurs
 // outside strings and comments, and behind a backslash that joins two lines of a string. It is therefore
 // first given the text with a question mark, no more welcome in those places, for each such character; what
 // then is well-formed has them in strings and comments only, and is parsed as it is. Positions are the same
@@ -124,10 +124,11 @@ toml::table TomlSource::parse(std::string_view text) const {
     const std::string_view rest = text_from(position);
     const std::string_view character = rest.substr(0, utf8_length(rest).value_or(0));
     if (!character.empty() && !is_ascii(character.front())) {
-      fail(position,
-           fmt::format("\"{}\" stands where TOML has ASCII only; allowed: other characters in strings and "
-                       "comments",
-                       character));
+      fail(
+          position,
+          fmt::format(
+              "\"{}\" occurs where TOML allows only ASCII; allowed: other characters in strings and comments",
+              character));
     }
     fail(position, parser_message(error));
   }

@@ -106,7 +106,7 @@ Number TomlValue::real(RealPredicate is_allowed) const {
   if (!is_allowed(number.value)) {
     const bool is_borderline = is_allowed(rigor::Interval(number.value.lower())) ||
                                is_allowed(rigor::Interval(number.value.upper()));
-    refuse(is_borderline ? shown + ", too near to the limit to tell in double precision" : shown);
+    refuse(is_borderline ? shown + ", too close to the limit to decide in double precision" : shown);
   }
   return number;
 }

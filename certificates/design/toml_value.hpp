@@ -20,7 +20,7 @@ namespace veritrack::certificates {
 /// held.
 using RealPredicate = bool (*)(const rigor::Interval&);
 
-/// A value and what is allowed to stand there. Refers to the source: must not outlive it.
+/// A value and the allowed values. Refers to the source: must not outlive it.
 class TomlValue {
  public:
   /// `path` as in "design.q1"; `allowed` completes "allowed: ...".

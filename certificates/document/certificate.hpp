@@ -24,7 +24,7 @@ struct Claim {
   std::string id;         ///< e.g. "ekf/frequency-error-bound"
   std::string statement;  ///< one sentence of Markdown, with units
   rigor::Verdict verdict = rigor::Verdict::undecided;
-  bool required = false;  ///< stands in [require] of the design file
+  bool required = false;  ///< is in [require] of the design file
   Position position;      ///< of the requirement in the design file; line 0 when it is not required
   std::string reason;     ///< one sentence: the ground for the verdict
   std::vector<theorems::Quantity> evidence;

@@ -24,8 +24,8 @@ FormalProofs Proofs::finished() const {
     names += (names.empty() ? "" : ",\n  ") + proof.lemma;
   }
   result.text += fmt::format(
-      "\n(* What certificate.md says is proved here, and the axioms that it rests on. *)\n"
-      "Definition proved_here := (\n  {}).\nPrint Assumptions proved_here.\n",
+      "\n(* The statements that certificate.md lists as proved here, and their axioms. *)\nDefinition "
+      "proved_here := (\n  {}).\nPrint Assumptions proved_here.\n",
       names);
   return result;
 }

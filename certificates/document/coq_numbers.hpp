@@ -8,7 +8,7 @@
 
 namespace veritrack::certificates::coq {
 
-/// The number that a decimal stands for, e.g. "(23 / 10000)" for 0.0023. `text` as parse_decimal takes it,
+/// The number that a decimal represents, e.g. "(23 / 10000)" for 0.0023. `text` as parse_decimal takes it,
 /// and with underscores. Throws rigor::NumberFormatError.
 [[nodiscard]] std::string decimal(std::string_view text);
 

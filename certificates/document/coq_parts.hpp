@@ -23,7 +23,7 @@ class Proofs {
   /// Text that proves nothing by itself: a definition, say.
   void write(std::string_view text) { proofs_.text += text; }
 
-  /// Lists a lemma that stands in the text for all designs.
+  /// Lists a lemma of the text for all designs.
   void cite(std::string lemma, std::string of, std::string statement) {
     proofs_.proofs.push_back({std::move(lemma), std::move(of), std::move(statement)});
   }

@@ -16,7 +16,7 @@ struct FormalProof {
   std::string statement;  ///< one sentence of Markdown
 };
 
-/// certificate.v and what stands in it. Nothing is proved until coqc has accepted the text.
+/// certificate.v and its lemmas. Nothing is proved until coqc has accepted the text.
 struct FormalProofs {
   std::string text;
   std::vector<FormalProof> proofs;

@@ -28,8 +28,8 @@ std::string requirement_section(const Certificate& certificate) {
   std::string text = "## What was required\n\n";
   if (!certificate.verdict) {
     return text +
-           "Nothing: the design file's `[require]` is empty. What follows is what is certified of the design "
-           "all the same, and what the published theorem says of it.\n\n";
+           "Nothing: the design file's `[require]` is empty. The document still gives everything that is "
+           "certified for the design, and what the published theorem says about it.\n\n";
   }
   std::vector<std::vector<std::string>> rows;
   for (const Claim& claim : certificate.claims) {
@@ -46,8 +46,8 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
   text += markdown::fenced(
       "veritrack certify " + certificate.design_file + (certificate.formal_proofs ? " --coq" : ""), "");
   text +=
-      "\nThe same file gives the same bytes. `certificate.json` beside this document holds every number with "
-      "all its digits, as hexadecimal floats.\n\n";
+      "\nThe same file gives the same bytes. `certificate.json` beside this document contains every number "
+      "with all its digits, as hexadecimal floats.\n\n";
   std::vector<std::vector<std::string>> rows{{"veritrack", VERITRACK_VERSION}};
   for (const auto& [name, version] : rigor::arithmetic_versions()) {
     rows.push_back({escaped(name), escaped(version)});

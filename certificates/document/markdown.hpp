@@ -8,7 +8,7 @@
 
 namespace veritrack::certificates {
 
-/// A figure that stands beside the document, drawn elsewhere (reports/ draws, certificates/ only refers to
+/// A figure next to the document, drawn elsewhere (reports/ draws, certificates/ only refers to
 /// it).
 struct FigureReference {
   std::string path;     ///< relative to the document, e.g. "figures/error.svg"

@@ -7,7 +7,7 @@
 
 namespace veritrack::certificates::markdown {
 
-/// The conditions with their verdicts and grounds; those that are not PROVED stand first.
+/// The conditions with their verdicts and grounds; those that are not PROVED come first.
 [[nodiscard]] std::string conditions_table(const theorems::Derivation& derivation);
 
 /// The value of a quantity, as its sense says; `enclosure_digits` of an enclosure, four of a bound.

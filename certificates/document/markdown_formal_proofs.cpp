@@ -37,15 +37,12 @@ std::string formal_proofs_section(const Certificate& certificate) {
     return "";
   }
   std::string text = fmt::format(
-      "## What a proof assistant can check\n\n"
-      "`{}` beside this document proves the following statements in the language of Coq, with the decimals "
-      "of "
-      "the design file and of this document; nothing that this program computed enters. They are proved when "
-      "`coqc {}` accepts the file (Coq 8.16 with coq-interval 4.6), which this program does not try; its "
-      "last "
-      "lines list the axioms, and should be those of the real numbers alone. Everything else in this "
-      "document "
-      "rests on interval arithmetic.\n\n",
+      "## What a proof assistant can check\n\n`{}` beside this document proves the following statements in "
+      "the language of Coq, with the decimals of the design file and of this document; the proofs use "
+      "nothing that this program computed. They are proved when `coqc {}` accepts the file (Coq 8.16 with "
+      "coq-interval 4.6), which this program does not run. The last lines that coqc prints list the axioms; "
+      "these should be only those of the real numbers. Everything else in this document rests on interval "
+      "arithmetic.\n\n",
       kFormalProofFile, kFormalProofFile);
   std::vector<std::vector<std::string>> cells;
   for (const Row& row : rows_of(certificate.formal_proofs->proofs)) {

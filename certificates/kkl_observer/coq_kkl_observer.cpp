@@ -49,10 +49,9 @@ Verdict verdict_of(const Certificate& certificate, const std::string& derivation
 }
 
 void cite_identities(Proofs& proofs) {
-  proofs.cite(
-      "invariance", "kkl-paper/invariance",
-      "T solves (3): along every solution of the oscillator each filter's equation holds for T, for all "
-      "rates.");
+  proofs.cite("invariance", "kkl-paper/invariance",
+              "T solves (3): along every solution of the oscillator T satisfies each filter's equation, for "
+              "all rates.");
   proofs.cite("determinant", "kkl-paper/determinant", "det(L'L) = |M xi|², for all rates and all xi.");
   proofs.cite("inverse_where_regularization_vanishes", "kkl-paper/left-inverse",
               "Where mu vanishes and M T(x) does not, gamma(T(x)) = x, for all rates.");
@@ -139,8 +138,8 @@ void prove_upper_bound(Proofs& proofs, const KklObserverTables& tables, double a
                   "(i_prec 90).",
                   exactly(witness.x1), exactly(witness.x2), term, witness.x1 != 0.0 ? "left" : "right"),
       "kkl-ell/ell",
-      "The infimum (10) over the frequency range is at most the upper end of its enclosure, rounded "
-      "up to 9 digits: a signal has a ratio as small as that.");
+      "The infimum (10) over the frequency range is at most the upper end of its enclosure, rounded up to 9 "
+      "digits: some signal has a ratio that small.");
 }
 
 void prove_inverse(Proofs& proofs) {

@@ -86,9 +86,10 @@ void add_required_claims(Certificate& certificate, const KklRequirements& requir
   }
   if (require.settles_within) {
     const Number& required = *require.settles_within;
-    certificate.claims.push_back(bound_claim(
-        certificate, "kkl/settling-time", "settling_time",
-        fmt::format("the proved bounds hold within {} s of the start", required.text), "s", required));
+    certificate.claims.push_back(
+        bound_claim(certificate, "kkl/settling-time", "settling_time",
+                    fmt::format("the proved bounds are valid from {} s after the start on", required.text),
+                    "s", required));
   }
   conclude_requirements(certificate);
 }

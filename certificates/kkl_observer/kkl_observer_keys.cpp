@@ -20,7 +20,7 @@ void lambda(const TomlValue& value, KklDesignTable& design) {
       const bool differ =
           rigor::certainly_less(rate.value, other.value) || rigor::certainly_less(other.value, rate.value);
       if (!differ) {
-        element.refuse(printable(rate.text, 40) + ", a rate that stands there already");
+        element.refuse(printable(rate.text, 40) + ", a rate that is already in the list");
       }
     }
     rates.push_back(std::move(rate));

@@ -63,7 +63,8 @@ TuningResult tune_kkl_observer(const Design& design) {
     return {std::nullopt, "Tuning needs the tracker kkl-observer with four filters."};
   }
   if (!tables.assume.disturbance) {
-    return {std::nullopt, "Tuning needs a disturbance in [assume]: without one there is nothing to weigh."};
+    return {std::nullopt,
+            "Tuning needs a disturbance in [assume]: without one there is nothing to minimise."};
   }
   kkl_observer::KklTuningLimits limits;
   if (tables.require.settles_within) {

@@ -61,8 +61,7 @@ std::string derivation_section(const Certificate& certificate, const std::string
   for (const theorems::Derivation& derivation : derivations_of(certificate, id)) {
     text += "## " + title + (has_verdict ? ": " + markdown::verdict(derivation.verdict) : "") + "\n\n";
     text += derivation.title +
-            ". What is computed, and why it is a proof, is in `docs/kkl-observer.md` of the "
-            "program's sources.\n\n";
+            ". The computation and its proof are in `docs/kkl-observer.md` of the program's sources.\n\n";
     if (!derivation.conditions.empty()) {
       text += markdown::conditions_table(derivation) + "\n";
     }
@@ -81,14 +80,12 @@ std::string figures_section(const MarkdownOptions& options) {
 }
 
 std::string coverage_section() {
-  return "## What this certificate covers, and what it does not\n\n"
-         "- Covered: the observer in continuous time and exact arithmetic, for every signal of constant "
-         "amplitude and frequency within the assumed range, with any disturbance that keeps to the "
-         "assumption. "
-         "Not covered: sampling of the input, and rounding errors in double precision.\n"
-         "- Every enclosure was computed with outward-rounded interval arithmetic. What solvers and "
-         "simulation "
-         "say is marked as not proved, and no verdict rests on it.\n\n";
+  return "## What this certificate covers, and what it does not\n\n- Covered: the observer in continuous "
+         "time and exact arithmetic, for every signal of constant amplitude and frequency within the assumed "
+         "range, with any disturbance that satisfies the assumption. Not covered: sampling of the input, and "
+         "rounding errors in double precision.\n- Every enclosure was computed with outward-rounded interval "
+         "arithmetic. Results of solvers and simulations are marked as not proved, and no verdict depends on "
+         "them.\n\n";
 }
 
 }  // namespace
@@ -101,14 +98,13 @@ std::string kkl_observer_headline(const Certificate& certificate) {
   }
   const auto shown = [](const rigor::Interval& value) { return rigor::upper_decimal(value, 3); };
   return fmt::format(
-      "Nothing is required of this design; PROVED of it: after {} s the frequency error stays at or below {} "
-      "rad/s",
+      "Nothing is required of this design; PROVED: after {} s the frequency error stays at or below {} rad/s",
       shown(*time), shown(*frequency));
 }
 
 std::string kkl_observer_sections(const Certificate& certificate, const MarkdownOptions& options) {
   return design_section(certificate, kkl_observer_tables(certificate.design)) +
-         derivation_section(certificate, "kkl-robustness", "What a disturbance does to it", true) +
+         derivation_section(certificate, "kkl-robustness", "Errors under a disturbance", true) +
          figures_section(options) + derivation_section(certificate, "kkl-ell", "The constant of (10)", true) +
          derivation_section(certificate, "kkl-paper", "The paper's claims", false) +
          derivation_section(certificate, "kkl-section-v", "The simulations of section V", false) +

@@ -8,7 +8,7 @@
 
 namespace veritrack::certificates {
 
-/// The first line when nothing is required: what is proved all the same.
+/// The first line when nothing is required: what is proved anyway.
 [[nodiscard]] std::string kkl_observer_headline(const Certificate& certificate);
 
 /// Design, assumptions, what is certified of them, the paper's claims, figures and coverage.

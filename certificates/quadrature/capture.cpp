@@ -66,11 +66,10 @@ void add_capture_at_reduced_noise(Certificate& certificate, const quadrature::Ce
       constexpr int kDigits = 3;
       certificate.claims.push_back(claim_of(
           capture, "ekf/capture-at-reduced-noise",
-          fmt::format("From every assumed start, with noise of at most {} of the amplitude and slew of at "
-                      "most {} rad/sample per sample, the tracker comes into the certified set, which it "
-                      "never leaves.",
-                      rigor::lower_decimal(reduced.noise, kDigits),
-                      rigor::lower_decimal(reduced.slew, kDigits))));
+          fmt::format(
+              "From every assumed start, with noise of at most {} of the amplitude and slew of at most {} "
+              "rad/sample per sample, the tracker enters the certified set, which it never leaves.",
+              rigor::lower_decimal(reduced.noise, kDigits), rigor::lower_decimal(reduced.slew, kDigits))));
       certificate.contraction->starts.proved_instead = certificate.claims.back().statement;
       certificate.derivations.push_back(std::move(capture.derivation));
       return;
@@ -101,8 +100,8 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
   ContractionQuestion question = contraction_question(certificate.design);
   StartCapture capture = quadrature::capture_starts(question, set->set, "capture", kMostCells, report);
   Claim claim = claim_of(capture, "ekf/capture",
-                         "From every assumed start, with the assumed noise and slew, the tracker comes into "
-                         "the certified set, which it never leaves.");
+                         "From every assumed start, with the assumed noise and slew, the tracker enters the "
+                         "certified set, which it never leaves.");
   const bool is_disturbed = !(question.noise == Interval(0.0) && question.slew == Interval(0.0));
   std::optional<StartCapture> noise_free;
   if (claim.verdict == Verdict::undecided && is_disturbed) {
@@ -121,10 +120,9 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
   certificate.claims.push_back(std::move(claim));
   certificate.derivations.push_back(std::move(capture.derivation));
   if (noise_free) {
-    certificate.claims.push_back(
-        claim_of(*noise_free, "ekf/capture-noise-free",
-                 "From every assumed start, without noise and slew, the tracker comes into the certified "
-                 "set, which it never leaves."));
+    certificate.claims.push_back(claim_of(*noise_free, "ekf/capture-noise-free",
+                                          "From every assumed start, without noise and slew, the tracker "
+                                          "enters the certified set, which it never leaves."));
     const bool captured = noise_free->result.verdict == Verdict::proved;
     certificate.derivations.push_back(std::move(noise_free->derivation));
     if (captured) {

@@ -81,18 +81,18 @@ std::string comparison_section(const Certificate& certificate) {
                     row.verdict ? markdown::verdict(*row.verdict) : "—"});
   }
   std::string text = "## What each result certifies, side by side\n\n";
-  text += markdown::table(
-      {"Result", "Start error of the frequency, up to, rad/sample", "Noise, up to, relative to the amplitude",
-       "Rate per sample", "Conditions for the assumed start and noise"},
-      rows);
+  text += markdown::table({"Result", "Largest start error of the frequency, rad/sample",
+                           "Largest noise, relative to the amplitude", "Rate per sample",
+                           "Conditions for the assumed start and noise"},
+                          rows);
   return text +
-         "\nA start error or a noise up to the value given is certified, the start without noise and the "
-         "noise from an exact start where a result has both; \"none\" means that the result certifies none "
-         "for this design. The last column is about this design's [assume]: a result may certify something "
-         "and still not reach the assumed start or noise. Where the frequency state leaks the certified "
-         "start and noise are for a signal that leaks as the model says; a constant frequency then counts as "
-         "process noise. For contraction the start error is the largest in the certified set. The simulation "
-         "is one frequency, exact phase and amplitude, and a few noise patterns.\n\n";
+         "\nThe table gives the largest certified start error and the largest certified noise; \"none\" "
+         "means that the result certifies none for this design. Where a result has both, start errors assume "
+         "no noise; noise limits assume an exact start. The last column concerns this design's [assume]: a "
+         "result may certify a start error or a noise and still not cover the assumed ones. With a leak, the "
+         "certified start and noise are for a signal that leaks as in the model; a constant frequency is "
+         "modelled as process noise. For contraction the start error is the largest in the certified set. "
+         "The simulation is for one frequency, exact phase and amplitude, and a few noise patterns.\n\n";
 }
 
 }  // namespace veritrack::certificates

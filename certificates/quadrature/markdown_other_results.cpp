@@ -35,12 +35,9 @@ std::string other_results_section(const Certificate& certificate) {
     return "";
   }
   std::string text =
-      "## Other published results for it\n\n"
-      "Results that Theorem 2.9 builds on or competes with, evaluated for this design at amplitude 1. Where "
-      "a "
-      "result "
-      "was printed with a slip, the reading that can be proved stands beside it. No requirement rests on "
-      "them.\n\n";
+      "## Other published results for it\n\nResults that Theorem 2.9 builds on or competes with, evaluated "
+      "for this design at amplitude 1. Where a result was printed with an error, the reading that can be "
+      "proved is also given. No requirement depends on them.\n\n";
   for (const theorems::Derivation& derivation : results) {
     text += fmt::format("### {}: {}\n\n", derivation.title, markdown::verdict(derivation.verdict));
     text += markdown::conditions_table(derivation) + "\n";

@@ -42,7 +42,7 @@ std::vector<std::string> quantity_names(const Certificate& certificate) {
   return names;
 }
 
-/// `text`, unless it is what stands there already; several readings side by side are told apart by name.
+/// `text`, unless it is already there; several readings are distinguished by name.
 void add_variant(std::string& cell, const std::string& text, const std::string& name) {
   if (cell.empty()) {
     cell = text;
@@ -72,7 +72,7 @@ std::string outcome_text(const theorems::Audit& audit, const theorems::AuditedIn
     text = fmt::format("violated at {} of {} steps, first at step {}", inequality.violated,
                        inequality.steps_checked(), *inequality.first_violation);
     if (audit.refutes(inequality)) {
-      text += ", while every assumption held: **no bound for this run**";
+      text += ", while every assumption was satisfied: **not a bound for this run**";
     } else if (inequality.kind == theorems::AuditKind::claim) {
       text += ", after the run had left the theorem's assumptions";
     }
@@ -85,7 +85,7 @@ std::string outcome_text(const theorems::Audit& audit, const theorems::AuditedIn
   return text;
 }
 
-/// Whether any choice of the free parameters would do, and the point or the argument.
+/// Whether some choice of the free parameters satisfies the conditions, and the point or the argument.
 std::string feasibility_text(const theorems::Feasibility& feasibility) {
   std::string text =
       fmt::format("For some choice of the free parameters: {}. {}", markdown::verdict(feasibility.verdict),
@@ -117,10 +117,10 @@ std::vector<std::string> audit_row(const theorems::Audit& audit,
 std::string audit_section(const Certificate& certificate) {
   std::string text = "## The constants along the simulated run\n\n";
   text +=
-      "Each constant that is said to bound something is held against the run, step by step, every inequality "
-      "evaluated in interval arithmetic on the run's own numbers. The margin is what is left between value "
-      "and bound, as a share of the bound, at the worst step. The run proves nothing; a claim that it "
-      "violates while every assumption holds is refuted as a bound for this run.\n\n";
+      "Each constant that is claimed to be a bound is compared with the run at every step; every inequality "
+      "is evaluated in interval arithmetic on the run's own numbers. The margin is the distance from the "
+      "value to the bound at the worst step, as a fraction of the bound. The run proves nothing, but a claim "
+      "that it violates while every assumption is satisfied is refuted as a bound for this run.\n\n";
   for (const AuditedDerivation& audited : quadrature_particulars(certificate).audits) {
     text += fmt::format("### {}\n\n", reading(audited.derivation));
     std::vector<std::vector<std::string>> rows;
@@ -154,8 +154,8 @@ std::string summary_section(const Certificate& certificate) {
       continue;
     }
     text += fmt::format(
-        "- Theorem 2.9, *{}*: its main condition (2.43) asks that {} be below 1; for this design it is {}. "
-        "It admits start errors of {}; the assumed start may be off by {}.\n",
+        "- Theorem 2.9, *{}*: its main condition (2.43) requires that {} is below 1; for this design it is "
+        "{}. It admits start errors of {}; the assumed start error is {}.\n",
         reading(derivation.id), math("\\beta(\\zeta + \\eta) + \\alpha"),
         stability->verdict == rigor::Verdict::proved ? markdown::at_most(stability->lhs)
                                                      : markdown::at_least(stability->lhs),
@@ -179,12 +179,12 @@ std::string summary_section(const Certificate& certificate) {
 }
 
 std::string conditions_section(const Certificate& certificate) {
-  std::string text = "## What Theorem 2.9 says of it: the conditions\n\n";
+  std::string text = "## What Theorem 2.9 says about it: the conditions\n\n";
   text +=
-      "The theorem (La Scala 1994, section 2.4.5) promises a bounded estimation error when all of its "
-      "conditions hold. Its text is read twice: *printed* is the body of the thesis, *errata* has the "
-      "changes of its errata sheet. *repaired* is our own theorem of the same form, with every gap of the "
-      "proof closed (docs/repaired-theorem.md).\n\n";
+      "The theorem (La Scala 1994, section 2.4.5) guarantees a bounded estimation error when all of its "
+      "conditions are satisfied. There are two readings of its text: *printed* is the body of the thesis, "
+      "*errata* has the changes of its errata sheet. *repaired* is our own theorem of the same form, with "
+      "every gap of the proof closed (docs/repaired-theorem.md).\n\n";
   for (const auto& derivation : derivations_of(certificate, kTheorem)) {
     text += fmt::format("### {}: {}\n\n", derivation.title, markdown::verdict(derivation.verdict));
     text += markdown::conditions_table(derivation) + "\n";

@@ -68,7 +68,7 @@ Claim applicability_claim(const theorems::Derivation& derivation) {
   Claim claim;
   claim.id = derivation.id + "/conditions";
   claim.statement =
-      fmt::format("All conditions of {} hold for the design and the assumed start.", derivation.title);
+      fmt::format("The design and the assumed start satisfy all conditions of {}.", derivation.title);
   claim.verdict = derivation.verdict;
   claim.reason = "All conditions are PROVED.";
   for (const theorems::Condition& condition : derivation.conditions) {
@@ -111,8 +111,8 @@ void certify_quadrature(Certificate& certificate, const CertifyProgress& progres
     for (theorems::Derivation& derivation : certificate.derivations) {
       derivation.notes.push_back(
           fmt::format("The theorem is stated for a signal of amplitude 1. Its constants are those of the "
-                      "filter that does at amplitude 1 what this one does at amplitude {}: q1, r and the "
-                      "noise scaled by the amplitude.",
+                      "equivalent filter at amplitude 1: this filter runs at amplitude {}, and q1, r and the "
+                      "noise are scaled by the amplitude.",
                       amplitude.text));
     }
   }

@@ -42,7 +42,7 @@ std::string theorem_sentence(const Certificate& certificate) {
     return "Theorem 2.9 guarantees nothing for it: its conditions are REFUTED";
   }
   if (all_are(Verdict::proved)) {
-    return "the conditions of Theorem 2.9 hold for it";
+    return "it satisfies the conditions of Theorem 2.9";
   }
   return "whether Theorem 2.9 applies to it is UNDECIDED";
 }
@@ -67,27 +67,18 @@ std::string design_section(const Certificate& certificate) {
 }
 
 std::string coverage_section() {
-  return "## What this certificate covers, and what it does not\n\n"
-         "- Covered: every enclosure here was computed with outward-rounded interval arithmetic from the "
-         "design "
-         "values; the true value lies in it. A verdict PROVED or REFUTED follows from the enclosures; "
-         "UNDECIDED "
-         "means that neither could be shown.\n"
-         "- The contraction certificate holds for every signal and every start that keep to the assumptions: "
-         "any "
-         "noise and any change of frequency within the bounds, whatever their statistics. It covers a signal "
-         "of "
-         "constant amplitude.\n"
-         "- Covered is the tracker in exact arithmetic. Not covered: its rounding errors in double "
-         "precision.\n"
-         "- Theorem 2.9 is evaluated, not endorsed: the readings *printed* and *errata* take the thesis at "
-         "its word. "
-         "Conditions that hold in them are no guarantee by themselves, and no PROVED requirement rests on "
-         "them. A "
-         "REFUTED condition says that the theorem is silent about this design, not that the tracker fails.\n"
-         "- The audit and the figures are one simulated run in double precision; its numbers are marked ≈ "
-         "and prove "
-         "nothing. A bound that the run violates is no bound for that run.\n\n";
+  return "## What this certificate covers, and what it does not\n\n- Covered: every enclosure here was "
+         "computed with outward-rounded interval arithmetic from the design values; the true value lies in "
+         "it. A verdict PROVED or REFUTED follows from the enclosures; UNDECIDED means that neither could be "
+         "shown.\n- The contraction certificate is valid for every signal and every start that satisfy the "
+         "assumptions: any noise and any change of frequency within the bounds, with any statistics. It "
+         "covers a signal of constant amplitude.\n- The tracker is covered in exact arithmetic. Its rounding "
+         "errors in double precision are not covered.\n- Theorem 2.9 is evaluated, not endorsed: the "
+         "readings *printed* and *errata* follow the thesis literally. Conditions that are PROVED in them "
+         "are no guarantee by themselves, and no PROVED requirement depends on them. A REFUTED condition "
+         "means that the theorem does not apply to this design, not that the tracker fails.\n- The audit and "
+         "the figures are one simulated run in double precision; its numbers are marked ≈ and prove nothing. "
+         "A bound that the run violates is not a bound for that run.\n\n";
 }
 
 std::string headline_without_requirements(const Certificate& certificate) {

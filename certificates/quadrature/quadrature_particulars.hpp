@@ -19,7 +19,7 @@ struct AuditedDerivation {
   theorems::Audit audit;
 };
 
-/// A set that the tracker never leaves, with what it was made for: evidence that can be checked again without
+/// A certified invariant set, with its purpose: evidence that can be checked again without
 /// the search that found it.
 struct NamedSet {
   std::string purpose;  ///< as in certificate.schema.json, e.g. "start-error"

@@ -109,17 +109,17 @@ Simulation simulate_quadrature(const Design& design) {
     const SteadyState steady = find_steady_state(design, first.frequency);
     start_covariance = steady.covariance;
     if (!steady.settled) {
-      simulation.notes.push_back(
-          fmt::format("The tracker has no steady state that iteration finds at the frequency of the start, "
-                      "{:.6g} rad/sample: the run starts from the covariance that its recursion reaches "
-                      "after 20000 samples without error.",
-                      first.frequency));
+      simulation.notes.push_back(fmt::format(
+          "Iteration found no steady state of the tracker at the frequency of the start, {:.6g} rad/sample: "
+          "the run starts from the covariance that the recursion reaches after 20000 samples without error.",
+          first.frequency));
     }
   }
   if (!trackers::find_signal(settings.signal).honours_bounds) {
-    simulation.notes.push_back(fmt::format(
-        "The signal `{}` does not keep to the bounds under *Assumed*: the audit says where it leaves them.",
-        settings.signal));
+    simulation.notes.push_back(
+        fmt::format("The signal `{}` does not satisfy the bounds under *Assumptions*: the audit shows where "
+                    "it violates them.",
+                    settings.signal));
   }
 
   const double phase =

@@ -28,8 +28,8 @@ RegionResult prove_region_of_attraction(const Design& design, const RegionReques
   }
   if (!(question.design.epsilon == Interval(0.0))) {
     return {std::nullopt,
-            "A map needs a design without leak (epsilon = 0): with a leak the set that starts are followed "
-            "into moves with the frequency, which the map does not do yet."};
+            "A map needs a design without leak (epsilon = 0): with a leak the set into which starts are "
+            "followed depends on the frequency, which the map does not support."};
   }
   const quadrature::ContractionCertificate certificate = quadrature::certify_contraction(question);
   if (!certificate.set || certificate.set->verdict != rigor::Verdict::proved) {

@@ -31,7 +31,7 @@ struct RegionResult {
   std::string reason;  ///< one sentence when nothing was found
 };
 
-/// Certifies a set that the tracker never leaves and follows every start of the rectangle until it lies in
+/// Certifies an invariant set and follows every start of the rectangle until it lies in
 /// that set (PROVED), locks elsewhere (REFUTED), or cannot be followed (UNDECIDED). The start is exact in
 /// amplitude up to initial_amplitude_error of [assume]; its covariance is the initial_covariance of [assume].
 /// Needs epsilon = 0. Runs in parallel; the result does not depend on the number of threads. Opens its own

@@ -15,7 +15,7 @@ struct SimulatedLimits {
 
 /// Looks for the limits: the start error upwards from zero on both sides, until 300 noise-free samples do not
 /// bring the tracker back to within 0.001 of the run without an error; the noise likewise, in nine patterns
-/// (constant, turning at several rates, at random) of 300 samples, until the estimate comes to lie more than
+/// (constant, turning at several rates, at random) of 300 samples, until the estimate lies more than
 /// a quarter turn from the signal. Deterministic. Holds round-to-nearest.
 [[nodiscard]] SimulatedLimits find_simulated_limits(const Design& design);
 

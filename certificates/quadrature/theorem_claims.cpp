@@ -77,11 +77,11 @@ std::string proof_section(const Certificate& certificate) {
   if (found.empty()) {
     return "";
   }
-  std::string text = "## The proof of Theorem 2.9, place by place\n\n";
+  std::string text = "## The proof of Theorem 2.9, step by step\n\n";
   text +=
-      "Each place where the proof (La Scala 1994, chapter 2 and section 3.5) may break is a sentence with a "
+      "Each possible gap in the proof (La Scala 1994, chapter 2 and section 3.5) is a sentence with a "
       "verdict. The witness is a point, or a set, where both sides can be evaluated again. Where the "
-      "readings differ they stand side by side; *general* means for every system, *repaired* is our own "
+      "readings differ, both are given; *general* means for every system, *repaired* is our own "
       "correction.\n\n";
   std::vector<std::vector<std::string>> rows;
   rows.reserve(found.size());

@@ -15,8 +15,9 @@ struct FrequencyErrorTube {
   std::vector<double> bound;  ///< certified, for every such start and all noise and slew assumed
   /// The same for the assumed starts, where `bound` is about all of the set; as long, or empty.
   std::vector<double> bound_of_assumed_starts;
-  /// Of the tracker in double precision, from the rim of the starts, without disturbances and with noise and
-  /// slew chosen at each sample to push the frequency error out. As long as the bound. They prove nothing.
+  /// Of the tracker in double precision, from the boundary of the starts, without disturbances and with noise
+  /// and slew chosen at each sample to push the frequency error out. As long as the bound. They prove
+  /// nothing.
   std::vector<std::vector<double>> runs;
 };
 

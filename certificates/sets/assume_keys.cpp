@@ -86,7 +86,7 @@ void initial_covariance(const TomlValue& value, Assumptions& assume) {
     case rigor::Verdict::refuted:
       value.refuse("not positive definite");
     case rigor::Verdict::undecided:
-      value.refuse("too near to a singular matrix to be proved positive definite");
+      value.refuse("too close to a singular matrix to be proved positive definite");
   }
   assume.initial_covariance = covariance;
 }

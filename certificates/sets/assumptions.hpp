@@ -32,7 +32,7 @@ struct Requirements {
   std::optional<Number> settles_within;                   ///< samples to come within twice the ultimate bound
   std::optional<Number> largest_noise_at_least;           ///< signal units, at a constant frequency
   std::optional<Number> largest_slew_at_least;            ///< rad/sample per sample, without noise
-  std::optional<Number> frequency_error_radius_at_least;  ///< rad/sample, of a set that is never left
+  std::optional<Number> frequency_error_radius_at_least;  ///< rad/sample, of an invariant set
 };
 
 /// [simulate]: the run that the audit and the figures use.

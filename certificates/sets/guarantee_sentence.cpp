@@ -48,14 +48,14 @@ std::string assumptions(const GuaranteeTerms& terms) {
                     assume.initial_amplitude_error.text, assume.amplitude.text);
 }
 
-/// Why the bound holds, and what it comes to in the long run.
+/// Why the bound is true, and its value in the long run.
 std::string ground(const sets::StartResult& starts) {
   const std::optional<theorems::Quantity>& captured = starts.capture_samples;
-  std::string text = "All these starts lie in a set that the tracker never leaves. ";
+  std::string text = "All these starts lie in a certified invariant set. ";
   if (captured && captured->applies() && captured->value.upper() > 0.0) {
     text = fmt::format(
-        "Every such start is followed, by verified propagation, into a set that the tracker never leaves: it "
-        "is there after at most {} samples. ",
+        "Verified propagation shows that every such start enters a certified invariant set within {} "
+        "samples. ",
         rigor::upper_decimal(captured->value, kDigits));
   }
   const theorems::Quantity& ultimate = starts.ultimate_frequency_error;
@@ -76,7 +76,7 @@ std::string objection(const sets::StartResult& starts) {
   const theorems::Condition* refuted = starts.first_condition(Verdict::refuted);
   const theorems::Condition* failing = refuted != nullptr ? refuted : starts.first_open_condition();
   if (failing == nullptr) {
-    return "A set that is never left is certified, but not that the assumed start lies in it.";
+    return "An invariant set is certified, but the assumed start is not proved to lie in it.";
   }
   return failing->reason + (starts.proved_instead.empty() ? "" : " What is PROVED: " + starts.proved_instead);
 }
@@ -119,26 +119,25 @@ std::string guarantee_section(const Certificate& certificate) {
   if (claim == nullptr) {
     return "";
   }
-  std::string text =
-      fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
-                  claim->verdict == Verdict::proved ? "Why" : "What stands in the way", claim->reason);
+  std::string text = fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
+                                 claim->verdict == Verdict::proved ? "Why" : "Why not", claim->reason);
   const sets::ContractionResult& found = certificate.contraction.value();
-  const auto& bias = found.bias_frequency;
-  const bool off_the_truth = bias && bias->applies() && !(bias->value == Interval(0.0));
   if (found.frequency_error_radius.applies() && found.contraction_rate.applies()) {
     text += fmt::format(
-        "- The largest certified set, under the assumed noise and slew, reaches to a frequency error of {} "
-        "rad/sample{}; in it errors shrink to at most {} of themselves each sample, apart from what noise "
-        "and "
-        "slew add.\n",
+        "- The largest certified invariant set, under the assumed noise and slew, contains frequency errors "
+        "up to {} rad/sample{}; in it, {} by at most {}{}, before noise and slew.\n",
         rigor::lower_decimal(found.frequency_error_radius.value, kDigits),
-        off_the_truth ? " about the steady state, which the leak puts off the truth" : "",
-        rigor::upper_decimal(found.contraction_rate.value, kDigits));
+        found.about_steady_state ? ", measured from the steady state, which the leak biases" : "",
+        found.rate_window == 1 ? "each sample multiplies the error" : "the error is multiplied",
+        rigor::upper_decimal(found.contraction_rate.value, kDigits),
+        found.rate_window == 1 ? std::string()
+                               : fmt::format(" per sample on average over {} samples", found.rate_window));
   }
   if (found.largest_noise.applies() && found.largest_slew.applies()) {
     text += fmt::format(
-        "- Limits of this design: a set that is never left is certified for noise up to {} of the amplitude "
-        "(at a constant frequency), and for a slew up to {} rad/sample per sample (without noise).\n",
+        "- Limits of this design: at a constant frequency, the tracker tolerates noise up to {} of the "
+        "amplitude; without noise, it tolerates a slew up to {} rad/sample per sample. A certified invariant "
+        "set exists for each.\n",
         rigor::lower_decimal(found.largest_noise.value, kDigits),
         rigor::lower_decimal(found.largest_slew.value, kDigits));
   }
@@ -151,9 +150,9 @@ std::optional<std::string> proved_bound_headline(const Certificate& certificate)
     return std::nullopt;
   }
   return fmt::format(
-      "Nothing is required of this design; PROVED of it: the frequency error stays at or below {} "
-      "rad/sample for ever",
-      up(*bound));
+      "Nothing is required of this design; PROVED: the frequency error stays at or below {} rad/sample for "
+      "ever",
+      rigor::upper_decimal(*bound, kDigits));
 }
 
 }  // namespace veritrack::certificates

@@ -22,7 +22,7 @@ struct GuaranteeTerms {
 /// and what would repair it. Not a requirement itself. Call after add_required_claims.
 [[nodiscard]] Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& terms);
 
-/// The top of the document: that claim, and how much more the design would bear.
+/// The top of the document: that claim, and the limits that the design tolerates.
 [[nodiscard]] std::string guarantee_section(const Certificate& certificate);
 
 /// The first line of the document when nothing is required but a bound is proved; none otherwise.

@@ -34,7 +34,7 @@ std::string assumptions_section(const Assumptions& assume) {
     return std::vector<std::string>{what, relation.empty() ? value : math(relation) + " " + value, unit};
   };
   const auto code = [](const Number& number) { return "`" + number.text + "`"; };
-  std::string text = "## Assumed of the signal and the start\n\n";
+  std::string text = "## Assumptions on the signal and the start\n\n";
   text += markdown::table(
       {"Assumption", "Value", "Unit"},
       {row("amplitude of the signal", "A =", code(assume.amplitude), "signal units"),
@@ -49,8 +49,8 @@ std::string assumptions_section(const Assumptions& assume) {
        row("error of amplitude at the start", "\\le", code(assume.initial_amplitude_error), "signal units"),
        row("covariance at the start", "P(0|0):", covariance_text(assume.initial_covariance), "")});
   return text +
-         "\nA decimal in these tables stands for itself: every computation covers both the decimal and the "
-         "double nearest to it, which is what the filter runs with.\n\n";
+         "\nThe decimals in these tables are exact: every computation covers both the decimal and the double "
+         "nearest to it, with which the filter runs.\n\n";
 }
 
 std::string simulated_run_section(const Certificate& certificate, const SimulationSettings& run,
@@ -60,9 +60,8 @@ std::string simulated_run_section(const Certificate& certificate, const Simulati
   }
   std::string text = "## The simulated run\n\n";
   text += fmt::format(
-      "The double-precision tracker on the signal `{}`, {} samples, seed {}, started at the edge of the "
-      "assumed start errors. A simulation proves nothing; it shows what the bounds are to be compared "
-      "with.\n\n",
+      "The double-precision tracker on the signal `{}`, {} samples, seed {}, started with the largest "
+      "assumed start errors. A simulation proves nothing; it is for comparison with the bounds.\n\n",
       run.signal, run.samples, run.seed);
   for (const std::string& note : certificate.simulation.notes) {
     text += note + "\n\n";

@@ -19,8 +19,8 @@ std::string derivation_tables(const theorems::Derivation& derivation) {
 std::string contraction_section(const Certificate& certificate) {
   std::string text;
   for (const theorems::Derivation& derivation : derivations_of(certificate, "contraction")) {
-    text +=
-        fmt::format("## What is certified of it: contraction, {}\n\n", markdown::verdict(derivation.verdict));
+    text += fmt::format("## What is certified for it: contraction, {}\n\n",
+                        markdown::verdict(derivation.verdict));
     text += fmt::format("{}. The proof is in `{}` of the program's sources.\n\n", derivation.title,
                         derivation.quantities.front().source);
     text += derivation_tables(derivation);
@@ -32,8 +32,8 @@ std::string contraction_section(const Certificate& certificate) {
     text += fmt::format("## Starts beyond the certified set: capture {}, {}\n\n", disturbed,
                         markdown::verdict(derivation.verdict));
     text += derivation.title +
-            ", by verified propagation: boxes of starts are followed sample by sample, with everything that "
-            "noise and slew can do to them, and cut in two where they cannot be followed.\n\n";
+            ", by verified propagation: boxes of starts are followed sample by sample, for all noise and "
+            "slew within the bounds, and are bisected where they cannot be followed.\n\n";
     text += derivation_tables(derivation);
   }
   return text;

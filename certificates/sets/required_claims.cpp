@@ -16,7 +16,8 @@ using rigor::Verdict;
 /// What keeps the contraction certificate from covering the assumptions, as a sentence.
 std::string contraction_objection(const sets::StartResult& starts) {
   if (const theorems::Condition* open = starts.first_open_condition()) {
-    return fmt::format("The contraction certificate does not cover it ({}: {})", open->id, open->reason);
+    return fmt::format("The contraction certificate does not cover this design and start ({}: {})", open->id,
+                       open->reason);
   }
   return "The contraction certificate gives no bound for the assumed start.";
 }
@@ -39,8 +40,8 @@ Claim frequency_error_claim(const sets::StartResult& starts, const Assumptions& 
              rigor::certainly_less_equal(required.value, assume.initial_frequency_error.value)) {
     claim.verdict = Verdict::refuted;
     claim.reason = fmt::format(
-        "Witness: a start that is wrong by {} rad/sample is allowed by [assume] (initial_frequency_error) "
-        "and is not below the bound at the first sample.",
+        "Witness: [assume] (initial_frequency_error) allows a start with a frequency error of {} rad/sample, "
+        "which is not below the bound at the first sample.",
         assume.initial_frequency_error.text);
   } else if (wrong_lock && wrong_lock->applies() &&
              rigor::certainly_less_equal(required.value, wrong_lock->value)) {
@@ -70,7 +71,7 @@ Claim settling_claim(const sets::StartResult& starts, const Number& required) {
     claim.verdict = soon_enough ? Verdict::proved : Verdict::undecided;
     claim.reason =
         fmt::format("By contraction it takes at most {} samples{}.", rigor::upper_decimal(samples.value),
-                    soon_enough ? "" : ", which is more; a sharper certificate might do");
+                    soon_enough ? "" : ", which is more than required; a sharper certificate might suffice");
     claim.evidence = {samples};
   } else if (covered) {
     claim.reason = "Without noise and slew the ultimate bound is zero, which is approached but not reached.";
@@ -80,7 +81,7 @@ Claim settling_claim(const sets::StartResult& starts, const Number& required) {
   return claim;
 }
 
-/// A key of [require] that asks for a certified quantity of at least that size.
+/// A key of [require] that requires a certified quantity of at least that size.
 struct LeastSize {
   const char* claim;  ///< id
   const theorems::Quantity& certified;
@@ -123,20 +124,23 @@ void add_required_claims(Certificate& certificate, const Requirements& require, 
   if (require.settles_within) {
     certificate.claims.push_back(settling_claim(found.starts, *require.settles_within));
   }
-  add_least_size(require.largest_noise_at_least,
-                 {"ekf/largest-noise", found.largest_noise,
-                  "noise of at most {} at a constant frequency is borne: a set of errors is never left",
-                  "noise at a constant frequency", assume.amplitude.value});
   add_least_size(
-      require.largest_slew_at_least,
-      {"ekf/largest-slew", found.largest_slew,
-       "a slew of at most {} rad/sample per sample without noise is borne: a set of errors is never left",
-       "slew without noise", Interval(1.0)});
+      require.largest_noise_at_least,
+      {"ekf/largest-noise", found.largest_noise,
+       "at a constant frequency, the tracker tolerates noise up to {}: a certified invariant set exists",
+       "noise at a constant frequency", assume.amplitude.value});
+  add_least_size(require.largest_slew_at_least, {"ekf/largest-slew", found.largest_slew,
+                                                 "without noise, the tracker tolerates a slew up to {} "
+                                                 "rad/sample per sample: a certified invariant set exists",
+                                                 "slew without noise", Interval(1.0)});
   add_least_size(require.frequency_error_radius_at_least,
                  {"ekf/frequency-error-radius", found.frequency_error_radius,
-                  "under the assumed noise and slew a set of errors is never left that reaches to a "
-                  "frequency error of {} rad/sample",
-                  "reach of such a set", Interval(1.0)});
+                  found.about_steady_state
+                      ? "under the assumed noise and slew, a certified invariant set contains frequency "
+                        "errors up to {} rad/sample, measured from the steady state"
+                      : "under the assumed noise and slew, a certified invariant set contains frequency "
+                        "errors up to {} rad/sample",
+                  "frequency error in an invariant set", Interval(1.0)});
   conclude_requirements(certificate);
 }
 

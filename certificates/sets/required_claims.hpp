@@ -1,4 +1,4 @@
-// The claims that stand in [require] of a design of an extended Kalman filter, and the certificate's verdict.
+// The claims in [require] of a design of an extended Kalman filter, and the certificate's verdict.
 #pragma once
 
 #include "certificates/document/certificate.hpp"

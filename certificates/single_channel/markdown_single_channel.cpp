@@ -62,7 +62,7 @@ std::string bias_sentence(const Certificate& certificate, const Derivation& bias
   }
   return fmt::format(
       "{}: on a noise-free tone of {} rad/sample the steady-state frequency error has the mean {} "
-      "rad/sample; with the phase it ripples between the minimum {} and the maximum {} rad/sample.",
+      "rad/sample; it varies with the phase between the minimum {} and the maximum {} rad/sample.",
       markdown::verdict(bias.verdict), frequency, enclosure(value_of(bias, "mean_bias"), 6),
       enclosure(value_of(bias, "min_error"), 4), enclosure(value_of(bias, "max_error"), 4));
 }
@@ -94,8 +94,8 @@ std::string single_channel_headline(const Certificate& certificate) {
            bias.conditions.front().reason;
   }
   return fmt::format(
-      "Nothing is required of this design; PROVED of it: on a noise-free tone of {} rad/sample the "
-      "steady-state frequency error has the mean {} rad/sample",
+      "Nothing is required of this design; PROVED: on a noise-free tone of {} rad/sample the steady-state "
+      "frequency error has the mean {} rad/sample",
       frequency_text(certificate, bias), enclosure(value_of(bias, "mean_bias"), 6));
 }
 
@@ -120,7 +120,7 @@ std::string single_channel_summary(const Certificate& certificate) {
   }
   return text + fmt::format(
                     "- Of the statements on the paper's Propositions 1 and 2 {} are **PROVED**, {} "
-                    "**UNDECIDED**; **REFUTED**: {} (see *What was found of the paper*).\n\n",
+                    "**UNDECIDED**; **REFUTED**: {} (see *What was found about the paper*).\n\n",
                     proved, undecided, refuted.empty() ? "none" : refuted);
 }
 
@@ -155,11 +155,11 @@ std::string bias_section(const Certificate& certificate) {
   std::string text = "## The bias\n\n";
   text +=
       "On a noise-free tone of constant frequency the tracker settles on a periodic function of the signal's "
-      "phase. Its frequency error there (estimate less truth, rad/sample) is enclosed by an invariant curve "
-      "that is verified in interval arithmetic; every start near the curve converges to it, by the factor in "
-      "the last column a sample. The mean is over the phase, and over time wherever the frequency is no "
-      "rational multiple of $`\\pi`$. Beside it: an enclosure of the means at all frequencies within 0.002 "
-      "rad/sample.\n\n";
+      "phase. Its frequency error there (estimate minus true frequency, rad/sample) is enclosed by an "
+      "invariant curve that is verified in interval arithmetic. Every start near the curve converges to it, "
+      "by the factor per sample in the last column. The mean is over the phase, and also over time unless "
+      "the frequency is a rational multiple of $`\\pi`$. The column beside it encloses the means at all "
+      "frequencies within 0.002 rad/sample.\n\n";
   std::vector<std::vector<std::string>> rows;
   for (const Derivation& bias : biases(certificate)) {
     const bool proved = bias.verdict == Verdict::proved;
@@ -173,10 +173,10 @@ std::string bias_section(const Certificate& certificate) {
                     proved ? cell("contraction_rate", 3) : bias.conditions.front().reason});
   }
   return text +
-         markdown::table(
-             {"Frequency, rad/sample", "Mean bias", "Smallest error", "Largest error",
-              "Mean bias within 0.002 rad/sample of it", "Verdict", "Quadrature tracker", "Rate, or why not"},
-             rows) +
+         markdown::table({"Frequency, rad/sample", "Mean bias", "Smallest error", "Largest error",
+                          "Mean bias within 0.002 rad/sample of it", "Verdict", "Quadrature tracker",
+                          "Rate, or why there is none"},
+                         rows) +
          "\n";
 }
 
@@ -194,31 +194,24 @@ std::string proposition_section(const Certificate& certificate) {
       rows.push_back({"`" + claim.id + "`", claim.statement, markdown::verdict(claim.verdict), claim.reason});
     }
   }
-  return "## What was found of the paper\n\nS. Bittanti and S. M. Savaresi, *On the Parameterization and "
+  return "## What was found about the paper\n\nS. Bittanti and S. M. Savaresi, *On the Parameterization and "
          "Design of an Extended Kalman Filter Frequency Tracker*, IEEE Trans. Automatic Control 45(9), "
          "2000.\n\n" +
          markdown::table({"Claim", "Statement", "Verdict", "Ground"}, rows) + "\n";
 }
 
 std::string single_channel_coverage_section() {
-  return "## What this certificate covers, and what it does not\n\n"
-         "- Covered: every enclosure was computed with outward-rounded interval arithmetic from the design "
-         "values; the true value lies in it. A verdict PROVED or REFUTED follows from the enclosures; "
-         "UNDECIDED "
-         "means that neither could be shown.\n"
-         "- The contraction certificate holds at every phase, for every frequency that stays in the band, "
-         "and "
-         "for any noise and any change of frequency within the bounds, whatever their statistics. It covers "
-         "a "
-         "tracker without a leak, started with the steady-state covariance, and a signal of constant "
-         "amplitude.\n"
-         "- The bias is that of the steady state which the tracker reaches from the exact estimate, on a "
-         "tone "
-         "without noise at the frequencies of the table, and around them where the table says so. Elsewhere "
-         "it is not enclosed.\n"
-         "- Covered is the tracker in exact arithmetic. Not covered: its rounding errors in double "
-         "precision.\n"
-         "- The figures of the run are one simulation in double precision and prove nothing.\n\n";
+  return "## What this certificate covers, and what it does not\n\n- Covered: every enclosure was computed "
+         "with outward-rounded interval arithmetic from the design values; the true value lies in it. A "
+         "verdict PROVED or REFUTED follows from the enclosures; UNDECIDED means that neither could be "
+         "shown.\n- The contraction certificate is valid at every phase, for every frequency that stays in "
+         "the band, and for any noise and any change of frequency within the bounds, with any statistics. It "
+         "covers a tracker without a leak, started with the steady-state covariance, and a signal of "
+         "constant amplitude.\n- The bias is that of the steady state which the tracker reaches from the "
+         "exact estimate, on a tone without noise at the frequencies of the table, and around them where the "
+         "table says so. Elsewhere it is not enclosed.\n- The tracker is covered in exact arithmetic. Its "
+         "rounding errors in double precision are not covered.\n- The figures of the run show one simulation "
+         "in double precision and prove nothing.\n\n";
 }
 
 }  // namespace veritrack::certificates

@@ -9,7 +9,7 @@
 namespace veritrack::certificates {
 
 /// Q = diag(q1, q1, q2), r and epsilon of [design], whatever keys they came from: the intervals that the
-/// decimals stand for, in the units of the design file.
+/// decimals represent, in the units of the design file.
 [[nodiscard]] trackers::ToneModel<rigor::Interval> enclosed_values(const SingleChannelDesignTable& design);
 
 /// The same as the nearest doubles.

@@ -58,10 +58,9 @@ std::optional<TableObjection> objection(const std::any& tables) {
   if (consistent) {
     return std::nullopt;
   }
-  return TableObjection{
-      "design",
-      "the keys of [design] do not go together; allowed: q and r; or lambda = r/q alone (q = 1); or "
-      "r with process_noise = { q1 = ..., q2 = ... }"};
+  return TableObjection{"design",
+                        "the keys of [design] do not form a valid combination; allowed: q and r; or lambda = "
+                        "r/q alone (q = 1); or r with process_noise = { q1 = ..., q2 = ... }"};
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ Simulation simulate_single_channel(const SingleChannelEkfTables& tables) {
   Simulation simulation;
   if (!trackers::find_signal(settings.signal).honours_bounds) {
     simulation.notes.push_back(
-        fmt::format("The signal `{}` does not keep to the bounds under *Assumed*.", settings.signal));
+        fmt::format("The signal `{}` does not satisfy the bounds under *Assumptions*.", settings.signal));
   }
   const trackers::Sample& first = samples.front();
   const double phase =

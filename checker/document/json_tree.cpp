@@ -28,11 +28,11 @@ class Builder : public nlohmann::json_sax<Json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(string_t& name) override {
-    return open_.back().add_key(name) || fail("the key \"" + name + "\" stands twice in an object");
+    return open_.back().add_key(name) || fail("the key \"" + name + "\" occurs twice in an object");
   }
   bool parse_error(std::size_t position, const std::string& /*token*/,
                    const nlohmann::detail::exception& /*error*/) override {
-    return fail("no JSON at byte " + std::to_string(position));
+    return fail("not JSON at byte " + std::to_string(position));
   }
 
   /// What was read, when it was read to the end.

@@ -35,7 +35,7 @@ struct TrackerKind {
 };
 
 /// Adds a part for each claim, checked by `check`, and one for the verdict of the certificate: the required
-/// claims are those that [require] asks for (`asked`, their ids), each of them is verified, and the verdict
+/// claims are those of [require] (`asked`, their ids), each of them is verified, and the verdict
 /// is theirs together.
 void check_claims(const Tree& certificate, std::vector<std::string> asked,
                   const std::function<void(const Tree& claim, Objections& objections)>& check,

@@ -57,7 +57,7 @@ Verdict verdict_from(const std::string& text) {
     return Verdict::refuted;
   }
   if (text != "undecided") {
-    throw Malformed("no verdict: " + text);
+    throw Malformed("not a verdict: " + text);
   }
   return Verdict::undecided;
 }
@@ -96,13 +96,13 @@ void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections
   const bool below = certainly_at_most(value.high, high);
   const std::string found = ", found " + value.low.text();
   if (sense == Sense::encloses && (certainly_less(value.high, low) || certainly_less(high, value.low))) {
-    objections.push_back("ALARM: " + name + " and its enclosure have nothing in common" + found);
+    objections.push_back("ALARM: " + name + " lies outside its enclosure" + found);
   } else if (sense == Sense::encloses && !(above && below)) {
-    objections.push_back(name + " is not certainly in its enclosure" + found);
+    objections.push_back(name + " is not proved to lie in its enclosure" + found);
   } else if (sense == Sense::bounds_above && !below) {
-    objections.push_back(name + " is not certainly a bound from above" + found);
+    objections.push_back(name + " is not proved to be an upper bound" + found);
   } else if (sense == Sense::bounds_below && !above) {
-    objections.push_back(name + " is not certainly a bound from below" + found);
+    objections.push_back(name + " is not proved to be a lower bound" + found);
   }
 }
 
@@ -110,7 +110,7 @@ void check_verdict(const std::string& claimed, Verdict found, const std::string&
                    Objections& objections) {
   const Verdict verdict = verdict_from(claimed);
   if (verdict != Verdict::undecided && verdict != found) {
-    objections.push_back(name + " is said to be " + claimed + ", which could not be re-established");
+    objections.push_back(name + " is claimed to be " + claimed + ", which could not be verified");
   }
 }
 

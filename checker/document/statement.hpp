@@ -28,7 +28,7 @@ inline Verdict proved_if(bool certain) {
 /// What is wrong with a part of a certificate; nothing when it is verified.
 using Objections = std::vector<std::string>;
 
-/// What [lo, hi] says of a value: that it is in it, at most hi, or at least lo.
+/// The meaning of [lo, hi] for a value: it lies in it, is at most hi, or is at least lo.
 enum class Sense { encloses, bounds_above, bounds_below };
 
 struct Quantity {

@@ -21,8 +21,8 @@ constexpr std::array kRequirements{
                 "the frequency error stays below ", " rad/s once settled"},
     Requirement{"amplitude_error_below", "kkl/amplitude-error-bound", "amplitude_error_bound",
                 "the amplitude error stays below ", " signal units once settled"},
-    Requirement{"settles_within", "kkl/settling-time", "settling_time", "the proved bounds hold within ",
-                " s of the start"}};
+    Requirement{"settles_within", "kkl/settling-time", "settling_time", "the proved bounds are valid from ",
+                " s after the start on"}};
 
 /// Walks through a certificate of the KKL observer.
 class KklVerifier {
@@ -81,15 +81,15 @@ class KklVerifier {
     } else if (id == "kkl-paper") {
       check_paper_claims(derivation, design_, ell_in_use(), infimum_, objections);
     } else if (id == "kkl-section-v") {
-      // Simulations, of which nothing is said to be proved.
-      check_derivation(derivation, {"The simulations of section V, run again", {}, {}}, objections);
+      // Simulations, for which no proof is claimed.
+      check_derivation(derivation, {"The simulations of section V, repeated", {}, {}}, objections);
     } else {
       objections.emplace_back(kUnknown);
     }
     result_.parts.push_back({id, objections});
   }
 
-  /// What [require] says of a bound follows from the bound, which was established.
+  /// A requirement on a bound follows from the bound, which was verified.
   void check_requirement(const Tree& claim, Objections& objections) const {
     const Requirement* known = requirement_of(&Requirement::claim, claim.at("id").text());
     const Tree* asked = known != nullptr ? certificate_.at("design").at("require").find(known->key) : nullptr;

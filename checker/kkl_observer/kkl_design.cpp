@@ -28,7 +28,7 @@ KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
     low = low_of(ends.at(0));
     high = high_of(ends.at(1));
     if (!certainly_positive(low) || !certainly_at_most(low, high)) {
-      objections.emplace_back("a range goes from low to high, above zero");
+      objections.emplace_back("a range must go from low to high and lie above zero");
     }
   };
   range(assume.at("frequency"), design.frequency_low, design.frequency_high);
@@ -44,7 +44,7 @@ KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
         disturbance->find("amplitude") != nullptr && disturbance->find("frequency") != nullptr;
     const bool bounded = disturbance->find("bound") != nullptr;
     if (disturbance->members().size() != (bounded ? 1 : 2) || bounded == sinusoid) {
-      objections.emplace_back("the disturbance has a bound, or an amplitude and a frequency");
+      objections.emplace_back("the disturbance needs a bound, or an amplitude and a frequency");
     }
   }
   if (design.lambda.size() < 4) {

@@ -110,7 +110,7 @@ std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& 
     return std::nullopt;
   }
   Derivation found;
-  found.title = "The constant of (10): how far T(x) stays from the singular set of the inverse";
+  found.title = "The constant of (10): the distance of T(x) from the singular set of the inverse";
   const Tree& quantities = claimed.at("quantities");
   const Tree* ell = quantities.find("ell");
   const Tree* minimizer = quantities.find("argmin_omega");

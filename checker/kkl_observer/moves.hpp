@@ -12,7 +12,7 @@ constexpr std::size_t kFilters = 4;
 using Filters = std::array<Ball, kFilters>;
 
 /// How large a linear function of the filters' moves can get, relative to the amplitude of the signal: by the
-/// disturbance (at the lowest amplitude), and by what is left of the start.
+/// disturbance (at the lowest amplitude), and by the remaining effect of the start.
 struct Size {
   Ball driven, left;
   [[nodiscard]] Ball sum() const { return driven + left; }

@@ -238,7 +238,7 @@ void check_paper_claims(const Tree& claimed, const KklDesign& design, const Ball
   }
   // A slip of the paper is none of the design.
   if (claimed.at("verdict").text() != "undecided") {
-    objections.emplace_back("the paper's claims together have no verdict on the design");
+    objections.emplace_back("the paper's claims must not have an overall verdict");
   }
   check_derivation(claimed, found, objections);
 }

@@ -55,7 +55,7 @@ void check_kkl_robustness(const Tree& claimed, const KklDesign& design, const Ba
   const bool bounded = frequency.finite() && amplitude.finite();
   check_derivation(
       claimed,
-      {"What the assumed disturbance does to the estimates",
+      {"Bounds on the estimation errors under the assumed disturbance",
        {{"frequency_error_bound", frequency, Sense::bounds_above},
         {"amplitude_error_bound", amplitude, Sense::bounds_above},
         {"settling_time", settling_time, Sense::bounds_above},

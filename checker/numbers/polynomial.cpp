@@ -7,7 +7,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// All monomials, by degree, and where their products stand.
+/// All monomials, by degree, and the positions of their products.
 struct Monomials {
   std::vector<std::array<std::size_t, Polynomial::kVariables>> exponents;
   std::vector<std::size_t> degrees;

@@ -1,5 +1,5 @@
 // Functions of three variables, each in [-1, 1], as polynomials with balls for coefficients: a polynomial
-// stands for all functions that are, at each point, the value of a polynomial with coefficients in the balls.
+// represents all functions that are, at each point, the value of a polynomial with coefficients in the balls.
 // What is cut off (terms of a degree above a limit) and what is not known exactly is in the radii. Every
 // result contains the exact result for all functions that its operands stand for.
 #pragma once

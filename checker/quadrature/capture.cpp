@@ -116,13 +116,13 @@ Ball follow_all(const Cover& cover, const Followed& followed, bool symmetric, bo
         cover.boxes[index], cover.samples[index], min(cover.levels[index], cover.levels[image]), kHalvings);
     if (!reached) {
       objections.push_back("box " + std::to_string(index) + " of " + std::to_string(total) +
-                           " does not certainly come where it should");
+                           " is not proved to enter its set");
       break;
     }
     largest = max(largest, *reached);
   }
   if (count < total && objections.empty()) {
-    objections.push_back("a sample of " + std::to_string(count) + " of " + std::to_string(total) +
+    objections.push_back("only a sample of " + std::to_string(count) + " of " + std::to_string(total) +
                          " boxes was followed, which proves nothing; --full follows all");
   }
   return largest;
@@ -153,7 +153,8 @@ void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting
   }
   if (!captured && (cover.boxes.size() != 1 || !covers(cover.boxes[0], {inward(disturbed)}) ||
                     !certainly_less(reach, off))) {
-    objections.emplace_back("the witness is not one box of assumed starts, or not certainly off");
+    objections.emplace_back(
+        "the witness is not a single box of assumed starts, or its final frequency error is not proved");
   }
   if (!objections.empty()) {
     return;
@@ -178,9 +179,9 @@ std::optional<std::pair<Ball, Ball>> reduced_noise(const std::string& sentence) 
     return std::nullopt;
   }
   const auto noise = decimal_between(sentence.substr(0, at), start, "");
-  const auto slew = decimal_between(
-      sentence.substr(at), between,
-      " rad/sample per sample, the tracker comes into the certified set, which it never leaves.");
+  const auto slew =
+      decimal_between(sentence.substr(at), between,
+                      " rad/sample per sample, the tracker enters the certified set, which it never leaves.");
   return noise && slew ? std::optional(std::pair(*noise, *slew)) : std::nullopt;
 }
 
@@ -198,7 +199,7 @@ Captured check_capture(const Tree& claimed, const Design& design, const std::vec
     const Ball noise = exact_number(evidence->at("numbers").at("noise"));
     const Ball slew = exact_number(evidence->at("numbers").at("slew"));
     if (!certainly_at_most(found.noise, noise) || !certainly_at_most(found.slew, slew)) {
-      objections.emplace_back("the starts were followed under less noise or slew than is assumed");
+      objections.emplace_back("the starts were followed under less noise or slew than assumed");
     }
     found.noise = noise;
     found.slew = slew;
@@ -235,7 +236,7 @@ void check_capture_claim(const Tree& claimed, const std::map<std::string, Captur
   Claim claim;
   Captured found = found_of("capture");
   claim.statement =
-      "From every assumed start, with the assumed noise and slew, the tracker comes into the certified set, "
+      "From every assumed start, with the assumed noise and slew, the tracker enters the certified set, "
       "which it never leaves.";
   if (id == "ekf/capture") {
     // No noise is allowed noise.
@@ -243,8 +244,7 @@ void check_capture_claim(const Tree& claimed, const std::map<std::string, Captur
     claim.verdict = refuted ? Verdict::refuted : found.verdict;
   } else if (id == "ekf/capture-noise-free") {
     claim.statement =
-        "From every assumed start, without noise and slew, the tracker comes into the certified set, which "
-        "it "
+        "From every assumed start, without noise and slew, the tracker enters the certified set, which it "
         "never leaves.";
     found = found_of("capture/noise-free");
     claim.verdict = found.verdict;

@@ -77,7 +77,7 @@ std::string refusal_of(const Setting& s, std::int64_t& cells) {
     return "(c) noise and slew can push the errors out of the set";
   }
   if (!keeps_covariance(s)) {
-    return "(b) the covariance does not certainly stay between its bounds";
+    return "(b) the covariance is not proved to stay between its bounds";
   }
   if (!contracts(s, cells)) {
     return "(a) the step inequality is not certain";
@@ -174,7 +174,7 @@ CertifiedSet check_set(const Tree& tree, const Design& design, std::int64_t& cel
   set.setting = setting;
   const bool applies = design.without_leak() && certainly_positive(design.q2) && certainly_positive(design.r);
   const std::string refusal = !applies    ? "certified sets are for epsilon = 0, q2 > 0, r > 0"
-                              : !has_form ? "the matrices do not have their form"
+                              : !has_form ? "the matrices do not have the required form"
                                           : refusal_of(setting, cells);
   set.verified = refusal.empty();
   if (!set.verified) {

@@ -1,5 +1,5 @@
 // The certified sets of the tracker without a leak (docs/contraction.md): read, proved, and what each of them
-// says of the errors in it.
+// proves about the errors in it.
 #pragma once
 
 #include <array>

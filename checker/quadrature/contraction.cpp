@@ -122,7 +122,7 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
   StartSets starts = follow_starts(sets, whole, design);
   Promises& promises = starts.promises;
   Derivation found;
-  found.title = "Contraction of the errors in a set that the tracker never leaves";
+  found.title = "Contraction of the errors in an invariant set";
   if (whole != nullptr) {
     found.quantities = size_of(*whole);
     if (tolerates(*whole, design)) {

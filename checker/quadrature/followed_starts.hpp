@@ -1,5 +1,5 @@
 // Starts of the quadrature tracker, followed sample by sample: an enclosure of every state that a box of
-// starts can come to, whatever the noise and the slew do within their bounds. With and without a leak.
+// starts can reach, for all noise and slew within their bounds. With and without a leak.
 //
 // The frame is that of the true phase, the signal of amplitude 1 is (1, 0) in it. Of the filtered estimate
 // the state has z = (z1, z2), nu = x3 - omega, and P. With omega the frequency, w = omega+ - omega, v the

@@ -130,7 +130,7 @@ class QuadratureVerifier {
     const Tree& derivation = *known->second.derivation;
     check_claim(
         claim,
-        {"All conditions of " + derivation.at("title").text() + " hold for the design and the assumed start.",
+        {"The design and the assumed start satisfy all conditions of " + derivation.at("title").text() + ".",
          verdict_from(derivation.at("verdict").text()),
          {}},
         objections);

@@ -1,4 +1,4 @@
-// Boxes of start errors, each with where its starts come to: the evidence of a capture.
+// Boxes of start errors, each with the level that its starts reach: the evidence of a capture.
 #pragma once
 
 #include <array>

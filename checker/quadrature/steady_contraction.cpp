@@ -96,6 +96,7 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
   const Tree* evidence = claimed.find("evidence");
   std::vector<SteadySet> sets;
   Promises promises;
+  promises.about_steady_state = true;
   if (fine && evidence != nullptr) {
     for (const Tree& item : evidence->elements()) {
       const SteadySet& set = sets.emplace_back(check_steady_set(item, design, *branch, cells, objections));

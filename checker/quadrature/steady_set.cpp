@@ -129,7 +129,7 @@ std::string refusal_of(SteadySet& set, const std::vector<SteadyCell>& branch, st
     return "the covariance bounds are not positive definite, or the metric has no inverse";
   }
   if (!stays_definite(s, branch)) {
-    return "P* - below is not certainly positive definite";
+    return "P* - below is not proved positive definite";
   }
   const Motion motion = motion_of(set, branch);
   const std::size_t steps = std::max<std::size_t>(set.levels.size(), 2) - 1;
@@ -154,7 +154,7 @@ SteadySet check_steady_set(const Tree& evidence, const Design& design, const std
                            std::int64_t& cells, Objections& objections) {
   auto [set, has_form] = read_set(evidence, design);
   const std::string refusal =
-      has_form ? refusal_of(set, branch, cells) : "the matrices do not have their form";
+      has_form ? refusal_of(set, branch, cells) : "the matrices do not have the required form";
   set.verified = refusal.empty();
   if (!set.verified) {
     objections.push_back("the set " + set.name + ": " + refusal);

@@ -14,19 +14,21 @@ const std::string kSentence = "ekf/guarantee";
 const std::string kStays = "the frequency error stays below ";
 const std::string kForEver = " rad/sample for ever";
 
-/// A key of [require] that asks for a set of at least some size.
+/// A key of [require] that requires a set of at least some size.
 struct LeastSize {
   std::string claim, key, quantity, before, after;
   std::optional<Ball> Promises::*size;
 };
 const std::vector<LeastSize>& least_sizes() {
   static const std::vector<LeastSize> sizes{
-      {"ekf/largest-noise", "largest_noise_at_least", "largest_noise", "noise of at most ",
-       " at a constant frequency is borne: a set of errors is never left", &Promises::noise},
-      {"ekf/largest-slew", "largest_slew_at_least", "largest_slew", "a slew of at most ",
-       " rad/sample per sample without noise is borne: a set of errors is never left", &Promises::slew},
+      {"ekf/largest-noise", "largest_noise_at_least", "largest_noise",
+       "at a constant frequency, the tracker tolerates noise up to ", ": a certified invariant set exists",
+       &Promises::noise},
+      {"ekf/largest-slew", "largest_slew_at_least", "largest_slew",
+       "without noise, the tracker tolerates a slew up to ",
+       " rad/sample per sample: a certified invariant set exists", &Promises::slew},
       {"ekf/frequency-error-radius", "frequency_error_radius_at_least", "frequency_error_radius",
-       "under the assumed noise and slew a set of errors is never left that reaches to a frequency error of ",
+       "under the assumed noise and slew, a certified invariant set contains frequency errors up to ",
        " rad/sample", &Promises::reach}};
   return sizes;
 }
@@ -97,7 +99,9 @@ Claim size_of(const LeastSize& size, const Tree& design, const Promises& promise
       size.quantity == "largest_noise" ? read_number(design.at("assume").at("amplitude"), objections) : one;
   // The reach is an enclosure; the other two are the numbers that a set gives.
   const Sense sense = size.quantity == "frequency_error_radius" ? Sense::encloses : Sense::bounds_below;
-  return {size.before + asked.at("text").text() + size.after,
+  const bool from_steady_state = promises.about_steady_state && size.quantity == "frequency_error_radius";
+  return {size.before + asked.at("text").text() + size.after +
+              (from_steady_state ? ", measured from the steady state" : ""),
           proved_if(certainly_at_most(read_number(asked, objections), certified * unit)),
           {{size.quantity, certified, sense}}};
 }

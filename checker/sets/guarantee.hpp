@@ -1,4 +1,4 @@
-// What a tracker's sets promise of the assumed starts; the claims that a design's [require] asks for, and the
+// The bounds that a tracker's sets prove for the assumed starts; the claims in a design's [require], and the
 // guarantee in one sentence.
 #pragma once
 
@@ -19,6 +19,7 @@ struct Promises {
   // without noise, and how far the set for the assumed noise and slew reaches in frequency, rad/sample. Lower
   // bounds.
   std::optional<Ball> noise, slew, reach;
+  bool about_steady_state = false;  ///< the reach is measured from a biased steady state
 };
 
 /// The bounds on the frequency error, and on the noise and slew that are tolerated, as a derivation states
@@ -30,10 +31,10 @@ enum class Frequencies { assumed_band, every };
 
 bool is_guarantee(const std::string& id);
 
-/// The ids of the claims that a design's [require] asks for, in their order.
+/// The ids of the claims in a design's [require], in their order.
 std::vector<std::string> requirements(const Tree& design);
 
-/// Objects to a claim of these that the promises do not prove.
+/// Objects to a claim of these that the bounds do not prove.
 void check_guarantee(const Tree& claim, const Tree& certificate, const Promises& promises,
                      Frequencies frequencies, Objections& objections);
 

@@ -21,7 +21,7 @@ CellCovariance less(const CellCovariance& a, const Ball& factor, const CellCovar
 /// on what is quadratic, for what is linear is between its values there.
 bool definite(const CellCovariance& a);
 
-/// How the signal comes to a sample: it turns by the frequency (once), into the phase `here`.
+/// The step of the signal to a sample: it turns by the frequency (once), into the phase `here`.
 struct Turn {
   SineCosine once, twice, here;
 };

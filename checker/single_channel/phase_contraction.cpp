@@ -9,7 +9,8 @@ namespace veritrack::checker {
 
 namespace {
 
-/// A verified window, and what errors do in it: x_k = |e_k| in the metric P_k^-1. As long as x <= R,
+/// A verified window, and the recursion of the errors in it: x_k = |e_k| in the metric P_k^-1. As long as x
+/// <= R,
 ///   x_{k+m} <= kappa_m x_k + c sum_{j<m} kappa_{m-1-j} x_{k+j}^2 + sqrt(m) u,   m = 1, ..., n.
 class ErrorSet {
  public:
@@ -30,7 +31,8 @@ class ErrorSet {
   [[nodiscard]] const Ball& noise() const { return noise_; }
   [[nodiscard]] const Ball& start() const { return start_; }
   [[nodiscard]] std::size_t samples() const { return window_.shares.size(); }
-  /// By which a window multiplies errors that are at most `level` throughout, and what it makes of them.
+  /// The factor by which a window multiplies errors that are at most `level` throughout, and the resulting
+  /// level.
   [[nodiscard]] Ball factor(const Ball& level) const { return kappa_.back() + curvature_ * sum_ * level; }
   [[nodiscard]] Ball after(const Ball& level) const {
     return factor(level) * level + sqrt(Ball(static_cast<double>(samples()))) * input_;
@@ -134,7 +136,7 @@ std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& 
       window_is_proved(window, design, cells)) {
     return set;
   }
-  objections.push_back("the set \"" + name + "\" is not certainly what its evidence says");
+  objections.push_back("the set \"" + name + "\" is not proved by its evidence");
   return std::nullopt;
 }
 

@@ -13,7 +13,7 @@ namespace veritrack::checker {
 
 namespace {
 
-/// Every number of a design file stands in an object with its text.
+/// Every number of a design file is in an object with its text.
 void read_numbers(const Tree& tree, Objections& objections) {
   if (tree.kind() == Tree::Kind::array) {
     for (const Tree& element : tree.elements()) {

@@ -13,7 +13,7 @@ SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& obj
   const Tree& process_noise = chosen.at("process_noise");
   const bool by_ratio = chosen.find("lambda") != nullptr;
   if (by_ratio && (chosen.find("q") != nullptr || chosen.find("r") != nullptr)) {
-    throw Malformed("lambda stands in place of q and r");
+    throw Malformed("lambda replaces q and r");
   }
   const auto q = [&] { return by_ratio ? one : number(chosen, "q"); };
   design.r = number(chosen, by_ratio ? "lambda" : "r");

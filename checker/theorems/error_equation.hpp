@@ -22,7 +22,7 @@ ErrorEquation error_equation(const Design& design, const Ball& radius);
 /// The radius that the certificate chose, as the quantity of this name; about nothing unless in (0, 1/2].
 Ball claimed_radius(const Tree& derivation, const std::string& name);
 
-/// What every derivation that uses the equation says of it.
+/// The statements about the equation in every derivation that uses it.
 std::vector<Quantity> quantities_of(const ErrorEquation& equation);
 Condition start_covariance(const ErrorEquation& equation, const Design& design);
 

@@ -174,7 +174,7 @@ Derivation theorem_3_1(const Design& d, const Tree& /*claimed*/) {
 }
 
 Derivation theorem_3_1_to_the_letter(const Design& /*d*/, const Tree& /*claimed*/) {
-  return {"What section 3.2.1 of the thesis prints besides, taken to the letter",
+  return {"Further statements of section 3.2.1 of the thesis, taken literally",
           {},
           {less("rank-everywhere", R"(0 < \det J'J \text{ for every } x)", zero, zero),
            at_most("gram-entry", R"((J'J)_{13} \le -2x_2 - 1 - \epsilon x_2)", zero, -one),
@@ -212,7 +212,7 @@ Derivation theorem_3_2(const Design& d, const Tree& /*claimed*/) {
 }
 
 Derivation theorem_3_2_any_start(const Design& /*d*/, const Tree& /*claimed*/) {
-  return {"Theorem 3.2 of the thesis as printed, which asks nothing of the start",
+  return {"Theorem 3.2 of the thesis as printed, without a condition on the start",
           {},
           {at_most("any-start", R"(P^p(0 \mid -1) \le P^d(0 \mid -1) \text{ for any two})", one, zero)}};
 }

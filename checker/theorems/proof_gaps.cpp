@@ -32,7 +32,7 @@ void add_covariance(Claims& claims, const Design& d, const Constants29& c, const
                           : ranged && certainly_at_most(upper, c.s) ? Verdict::proved
                                                                     : Verdict::undecided;
   add(claims, "s/" + reading,
-      "For this design P(k+1|k) <= s I for all k >= 2, whatever P(0|0), along estimates with |e| <= eps_r.",
+      "For this design P(k+1|k) <= s I for all k >= 2 and every P(0|0), along estimates with |e| <= eps_r.",
       verdict, {{"predicted_lower", variance}, {"predicted_bound", upper, Sense::bounds_above}, {"s", c.s}});
 }
 
@@ -44,7 +44,7 @@ void add_recursion(Claims& claims, const Design& d, const Constants29& printed) 
       {{"smallest_predicted_variance", wide.q1}, {"s", s}});
   const Ball start = two * printed.p;
   add(claims, "bounds-from-the-start",
-      "P(0|0) <= p I, which the proofs use at k = 0, holds for every start P(0|0) >= 0.",
+      "P(0|0) <= p I, which the proofs use at k = 0, is true for every start P(0|0) >= 0.",
       decide_at_most(start, printed.p), {{"start_eigenvalue", start}, {"p", printed.p}});
   const std::string premise = "|z|^2/p <= V <= q |z|^2 and V(k+1) <= V(k) - gamma |z(k)|^2 imply V(k+1) <= ";
   const Ball decrease = printed.gamma / printed.q;
@@ -65,8 +65,8 @@ void add_recursion(Claims& claims, const Design& d, const Constants29& printed) 
   const Ball term = square(variance) / four;
   const Ball whole = square(one - exp(-variance)) / two;
   add(claims, "lemma-3.1",
-      "The second-order term of Lemma 3.1, (1/4)(P d^2 f)(P d^2 f)', is what the curvature of f adds to the "
-      "covariance of the prediction, to within a tenth of it.",
+      "The second-order term of Lemma 3.1, (1/4)(P d^2 f)(P d^2 f)', is the contribution of the curvature of "
+      "f to the covariance of the prediction, to within a tenth of it.",
       decide_at_most(abs(whole - term), whole / Ball(10.0)),
       {{"exact_variance", whole}, {"claimed_variance", term}});
 }
@@ -81,14 +81,14 @@ void add_perturbation(Claims& claims, const Design& d, const Constants29& c, con
       all_of({decide_less(zero, left), decide_at_most(left, one)}), {{"r_delta", left}});
   const Ball size = c.eta_size / left;
   add(claims, "eta-size/" + reading,
-      "The eta of (2.40) meets Theorem 2.7's |g| <= eta (r_x - beta_1 r_z), |g| bounded by the first entry "
-      "of (2.40).",
+      "The eta of (2.40) satisfies Theorem 2.7's |g| <= eta (r_x - beta_1 r_z), |g| bounded by the first "
+      "entry of (2.40).",
       certainly_positive(left) ? decide_at_most(size, c.eta) : Verdict::undecided,
       {{"needed", size}, {"eta", c.eta}});
   const Ball slope = two * c.eta_slope;
   add(claims, "eta-slope/" + reading,
-      "The eta of (2.40) meets Theorem 2.7's ||dg/dx|| <= eta/2, ||dg/dx|| bounded by the second entry of "
-      "(2.40). (The proof of Theorem 2.7 needs eta in place of eta/2 only.)",
+      "The eta of (2.40) satisfies Theorem 2.7's ||dg/dx|| <= eta/2, ||dg/dx|| bounded by the second entry "
+      "of (2.40). (The proof of Theorem 2.7 needs eta in place of eta/2 only.)",
       decide_at_most(slope, c.eta), {{"needed", slope}, {"eta", c.eta}});
   const Ball term = Ball(0.875) * (d.state_bound - c.epsilon_z);
   add(claims, "final-bound/" + reading,
@@ -101,7 +101,7 @@ void add_perturbation(Claims& claims, const Design& d, const Constants29& c, con
   const Ball excess = c.beta * c.zeta_z;
   add(claims, "linearised-rate/" + reading,
       "Lemma 2.3's rate alpha + zeta_z beta of the linearised equation is at most the alpha with which the "
-      "proof of Theorem 2.9 meets condition C2.",
+      "proof of Theorem 2.9 satisfies condition C2.",
       decide_at_most(excess, zero), {{"rate_excess", excess}});
   add(claims, "radius-order/" + reading,
       "beta eps_z < eps_r, which the proof of Theorem 2.9 states without a reason.",

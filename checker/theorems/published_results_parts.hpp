@@ -1,5 +1,5 @@
-// The published results by subject, for published_results.cpp: each evaluated for a design, given what the
-// certificate says of it.
+// The published results by subject, for published_results.cpp: each evaluated for a design, given the
+// certificate's claim about it.
 #pragma once
 
 #include "checker/theorems/design.hpp"

@@ -220,7 +220,7 @@ std::optional<Tube> verified_tube(const Tree& derivation, const std::string& nam
       TubeCheck(tube, design).is_proved()) {
     return tube;
   }
-  objections.push_back("the tube \"" + name + "\" is not certainly what its evidence says");
+  objections.push_back("the tube \"" + name + "\" is not proved by its evidence");
   return std::nullopt;
 }
 

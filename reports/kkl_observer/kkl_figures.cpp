@@ -17,7 +17,7 @@ namespace {
 using kkl_observer::EstimateSample;
 using kkl_observer::SectionVRun;
 
-/// One panel: what it shows, where the truth is, and which estimate it takes.
+/// One panel: its label, the true value, and the estimate that it shows.
 struct Panel {
   std::string label;
   double truth, low, high;
@@ -87,8 +87,8 @@ std::vector<Figure> draw_kkl_figures(const certificates::Certificate& certificat
            "rad/s. Where a line is missing the observer has no estimate.",
            draw(kkl, {amplitude, frequency}, 30.0)},
           {"section-v-adaptive.svg",
-           "The adaptive observer on the same signals (the paper's Figures 7 to 9), with parameters that are "
-           "ours: estimated frequency over time (s).",
+           "The adaptive observer on the same signals (the paper's Figures 7 to 9), with our own parameters: "
+           "estimated frequency over time (s).",
            draw(adaptive, {frequency}, 180.0)}};
 }
 

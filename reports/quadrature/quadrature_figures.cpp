@@ -23,7 +23,7 @@ using theorems::TrajectoryRecord;
 /// Dash patterns that can be told apart in grey.
 constexpr std::array kDashes{"'-'", "'_'", "'.'", "'-.'", "'-..'"};
 
-/// A horizontal line: what it stands for, and where.
+/// A horizontal line: its meaning and its value.
 struct Level {
   std::string title;
   double value = 0.0;
@@ -80,7 +80,7 @@ Figure error_figure(const Certificate& certificate) {
       "Error of the tracker along the simulated run, logarithmic: the whole error |e(k|k)| (signal relative "
       "to its amplitude, and rad/sample) and the frequency error alone.";
   if (!levels.empty()) {
-    caption += " The dashed lines are what it is to be compared with.";
+    caption += " The dashed lines are bounds for comparison.";
   }
   return {"error.svg", caption + stride_remark(certificate), run_gnuplot(script)};
 }
@@ -111,7 +111,7 @@ Figure tube_figure(const Certificate& certificate, const certificates::Frequency
   script += fmt::format(
       "$tube using 1:2 with lines lw 3 lc rgb '#000000' title 'certified, {}', "
       "keyentry with lines lw 1 lc rgb '#888888' title 'simulated runs'",
-      tube.from_assumed_starts ? "assumed starts" : "all of the set");
+      tube.from_assumed_starts ? "assumed starts" : "the whole set");
   if (!tube.bound_of_assumed_starts.empty()) {
     script +=
         fmt::format(", {:.9g} with lines lw 1.8 dt 4 lc rgb '#000000' title 'certified, assumed starts'",
@@ -123,13 +123,14 @@ Figure tube_figure(const Certificate& certificate, const certificates::Frequency
         fmt::format(", {:.9g} with lines lw 1.8 dt 2 lc rgb '#000000' title 'required'", required->nearest);
   }
   script += "\n";
-  return {"tube.svg",
-          fmt::format("Frequency error, rad/sample, logarithmic: the bound that is certified for every start "
-                      "{} and all noise and slew assumed (black), and simulated runs from the rim of these "
-                      "starts (grey), without disturbances and with noise and slew that push the errors out. "
-                      "The runs prove nothing.",
-                      tube.from_assumed_starts ? "within the assumed errors" : "in the certified set"),
-          run_gnuplot(script)};
+  return {
+      "tube.svg",
+      fmt::format(
+          "Frequency error, rad/sample, logarithmic: the certified bound for every start {} and all assumed "
+          "noise and slew (black), and simulated runs from the boundary of these starts (grey), without "
+          "disturbances and with noise and slew that increase the errors. The runs prove nothing.",
+          tube.from_assumed_starts ? "within the assumed errors" : "in the certified set"),
+      run_gnuplot(script)};
 }
 
 }  // namespace

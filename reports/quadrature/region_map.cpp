@@ -171,7 +171,7 @@ Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
     script += fmt::format(", keyentry with boxes {} title '{}'", style, title);
   };
   key(fmt::format("fillcolor rgb '{}' fs solid 1.0 noborder", kDark), "proved captured");
-  key("fillcolor rgb '#000000' fs pattern 4 noborder", "proved to lock elsewhere");
+  key("fillcolor rgb '#000000' fs pattern 4 noborder", "proved to lock at a wrong frequency");
   key(fmt::format("fillcolor rgb '{}' fs solid 1.0 border lc rgb '#888888'", kLight), "undecided");
   script += '\n';
   return {"region.svg", caption(region, basin), run_gnuplot(script)};

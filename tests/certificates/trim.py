@@ -158,11 +158,11 @@ def capture(certificate):
                   "ultimate_frequency_error": enclosure(ultimate * 1.000001), "cells": enclosure(1), "cells_captured": enclosure(1)}
     for quantity in quantities.values():
         quantity |= {"symbol": "", "formula": "", "source": "docs/contraction.md"}
-    reason = "every assumed start, in 1 cells, is in the certified set after at most 6 samples."
+    reason = "every assumed start, in 1 boxes, enters the certified set within 6 samples."
     certificate["derivations"] = [{
         "id": "capture", "title": "Capture of every assumed start by the certified set", "quantities": quantities,
         "conditions": [{"id": "certified-set", "statement": "V \\le V_\\Omega,\\ W \\le W_\\Omega",
-                        "verdict": "proved", "reason": "the set is never left under this noise and slew."},
+                        "verdict": "proved", "reason": "the set is invariant under this noise and slew."},
                        {"id": "starts-captured", "statement": "X(k_c) \\in \\Omega \\text{ from every assumed start}",
                         "verdict": "proved", "reason": reason}],
         "verdict": "proved",

@@ -150,7 +150,7 @@ template <typename Scalar>
           turned(measurement_update(predicted, own_in_phase, own_quadrature, design), sine, cosine)};
 }
 
-/// The tracker with its memory. It starts from one estimate, which serves as x(0|0) when `step` or
+/// The tracker with its memory. It starts from one estimate, which is x(0|0) when `step` or
 /// `time_update` comes first, and as x(1|0) when `measurement_update` does.
 template <typename Scalar = double>
 class QuadratureEkf {

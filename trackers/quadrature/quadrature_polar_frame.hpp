@@ -12,7 +12,7 @@
 // What the frame is good for. F(rho) = [[1,0,0], [0,1,rho], [0,0,1-epsilon]], rho = |z|, has one parameter,
 // so that P evolves by a Riccati equation that the errors enter through rho and through a turn by the angle
 // `turn` alone; that equation is monotone in P. For epsilon = 0 the errors a = psi = nu = 0 stay zero
-// whatever P is. And the rows of the state bound amplitude, phase and frequency error as they stand.
+// whatever P is. And the rows of the state bound amplitude, phase and frequency error directly.
 //
 // This is the filter of quadrature_ekf.hpp in other coordinates and another order of evaluation; tests hold
 // the two together. It makes sense for any symmetric P with det S != 0, S the innovation covariance, and as

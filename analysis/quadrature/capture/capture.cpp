@@ -89,7 +89,7 @@ class FollowedStarts {
     move_remainders();
   }
 
-  /// False when the set has become too large or was never known. The converse promises nothing.
+  /// False when the set has become too large or was never known. True proves nothing.
   [[nodiscard]] bool usable() const {
     const StateVector deviation = rest_.radii();
     return deviation.allFinite() && deviation.template head<3>().maxCoeff() < kLargestDeviation;

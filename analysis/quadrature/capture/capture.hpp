@@ -1,4 +1,4 @@
-// Capture: verified propagation of a set of starts until all of it is in a set that is never left.
+// Capture: verified propagation of a set of starts until all of it lies in an invariant set.
 //
 // Beyond the certified set nothing is contracting in general, but a computer can follow starts. A box of
 // starts is described by polynomials (Taylor models) in the start errors, so that the exact dependence of the

@@ -156,20 +156,22 @@ std::vector<Quantity> capture_quantities(const sets::StartResult& result, const 
   }
   const bool proved = result.verdict == Verdict::proved;
   all.push_back(cells("cells", "cells of assumed starts", region.cells.size(), proved));
-  all.push_back(cells("cells_captured", "of them captured", count(region, Verdict::proved), proved));
+  all.push_back(cells("cells_captured", "captured cells", count(region, Verdict::proved), proved));
   return all;
 }
 
-Condition set_bears_assumptions(const sets::ContractionQuestion& question, const CertifiedSet& set) {
-  const bool bears = certainly_less_equal(question.noise, Interval(set.noise)) &&
-                     certainly_less_equal(question.slew, Interval(set.slew));
-  return {"certified-set",
-          "V \\le V_\\Omega,\\ W \\le W_\\Omega",
-          bears ? Verdict::proved : Verdict::undecided,
-          Interval::empty(),
-          Interval::empty(),
-          bears ? "the set in which the starts are to be captured is never left under this noise and slew."
-                : "the set was certified for less noise or slew than is assumed."};
+Condition set_tolerates_assumptions(const sets::ContractionQuestion& question, const CertifiedSet& set) {
+  const bool tolerated = certainly_less_equal(question.noise, Interval(set.noise)) &&
+                         certainly_less_equal(question.slew, Interval(set.slew));
+  return {
+      "certified-set",
+      "V \\le V_\\Omega,\\ W \\le W_\\Omega",
+      tolerated ? Verdict::proved : Verdict::undecided,
+      Interval::empty(),
+      Interval::empty(),
+      tolerated
+          ? "the set in which the starts are to be captured is proved invariant under this noise and slew."
+          : "the set is certified only for less noise or slew than assumed."};
 }
 
 Condition starts_captured(const Region& region, std::vector<std::string>& notes) {
@@ -178,9 +180,9 @@ Condition starts_captured(const Region& region, std::vector<std::string>& notes)
                       Interval::empty(), {}};
   const std::size_t total = region.cells.size();
   if (condition.verdict == Verdict::proved) {
-    condition.reason = "every assumed start, in " + std::to_string(total) +
-                       " cells, is in the certified set after at most " +
-                       std::to_string(capture_samples(region)) + " samples.";
+    condition.reason = "every assumed start, followed in " + std::to_string(total) +
+                       " boxes, enters the certified set within " + std::to_string(capture_samples(region)) +
+                       " samples.";
     return condition;
   }
   const auto refuted = std::find_if(region.cells.begin(), region.cells.end(),
@@ -188,13 +190,13 @@ Condition starts_captured(const Region& region, std::vector<std::string>& notes)
   if (refuted != region.cells.end()) {
     condition.reason = "witness: a start with " + named(refuted->starts) + " locks " +
                        std::to_string(refuted->result.turns) +
-                       " turns per sample off the true frequency, whatever the noise and slew within the "
-                       "assumed bounds. Smaller start errors would do.";
+                       " turns per sample away from the true frequency, for every noise and slew within the "
+                       "assumed bounds. Smaller start errors would help.";
     return condition;
   }
   condition.reason = std::to_string(total - count(region, Verdict::proved)) + " of " + std::to_string(total) +
                      " cells of assumed starts could not be followed into the certified set; smaller start "
-                     "errors or less noise would do.";
+                     "errors or less noise would help.";
   for (const RegionCell& cell : region.cells) {
     if (cell.verdict != Verdict::proved && notes.size() < kCellsNamed) {
       notes.push_back("Not captured (" + std::string(to_string(cell.result.outcome)) +

@@ -34,9 +34,9 @@ struct CaptureTube {
 [[nodiscard]] std::vector<theorems::Quantity> capture_quantities(const sets::StartResult& result,
                                                                  const Region& region);
 
-/// The condition certified-set: the set bears the assumed noise and slew. Needs the upward mode.
-[[nodiscard]] theorems::Condition set_bears_assumptions(const sets::ContractionQuestion& question,
-                                                        const CertifiedSet& set);
+/// The condition certified-set: the set tolerates the assumed noise and slew. Needs the upward mode.
+[[nodiscard]] theorems::Condition set_tolerates_assumptions(const sets::ContractionQuestion& question,
+                                                            const CertifiedSet& set);
 
 /// The condition starts-captured, with the reason for its verdict; the first cells that failed go to `notes`.
 [[nodiscard]] theorems::Condition starts_captured(const Region& region, std::vector<std::string>& notes);

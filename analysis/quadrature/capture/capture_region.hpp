@@ -15,8 +15,8 @@ namespace veritrack::quadrature {
 struct RegionOptions {
   /// Equal parts along (amplitude, phase, frequency) to begin with. A direction without width is not cut.
   std::array<int, 3> first_cells = {1, 8, 8};
-  int most_halvings = 14;             ///< of a first cell
-  std::size_t most_cells = 200000;    ///< propagations in all, beyond which what is left stays undecided
+  int most_halvings = 14;           ///< of a first cell
+  std::size_t most_cells = 200000;  ///< propagations in all, beyond which the remaining cells stay undecided
   std::size_t generation_size = 512;  ///< cells handed out between two calls of `progress`
 };
 
@@ -38,7 +38,7 @@ struct Region {
   std::size_t propagations = 0;  ///< how many boxes were followed
   std::size_t samples = 0;       ///< how many steps of the map that took
   /// Upper bounds on |frequency error|, rad/sample, after 0, 1, ... samples, of the starts of those PROVED
-  /// cells that are not captured before: a captured start keeps to the bounds of the target from then on.
+  /// cells that are not captured before: a captured start satisfies the bounds of the target from then on.
   std::vector<double> frequency_errors;
 };
 

@@ -1,4 +1,4 @@
-// What a certified set promises from a level on: how far the errors can be after so many samples.
+// The bounds of a certified set from a level on: the largest errors after a number of samples.
 #pragma once
 
 #include "analysis/quadrature/contraction/certified_set.hpp"

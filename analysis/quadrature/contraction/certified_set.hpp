@@ -1,4 +1,4 @@
-// CertifiedSet: a set of errors and covariances that the quadrature tracker never leaves.
+// CertifiedSet: an invariant set of errors and covariances of the quadrature tracker.
 #pragma once
 
 #include "analysis/rigor/interval.hpp"
@@ -30,7 +30,7 @@ struct CertifiedSet {
 [[nodiscard]] rigor::Interval metric_norm(const CertifiedSet& set, const rigor::IntervalVector<3>& error);
 
 /// True only when every (e, P) of the box lies in the set: |T e| <= R, and P - P_lo and P_hi - P positive
-/// definite for every symmetric P in `covariance`. The phase error enters as it stands; a caller who knows it
+/// definite for every symmetric P in `covariance`. The phase error is used unchanged; a caller who knows it
 /// modulo 2 pi only subtracts the multiple. Needs the upward mode.
 [[nodiscard]] bool certainly_contains(const CertifiedSet& set, const rigor::IntervalVector<3>& error,
                                       const rigor::IntervalMatrix<3>& covariance);

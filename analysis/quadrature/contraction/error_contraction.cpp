@@ -84,7 +84,7 @@ class Cover {
       const double chi = middle_.largest_chi * cell.middle(kScale) * std::sin(beta);
       reason_ = "near amplitude error " + rigor::to_decimal(a, 3, rigor::Direction::up) +
                 " and predicted phase error " + rigor::to_decimal(chi, 3, rigor::Direction::up) +
-                " rad a step could not be shown to contract, or to bear the noise and slew.";
+                " rad a step could not be proved to contract, or to tolerate the noise and slew.";
       return false;
     }
     const std::size_t side = widest(forms, verdict);
@@ -197,7 +197,7 @@ ContractionOverSet prove_contraction(const StepSetting<Interval>& setting,
           {static_cast<double>(i + 1) / kScales, end * (static_cast<double>(j + 1) / kAngles), 1.0, 1.0},
           {}};
       if (!cover.set_reach(cell)) {
-        cover.fail("the set is too large for the estimate to keep its phase.");
+        cover.fail("the set is so large that the estimate may lose its phase.");
         return cover.result(false);
       }
       if (!cover.proves(cell, kDepth)) {

@@ -13,7 +13,7 @@
 // what the covariance may do: P+ = Phi lies between Phi_lo and Phi_hi (riccati_order.hpp), that is Phi =
 // (Phi_lo + Phi_hi)/2 + D Y D' with D D' = Delta = (Phi_hi - Phi_lo)/2 and |Y|_2 <= 1, so that the gain K =
 // Phi H'/r moves the correction K (i + v) by D z / r, z = Y D' H' (i + v). J is the Jacobian of (|z|, arg z,
-// x3), averaged between the estimate that the mean gain corrects without noise and the one that comes about.
+// x3), averaged between the estimate that the mean gain corrects without noise and the actual one.
 //
 // The template runs on double, at a point, to propose; on Interval, at the middle of a cell; and on intervals
 // with derivatives, over the cell: the mean value theorem then encloses the coefficients of all its points.

@@ -33,7 +33,7 @@ Promises::Promises(const sets::ContractionQuestion& question, const std::vector<
   }
   for (const StartBounds& inner : others) {
     const bool led_into = std::any_of(bases_.begin(), bases_.end(), [&](const StartBounds& base) {
-      return certainly_leads_into(base.set(), inner.set(), question.noise, question.slew);
+      return certainly_maps_into(base.set(), inner.set(), question.noise, question.slew);
     });
     if (led_into) {
       ultimate_ = better(ultimate_, inner.ultimate_frequency_error());

@@ -1,4 +1,4 @@
-// What several certified sets promise together for the assumed starts, noise and slew.
+// The bounds that several certified sets prove together for the assumed starts, noise and slew.
 #pragma once
 
 #include <vector>
@@ -10,23 +10,23 @@ namespace veritrack::quadrature {
 /// Each set proves its own bounds; the best are taken. All members need the upward mode.
 class Promises {
  public:
-  /// The sets must be certified for at least the noise and slew of the question. Where none of them holds the
-  /// assumed starts, what is said is said of every start in the first.
+  /// The sets must be certified for at least the noise and slew of the question. If none of them contains the
+  /// assumed starts, the bounds are for every start in the first.
   Promises(const sets::ContractionQuestion& question, const std::vector<CertifiedSet>& sets);
 
-  /// True only when some set holds every assumed start.
+  /// True only when some set contains every assumed start.
   [[nodiscard]] bool starts_inside() const { return starts_inside_; }
-  /// A bound on |frequency error| in the long run, rad/sample: that of a set that holds the starts, or of one
-  /// into which such a set leads. Empty when there is no set.
+  /// A bound on |frequency error| in the long run, rad/sample: that of a set that contains the starts, or of
+  /// one into which such a set is mapped. Empty when there is no set.
   [[nodiscard]] const rigor::Interval& ultimate_frequency_error() const { return ultimate_; }
   /// A bound on |frequency error| at every sample, rad/sample. Empty when there is none.
   [[nodiscard]] rigor::Interval frequency_error_bound() const;
   /// A number of samples after which |frequency error| is within twice the ultimate one. Empty when no set
-  /// says.
+  /// gives one.
   [[nodiscard]] rigor::Interval settling_samples() const;
 
  private:
-  std::vector<StartBounds> bases_;  ///< of the sets that hold the starts
+  std::vector<StartBounds> bases_;  ///< of the sets that contain the starts
   bool starts_inside_ = false;
   rigor::Interval ultimate_;
 };

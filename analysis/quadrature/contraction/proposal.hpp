@@ -15,8 +15,8 @@ namespace veritrack::quadrature {
 /// in the set.
 enum class Objective {
   start_error,      ///< the largest frequency error, for the given noise and slew
-  noise,            ///< the largest noise that the set bears, without slew
-  slew,             ///< the largest slew that the set bears, without noise
+  noise,            ///< the largest noise that the set tolerates, without slew
+  slew,             ///< the largest slew that the set tolerates, without noise
   frequency_bound,  ///< the least bound on the frequency error from the start on
   ultimate_error,   ///< the least bound on the frequency error in the long run
   settling          ///< the least number of samples until the frequency error is below `settled_error`

@@ -31,12 +31,13 @@ Condition start_in_set(const sets::ContractionQuestion& question, const Certifie
                       Interval(level.upper()),
                       radius,
                       {}};
-  condition.reason = starts_inside ? "every assumed start lies in a certified set."
-                     : certainly_less_equal(level, radius)
-                         ? "the initial covariance is not certainly between the bounds of the certified set."
-                         : "the assumed start errors reach " + rigor::upper_decimal(level) +
-                               " in a metric where the set ends at " + rigor::lower_decimal(radius) +
-                               ": smaller start errors, or a proof of capture, would do.";
+  condition.reason =
+      starts_inside ? "every assumed start lies in a certified set."
+      : certainly_less_equal(level, radius)
+          ? "the initial covariance is not proved to lie between the bounds of the certified set."
+          : "the assumed starts have level " + rigor::upper_decimal(level) +
+                "; the certified set has level " + rigor::lower_decimal(radius) +
+                ". Smaller start errors, or a proof of capture, would suffice.";
   return condition;
 }
 
@@ -65,7 +66,7 @@ void set_size(const std::optional<Verification>& found, sets::ContractionResult&
   set(result.amplitude_error_radius, "R\\,|e_1' T^{-1}|", bounds[0]);
 }
 
-/// What the sets say of the assumed starts.
+/// The bounds of the sets for the assumed starts.
 void set_promises(const Promises& promises, sets::StartResult& starts) {
   set(starts.ultimate_frequency_error,
       "u\\,|e_3' T^{-1}|,\\ u^2 = \\tfrac{L_v^2 V^2 + L_w^2 W^2}{1 - \\kappa^2}",
@@ -76,7 +77,7 @@ void set_promises(const Promises& promises, sets::StartResult& starts) {
   const bool settles = certainly_positive(promises.ultimate_frequency_error());
   set(starts.settling_samples, "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
       promises.settling_samples(),
-      settles ? "No set promises from when on it holds."
+      settles ? "No certified set gives a settling time."
               : "Without noise and slew the ultimate bound is zero, which is approached but not reached.");
 }
 
@@ -96,16 +97,13 @@ Condition leak(const Interval& epsilon) {
 Condition controllable_amplitude(const Interval& q1) {
   const Interval zero(0.0);
   Condition condition{"controllable-amplitude", "q_1 > 0", rigor::decide_less(zero, q1), q1, zero, {}};
-  condition.reason =
-      condition.verdict == Verdict::proved ? "process noise reaches the amplitude."
-      : condition.verdict == Verdict::refuted
-          ? "with q1 = 0 and no leak the amplitude is an uncontrollable mode on the unit circle (witness: "
-            "the "
-            "row (1, 0, 0) is a left eigenvector of F to the eigenvalue 1, and (1, 0, 0) Q = 0): its "
-            "variance "
-            "falls like 1/k, the gain goes to zero, and no steady state is exponentially stable; any q1 > 0 "
-            "repairs this."
-          : "q1 is not certainly positive.";
+  condition.reason = condition.verdict == Verdict::proved ? "process noise reaches the amplitude."
+                     : condition.verdict == Verdict::refuted
+                         ? "with q1 = 0 and no leak the amplitude is an uncontrollable mode on the unit "
+                           "circle (witness: the row (1, 0, 0) is a left eigenvector of F for the eigenvalue "
+                           "1, and (1, 0, 0) Q = 0): its variance decays like 1/k, the gain tends to zero, "
+                           "and no steady state is exponentially stable; any q1 > 0 remedies this."
+                         : "q1 is not certainly positive.";
   return condition;
 }
 
@@ -132,7 +130,7 @@ Condition invariant_set(const sets::ContractionQuestion& question,
   return condition;
 }
 
-/// Those that bear the assumed noise and slew, the largest first.
+/// Those that tolerate the assumed noise and slew, the largest first.
 std::vector<CertifiedSet> sets_of(const ContractionCertificate& certificate) {
   std::vector<CertifiedSet> sets;
   for (const auto* found :
@@ -144,7 +142,7 @@ std::vector<CertifiedSet> sets_of(const ContractionCertificate& certificate) {
   return sets;
 }
 
-bool bears(const CertifiedSet& set, const sets::ContractionQuestion& question) {
+bool tolerates(const CertifiedSet& set, const sets::ContractionQuestion& question) {
   return certainly_less_equal(question.noise, Interval(set.noise)) &&
          certainly_less_equal(question.slew, Interval(set.slew));
 }
@@ -154,7 +152,7 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
   certificate.slew_set = find_set(question, Objective::slew);
   certificate.set = find_set(question, Objective::start_error);
   for (const auto* found : {&certificate.noise_set, &certificate.slew_set}) {
-    if (!certificate.set && *found && bears((*found)->set, question)) {
+    if (!certificate.set && *found && tolerates((*found)->set, question)) {
       certificate.set = *found;
     }
   }
@@ -181,9 +179,9 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& ques
   ContractionCertificate certificate;
   theorems::Derivation& derivation = certificate.derivation;
   derivation.id = "contraction";
-  derivation.title = "Contraction of the errors in a set that the tracker never leaves";
+  derivation.title = "Contraction of the errors in an invariant set";
   derivation.notes = {
-      "Covers the tracker in exact arithmetic, for every frequency, signal amplitude constant.",
+      "Covers the tracker in exact arithmetic, at every frequency, for a signal of constant amplitude.",
       "Amplitude error and noise are relative to the true amplitude; the set is described in the frame of "
       "the "
       "estimated phase."};

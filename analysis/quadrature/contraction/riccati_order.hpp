@@ -27,7 +27,7 @@ struct BlockUpdate {
   Scalar gain_amplitude;  ///< K11
   Scalar gain_phase;      ///< K22
   Scalar gain_frequency;  ///< K32, rad/sample
-  /// 1 - K11 and 1 - K22: what is left of an error.
+  /// 1 - K11 and 1 - K22: the factors of an error.
   Scalar rest_amplitude, rest_phase;
 };
 

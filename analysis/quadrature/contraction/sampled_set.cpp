@@ -24,8 +24,8 @@ PolarStepForm<double, double> form_at(const StepSetting<double>& setting, double
   return polar_step_form(setting, ray);
 }
 
-/// Moves the covariance bounds of the setting out until the images of the rim stay between them. False when
-/// they run away.
+/// Moves the covariance bounds of the setting out until the images of the boundary stay between them. False
+/// when they run away.
 bool find_covariance_bounds(StepSetting<double>& setting, const BlockCovariance<double>& steady,
                             const SampleRequest& request) {
   constexpr int kMostSteps = 80;
@@ -72,7 +72,7 @@ SampledSet sample_set(const SampleRequest& request, const BlockCovariance<double
     return result;
   }
   double rate_squared = 0.0;
-  // The rim with the corners of what the covariance may do decides; the middle of the set seldom does.
+  // The boundary with the corners of the covariance bounds decides; the middle of the set seldom does.
   struct Sample {
     double scale, along, across;
   };

@@ -46,13 +46,13 @@ std::optional<Verification> first_that_verifies(const sets::ContractionQuestion&
       continue;
     }
     Verification verification = verify_certified_set(question.design, *proposal);
-    // A proposal is not to be believed, not even in the noise and slew that it was asked to bear.
+    // A proposal is not trusted, not even to tolerate the noise and slew that it was searched for.
     const rigor::UpwardRounding upward;
-    const bool bears_what_is_assumed =
+    const bool tolerates_assumptions =
         sets_its_own_disturbance(request.objective) ||
         (certainly_less_equal(question.noise, Interval(verification.set.noise)) &&
          certainly_less_equal(question.slew, Interval(verification.set.slew)));
-    if (verification.verdict == rigor::Verdict::proved && bears_what_is_assumed) {
+    if (verification.verdict == rigor::Verdict::proved && tolerates_assumptions) {
       return verification;
     }
   }
@@ -83,8 +83,8 @@ std::optional<Verification> find_inner_set(const sets::ContractionQuestion& ques
   }
   std::optional<Verification> inner = first_that_verifies(question, request);
   const rigor::UpwardRounding upward;
-  return inner && certainly_leads_into(outer, inner->set, question.noise, question.slew) ? inner
-                                                                                         : std::nullopt;
+  return inner && certainly_maps_into(outer, inner->set, question.noise, question.slew) ? inner
+                                                                                        : std::nullopt;
 }
 
 }  // namespace veritrack::quadrature

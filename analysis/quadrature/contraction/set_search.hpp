@@ -9,15 +9,15 @@
 
 namespace veritrack::quadrature {
 
-/// The set for an objective: the best proposal on a ladder of fractions that verifies, and that bears the
+/// The set for an objective: the best proposal on a ladder of fractions that verifies, and that tolerates the
 /// assumed noise and slew where the objective does not set them; nothing when none does. `settled_error`
 /// (rad/sample) is that of Objective::settling. Proposes in the rounding mode of the filter; the verification
 /// opens its own.
 [[nodiscard]] std::optional<Verification> find_set(const sets::ContractionQuestion& question,
                                                    Objective objective, double settled_error = 0.0);
 
-/// A set with a small ultimate frequency error into which `outer` leads (certainly_leads_into): the second
-/// part of a guarantee for starts that are far from zero. Nothing when none is found.
+/// A set with a small ultimate frequency error into which `outer` is mapped (certainly_maps_into): the
+/// second part of a guarantee for starts that are far from zero. Nothing when none is found.
 [[nodiscard]] std::optional<Verification> find_inner_set(const sets::ContractionQuestion& question,
                                                          const CertifiedSet& outer);
 

@@ -8,7 +8,7 @@ namespace veritrack::quadrature {
 
 namespace {
 
-constexpr double kLargestRateSquared = 0.985;  // a slower set is of no use
+constexpr double kLargestRateSquared = 0.985;  // a slower set is useless
 
 /// The largest |T e| of the start.
 double start_level(const BlockMetric<double>& t, const rigor::Vector<3>& start) {
@@ -17,7 +17,7 @@ double start_level(const BlockMetric<double>& t, const rigor::Vector<3>& start) 
   return std::hypot(t.amplitude * start[0], across, t.frequency * start[2]);
 }
 
-/// |T K| of the steady state on the truth: what noise does at least.
+/// |T K| of the unbiased steady state: the least effect of noise.
 double least_noise_gain(const BlockMetric<double>& t, const BlockUpdate<double>& steady) {
   return std::max(t.amplitude * steady.gain_amplitude,
                   std::hypot(t.phase * steady.gain_phase + t.coupling * steady.gain_frequency,
@@ -134,14 +134,14 @@ double ShapeSearch::largest_radius(const Shape& shape) const {
 
 double ShapeSearch::largest_disturbance(const Shape& shape) const {
   constexpr double kPart = 0.7;
-  const auto borne = [&](double noise) {
+  const auto tolerated = [&](double noise) {
     const double rate_squared = sample(shape, shape.radius, noise).rate_squared;
     const double gain = noisy_ ? shape.noise_gain : shape.slew_gain;
     return rate_squared < kLargestRateSquared ? shape.radius * std::sqrt(1.0 - rate_squared) / gain
                                               : kWorthless;
   };
-  const double first = borne(0.0);
-  return noisy_ && first > 0.0 ? std::min(first, borne(kPart * first)) : first;
+  const double first = tolerated(0.0);
+  return noisy_ && first > 0.0 ? std::min(first, tolerated(kPart * first)) : first;
 }
 
 std::optional<ShapeSearch::Promise> ShapeSearch::promise(const Shape& shape) const {

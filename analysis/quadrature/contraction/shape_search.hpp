@@ -1,4 +1,4 @@
-// The shapes that a proposal chooses among, and what sampling says of each; part of proposal.hpp.
+// The shapes that a proposal chooses among, and the results of sampling for each; part of proposal.hpp.
 #pragma once
 
 #include <limits>
@@ -44,15 +44,15 @@ class ShapeSearch {
   /// What noise and slew add to |T e|^2 in a step.
   [[nodiscard]] double pushed(const Shape& shape) const;
 
-  /// The largest radius that bears noise and slew, 0 if there is none: growth by steps, then bisection.
+  /// The largest radius that tolerates noise and slew, 0 if there is none: growth by steps, then bisection.
   [[nodiscard]] double largest_radius(const Shape& shape) const;
 
-  /// The noise or slew that the set bears. Noise turns the estimate and so widens the covariance bounds: the
-  /// first value is tried, in part, before the second is believed.
+  /// The noise or slew that the set tolerates. Noise turns the estimate and so widens the covariance bounds:
+  /// the first value is tried, in part, before the second is believed.
   [[nodiscard]] double largest_disturbance(const Shape& shape) const;
 
-  /// The set around the start: its radius and what it promises. Grows the set when noise and slew lead out of
-  /// it.
+  /// The set around the start: its radius and its bounds. Grows the set when noise and slew drive states out
+  /// of it.
   struct Promise {
     double radius = 0.0, start_level = 0.0, rate_squared = 0.0, ultimate = 0.0;
   };

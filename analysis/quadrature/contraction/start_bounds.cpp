@@ -11,8 +11,8 @@ namespace veritrack::quadrature {
 using rigor::Interval;
 using rigor::IntervalVector;
 
-bool certainly_leads_into(const CertifiedSet& outer, const CertifiedSet& inner, const Interval& noise,
-                          const Interval& slew) {
+bool certainly_maps_into(const CertifiedSet& outer, const CertifiedSet& inner, const Interval& noise,
+                         const Interval& slew) {
   // |T e| comes below any level above the ultimate one after finitely many samples.
   const Interval above_one(1.0 + 0x1p-20);
   const IntervalVector<3> bounds = error_bounds(outer, above_one * ultimate_level(outer, noise, slew));

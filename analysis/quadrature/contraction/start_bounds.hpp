@@ -1,4 +1,4 @@
-// What a certified set promises for the starts, the noise and the slew that are assumed.
+// The bounds of a certified set for the assumed starts, noise and slew.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@ namespace veritrack::quadrature {
 /// True only when every trajectory in `outer`, noise and slew as given, lies in `inner` from some sample on:
 /// the ellipsoid that |T e| tends to in the one lies within that of the other, and so do the covariance
 /// bounds. Needs the upward mode.
-[[nodiscard]] bool certainly_leads_into(const CertifiedSet& outer, const CertifiedSet& inner,
-                                        const rigor::Interval& noise, const rigor::Interval& slew);
+[[nodiscard]] bool certainly_maps_into(const CertifiedSet& outer, const CertifiedSet& inner,
+                                       const rigor::Interval& noise, const rigor::Interval& slew);
 
-/// The promises of one set; the noise and slew of the question must not exceed those of the set. All members
+/// The bounds of one set; the noise and slew of the question must not exceed those of the set. All members
 /// need the upward mode.
 class StartBounds {
  public:
@@ -34,7 +34,7 @@ class StartBounds {
   /// them, from anywhere in the set if not.
   [[nodiscard]] rigor::Interval frequency_error_bound() const;
   /// A number of samples after which |frequency error| is at most `frequency_error` (rad/sample), from the
-  /// same starts; nothing when the set promises none.
+  /// same starts; nothing when the set gives none.
   [[nodiscard]] std::optional<rigor::Interval> samples_until(const rigor::Interval& frequency_error) const;
 
  private:

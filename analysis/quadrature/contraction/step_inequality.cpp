@@ -59,7 +59,7 @@ double rate_squared_with(const PolarStepForm<double, double>& f, const BlockMetr
 }
 
 /// The multipliers worth a look, as logarithms: above the norm of Gamma, and so small that noise of that gain
-/// could be borne at all.
+/// could be tolerated at all.
 struct Range {
   double low, high;
 };

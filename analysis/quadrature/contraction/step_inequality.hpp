@@ -28,7 +28,7 @@ struct StepConstants {
   bool noisy = false, slewing = false;
 };
 
-/// What is left of the matrix without the rows of v.
+/// The matrix without the rows of v.
 template <typename Constant, typename Scalar>
 struct ReducedForm {
   Gram<Scalar> schur;                           ///< of the components of T e+

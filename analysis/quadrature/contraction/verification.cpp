@@ -50,7 +50,7 @@ std::string objection(const Design& design, const CertifiedSet& set) {
     return "the metric is not certainly invertible.";
   }
   if (!certainly_not_negative(Interval(set.noise_gain)) || !certainly_not_negative(Interval(set.slew_gain))) {
-    return "the gains of noise and slew are not numbers that gains can be.";
+    return "the gains of noise and slew are not finite numbers of 0 or more.";
   }
   if (!certainly_positive(Interval(set.radius)) || !certainly_not_negative(Interval(set.noise)) ||
       !certainly_not_negative(Interval(set.slew)) || !certainly_not_negative(Interval(set.rate)) ||
@@ -106,7 +106,7 @@ Verification verify_certified_set(const Design& design, const CertifiedSet& prop
   }
   const StepSetting<Interval> setting = setting_of(design, proposal);
   if (!certainly_less(setting.largest_amplitude, Interval(1.0))) {
-    result.reason = "the set reaches amplitudes near zero, where there is no phase.";
+    result.reason = "the set contains amplitudes near zero, where the phase is undefined.";
     return result;
   }
   const StepConstants<Interval> constants = constants_of(proposal);
@@ -129,7 +129,7 @@ Verification verify_certified_set(const Design& design, const CertifiedSet& prop
     return result;
   }
   result.verdict = Verdict::proved;
-  result.reason = "every step from the set leads back into it and contracts.";
+  result.reason = "every step maps the set into itself and contracts.";
   return result;
 }
 

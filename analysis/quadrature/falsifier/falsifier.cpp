@@ -191,7 +191,7 @@ class Search {
                                           {"turning", own, true}}};
     for (const Family& family : families) {
       // Direction, angular frequency, noise phase, slew phase, share of the covariance, and the two angles of
-      // the start on the rim.
+      // the start on the boundary.
       Eigen::VectorXd first(7);
       first << random_.uniform() * 2.0 * kPi, family.angular_frequency, 0.1, kPi + 0.1, random_.uniform(),
           random_.uniform() * 2.0 * kPi, random_.uniform() * 2.0 - 1.0;

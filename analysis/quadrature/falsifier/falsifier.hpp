@@ -61,7 +61,7 @@ struct Falsification {
 /// QuadratureEkf<double> large: sequences constant, alternating, resonant with the loop and turning, refined
 /// by NLopt; greedy ones, which push |T e| out at each step; and ones that maximise the linearised |T e| or
 /// frequency error at a horizon, over start error, start covariance, noise and slew at once, repeated. Every
-/// step of every run is held against all that is certified: |T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2
+/// step of every run is compared with all that is certified: |T e+|^2 <= rate^2 |T e|^2 + L_v^2 |v|^2 + L_w^2
 /// w^2, |T e| <= R, and the bounds on the covariance, with room for rounding only (about 1e-7).
 /// Deterministic. The set is taken at its word: gains included, as verify_certified_set returns them. epsilon
 /// must be zero. Opens its own NearestRounding scope. Throws std::invalid_argument when steps < 1 or the set

@@ -85,7 +85,7 @@ void SetClaim::complete(bool fits) {
                       set_.noise >= 0.0 && set_.slew >= 0.0 && std::isfinite(bound_from_rim_) &&
                       std::isfinite(bound_from_zero_) && center_.allFinite();
   if (!is_set) {
-    throw std::invalid_argument("what is to be broken is not a certified set for this design");
+    throw std::invalid_argument("the set to be falsified is not a certified set for this design");
   }
 }
 

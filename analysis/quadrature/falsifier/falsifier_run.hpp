@@ -91,7 +91,7 @@ struct RunOutcome {
                                      int steps);
 
 /// As try_to_break of falsifier.hpp, where the centre takes the place of zero. With a leak the structure of
-/// what is certified is that of SteadySet: each step leads to the next level.
+/// what is certified is that of SteadySet: each step maps into the next level.
 [[nodiscard]] Falsification try_to_break(const SetClaim& claim, const FalsifierOptions& options = {});
 
 }  // namespace veritrack::quadrature

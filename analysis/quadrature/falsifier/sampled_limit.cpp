@@ -14,8 +14,8 @@ namespace veritrack::quadrature {
 
 namespace {
 
-/// A start on the rim, by angles: two for the direction of T e, three for the eigenvectors and three for the
-/// eigenvalues of the share Y of the covariance, one for the noise, one for the slew.
+/// A start on the boundary, by angles: two for the direction of T e, three for the eigenvectors and three for
+/// the eigenvalues of the share Y of the covariance, one for the noise, one for the slew.
 constexpr Eigen::Index kAngles = 10;
 
 class Escape {

@@ -8,7 +8,7 @@
 namespace veritrack::quadrature {
 
 /// The least radius at which gradient ascent finds a start in {|T e| = radius} x {P_lo <= P <= P_hi}, with
-/// noise and slew up to those of the set, from which one step of the tracker leads out of the ellipsoid; the
+/// noise and slew up to those of the set, from which one step of the tracker leaves the ellipsoid; the
 /// metric and the covariance bounds are the set's own. The radius at which the ellipsoid reaches amplitude
 /// zero when no such start is found before. Deterministic; takes some hundredths of a second. Opens its own
 /// NearestRounding scope. epsilon must be zero.

@@ -1,4 +1,4 @@
-// What a search says of a certificate, for a reader to judge it by. None of it is proved.
+// The results of a search against a certificate, which show how tight it is. None of it is proved.
 #pragma once
 
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"

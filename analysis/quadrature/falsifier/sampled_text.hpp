@@ -15,10 +15,10 @@ inline constexpr SampledText kRadiusLimit{
     "frequency_error_radius_sampled_limit",
     "frequency error at which a search finds a step out of the set, rad/sample"};
 inline constexpr SampledText kShareOfLimit{"frequency_error_radius_share_of_limit",
-                                           "certified radius over that at which the search succeeds"};
+                                           "certified radius over the radius at which the search succeeds"};
 inline constexpr SampledText kBoundTightness{
     "frequency_error_bound_tightness",
-    "largest frequency error found from the rim of its set, over the bound"};
+    "largest frequency error found from the boundary of its set, over the bound"};
 inline constexpr SampledText kUltimateTightness{
     "ultimate_frequency_error_tightness", "largest frequency error found from zero error, over the bound"};
 

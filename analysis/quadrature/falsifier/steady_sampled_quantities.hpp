@@ -1,4 +1,5 @@
-// What a search says of a certificate with a leak, for a reader to judge it by. None of it is proved.
+// The results of a search against a certificate with a leak, which show how tight it is. None of it is
+// proved.
 #pragma once
 
 #include <vector>

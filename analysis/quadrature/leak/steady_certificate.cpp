@@ -112,14 +112,14 @@ sets::ContractionResult result_of(const Search& search, const std::optional<Stea
     return said([i](const SteadyReport& r) { return r.radius(i); });
   };
   sets::ContractionResult result;
+  result.about_steady_state = true;
   set(result.contraction_rate, "\\max_j s_{j+1} / s_j", rate, why);
   set(result.radius, "|T (e - e^*)| \\le 1", report ? std::optional(Interval(1.0)) : std::nullopt, why);
   set(result.frequency_error_radius, "|e_3' T^{-1}|", radius(2), why);
   set(result.phase_error_radius, "|e_2' T^{-1}|", radius(1), why);
   set(result.amplitude_error_radius, "|e_1' T^{-1}|", radius(0), why);
   sets::StartResult& starts = result.starts;
-  const std::string outside =
-      report ? "The assumed starts do not certainly come into the certified set." : why;
+  const std::string outside = report ? "The assumed starts are not proved to enter the certified set." : why;
   set(starts.ultimate_frequency_error, "\\sup_\\omega |\\nu^*| + s_n |e_3' T^{-1}|",
       said([](const SteadyReport& r) { return r.ultimate(); }), why);
   set(starts.frequency_error_bound, "\\sup_\\omega (|\\nu^*| + \\max(s(k_c), s_{j(k_c)+1}) |e_3' T^{-1}|)",
@@ -143,9 +143,10 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
   derivation.id = "contraction";
   derivation.title = "Contraction in a set around the steady state of every frequency of the band";
   derivation.notes = {
-      "Covers the tracker in exact arithmetic, for every frequency of the band, signal amplitude constant.",
-      "With a leak the tracker settles off the truth: radii are about the steady state, error bounds about "
-      "the truth. Amplitude error and noise are relative to the true amplitude."};
+      "Covers the tracker in exact arithmetic, at every frequency of the band, for a signal of constant "
+      "amplitude.",
+      "With a leak the tracker settles with a bias; radii are measured from that state, error bounds from "
+      "the true signal. Amplitude error and noise are relative to the true amplitude."};
   const Search found = search(question, certificate);
   std::optional<SteadyReport> report;
   std::optional<Interval> rate;

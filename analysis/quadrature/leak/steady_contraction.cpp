@@ -26,7 +26,7 @@ class Cover {
         disturbance_(disturbance),
         most_cells_(most_cells) {}
 
-  /// False when a cell cannot be shown to lead to the next level; `reason` then says where.
+  /// False when a cell cannot be proved to map into the next level; `reason` then says where.
   bool proves(const SteadyCell& cell, int depth) {
     if (cell.is_outside()) {
       return true;
@@ -45,8 +45,8 @@ class Cover {
     const bool hopeless = depth == 0 || (fails_inside && std::hypot(cell.middle(kX), cell.middle(kY)) <= 1.0);
     if (hopeless) {
       reason_ = "at level " + rigor::to_decimal(level_, 3, rigor::Direction::up) +
-                (order.kept ? " of the set a step could not be shown to contract, or to bear the noise."
-                            : " of the set the covariance could not be shown to stay between its bounds.");
+                (order.kept ? " of the set a step could not be proved to contract, or to tolerate the noise."
+                            : " of the set the covariance could not be proved to stay between its bounds.");
       return false;
     }
     const auto [first, second] = halves(cell, order);

@@ -1,4 +1,4 @@
-// Does every step from one level of a set around the steady state lead to the next one? With a leak.
+// Does every step map one level of a set around the steady state into the next one? With a leak.
 #pragma once
 
 #include <cstdint>

@@ -19,8 +19,8 @@ struct SteadyRequest {
   std::vector<rigor::Vector<9>> slopes;
   double noise = 0.0;  ///< relative to the amplitude
   double slew = 0.0;   ///< rad/sample per sample
-  /// Largest errors of the start about the truth: amplitude, phase (rad), frequency (rad/sample). A set that
-  /// holds them is preferred.
+  /// Largest errors of the start from the true signal: amplitude, phase (rad), frequency (rad/sample). A set
+  /// that holds them is preferred.
   rigor::Vector<3> start = rigor::Vector<3>::Zero();
   int evaluations = 60;
 };

@@ -36,21 +36,20 @@ theorems::Condition SteadyReport::start_in_set() const {
   } else if (start_.reached) {
     condition.lhs = Interval(start_.level_when_reached);
     condition.reason =
-        "every assumed start comes into the certified set around the steady state of its "
-        "frequency, within " +
-        std::to_string(start_.samples) + " samples, in which the frequency error is at most " +
+        "every assumed start enters the certified set around the steady state of its frequency within " +
+        std::to_string(start_.samples) + " samples, with a frequency error of at most " +
         rigor::upper_decimal(Interval(start_.frequency_error)) +
-        " rad/sample: followed in interval arithmetic, with the assumed noise.";
+        " rad/sample on the way: followed in interval arithmetic, with the assumed noise.";
   } else if (start_.level) {
     condition.reason =
-        "the assumed starts reach " + rigor::upper_decimal(Interval(*start_.level)) +
-        " in a metric where the set ends at 1, measured from the steady state, which is up to " +
-        rigor::upper_decimal(Interval(bias_)) + " rad/sample off the truth";
+        "the assumed starts have level " + rigor::upper_decimal(Interval(*start_.level)) +
+        "; the certified set has level 1, measured from the steady state, which is biased by up to " +
+        rigor::upper_decimal(Interval(bias_)) + " rad/sample";
     condition.reason += start_.failure.empty() ? "" : ", and " + start_.failure;
     condition.reason +=
-        ": a smaller leak epsilon, a narrower [assume] frequency or smaller start errors would do.";
+        ": a smaller leak epsilon, a narrower [assume] frequency or smaller start errors would help.";
   } else {
-    condition.reason = "the initial covariance is not certainly between the bounds of the certified set";
+    condition.reason = "the initial covariance is not proved to lie between the bounds of the certified set";
     condition.reason += start_.failure.empty() ? "." : ", and " + start_.failure + ".";
   }
   return condition;

@@ -9,7 +9,7 @@
 
 namespace veritrack::quadrature {
 
-/// Needs the upward mode. Bounds are of the frequency error about the truth, rad/sample.
+/// Needs the upward mode. Bounds are of the frequency error from the true signal, rad/sample.
 class SteadyReport {
  public:
   /// The set must be PROVED for the question's design, noise and slew over the cells of the branch.
@@ -34,13 +34,13 @@ class SteadyReport {
  private:
   /// The index of the last of the levels that are not below this one, which is at most 1.
   [[nodiscard]] std::size_t last_level_with(double level) const;
-  /// On |frequency error| in Omega_level, where the steady state is off by at most `bias`.
+  /// On |frequency error| in Omega_level, where the bias of the steady state is at most `bias`.
   [[nodiscard]] rigor::Interval bound_at(double level, double bias) const;
 
   SteadySet set_;
   std::vector<SteadyStart> starts_;  ///< by cells of frequencies
   SteadyStart start_;                ///< all of them
-  std::vector<double> biases_;       ///< by cells: of the steady states that starts of the cell may come to
+  std::vector<double> biases_;       ///< by cells: of the steady states that starts of the cell may reach
   double bias_ = 0.0;                ///< the largest
 };
 

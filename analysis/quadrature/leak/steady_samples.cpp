@@ -50,8 +50,8 @@ Sample sample_at(const SteadySetting<double>& setting, double level, double nois
   return {step, steady_bounds(step, setting, level, noise)};
 }
 
-/// Calls `use` with (P+ - P*)/s of both bounds for samples on the rim, a few inside and the middle, at both
-/// ends of the turn.
+/// Calls `use` with (P+ - P*)/s of both bounds for samples on the boundary, a few inside and the middle, at
+/// both ends of the turn.
 template <typename Use>
 bool for_each_image(const SteadySetting<double>& setting, double level, double noise, int angles,
                     const Use& use) {

@@ -19,11 +19,11 @@ class SteadySamples {
 
   [[nodiscard]] std::vector<SteadySetting<double>> settings(const rigor::Matrix<3>& t) const;
 
-  /// Moves the band out until it holds the images of the samples on the rim, with the share `goal` of itself
-  /// to spare. False when it runs away.
+  /// Moves the band out until it contains the images of the samples on the boundary, with the share `goal` of
+  /// itself to spare. False when it runs away.
   bool find_band(std::vector<SteadySetting<double>>& settings, double noise, double goal, int angles) const;
 
-  /// The share of the level s to which a step leads from it: errors and covariance, noise and slew included;
+  /// The fraction of the level s into which a step maps it: errors and covariance, noise and slew included;
   /// infinity when a sample makes no sense.
   [[nodiscard]] double rate(const std::vector<SteadySetting<double>>& settings, double level, double noise,
                             int angles) const;

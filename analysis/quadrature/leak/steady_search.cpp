@@ -44,11 +44,11 @@ std::optional<SteadyVerification> largest_set(const sets::ContractionQuestion& q
       continue;
     }
     last = verify_steady_set(question.design, branch.cells, *proposal);
-    // A proposal is not to be believed, not even in the noise and slew that it was asked to bear.
-    const bool bears_what_is_assumed = certainly_less_equal(question.noise, Interval(last->set.noise)) &&
+    // A proposal is not trusted, not even to tolerate the noise and slew that it was searched for.
+    const bool tolerates_assumptions = certainly_less_equal(question.noise, Interval(last->set.noise)) &&
                                        certainly_less_equal(question.slew, Interval(last->set.slew));
     const bool settles = last->set.levels.back() <= kLastLevel * proposal->levels.back();
-    if (last->verdict == Verdict::proved && bears_what_is_assumed && settles) {
+    if (last->verdict == Verdict::proved && tolerates_assumptions && settles) {
       return last;
     }
     last->verdict = Verdict::undecided;
@@ -56,11 +56,11 @@ std::optional<SteadyVerification> largest_set(const sets::ContractionQuestion& q
   return last;
 }
 
-/// The set of this shape that bears the largest disturbance on a ladder, if that is more than `known`.
+/// The set of this shape that tolerates the largest disturbance on a ladder, if that is more than `known`.
 std::optional<SteadySet> toughest_set(const sets::ContractionQuestion& question,
                                       const sets::LockBranch& branch, SteadyRequest request,
                                       const SteadyShape& shape, double SteadyRequest::*size, double known) {
-  // Relative to the amplitude, or rad/sample per sample: from more than any tracker bears down.
+  // Relative to the amplitude, or rad/sample per sample: downwards from more than any tracker tolerates.
   constexpr double kMost = 0.3;
   constexpr double kStep = 0.8;
   constexpr int kSteps = 50;

@@ -58,7 +58,7 @@ SteadyStart follow_part(const sets::ContractionQuestion& question, const sets::Q
   }
   const IntervalMatrix<3> covariance =
       question.initial_covariance ? *question.initial_covariance : covariance_of(cell.at(part));
-  // Further than the rim: that makes for a smaller bound.
+  // Beyond the boundary, which gives a smaller bound.
   constexpr double kLevel = 0.5;
   constexpr int kMostSamples = 100;
   const CaptureProblem problem{question.design, covariance, part, set.noise, 0.0, kMostSamples};
@@ -96,7 +96,7 @@ SteadyStart follow_cell(const sets::ContractionQuestion& question, const sets::Q
   }
   if (halvings == 0 || !(question.slew == Interval(0.0))) {
     whole.failure = "for frequencies near " + rigor::to_decimal(midpoint(part), 4, rigor::Direction::down) +
-                    " rad/sample they could not be followed into it";
+                    " rad/sample the starts could not be followed into the set";
     return whole;
   }
   const double middle = midpoint(part);

@@ -26,11 +26,11 @@ struct SteadyStart {
 /// What holds for all of them. Throws std::invalid_argument when there are none.
 [[nodiscard]] SteadyStart joined(const std::vector<SteadyStart>& starts);
 
-/// Starts are about the truth: the errors of the question around it, with the question's initial covariance,
-/// or the steady one of the frequency. Where Omega_1 does not hold them they are followed, at a constant
-/// frequency (slew zero) and with the noise of the set, until Omega_s with s <= 1/2 does (capture.hpp). One
-/// for each cell, in their order, up to the first few that are not reached. Opens its own rounding scope;
-/// deterministic.
+/// Starts are relative to the true signal: the errors of the question around it, with the question's initial
+/// covariance, or the steady one of the frequency. Where Omega_1 does not hold them they are followed, at a
+/// constant frequency (slew zero) and with the noise of the set, until Omega_s with s <= 1/2 does
+/// (capture.hpp). One for each cell, in their order, up to the first few that are not reached. Opens its own
+/// rounding scope; deterministic.
 [[nodiscard]] std::vector<SteadyStart> follow_to_steady_set(const sets::ContractionQuestion& question,
                                                             const std::vector<sets::QuadratureTube>& cells,
                                                             const SteadySet& set);

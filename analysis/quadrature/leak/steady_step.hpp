@@ -1,6 +1,6 @@
 // One step of the errors about the steady state, divided by their level: what decides whether it contracts.
 //
-// With a leak the tracker settles at X* = (e*, P*), off the truth. Let e = e* + s b, b = (alpha, c - m, m),
+// With a leak the tracker settles at X* = (e*, P*), with a bias. Let e = e* + s b, b = (alpha, c - m, m),
 // where c belongs to the predicted phase error chi = psi + nu, and P between P* - s below and P* + s above.
 // All vectors in the plane are seen in the frame of steady_gain.hpp, in which the corrected estimate of the
 // steady state is rho* > 0. Every difference to the steady step is written as s times something, with exact

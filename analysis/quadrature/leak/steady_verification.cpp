@@ -39,7 +39,7 @@ std::string objection(const Design& design, const SteadySet& set) {
     return "the metric does not have the form that the proof needs.";
   }
   if (!certainly_not_negative(Interval(set.noise)) || !certainly_not_negative(Interval(set.slew))) {
-    return "noise or slew are no bounds.";
+    return "noise or slew is not a valid bound.";
   }
   if (!is_symmetric(set.below) || !is_symmetric(set.above) ||
       !certainly_positive_definite(to_symmetric(set.below)) ||
@@ -51,7 +51,7 @@ std::string objection(const Design& design, const SteadySet& set) {
     const double level = set.levels[j];
     const bool falls = level > 0.0 && (j == 0 ? level == 1.0 : level < last);
     if (!falls) {
-      return "the levels do not fall from 1.";
+      return "the levels do not decrease from 1.";
     }
     last = level;
   }
@@ -200,7 +200,7 @@ SteadyVerification verify_steady_set(const Design& design, const std::vector<set
   }
   const auto motion = steady_motion(design, branch, proposal);
   if (branch.empty() || !motion) {
-    result.reason = "how the steady state moves with the frequency could not be enclosed.";
+    result.reason = "the change of the steady state with the frequency could not be enclosed.";
     return result;
   }
   // In blocks, so that a failure is found early, and the same one whatever the number of threads; cells
@@ -233,7 +233,7 @@ SteadyVerification verify_steady_set(const Design& design, const std::vector<set
     result.set.levels.resize(steps + 1);
   }
   result.verdict = Verdict::proved;
-  result.reason = "every step from the set leads back into it and contracts.";
+  result.reason = "every step maps the set into itself and contracts.";
   return result;
 }
 

@@ -25,11 +25,11 @@ struct SteadyVerification {
 
 /// Is the promise of SteadySet true over these neighbouring cells of a lock branch? Proved are
 ///   1. T invertible, below > 0, above > 0, P* - below > 0, and the ranges of all inputs;
-///   2. from each level the errors come to the next one (steady_contraction.hpp), and
+///   2. the errors of each level map into the next one (steady_contraction.hpp), and
 ///   3. so does the covariance (steady_order.hpp), for every cell of frequencies. From the last but one level
-///      a step leads to the last, and so it does from the last, which is a part of it.
-/// Levels from the first that does not lead to the next one on are dropped, as long as one step remains.
-/// Cells run in parallel; the result does not depend on how many threads there are. Opens its own
+///      a step maps into the last, and so it does from the last, which is a part of it.
+/// The first level that does not map into the next one and all later ones are dropped, as long as one step
+/// remains. Cells run in parallel; the result does not depend on how many threads there are. Opens its own
 /// UpwardRounding scope; never throws for odd numbers.
 [[nodiscard]] SteadyVerification verify_steady_set(const trackers::ToneModel<rigor::Interval>& design,
                                                    const std::vector<sets::QuadratureTube>& branch,

@@ -36,7 +36,7 @@ TEST_CASE("the first line is the answer") {
   CHECK(first_line(test::certificate({{"epsilon = 0.0", "epsilon = 0.5"}})) ==
         "# Nothing is required of this design, nothing is certified for the assumed start, and Theorem 2.9 "
         "guarantees nothing for it: its conditions are REFUTED");
-  CHECK(first_line(test::certificate()).starts_with("# Nothing is required of this design; PROVED of it: "));
+  CHECK(first_line(test::certificate()).starts_with("# Nothing is required of this design; PROVED: "));
   CHECK(first_line(test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.0051"}})) ==
         "# NOT PROVED. UNDECIDED: the frequency error stays below 0.0051 rad/sample for ever");
   CHECK(first_line(test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05"}})) ==

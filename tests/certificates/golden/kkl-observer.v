@@ -67,7 +67,7 @@ intros x1 x2 s y1 y2 y3 range nonzero. apply (inverse_where_excited ell_lower).
 - apply ell_is_at_least; assumption.
 Qed.
 
-(* What certificate.md says is proved here, and the axioms that it rests on. *)
+(* The statements that certificate.md lists as proved here, and their axioms. *)
 Definition proved_here := (
   invariance,
   determinant,

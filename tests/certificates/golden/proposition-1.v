@@ -13,7 +13,7 @@ intros a b t. apply jury; unfold t, gain_1, gain_2, zero_angle;
   repeat split; interval with (i_prec 100).
 Qed.
 
-(* What certificate.md says is proved here, and the axioms that it rests on. *)
+(* The statements that certificate.md lists as proved here, and their axioms. *)
 Definition proved_here := (
   characteristic_polynomial,
   denominator_as_printed_is_another,

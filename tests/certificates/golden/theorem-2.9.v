@@ -298,7 +298,7 @@ generalize errata_initial_error_bound_enclosed. generalize (initial_error_bound 
 interval with (i_prec 180).
 Qed.
 
-(* What certificate.md says is proved here, and the axioms that it rests on. *)
+(* The statements that certificate.md lists as proved here, and their axioms. *)
 Definition proved_here := (
   condition_2_43_fails_for_every_design,
   condition_2_43_fails_for_every_design,

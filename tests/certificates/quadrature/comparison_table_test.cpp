@@ -22,7 +22,7 @@ const ComparedResult& find_row(const certificates::Certificate& certificate, con
   return *found;
 }
 
-TEST_CASE("every result stands in the table, and what is certified is within what simulation bears") {
+TEST_CASE("every result stands in the table, and what is certified is within what simulation tolerates") {
   const certificates::Certificate certificate = test::certificate();
   const ComparedResult& simulated = find_row(certificate, "simulation");
   CHECK(simulated.simulated);

@@ -28,7 +28,7 @@ bool is_verified(const std::string& statement, Verdict verdict = Verdict::proved
 std::string sentence(const std::string& noise, const std::string& slew) {
   return "From every assumed start, with noise of at most " + noise +
          " of the amplitude and slew of at most " + slew +
-         " rad/sample per sample, the tracker comes into the certified set, which it never leaves.";
+         " rad/sample per sample, the tracker enters the certified set, which it never leaves.";
 }
 
 }  // namespace

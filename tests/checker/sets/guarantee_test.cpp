@@ -100,7 +100,7 @@ TEST_CASE("a guarantee for the assumed band says so, and no other") {
 TEST_CASE("sizes of sets: noise is certified relative to the amplitude") {
   const std::string tables = design(R"({"largest_noise_at_least": )" + exactly("0.5", "0x1p-1") + "}");
   const std::string statement =
-      "noise of at most 0.5 at a constant frequency is borne: a set of errors is never left";
+      "at a constant frequency, the tracker tolerates noise up to 0.5: a certified invariant set exists";
   Promises promises;
   promises.noise = Ball(0.25);
   CHECK(is_verified("ekf/largest-noise", statement, "proved", tables, promises));

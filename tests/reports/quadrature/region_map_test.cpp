@@ -85,8 +85,8 @@ TEST_CASE("the map shows the three verdicts, and its caption the shares with uni
   const auto figure = reports::draw_region_map(region, basin());
   CHECK(figure.file == "region.svg");
   CHECK(figure.svg.find("</svg>") != std::string::npos);
-  for (const char* words : {"proved captured", "proved to lock elsewhere", "undecided", "basin in simulation",
-                            "rad/sample", "phase error at the start, rad"}) {
+  for (const char* words : {"proved captured", "proved to lock at a wrong frequency", "undecided",
+                            "basin in simulation", "rad/sample", "phase error at the start, rad"}) {
     CHECK(figure.svg.find(words) != std::string::npos);
   }
   // 5 of the 9 columns that lock have their grid points in the proved cell, 3 in the undecided one.

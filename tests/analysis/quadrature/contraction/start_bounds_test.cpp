@@ -99,16 +99,16 @@ TEST_CASE("one set leads into another only when it ends within it") {
   inner.covariance_upper = 0.51 * rigor::Matrix<3>::Identity();
   // The ultimate level of the outer set is 0.04 / sqrt(1 - 0.81) = 0.0918; its box reaches a little further.
   inner.radius = 0.25;
-  CHECK(certainly_leads_into(outer, inner, noise, slew));
+  CHECK(certainly_maps_into(outer, inner, noise, slew));
   inner.radius = 0.09;
-  CHECK_FALSE(certainly_leads_into(outer, inner, noise, slew));
+  CHECK_FALSE(certainly_maps_into(outer, inner, noise, slew));
   inner.radius = 0.25;
   inner.covariance_upper = 0.49 * rigor::Matrix<3>::Identity();
-  CHECK_FALSE(certainly_leads_into(outer, inner, noise, slew));
+  CHECK_FALSE(certainly_maps_into(outer, inner, noise, slew));
   inner.covariance_upper = 0.51 * rigor::Matrix<3>::Identity();
   inner.covariance_lower = 0.11 * rigor::Matrix<3>::Identity();
-  CHECK_FALSE(certainly_leads_into(outer, inner, noise, slew));
-  CHECK_FALSE(certainly_leads_into(outer, outer, Interval::empty(), slew));
+  CHECK_FALSE(certainly_maps_into(outer, inner, noise, slew));
+  CHECK_FALSE(certainly_maps_into(outer, outer, Interval::empty(), slew));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ ContractionCertificate certificate_of(const ToneModel<double>& design, test::Ran
   return certify_contraction(question);
 }
 
-/// A PROVED set that bears noise and slew: large, or with tight gains.
+/// A PROVED set that tolerates noise and slew: large, or with tight gains.
 std::optional<CertifiedSet> proved_set(const ToneModel<double>& design,
                                        Objective objective = Objective::start_error) {
   sets::ContractionQuestion question;

@@ -19,6 +19,7 @@
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
+#include "certificates/sets/statement_claim.hpp"
 
 namespace veritrack::certificates {
 

@@ -23,11 +23,11 @@ TEST_CASE(
     CAPTURE(kinds[i]->name);
     CHECK(names.insert(std::string(kinds[i]->name)).second);
     CHECK(kinds[i]->name == formats[i]->tracker);
-    CHECK(kinds[i]->design_json != nullptr);
-    CHECK(kinds[i]->certify != nullptr);
-    CHECK(kinds[i]->headline != nullptr);
-    CHECK(kinds[i]->summary != nullptr);
-    CHECK(kinds[i]->sections != nullptr);
+    CHECK((kinds[i]->design_json != nullptr));
+    CHECK((kinds[i]->certify != nullptr));
+    CHECK((kinds[i]->headline != nullptr));
+    CHECK((kinds[i]->summary != nullptr));
+    CHECK((kinds[i]->sections != nullptr));
     std::any tables = formats[i]->empty_tables();
     CHECK_FALSE(formats[i]->bind_tables(tables).empty());
   }

@@ -25,7 +25,7 @@ void check_contains(const Ball& enclosure, double point) {
 }
 
 struct Case {
-  trackers::QuadratureEkfDesign<double> design;
+  trackers::ToneModel<double> design;
   double frequency, noise, slew;
   trackers::PolarError<double> low, width;  ///< of the starts
   trackers::PolarCovariance<double> covariance;

@@ -39,9 +39,8 @@ TEST_CASE("a step about the steady state is the tracker's") {
   test::Random random(79);
   for (std::int64_t trial = 0; trial < test::effort(6); ++trial) {
     CAPTURE(trial);
-    const trackers::QuadratureEkfDesign<double> tracker{
-        random.uniform(1e-3, 0.01), random.uniform(1e-3, 0.01), random.uniform(0.01, 0.05),
-        random.uniform(0.005, 0.03)};
+    const trackers::ToneModel<double> tracker{random.uniform(1e-3, 0.01), random.uniform(1e-3, 0.01),
+                                              random.uniform(0.01, 0.05), random.uniform(0.005, 0.03)};
     const double omega = random.uniform(0.2, 1.0);
     checker::Design design;
     design.q1 = Ball(tracker.q1);

@@ -36,8 +36,8 @@ TEST_CASE("errors, noise and covariance move as in the tracker") {
   for (std::int64_t i = 0; i < test::effort(2000); ++i) {
     CAPTURE(i);
     checker::Setting setting;
-    const trackers::QuadratureEkfDesign<double> design{random.uniform(1e-4, 0.01), random.uniform(1e-4, 0.01),
-                                                       random.uniform(0.01, 0.2), 0.0};
+    const trackers::ToneModel<double> design{random.uniform(1e-4, 0.01), random.uniform(1e-4, 0.01),
+                                             random.uniform(0.01, 0.2), 0.0};
     setting.q1 = Ball(design.q1);
     setting.q2 = Ball(design.q2);
     setting.r = Ball(design.r);

@@ -21,7 +21,7 @@ using checker::kToneStates;
 using checker::ToneState;
 
 struct Sample {
-  trackers::QuadratureEkfDesign<double> design;
+  trackers::ToneModel<double> design;
   ToneState<double> state;
   double frequency, phase;  ///< rad/sample; of the new sample, rad
 

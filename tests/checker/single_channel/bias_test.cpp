@@ -13,6 +13,7 @@
 #include "checker/single_channel/invariant_curve.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/support/random.hpp"
+#include "trackers/quadrature/quadrature_rotating_frame.hpp"
 #include "trackers/single_channel/single_channel_rotating_frame.hpp"
 
 namespace {
@@ -57,7 +58,7 @@ std::string hexadecimal(double value) {
 TEST_CASE("the simulated tracker settles within the distances of the curve") {
   const auto curve = checker::establish_invariant_curve(values(), Ball(kFrequency), 0.0, Ball(kRate));
   REQUIRE(curve.has_value());
-  const trackers::QuadratureEkfDesign<double> design{1.0, 1.0, 10.0, kEpsilon};
+  const trackers::ToneModel<double> design{1.0, 1.0, 10.0, kEpsilon};
   trackers::SingleChannelEkf<double> tracker(
       trackers::single_channel_design(design),
       {1.0, 0.0, kFrequency, trackers::diagonal_process_noise(1.0, 1.0)});
@@ -77,7 +78,7 @@ TEST_CASE("the simulated tracker settles within the distances of the curve") {
 
 TEST_CASE("the quadrature tracker's fixed point is where the simulated one settles") {
   checker::QuadratureBranch branch(values());
-  const trackers::QuadratureEkfDesign<double> design{1.0, 1.0, 10.0, kEpsilon};
+  const trackers::ToneModel<double> design{1.0, 1.0, 10.0, kEpsilon};
   for (const double frequency : {0.3, 2.6, kFrequency}) {
     trackers::RotatingFrameState<double> x;
     x << 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0;

@@ -16,6 +16,7 @@
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 #include "analysis/quadrature/contraction/set_search.hpp"
 #include "tests/support/random.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
 
 namespace veritrack::quadrature {
 namespace {

@@ -120,7 +120,7 @@ class QuadratureVerifier {
     add("comparison " + result, objections);
   }
 
-  /// "All conditions of ... hold": as the derivation says, whose conditions were checked.
+  /// "... satisfy all conditions of ...": as the derivation says, whose conditions were checked.
   void check_conditions_claim(const Tree& claim, const std::string& id, Objections& objections) {
     const auto known = derivations_.find(id.substr(0, id.rfind("/conditions")));
     if (known == derivations_.end() || !known->second.verified) {

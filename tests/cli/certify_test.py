@@ -90,7 +90,7 @@ class Certify(CliTestCase):
         result, _ = self.certify(self.write(DESIGN))
         last = result.stdout.splitlines()[-1]
         self.assertTrue(last.startswith("out/certificate.md: Nothing is required"), last)
-        self.assertIn("PROVED of it", last)
+        self.assertIn("PROVED: the frequency error", last)
         self.assertEqual(result.stderr, "")
 
     def test_default_folder_is_named_after_the_design(self):
@@ -166,10 +166,10 @@ class Certify(CliTestCase):
         self.assertGreater(len(capture["notes"]), 0)
 
     def test_failures_say_what_would_repair_them(self):
-        for change, words in {("q1 = 0.0023", "q1 = 0"): ("uncontrollable", "any q1 > 0 repairs this"),
+        for change, words in {("q1 = 0.0023", "q1 = 0"): ("uncontrollable", "any q1 > 0 remedies this"),
                               ("noise = 0.001", "noise = 0.2"): ("largest certified noise", "was assumed"),
                               ("initial_frequency_error = 0.005", "initial_frequency_error = 6"):
-                                  ("witness", "1 turns per sample off", "Smaller start errors")}.items():
+                                  ("witness", "1 turns per sample away", "Smaller start errors")}.items():
             with self.subTest(change=change[1]):
                 _, certificate = self.certify(self.write(DESIGN.replace(*change)))
                 claim = self.guarantee(certificate)

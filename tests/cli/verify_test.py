@@ -1,6 +1,8 @@
 """Certificates as written, checked by a program that shares no code with the one that wrote them."""
 
+import json
 import os
+import pathlib
 import subprocess
 import unittest
 
@@ -41,8 +43,11 @@ class Verify(CliTestCase):
         accepted = str(certificates / "accepted" / "one-set.json")
         self.assertEqual(verify(accepted).returncode, 0)
         self.assertEqual(verify("--precision", "64", accepted).returncode, 0)
-        self.assertEqual(verify(certificates / "rejected" / "unknown-claim.json").returncode, 1)
-        malformed = certificates / "malformed" / "duplicate-key.json"
+        with_a_claim = json.loads(pathlib.Path(accepted).read_text())
+        description = json.loads((certificates / "rejected" / "unknown-claim.json").read_text())
+        with_a_claim["claims"].append(description["patch"][0]["value"])
+        self.assertEqual(verify(self.write(json.dumps(with_a_claim), "claim.json")).returncode, 1)
+        malformed = self.write('{"schema": 1, "schema": 1}', "doubled.json")
         for arguments in ([malformed], ["no-such-file.json"], [], ["--precision", "3", accepted], [accepted, accepted]):
             self.assertEqual(verify(*arguments).returncode, 2, arguments)
 

@@ -52,7 +52,7 @@ TEST_CASE("the reason names the limit that is exceeded, and only that") {
   CHECK(both.find("0.25; 0.5 was") != std::string::npos);
   CHECK(both.find("0.125; 0.25 was") != std::string::npos);
   CHECK(sets::beyond_the_limits(question(), 0.5, 0.25).find("together") != std::string::npos);
-  CHECK(sets::beyond_the_limits(question(), std::nullopt, std::nullopt).find("none is certified") !=
+  CHECK(sets::beyond_the_limits(question(), std::nullopt, std::nullopt).find("no set is certified") !=
         std::string::npos);
 }
 

@@ -14,8 +14,8 @@ TEST_CASE("the report of a few runs: the same twice, with a table for every walk
   const std::string document = limit_document(study);
   CHECK(document == limit_document(simulate_limits(10)));
   for (const char* words :
-       {"What is compared", "It proves nothing", "over 10 runs",
-        "Quadrature tracker, walk variance 1e-06", "Single-channel tracker, walk variance 0.001"}) {
+       {"What is compared", "It proves nothing", "over 10 runs", "Quadrature tracker, walk variance 1e-06",
+        "Single-channel tracker, walk variance 0.001"}) {
     CAPTURE(words);
     CHECK(document.find(words) != std::string::npos);
   }

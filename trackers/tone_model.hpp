@@ -20,6 +20,9 @@ struct ToneModel {
   Scalar q2;       ///< process noise variance of the frequency, (rad/sample)^2; > 0
   Scalar r;        ///< measurement noise variance of each channel, signal units squared; > 0
   Scalar epsilon;  ///< leak of the frequency towards zero per sample; in [0, 1)
+
+  /// True only when epsilon is certainly zero.
+  [[nodiscard]] bool without_leak() const { return epsilon == Scalar(0.0); }
 };
 
 /// The model whose filter at amplitude 1 does what that of `model` does at `amplitude` (signal units, > 0),

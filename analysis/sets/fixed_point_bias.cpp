@@ -128,7 +128,7 @@ LockBranch verify_lock_branch(const trackers::ToneModel<Interval>& design, const
   const double high = band.upper();
   // Without a leak omega has no effect, and one cell covers every frequency.
   BranchSteps taken = steps;
-  if (design.epsilon == Interval(0.0)) {
+  if (design.without_leak()) {
     taken.largest = std::max(std::fabs(low), std::fabs(high)) + 1.0;
   }
   double reached_low = 0.0;

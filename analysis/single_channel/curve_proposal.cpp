@@ -89,7 +89,7 @@ PhaseSeries settled_curve(const ToneModel<double>& design, double frequency, std
     const rigor::NearestRounding nearest;
     for (std::size_t node = range.begin(); node < range.end(); ++node) {
       states[node] = settled_state(design, frequency, phase_of(node));
-      if (design.epsilon == 0.0) {
+      if (design.without_leak()) {
         states[node].head<3>().setZero();
       }
     }

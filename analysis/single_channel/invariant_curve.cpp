@@ -34,7 +34,7 @@ Interval mean_error(const InvariantTube& tube) {
 /// The frequency error on the verified curve, within `distance` of the family.
 void read_off(const InvariantTube& tube, SteadyStateBias& bias) {
   using Model = rigor::TaylorModel<2, 5>;
-  const bool no_leak = tube.design.epsilon == Interval(0.0);
+  const bool no_leak = tube.design.without_leak();
   double lowest = kInfinity;
   double lowest_seen = kInfinity;
   double highest = -kInfinity;

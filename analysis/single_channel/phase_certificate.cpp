@@ -188,8 +188,7 @@ sets::ContractionResult result_of(const PhaseQuestion& question, const PhaseCert
       "No slew could be certified.");
   theorems::Quantity& bias = result.bias_frequency.emplace(sets::quantities::bias_frequency());
   bias.symbol = "\\nu_*";
-  set(bias, "0",
-      question.tracker.design.epsilon == Interval(0.0) && certificate.set ? Interval(0.0) : Interval());
+  set(bias, "0", question.tracker.design.without_leak() && certificate.set ? Interval(0.0) : Interval());
   return result;
 }
 

@@ -137,7 +137,7 @@ bool is_sensible(const ToneModel<Interval>& design, const Interval& band, const 
   const auto positive = [](double x) { return x > 0.0 && x < kInfinity; };
   const WindowAssumption& assumption = claim.assumption;
   return rigor::certainly_positive(design.q1) && rigor::certainly_positive(design.q2) &&
-         rigor::certainly_positive(design.r) && design.epsilon == Interval(0.0) && is_finite(band) &&
+         rigor::certainly_positive(design.r) && design.without_leak() && is_finite(band) &&
          positive(assumption.radius) && positive(assumption.frequency_variance) &&
          positive(assumption.signal_variance) && positive(assumption.loosening) &&
          assumption.loosening < 1.0 && claim.settling > 0 && !claim.shares.empty() && claim.slew >= 0.0 &&

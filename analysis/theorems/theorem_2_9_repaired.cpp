@@ -76,7 +76,7 @@ Condition start_covariance(const Repaired& found,
       condition.reason =
           "The covariances up to the end of the window were enclosed and lie within the bounds.";
     }
-  } else if (found.design.epsilon == Interval(0.0)) {
+  } else if (found.design.without_leak()) {
     condition.verdict = Verdict::proved;
     condition.reason =
         "The steady state is the result of an infinite past of exact estimates, into which the window "

@@ -29,7 +29,7 @@ std::string requirement_section(const Certificate& certificate) {
   if (!certificate.verdict) {
     return text +
            "Nothing: the design file's `[require]` is empty. The document still gives everything that is "
-           "certified for the design, and what the published theorem says about it.\n\n";
+           "certified for the design.\n\n";
   }
   std::vector<std::vector<std::string>> rows;
   for (const Claim& claim : certificate.claims) {

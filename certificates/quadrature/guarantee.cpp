@@ -32,7 +32,7 @@ sets::ContractionQuestion contraction_question(const Design& design) {
 }
 
 void add_contraction(Certificate& certificate) {
-  if (quadrature_tables(certificate.design).design.epsilon.value == Interval(0.0)) {
+  if (quadrature_tables(certificate.design).design.without_leak()) {
     quadrature::ContractionCertificate found =
         quadrature::certify_contraction(contraction_question(certificate.design));
     certificate.derivations.push_back(std::move(found.derivation));

@@ -121,8 +121,8 @@ void certify_quadrature(Certificate& certificate, const CertifyProgress& progres
   add_capture(certificate, progress);
   add_comparison(certificate);
   add_required_claims(certificate, tables.require, tables.assume);
-  certificate.claims.push_back(guarantee_claim(
-      certificate, {tables.assume, tables.require, !(tables.design.epsilon.value == Interval(0.0))}));
+  certificate.claims.push_back(
+      guarantee_claim(certificate, {tables.assume, tables.require, !tables.design.without_leak()}));
 }
 
 }  // namespace veritrack::certificates

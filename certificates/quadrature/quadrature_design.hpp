@@ -9,6 +9,9 @@ namespace veritrack::certificates {
 /// (rad/sample)^2).
 struct QuadratureDesignTable {
   Number q1, q2, r, epsilon;
+
+  /// True only when epsilon is certainly zero: the one choice between the two contraction certificates.
+  [[nodiscard]] bool without_leak() const { return epsilon.value == rigor::Interval(0.0); }
 };
 
 /// [theorem_2_9]: the free parameters of the published theorem.

@@ -26,7 +26,7 @@ RegionResult prove_region_of_attraction(const Design& design, const RegionReques
     question.noise = Interval(0.0);
     question.slew = Interval(0.0);
   }
-  if (!(question.design.epsilon == Interval(0.0))) {
+  if (!question.design.without_leak()) {
     return {std::nullopt,
             "A map needs a design without leak (epsilon = 0): with a leak the set into which starts are "
             "followed depends on the frequency, which the map does not support."};

@@ -119,7 +119,7 @@ std::string single_channel_summary(const Certificate& certificate) {
     }
   }
   return text + fmt::format(
-                    "- Of the statements on the paper's Propositions 1 and 2 {} are **PROVED**, {} "
+                    "- Of the statements on the paper's Propositions 1 and 2, {} are **PROVED**, {} "
                     "**UNDECIDED**; **REFUTED**: {} (see *What was found about the paper*).\n\n",
                     proved, undecided, refuted.empty() ? "none" : refuted);
 }

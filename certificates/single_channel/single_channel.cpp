@@ -50,7 +50,7 @@ SteadyStateBias bias_around(const trackers::ToneModel<Interval>& design, const S
   around.reason = bias.reason;
   if (bias.verdict == Verdict::proved) {
     around = bias;
-    if (!(design.epsilon == Interval(0.0))) {
+    if (!design.without_leak()) {
       const Interval interval = Interval(midpoint(bias.frequency)) + rigor::symmetric(kBiasHalfWidth);
       around = single_channel::steady_state_bias(design, interval, kMostCells);
     }
@@ -159,7 +159,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
   const std::vector<BiasFrequency> frequencies = bias_frequencies(tables.assume);
   const std::size_t middle = frequencies.size() / 2;
 
-  const bool has_steady_state = !(design.q1 == Interval(0.0)) || !(design.epsilon == Interval(0.0));
+  const bool has_steady_state = !(design.q1 == Interval(0.0)) || !design.without_leak();
   if (!has_steady_state) {
     certificate.claims.push_back(stability_claim(design.r));
   }
@@ -192,7 +192,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
   trackers::ToneModel<Interval> without_leak = design;
   without_leak.epsilon = Interval(0.0);
   SteadyStateBias exact = at_middle;
-  if (!(design.epsilon == Interval(0.0))) {
+  if (!design.without_leak()) {
     exact = single_channel::steady_state_bias(without_leak, frequencies[middle].value);
   }
   const auto add_all = [&](const std::vector<theorems::Statement>& statements) {

@@ -75,7 +75,7 @@ SimulatedBasin simulate_basin(const CaptureProblem& problem, const StartBox& sta
                 midpoint(problem.frequency),
                 samples};
   const double amplitude_error = midpoint(starts.amplitude_error);
-  const double lock = run.design.epsilon == 0.0 ? 0.0 : run.final_frequency_error(0.0, 0.0, 0.0);
+  const double lock = run.design.without_leak() ? 0.0 : run.final_frequency_error(0.0, 0.0, 0.0);
   SimulatedBasin basin{starts.phase_error, starts.frequency_error, phases, frequencies, {}};
   basin.locks.resize(static_cast<std::size_t>(phases) * static_cast<std::size_t>(frequencies));
   tbb::parallel_for(0, phases, [&](int i) {

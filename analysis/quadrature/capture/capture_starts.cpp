@@ -83,7 +83,7 @@ StartCapture capture_starts(const sets::ContractionQuestion& question, const Cer
   derivation.title = "Capture of every assumed start by the certified set";
   derivation.conditions = {set_tolerates_assumptions(question, set)};
   const bool can_begin = derivation.conditions[0].verdict == Verdict::proved &&
-                         question.design.epsilon == Interval(0.0) && sets::is_well_posed(question);
+                         question.design.without_leak() && sets::is_well_posed(question);
   const std::optional<CaptureProblem> problem = can_begin ? capture_problem(question) : std::nullopt;
   if (problem) {
     RegionOptions options;

@@ -185,7 +185,7 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& ques
       "Amplitude error and noise are relative to the true amplitude; the set is described in the frame of "
       "the "
       "estimated phase."};
-  const bool without_leak = question.design.epsilon == Interval(0.0);
+  const bool without_leak = question.design.without_leak();
   if (without_leak && certainly_positive(question.design.q1) && sets::is_well_posed(question)) {
     find_sets(question, certificate);
   }

@@ -52,7 +52,7 @@ SetClaim::SetClaim(const CertifiedSet& set, const trackers::ToneModel<double>& d
     bound_from_rim_ = error_bounds(set, Interval(set.radius))[2].upper();
     bound_from_zero_ = error_bounds(set, ultimate)[2].upper();
   }
-  complete(design.epsilon == 0.0);
+  complete(design.without_leak());
 }
 
 SetClaim::SetClaim(const SteadySet& set, const trackers::ToneModel<double>& design, const PolarState& steady,

@@ -47,7 +47,7 @@ void tracker(const TomlValue& value, Design& design) {
 std::string allowed_trackers() {
   std::vector<std::string> names = tracker_names();
   for (std::string& name : names) {
-    name = '"' + name + '"';
+    name = fmt::format("\"{}\"", name);
   }
   const std::string last = names.back();
   names.pop_back();

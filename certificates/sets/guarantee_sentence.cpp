@@ -8,6 +8,7 @@
 #include "analysis/sets/contraction_result.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/sets/assumptions.hpp"
+#include "certificates/sets/contraction.hpp"
 
 namespace veritrack::certificates {
 

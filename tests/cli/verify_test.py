@@ -38,6 +38,17 @@ class Verify(CliTestCase):
         for part in ("theorem-2.9/printed", "theorem-2.9/errata", "claim theorem-2.9/past-errors"):
             self.assertIn(part, verified)
 
+    def test_with_a_leak_a_radius_is_measured_from_the_steady_state_and_says_so(self):
+        text = (ROOT / "designs/la-scala-1994-figure-3.4.toml").read_text()
+        design = self.write(text.replace("[require]", "[require]\nfrequency_error_radius_at_least = 0.05"))
+        self.run_here("certify", design, "--out", "leak")
+        path = self.folder / "leak/certificate.json"
+        self.assertEqual(verify(path).returncode, 0)
+        honest = path.read_text()
+        forged = honest.replace(", measured from the steady state", "")
+        self.assertNotEqual(forged, honest)
+        self.assertEqual(verify(self.write(forged, "forged.json")).returncode, 1)
+
     def test_exit_status(self):
         certificates = ROOT / "tests" / "certificates"
         accepted = str(certificates / "accepted" / "one-set.json")

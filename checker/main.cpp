@@ -4,79 +4,150 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "checker/document/answer.hpp"
+#include "checker/document/design_file.hpp"
+#include "checker/document/markdown_file.hpp"
+#include "checker/document/sha256.hpp"
 #include "checker/numbers/ball.hpp"
+#include "checker/numbers/budget.hpp"
 #include "checker/verification.hpp"
 
 namespace {
 
-constexpr int kVerified = 0;
-constexpr int kNotVerified = 1;
+using namespace veritrack::checker;
+
+constexpr int kEverythingProved = 0;
+constexpr int kVerified = 1;
 constexpr int kMalformed = 2;
+constexpr int kNotVerified = 3;
 
 constexpr const char* kUsage =
-    "usage: veritrack-verify [--precision BITS] [--full] CERTIFICATE.json\nVerifies every claim of the "
-    "certificate from its evidence. With more than 200 boxes of starts only a sample is\nchecked, and the "
-    "part is NOT VERIFIED unless --full is given. Exit status: 0 VERIFIED, 1 NOT VERIFIED, 2 malformed.\n";
+    "usage: veritrack-verify [OPTIONS] CERTIFICATE.json\n"
+    "Verifies every claim of the certificate from its evidence, and prints the sentences that it "
+    "establishes.\n"
+    "  --design FILE     also that the certificate is about this design file\n"
+    "  --markdown FILE   also that this certificate.md says what was verified\n"
+    "  --full            follow all boxes of starts: with more than 200 only a sample is checked, and the "
+    "part is\n"
+    "                    NOT VERIFIED\n"
+    "  --json            print the answer as JSON\n"
+    "  --budget N        operations on balls before giving up (default 4000000000); what is not finished is "
+    "NOT\n"
+    "                    VERIFIED\n"
+    "  --precision BITS  of the arithmetic, 64 to 4096 (default 128)\n"
+    "  --version         print the version and the format it reads\n"
+    "Exit status: 0 VERIFIED, and everything required is PROVED. 1 VERIFIED, but not all that is required is "
+    "PROVED,\n"
+    "or nothing is required. 2 malformed, or the answer could not be written. 3 NOT VERIFIED.\n";
 
-int run(const std::string& path, bool all_boxes) {
-  using namespace veritrack::checker;
+struct Options {
+  std::string certificate, design, markdown;
+  bool all_boxes = false;
+  bool as_json = false;
+};
+
+std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) {
-    throw Malformed("the file cannot be read");
+    throw Malformed(path + ": the file cannot be read");
   }
-  const Verification result = verify(read_json(text), all_boxes);
-  std::size_t refused = 0;
-  for (const Part& part : result.parts) {
-    std::printf("%s %s\n", part.objections.empty() ? "verified    " : "NOT VERIFIED", part.name.c_str());
-    refused += part.objections.empty() ? 0U : 1U;
-    for (const std::string& objection : part.objections) {
-      std::printf("             - %s\n", objection.c_str());
+  return text;
+}
+
+/// A whole number from `least` to `most`; nothing for another text.
+std::optional<long> whole_number(const std::string& text, long least, long most) {
+  char* end = nullptr;
+  const long value = std::strtol(text.c_str(), &end, 10);
+  return !text.empty() && *end == '\0' && value >= least && value <= most ? std::optional(value)
+                                                                          : std::nullopt;
+}
+
+/// The options; nothing when they are not as the usage says.
+std::optional<Options> read_options(const std::vector<std::string>& arguments) {
+  Options options;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    const bool has_value = i + 1 < arguments.size();
+    if (argument == "--precision" && has_value) {
+      const auto bits = whole_number(arguments[++i], 64, 4096);
+      if (!bits) {
+        return std::nullopt;
+      }
+      set_precision(*bits);
+    } else if (argument == "--budget" && has_value) {
+      const auto operations = whole_number(arguments[++i], 1, 1L << 62U);
+      if (!operations) {
+        return std::nullopt;
+      }
+      set_budget(*operations);
+    } else if (argument == "--design" && has_value) {
+      options.design = arguments[++i];
+    } else if (argument == "--markdown" && has_value) {
+      options.markdown = arguments[++i];
+    } else if (argument == "--full") {
+      options.all_boxes = true;
+    } else if (argument == "--json") {
+      options.as_json = true;
+    } else if (options.certificate.empty() && !argument.starts_with("-")) {
+      options.certificate = argument;
+    } else {
+      return std::nullopt;
     }
   }
-  if (result.verified()) {
-    std::printf("VERIFIED: all %zu parts, %ld bits\n", result.parts.size(), static_cast<long>(precision()));
-    return kVerified;
+  return options.certificate.empty() ? std::nullopt : std::optional(options);
+}
+
+int run(const Options& options) {
+  const std::string text = read_file(options.certificate);
+  const Tree certificate = read_json(text);
+  Verification found = verify(certificate, options.all_boxes);
+  if (!options.design.empty()) {
+    Objections objections;
+    compare_with_design_file(certificate, read_file(options.design), objections);
+    found.parts.push_back({"the design file", objections});
   }
-  std::printf("NOT VERIFIED: %zu of %zu parts\n", refused, result.parts.size());
-  return kNotVerified;
+  if (!options.markdown.empty()) {
+    Objections objections;
+    compare_with_markdown(found, sha256(text), read_file(options.markdown), objections);
+    found.parts.push_back({"the document", objections});
+  }
+  std::fputs((options.as_json ? to_json(found) : to_text(found)).c_str(), stdout);
+  return !found.verified() ? kNotVerified : found.requirements_proved ? kEverythingProved : kVerified;
+}
+
+int answer(const std::vector<std::string>& arguments) {
+  if (arguments.size() == 1 && (arguments[0] == "--version" || arguments[0] == "--help")) {
+    const std::string version =
+        std::string("veritrack-verify " VERITRACK_VERSION ", reads ") + kFormat + "\n";
+    std::fputs(arguments[0] == "--help" ? kUsage : version.c_str(), stdout);
+    return kEverythingProved;
+  }
+  const std::optional<Options> options = read_options(arguments);
+  if (!options) {
+    std::fputs(kUsage, stderr);
+    return kMalformed;
+  }
+  try {
+    return run(*options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "veritrack-verify: %s: malformed: %s\n", options->certificate.c_str(), error.what());
+    return kMalformed;
+  }
 }
 
 }  // namespace
 
 int main(int count, char** words) {
-  const std::vector<std::string> arguments(words + 1, words + count);
-  std::string path;
-  bool all_boxes = false;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& argument = arguments[i];
-    if (argument == "--precision" && i + 1 < arguments.size()) {
-      const long bits = std::strtol(arguments[++i].c_str(), nullptr, 10);
-      if (bits < 64 || bits > 4096) {
-        std::fprintf(stderr, "veritrack-verify: the precision must be from 64 to 4096 bits\n");
-        return kMalformed;
-      }
-      veritrack::checker::set_precision(bits);
-    } else if (argument == "--full") {
-      all_boxes = true;
-    } else if (path.empty() && !argument.starts_with("-")) {
-      path = argument;
-    } else {
-      std::fputs(kUsage, stderr);
-      return kMalformed;
-    }
-  }
-  if (path.empty()) {
-    std::fputs(kUsage, stderr);
+  const int status = answer({words + 1, words + count});
+  // An answer that nobody can read is none.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    std::fprintf(stderr, "veritrack-verify: standard output cannot be written\n");
     return kMalformed;
   }
-  try {
-    return run(path, all_boxes);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "veritrack-verify: %s: malformed: %s\n", path.c_str(), error.what());
-    return kMalformed;
-  }
+  return status;
 }

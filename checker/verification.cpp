@@ -1,31 +1,47 @@
 #include "checker/verification.hpp"
 
-#include <set>
 #include <stdexcept>
 
+#include "checker/numbers/budget.hpp"
 #include "checker/registry.hpp"
 
 namespace veritrack::checker {
 
-Verification verify(const Tree& certificate, bool all_boxes) {
-  if (certificate.at("schema").text() != "veritrack/certificate/1") {
-    throw Malformed("not a certificate of format 1");
+namespace {
+
+/// A value that no check has read is a place to lie.
+void add_unread(const Tree& certificate, Verification& result) {
+  constexpr std::size_t kMostShown = 10;
+  Objections objections;
+  for (const std::string& path : certificate.unread(kMostShown)) {
+    objections.push_back(path + " is not read by any check");
   }
-  // "formal_proofs" is a table of contents of another file, which Coq checks; nothing here rests on it.
-  static const std::set<std::string> known{"schema",         "design",        "derivations",
-                                           "certified_sets", "audits",        "comparison",
-                                           "claims",         "formal_proofs", "verdict"};
-  for (const auto& [key, value] : certificate.members()) {
-    if (known.count(key) == 0) {
-      throw Malformed("the format has no \"" + key + "\"");
-    }
+  result.parts.push_back({"every member is read", objections});
+}
+
+}  // namespace
+
+Verification verify(const Tree& certificate, bool all_boxes) {
+  if (certificate.at("schema").text() != kFormat) {
+    throw Malformed(std::string("not a certificate of the format ") + kFormat);
   }
   Verification result;
   try {
+    // Names for people: printed as quotations, and nothing rests on them.
+    for (const char* quoted : {"name", "source"}) {
+      result.quoted.push_back(certificate.at("design").at(quoted).text());
+    }
+    result.design_sha256 = certificate.at("design_sha256").text();
     verify_tracker(certificate, all_boxes, result);
   } catch (const std::invalid_argument& error) {
     throw Malformed(error.what());
+  } catch (const OutOfBudget& error) {
+    const std::string last = result.parts.empty() ? "the design" : result.parts.back().name;
+    result.parts.push_back(
+        {"budget", {std::string(error.what()) + ", in the part after " + last + "; see --budget"}});
+    return result;
   }
+  add_unread(certificate, result);
   return result;
 }
 

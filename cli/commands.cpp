@@ -96,7 +96,7 @@ ExitStatus run_check(const CheckOptions& options) {
     for (const certificates::Claim& claim : certificate.claims) {
       if (claim.required) {
         fmt::print("{}:{}: {}: {} ({})\n", path, claim.position.line, rigor::to_string(claim.verdict),
-                   claim.statement, claim.reason);
+                   claim.requirement, claim.reason);
       }
     }
     if (status_of(certificate) != all_proved) {

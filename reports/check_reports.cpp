@@ -46,7 +46,7 @@ std::string xml_escaped(std::string_view text) {
 
 std::string junit_case(const std::string& path, const Claim& claim) {
   const std::string opening = fmt::format("    <testcase classname=\"{}\" name=\"{}\"", xml_escaped(path),
-                                          xml_escaped(claim.id + ": " + claim.statement));
+                                          xml_escaped(claim.id + ": " + claim.requirement));
   if (claim.verdict == Verdict::proved) {
     return opening + "/>\n";
   }
@@ -89,7 +89,7 @@ std::string to_sarif(const std::vector<CheckedDesign>& designs) {
              {"shortDescription", {{"text", "a requirement of the design file must be PROVED"}}}});
       }
       const std::string message =
-          fmt::format("{}: {}. {}", rigor::to_string(claim.verdict), claim.statement, claim.reason);
+          fmt::format("{}: {}. {}", rigor::to_string(claim.verdict), claim.requirement, claim.reason);
       const Json region{{"startLine", claim.position.line}, {"startColumn", claim.position.column}};
       const Json location{
           {"physicalLocation", {{"artifactLocation", {{"uri", design.path}}}, {"region", region}}}};

@@ -113,6 +113,7 @@ void add_continuity(const KklRange& range, const KklClaimsQuestion& question,
                 ", which contains T of the assumed range; K bounds the slope."
           : "no finite bound on the slope was found.",
       modulus));
+  derivation.conditions.back().lhs_sense = Sense::at_most;
 }
 
 }  // namespace

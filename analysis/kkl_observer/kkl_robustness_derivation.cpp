@@ -46,9 +46,13 @@ constexpr const char* kOtherObserver =
     "the bounds are for an observer with an ell for which mu of (9) vanishes, not for the one in use.";
 
 theorems::Condition frequency_condition(const KklRobustness& found, bool regular) {
-  theorems::Condition condition{"frequency-exists", "\\hat x_3 / x_3 > 0",
-                                Verdict::undecided, regular ? found.smallest_relative_square : Interval(),
-                                Interval(0.0),      {}};
+  theorems::Condition condition{"frequency-exists",
+                                "\\hat x_3 / x_3 > 0",
+                                Verdict::undecided,
+                                regular ? found.smallest_relative_square : Interval(),
+                                Interval(0.0),
+                                {},
+                                theorems::Sense::at_least};
   if (!regular) {
     condition.reason = kOtherObserver;
   } else if (rigor::certainly_positive(found.smallest_relative_square)) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "analysis/rigor/interval.hpp"
-#include "analysis/rigor/matrix.hpp"
+#include "analysis/sets/start_covariance.hpp"
 #include "trackers/tone_model.hpp"
 
 namespace veritrack::sets {
@@ -20,7 +20,9 @@ struct ContractionQuestion {
   rigor::Interval initial_phase_error = rigor::Interval(0.0);      ///< rad
   rigor::Interval initial_frequency_error = rigor::Interval(0.0);  ///< rad/sample
   /// P(0|0) in the frame of the estimated phase; none: the filter's steady state.
-  std::optional<rigor::IntervalMatrix<3>> initial_covariance;
+  std::optional<StartCovariance> start_covariance;
+  /// The frequency error that is to count as settled, rad/sample; none: twice the bound of the long run.
+  std::optional<double> settled_frequency_error;
   int search_evaluations = 40;  ///< per set
   bool with_samples = true;     ///< also what a search finds, which proves nothing
 };

@@ -50,7 +50,11 @@ Quantity ultimate_frequency_error() {
                Sense::at_most);
 }
 Quantity settling_samples() {
-  return unset("settling_samples", "k_s", "samples until within twice the long-run bound", Sense::at_most);
+  return unset("settling_samples", "k_s", "samples until the frequency error has settled", Sense::at_most);
+}
+Quantity settled_frequency_error() {
+  return unset("settled_frequency_error", "\\nu_s", "frequency error from then on, rad/sample",
+               Sense::at_most);
 }
 Quantity capture_samples() {
   return unset("capture_samples", "k_c", "samples until every assumed start is in the certified set",
@@ -103,6 +107,7 @@ std::vector<Quantity> quantities_of(const ContractionResult& result) {
     all.push_back(*starts.capture_samples);
   }
   all.push_back(starts.settling_samples);
+  all.push_back(starts.settled_frequency_error);
   all.push_back(result.largest_noise);
   all.push_back(result.largest_slew);
   if (result.bias_frequency) {

@@ -20,6 +20,7 @@ namespace quantities {
 [[nodiscard]] theorems::Quantity frequency_error_bound();
 [[nodiscard]] theorems::Quantity ultimate_frequency_error();
 [[nodiscard]] theorems::Quantity settling_samples();
+[[nodiscard]] theorems::Quantity settled_frequency_error();
 [[nodiscard]] theorems::Quantity capture_samples();
 [[nodiscard]] theorems::Quantity wrong_lock_frequency_error();
 [[nodiscard]] theorems::Quantity largest_noise();
@@ -35,6 +36,10 @@ struct StartResult {
   theorems::Quantity frequency_error_bound = quantities::frequency_error_bound();        ///< for ever
   theorems::Quantity ultimate_frequency_error = quantities::ultimate_frequency_error();  ///< in the long run
   theorems::Quantity settling_samples = quantities::settling_samples();
+  theorems::Quantity settled_frequency_error = quantities::settled_frequency_error();  ///< from then on
+  /// The multiples of the start covariance for which all this is true; nothing where it is given or the
+  /// filter's steady state.
+  std::optional<rigor::Interval> covariance_multiples;
   std::optional<theorems::Quantity> capture_samples;             ///< only where starts are followed
   std::optional<theorems::Quantity> wrong_lock_frequency_error;  ///< of a start that is certainly lost
   /// Some assumed start certainly locks elsewhere, with noise and slew that are allowed.

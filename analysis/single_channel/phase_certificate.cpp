@@ -85,7 +85,7 @@ Condition start_in_set(const PhaseQuestion& question, const PhaseCertificate& ce
     condition.lhs = Interval(*certificate.bound_set->assumed_level);
     condition.rhs = Interval(certificate.bound_set->start_level);
     condition.reason = "every assumed start lies in a certified set.";
-  } else if (question.tracker.initial_covariance) {
+  } else if (question.tracker.start_covariance) {
     condition.reason = "a given P(0) is not covered; omit initial_covariance to start with the steady state.";
   } else {
     condition.reason = "the assumed starts have level about " +
@@ -122,13 +122,15 @@ Reach reach_of(const PhaseSet& set) {
           hull(level * sqrt(Interval(set.floor.p11)), signal)};
 }
 
-/// The first sample from which on |nu| is at most twice the ultimate bound.
-Interval settling_samples(const PhaseQuestion& question, const PhaseSet& set, double start) {
+/// The first sample from which on |nu| is at most `frequency_error`, rad/sample; empty when none is found.
+Interval settling_samples(const PhaseQuestion& question, const PhaseSet& set, double start,
+                          double frequency_error) {
   const WindowErrors errors = errors_of(question, set);
   constexpr int kFollowed = 4000;  // samples
-  const double target = (Interval(2.0) * Interval(errors.ultimate())).lower();
+  const double target =
+      (Interval(frequency_error) / sqrt(Interval(set.claim.assumption.frequency_variance))).lower();
   const auto levels = errors.levels(start, kFollowed);
-  if (!levels || !(target > 0.0) || !errors.keeps(target)) {
+  if (!levels || !(target > 0.0) || !errors.keeps(target) || !(errors.ultimate() <= target)) {
     return Interval::empty();
   }
   int below = 0;
@@ -170,12 +172,23 @@ void set_promises(const PhaseQuestion& question, const PhaseCertificate& certifi
       certificate.set ? "The assumed starts are not in a certified set." : kNone);
   const bool disturbed =
       certainly_positive(question.tracker.noise) || certainly_positive(question.tracker.slew);
-  set(starts.settling_samples, "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
-      best && disturbed ? settling_samples(question, *best, start) : Interval(),
-      !best       ? kNone
-      : disturbed ? "No certified set gives a settling time."
-                  : "Without noise and slew the ultimate bound is zero, which is approached but not "
-                    "reached.");
+  Interval settling;
+  Interval settled;
+  if (best) {
+    for (const std::optional<double>& level :
+         {question.tracker.settled_frequency_error, std::optional((Interval(2.0) * ultimate).upper())}) {
+      if (level && *level > 0.0 && !rigor::is_finite(settling)) {
+        settling = settling_samples(question, *best, start, *level);
+        settled = rigor::is_finite(settling) ? Interval(*level) : Interval();
+      }
+    }
+  }
+  const char* why_not = !best ? kNone
+                        : disturbed
+                            ? "No certified set gives a settling time."
+                            : "The bound in the long run is zero, which is approached but not reached.";
+  set(starts.settling_samples, "|\\nu(k)| \\le \\nu_s \\text{ for } k \\ge k_s", settling, why_not);
+  set(starts.settled_frequency_error, "", settled, why_not);
 }
 
 sets::ContractionResult result_of(const PhaseQuestion& question, const PhaseCertificate& certificate) {
@@ -240,7 +253,7 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
   if (sensible && covered) {
     const PhaseSearch search(question);
     certificate.set = search.largest_set();
-    if (certificate.set && !question.tracker.initial_covariance) {
+    if (certificate.set && !question.tracker.start_covariance) {
       certificate.bound_set = search.least_bound();
       level_seen = search.start_level_seen(*certificate.set);
     }

@@ -162,6 +162,7 @@ std::vector<Statement> proposition_1_conclusion(const SteadyStateBias& with_leak
       fmt::format("With ε = 0 the steady state on a noise-free tone of {} rad/sample has no frequency error.",
                   frequency),
       exact ? Verdict::proved : Verdict::undecided, without_leak.reason, {}));
+  statements.back().values = {{"frequency", frequency}};
   if (epsilon == Interval(0.0)) {
     return statements;
   }
@@ -181,6 +182,7 @@ std::vector<Statement> proposition_1_conclusion(const SteadyStateBias& with_leak
                   "frequency error other than 0.",
                   frequency),
       verdict, with_leak.reason, std::move(evidence)));
+  statements.back().values = {{"frequency", frequency}};
   return statements;
 }
 

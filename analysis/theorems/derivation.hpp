@@ -47,6 +47,7 @@ struct Condition {
   rigor::Interval lhs;
   rigor::Interval rhs;
   std::string reason;  ///< one sentence: the reason for the verdict, or why there is none
+  Sense lhs_sense = Sense::enclosure;
 };
 
 /// Is there any admissible choice of the theorem's free parameters that satisfies its stability conditions?
@@ -67,6 +68,7 @@ struct Evidence {
   std::string name;  ///< what it proves, e.g. "start"
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<std::pair<std::string, rigor::DynamicMatrix>> matrices;
+  std::vector<std::pair<std::string, std::string>> decimals = {};  ///< as a sentence says them
 };
 
 /// A theorem, in one reading of its text, evaluated for a design.

@@ -62,7 +62,8 @@ void add_reading(Derivation& derivation, Theorem29Variant variant, const Theorem
                constants.p);
   add_quantity(derivation,
                {"p_sound_" + name, R"(\sup \lVert P(k \mid k) \rVert)",
-                R"(\sup_{1 - \epsilon_r \le |z| \le 1 + \epsilon_r} \lVert P(k \mid k) \rVert)", kBounds},
+                R"(\sup_{1 - \epsilon_r \le |z| \le 1 + \epsilon_r} \lVert P(k \mid k) \rVert)", kBounds, "",
+                Sense::at_most},
                sound);
   add_quantity(derivation, {"q_" + name, "q", R"(\frac{1}{a_2} + b_2)", "thesis, section 2.4.3, " + name},
                constants.q);
@@ -79,6 +80,9 @@ void add_reading(Derivation& derivation, Theorem29Variant variant, const Theorem
     if (covariance.verdict == Verdict::proved) {
       covariance.verdict = Verdict::undecided;
     }
+  }
+  if (covariance.verdict == Verdict::proved) {
+    covariance.lhs_sense = Sense::at_most;
   }
   derivation.conditions.push_back(covariance);
   Condition information = compare("q-" + name, R"(\lVert P(k \mid k)^{-1} \rVert \le q)",

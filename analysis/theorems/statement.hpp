@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/theorems/derivation.hpp"
@@ -15,6 +16,8 @@ struct Statement {
   rigor::Verdict verdict = rigor::Verdict::undecided;
   std::string witness;  ///< one line that can be evaluated again: the point or set, and the two sides there
   std::vector<Quantity> evidence;  ///< the enclosures that decided it
+  /// Decimals that stand in the sentence, by name, where the id alone does not make it what it is.
+  std::vector<std::pair<std::string, std::string>> values = {};
 };
 
 /// The statement, with evidence that is not finite marked as not applicable; the witness then says which

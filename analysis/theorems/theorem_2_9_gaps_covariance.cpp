@@ -41,14 +41,16 @@ Statement predicted_for_design(const Reading& reading, const Readings& readings)
   const Verdict verdict = above == Verdict::refuted  ? Verdict::refuted
                           : below == Verdict::proved ? Verdict::proved
                                                      : Verdict::undecided;
+  Quantity predicted_bound = evidence("predicted_bound", "", "", upper);
+  predicted_bound.sense = Sense::at_most;
   return make_statement(
       gap_id("s", reading.name),
       "For this design P(k+1|k) <= s I for all k >= 2 and every P(0|0), along estimates with |e| <= eps_r.",
       verdict,
       "Sound bounds: the largest eigenvalue of P(k+1|k) is at least " + at_least(largest_variance) +
           " and at most " + at_most(upper) + "; s is " + enclosed(c.s) + ".",
-      {evidence("predicted_lower", R"(\max(q_1, q_2))", "", largest_variance),
-       evidence("predicted_bound", "", "", upper), evidence("s", "s", "", c.s)});
+      {evidence("predicted_lower", R"(\max(q_1, q_2))", "", largest_variance), predicted_bound,
+       evidence("s", "s", "", c.s)});
 }
 
 /// The bounds come from a window of N + 1 measurements, and step 0 has no past measurements.

@@ -16,8 +16,9 @@ constexpr const char* kNotBorne = "No tube was found that tolerates the assumed 
 
 void add_quantities(Derivation& derivation, const Repaired& found) {
   const Interval none;
-  const auto add = [&](const char* name, const char* symbol, const char* formula, const Interval& value) {
-    add_quantity(derivation, {name, symbol, formula, kRepairedProof}, value, kNoRepairedRecursion);
+  const auto add = [&](const char* name, const char* symbol, const char* formula, const Interval& value,
+                       Sense sense = Sense::enclosure) {
+    add_quantity(derivation, {name, symbol, formula, kRepairedProof, "", sense}, value, kNoRepairedRecursion);
   };
   const auto of_start = [&](auto value) { return found.start ? value(*found.start) : none; };
   using R = const ErrorRecursion&;
@@ -32,14 +33,14 @@ void add_quantities(Derivation& derivation, const Repaired& found) {
   add("delta_2", R"(\delta_2)", "r", found.design.r);
   add("p", "p", R"(\sup \lambda_{\max}(P(k|k)))", of_start([](R r) { return r.p; }));
   add("q", "q", R"(\sup \lambda_{\max}(P(k|k)^{-1}))", of_start([](R r) { return r.q; }));
-  add("s", "s", R"(\sup \lambda_{\max}(P(k+1|k)))", of_start([](R r) { return r.s; }));
+  add("s", "s", R"(\sup \lambda_{\max}(P(k+1|k)))", of_start([](R r) { return r.s; }), Sense::at_most);
   add("beta", R"(\beta)", R"((pq)^{1/2})", of_start([](R r) { return sqrt(r.p * r.q); }));
   add("one_minus_alpha", R"(1 - \alpha)", R"(1 - (\mu/(1 + \mu))^{1/2}, \quad F P F' \le \mu Q)",
-      of_start([](R r) { return r.one_minus_alpha; }));
+      of_start([](R r) { return r.one_minus_alpha; }), Sense::at_least);
   add("curvature", "c", R"(\lvert \varphi \rvert_{P(k+1|k)^{-1}} \le c W^2)",
-      of_start([](R r) { return r.curvature; }));
-  add("process_gain", "g_w", "", of_start([](R r) { return r.process_gain; }));
-  add("measurement_gain", "g_v", "", of_start([](R r) { return r.measurement_gain; }));
+      of_start([](R r) { return r.curvature; }), Sense::at_most);
+  add("process_gain", "g_w", "", of_start([](R r) { return r.process_gain; }), Sense::at_most);
+  add("measurement_gain", "g_v", "", of_start([](R r) { return r.measurement_gain; }), Sense::at_most);
   add("radius", "R", R"(\alpha R + c R^2 \le R)", found.start ? found.start_radius : none);
   add("epsilon_z", R"(\epsilon_z)", R"(p^{1/2} R)",
       of_start([&](R r) { return sqrt(r.p) * found.start_radius; }));
@@ -47,11 +48,13 @@ void add_quantities(Derivation& derivation, const Repaired& found) {
       of_start([&](R r) { return start_error(r, found.start_radius); }));
   add("initial_frequency_error_bound", R"(\lvert e_3(0) \rvert)", R"(R / (P(0|0)^{-1})_{33}^{1/2})",
       of_start([&](R r) { return start_frequency_error(r, found.start_radius); }));
-  add("rate", R"(\alpha)", R"((\mu/(1 + \mu))^{1/2})", of_start([](R r) { return r.alpha; }));
+  add("rate", R"(\alpha)", R"((\mu/(1 + \mu))^{1/2})", of_start([](R r) { return r.alpha; }), Sense::at_most);
   add("noise_bound", R"(\lVert v \rVert)", R"(\max_R ((1 - \alpha) R - c R^2)/g_v)",
-      found.noise ? found.noise->largest_disturbance() / found.noise->measurement_gain : none);
+      found.noise ? found.noise->largest_disturbance() / found.noise->measurement_gain : none,
+      Sense::at_least);
   add("process_noise_bound", R"(\lVert w \rVert)", R"(\max_R ((1 - \alpha) R - c R^2)/g_w)",
-      found.process ? found.process->largest_disturbance() / found.process->process_gain : none);
+      found.process ? found.process->largest_disturbance() / found.process->process_gain : none,
+      Sense::at_least);
 }
 
 Condition not_found(const char* id, const char* statement, const char* reason) {
@@ -102,10 +105,10 @@ void add_conditions(Derivation& derivation, const Repaired& found, const Theorem
   } else {
     const ErrorRecursion& r = *found.assumed;
     const Interval& radius = found.assumed_radius;
-    derivation.conditions.push_back({"invariance", kInvariance, r.decide_invariant(radius, found.disturbance),
-                                     r.alpha * radius + r.curvature * square(radius) + found.disturbance,
-                                     radius,
-                                     "Decided without the cancellation: c R^2 + noise <= (1 - alpha) R."});
+    derivation.conditions.push_back(
+        {"invariance", kInvariance, r.decide_invariant(radius, found.disturbance),
+         r.alpha * radius + r.curvature * square(radius) + found.disturbance, radius,
+         "Decided without the cancellation: c R^2 + noise <= (1 - alpha) R.", Sense::at_most});
   }
   derivation.conditions.push_back(start_covariance(found, initial_covariance));
   constexpr const char* kStart = R"(\lvert e_0 \rvert \le q^{-1/2} R)";
@@ -132,7 +135,7 @@ void add_assured(Derivation& derivation, const Repaired& found) {
       assured ? found.assumed->frequency_gain * found.assumed_radius : Interval::empty(), kWhyNot);
   add_quantity(derivation,
                {"ultimate_frequency_error", R"(\limsup_k \lvert e_3(k) \rvert)", R"(P_{33}^{1/2} R_-)",
-                kRepairedProof},
+                kRepairedProof, "", Sense::at_most},
                assured ? found.assumed->frequency_gain * found.assumed->ultimate_radius(found.disturbance)
                        : Interval::empty(),
                kWhyNot);

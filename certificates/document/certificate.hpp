@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "analysis/rigor/verdict.hpp"
@@ -21,13 +22,16 @@ namespace veritrack::certificates {
 
 /// A statement about the design, decided.
 struct Claim {
-  std::string id;         ///< e.g. "ekf/frequency-error-bound"
-  std::string statement;  ///< one sentence of Markdown, with units
+  std::string id;           ///< e.g. "ekf/frequency-error-bound"
+  std::string statement;    ///< one sentence with all its hypotheses, with units
+  std::string requirement;  ///< what [require] asks, in short; empty when it does not
   rigor::Verdict verdict = rigor::Verdict::undecided;
   bool required = false;  ///< is in [require] of the design file
   Position position;      ///< of the requirement in the design file; line 0 when it is not required
   std::string reason;     ///< one sentence: the ground for the verdict
   std::vector<theorems::Quantity> evidence;
+  /// Further values that make the sentence what it is, by name: decimals as they stand in it.
+  std::vector<std::pair<std::string, std::string>> values = {};
 };
 
 struct Certificate {

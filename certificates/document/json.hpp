@@ -1,4 +1,5 @@
-// certificate.json: the certificate for machines. The schema is certificate.schema.json beside this file.
+// certificate.json: what is proved or refuted, with the evidence from which it can be verified, and nothing
+// else.
 #pragma once
 
 #include <string>
@@ -7,8 +8,9 @@
 
 namespace veritrack::certificates {
 
-/// The whole file, ending in a newline: every endpoint as a hexadecimal float, and as an outward-rounded
-/// decimal for the reader. Same certificate, same bytes.
+/// The format that certificate.schema.json and docs/certificate-format.md describe. Every member is read by
+/// the checker, which composes all sentences itself; what is sampled, undecided or for people stands in
+/// report.json.
 [[nodiscard]] std::string to_json(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

@@ -34,10 +34,29 @@ std::string requirement_section(const Certificate& certificate) {
   std::vector<std::vector<std::string>> rows;
   for (const Claim& claim : certificate.claims) {
     if (claim.required) {
-      rows.push_back({claim.statement, markdown::verdict(claim.verdict), claim.reason});
+      rows.push_back({claim.requirement, markdown::verdict(claim.verdict), claim.reason});
     }
   }
   return text + markdown::table({"Requirement", "Verdict", "Ground"}, rows) + "\n";
+}
+
+/// Every sentence of certificate.json as the checker composes it anew.
+std::string checker_section(const Certificate& certificate, const MarkdownOptions& options) {
+  std::string text = fmt::format(
+      "## What the checker verifies\n\n`veritrack-verify certificate.json --markdown certificate.md` "
+      "verifies the "
+      "sentences below from the evidence in `certificate.json` (SHA-256 `{}`), and that this section, the "
+      "verdicts at "
+      "the top and what was required say just that. All else in this document is told: sampled values, "
+      "simulations, "
+      "comparisons and undecided statements prove nothing.\n\n",
+      options.certificate_sha256);
+  for (const Claim& claim : certificate.claims) {
+    if (claim.verdict != Verdict::undecided) {
+      text += fmt::format("- {} `{}`: {}\n", markdown::verdict(claim.verdict), claim.id, claim.statement);
+    }
+  }
+  return text + "\n";
 }
 
 std::string reproduction_section(const Certificate& certificate, const MarkdownOptions& options) {
@@ -64,13 +83,13 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
 
 std::string headline(const Certificate& certificate) {
   if (!certificate.verdict) {
-    return kind_of(certificate.design).headline(certificate);
+    return "Nothing is required of this design";
   }
   std::string text;
   for (const Claim& claim : certificate.claims) {
     if (claim.required) {
       text += text.empty() ? "" : "; ";
-      text += upper_case(rigor::to_string(claim.verdict)) + ": " + claim.statement;
+      text += upper_case(rigor::to_string(claim.verdict)) + ": " + claim.requirement;
     }
   }
   return (*certificate.verdict == Verdict::proved ? "" : "NOT PROVED. ") + text;
@@ -80,7 +99,8 @@ std::string to_markdown(const Certificate& certificate, const MarkdownOptions& o
   const TrackerKind& kind = kind_of(certificate.design);
   return "# " + headline(certificate) + "\n\n" + kind.summary(certificate) +
          requirement_section(certificate) + kind.sections(certificate, options) +
-         formal_proofs_section(certificate) + reproduction_section(certificate, options);
+         checker_section(certificate, options) + formal_proofs_section(certificate) +
+         reproduction_section(certificate, options);
 }
 
 }  // namespace veritrack::certificates

@@ -17,6 +17,7 @@ struct FigureReference {
 
 struct MarkdownOptions {
   std::vector<FigureReference> figures;
+  std::string certificate_sha256;  ///< of certificate.json beside it
   std::string
       drawn_with;  ///< name and version of the program that drew the figures; empty when there are none
 };
@@ -24,8 +25,7 @@ struct MarkdownOptions {
 /// The whole document. Same certificate and options, same bytes: no times, hosts or paths.
 [[nodiscard]] std::string to_markdown(const Certificate& certificate, const MarkdownOptions& options);
 
-/// The document's first line, without mark-up: what was required, the verdict on it, and what the published
-/// theorem gives.
+/// The document's first line, without mark-up: what was required, and the verdict on it.
 [[nodiscard]] std::string headline(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

@@ -3,19 +3,18 @@
 namespace veritrack::certificates {
 
 Json enclosure_json(const rigor::Interval& value) {
-  return {{"lo", rigor::to_hexadecimal(value.lower())},
-          {"hi", rigor::to_hexadecimal(value.upper())},
-          {"decimal", rigor::to_decimal(value)}};
+  return {{"lo", rigor::to_hexadecimal(value.lower())}, {"hi", rigor::to_hexadecimal(value.upper())}};
+}
+
+Json readable_enclosure_json(const rigor::Interval& value) {
+  Json json = enclosure_json(value);
+  json["decimal"] = rigor::to_decimal(value);
+  return json;
 }
 
 Json number_json(const Number& number) {
   Json json{{"text", number.text}};
   json.update(enclosure_json(number.value));
-  if (number.position.line > 0) {
-    json["line"] = number.position.line;
-  } else {
-    json["default"] = true;
-  }
   return json;
 }
 

@@ -13,10 +13,13 @@ namespace veritrack::certificates {
 /// Members in the order in which they were added.
 using Json = nlohmann::ordered_json;
 
-/// "lo" and "hi" as hexadecimal floats, "decimal" outward rounded for the reader.
+/// "lo" and "hi" as hexadecimal floats.
 [[nodiscard]] Json enclosure_json(const rigor::Interval& value);
 
-/// A number of the design file: its text, its enclosure, and its line or that it is a default.
+/// The same with "decimal" beside them, outward rounded for the reader of report.json.
+[[nodiscard]] Json readable_enclosure_json(const rigor::Interval& value);
+
+/// A number of the design file: its text and its enclosure.
 [[nodiscard]] Json number_json(const Number& number);
 
 /// Adds the number under that name when there is one.

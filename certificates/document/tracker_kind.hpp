@@ -17,21 +17,23 @@ namespace veritrack::certificates {
 
 struct TrackerKind {
   std::string_view name;  ///< as the key `tracker` of a design file names it
-  /// The tables of the design as certificate.json repeats them: an object with a member a table.
+  /// The tables of the design as certificate.json repeats them: an object with a member a table. What no
+  /// proof rests on is left out.
   Json (*design_json)(const Design& design);
   /// Adds everything that can be said of the design. Needs the upward mode.
   void (*certify)(Certificate& certificate, const CertifyProgress& progress);
-  /// The first line of the document when nothing is required.
-  std::string (*headline)(const Certificate& certificate);
-  /// The answer in a few sentences, above what was required.
+  /// The answer in a few sentences, above what was required: a line for each claim that belongs there, which
+  /// begins with the verdict and goes on with nothing but the claim's statement, and what else is told.
   std::string (*summary)(const Certificate& certificate);
   /// The sections between what was required and how to reproduce it.
   std::string (*sections)(const Certificate& certificate, const MarkdownOptions& options);
 
   // What not every kind has: null where it has none.
 
-  /// Members of certificate.json beside derivations and claims: some of certified_sets, audits, comparison.
+  /// Members of certificate.json beside derivations and claims, from which something is verified.
   Json (*evidence_json)(const Certificate& certificate) = nullptr;
+  /// Members of report.json beside derivations and claims, which are told and not verified.
+  Json (*report_json)(const Certificate& certificate) = nullptr;
   /// Needs the upward mode.
   FormalProofs (*formal_proofs)(const Certificate& certificate) = nullptr;
   /// Opens its own rounding scopes.

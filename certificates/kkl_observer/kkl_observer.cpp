@@ -36,16 +36,50 @@ kkl_observer::Disturbance disturbance_of(const KklAssumptions& assume) {
   return kkl_observer::SinusoidalDisturbance{given.amplitude->value, given.frequency->value};
 }
 
-/// A requirement on a proved bound: `statement` says what is required of the quantity of that name.
+/// "In continuous time and exact arithmetic, for every tone ..., ".
+std::string hypotheses(const KklAssumptions& assume) {
+  std::string text = fmt::format(
+      "In continuous time and exact arithmetic, for every tone of constant frequency from {} to {} rad/s and "
+      "constant amplitude from {} to {} signal units",
+      assume.frequency[0].text, assume.frequency[1].text, assume.amplitude[0].text, assume.amplitude[1].text);
+  if (!assume.disturbance) {
+    return text + ", without disturbance, ";
+  }
+  const KklDisturbance& given = *assume.disturbance;
+  return given.bound
+             ? fmt::format("{}, with any disturbance of at most {} signal units, ", text, given.bound->text)
+             : fmt::format(
+                   "{}, with a sinusoidal disturbance of amplitude {} signal units and frequency {} "
+                   "rad/s, ",
+                   text, given.amplitude->text, given.frequency->text);
+}
+
+/// What is proved of the errors, once settled: the end of every sentence.
+std::string proved_bounds(const Certificate& certificate, const std::string& name) {
+  constexpr int kDigits = 3;
+  const auto bound = [&](const char* which) {
+    return rigor::upper_decimal(proved_kkl_bound(certificate, which).value(), kDigits);
+  };
+  const std::string from = fmt::format(": from {} s after the start on, ", bound("settling_time"));
+  return name == "settling_time" ? fmt::format(
+                                       "{}the frequency error is at most {} rad/s and the amplitude error at "
+                                       "most {} signal units",
+                                       from, bound("frequency_error_bound"), bound("amplitude_error_bound"))
+                                 : from + "it is at most " + bound(name.c_str());
+}
+
+/// A requirement on a proved bound: `requirement` says what is required of the quantity of that name.
 Claim bound_claim(const Certificate& certificate, const std::string& id, const std::string& name,
-                  const std::string& statement, const std::string& unit, const Number& required) {
+                  const std::string& requirement, const std::string& unit, const Number& required) {
   Claim claim;
   claim.id = id;
-  claim.statement = statement;
+  claim.requirement = requirement;
+  claim.statement = hypotheses(kkl_observer_tables(certificate.design).assume) + requirement;
   claim.required = true;
   claim.position = required.position;
   const std::optional<Interval> bound = proved_kkl_bound(certificate, name);
   if (!bound) {
+    claim.statement += ".";
     claim.reason = "No bound is certified for the assumed range and disturbance";
     if (const theorems::Derivation* derivation = find_derivation(certificate, kRobustness)) {
       for (const theorems::Condition& condition : derivation->conditions) {
@@ -58,6 +92,7 @@ Claim bound_claim(const Certificate& certificate, const std::string& id, const s
     claim.reason += ".";
     return claim;
   }
+  claim.statement += proved_bounds(certificate, name) + ".";
   const std::string shown = rigor::upper_decimal(*bound);
   if (rigor::certainly_less(Interval(bound->upper()), required.value)) {
     claim.verdict = Verdict::proved;

@@ -13,8 +13,7 @@ const TrackerKind& kkl_observer_kind() {
   static const TrackerKind kind{.name = "kkl-observer",
                                 .design_json = kkl_observer_design_json,
                                 .certify = certify_kkl_observer,
-                                .headline = kkl_observer_headline,
-                                .summary = [](const Certificate&) { return std::string(); },
+                                .summary = kkl_observer_summary,
                                 .sections = kkl_observer_sections,
                                 .formal_proofs = coq::kkl_observer_proofs,
                                 .tune = tune_kkl_observer};

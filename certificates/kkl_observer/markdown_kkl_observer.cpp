@@ -90,16 +90,14 @@ std::string coverage_section() {
 
 }  // namespace
 
-std::string kkl_observer_headline(const Certificate& certificate) {
-  const auto frequency = proved_kkl_bound(certificate, "frequency_error_bound");
-  const auto time = proved_kkl_bound(certificate, "settling_time");
-  if (!frequency || !time) {
-    return "Nothing is required of this design, and no bound on its errors is certified";
+std::string kkl_observer_summary(const Certificate& certificate) {
+  std::string text;
+  for (const Claim& claim : certificate.claims) {
+    if (claim.required && claim.verdict != rigor::Verdict::undecided) {
+      text += fmt::format("{}: {}\n\n", markdown::verdict(claim.verdict), claim.statement);
+    }
   }
-  const auto shown = [](const rigor::Interval& value) { return rigor::upper_decimal(value, 3); };
-  return fmt::format(
-      "Nothing is required of this design; PROVED: after {} s the frequency error stays at or below {} rad/s",
-      shown(*time), shown(*frequency));
+  return text;
 }
 
 std::string kkl_observer_sections(const Certificate& certificate, const MarkdownOptions& options) {

@@ -8,8 +8,8 @@
 
 namespace veritrack::certificates {
 
-/// The first line when nothing is required: what is proved anyway.
-[[nodiscard]] std::string kkl_observer_headline(const Certificate& certificate);
+/// The sentences of [require] that are decided, a line each.
+[[nodiscard]] std::string kkl_observer_summary(const Certificate& certificate);
 
 /// Design, assumptions, what is certified of them, the paper's claims, figures and coverage.
 [[nodiscard]] std::string kkl_observer_sections(const Certificate& certificate,

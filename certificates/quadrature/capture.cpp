@@ -33,10 +33,15 @@ bool starts_are_outside(const sets::ContractionResult& contraction) {
   });
 }
 
-Claim claim_of(const StartCapture& capture, std::string id, std::string statement) {
+/// The claim that starts are captured with this noise and slew, whose evidence is the derivation.
+Claim claim_of(const StartCapture& capture, const StartCovarianceText& covariance, std::string id,
+               const std::string& disturbance) {
   Claim claim;
   claim.id = std::move(id);
-  claim.statement = std::move(statement);
+  claim.statement = fmt::format(
+      "In exact arithmetic, from every assumed start {}, {}, the tracker enters the certified set, which "
+      "it never leaves.",
+      covariance_words(covariance, capture.result.covariance_multiples), disturbance);
   claim.verdict = capture.result.verdict;
   for (const theorems::Condition& condition : capture.result.conditions) {
     if (condition.verdict == claim.verdict) {
@@ -56,6 +61,7 @@ Claim claim_of(const StartCapture& capture, std::string id, std::string statemen
 void add_capture_at_reduced_noise(Certificate& certificate, const quadrature::CertifiedSet& set,
                                   const std::function<bool(const quadrature::RegionProgress&)>& progress) {
   const ContractionQuestion question = contraction_question(certificate.design);
+  const StartCovarianceText& covariance = quadrature_particulars(certificate).start_covariance;
   for (const double share : {0.5, 0.25, 0.125}) {
     ContractionQuestion reduced = question;
     reduced.noise = Interval(share) * question.noise;
@@ -65,12 +71,13 @@ void add_capture_at_reduced_noise(Certificate& certificate, const quadrature::Ce
     if (capture.result.verdict == Verdict::proved) {
       constexpr int kDigits = 3;
       certificate.claims.push_back(claim_of(
-          capture, "ekf/capture-at-reduced-noise",
+          capture, covariance, "ekf/capture-at-reduced-noise",
           fmt::format(
-              "From every assumed start, with noise of at most {} of the amplitude and slew of at most {} "
-              "rad/sample per sample, the tracker enters the certified set, which it never leaves.",
-              rigor::lower_decimal(reduced.noise, kDigits), rigor::lower_decimal(reduced.slew, kDigits))));
+              "with noise of at most {} of the amplitude and slew of at most {} rad/sample per sample",
+              rigor::lower_decimal(Interval(reduced.noise.upper()), kDigits),
+              rigor::lower_decimal(Interval(reduced.slew.upper()), kDigits))));
       certificate.contraction->starts.proved_instead = certificate.claims.back().statement;
+      add_start_covariance(covariance, capture.result.covariance_multiples, capture.derivation);
       certificate.derivations.push_back(std::move(capture.derivation));
       return;
     }
@@ -99,9 +106,14 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
   const auto report = region_progress(progress);
   ContractionQuestion question = contraction_question(certificate.design);
   StartCapture capture = quadrature::capture_starts(question, set->set, "capture", kMostCells, report);
-  Claim claim = claim_of(capture, "ekf/capture",
-                         "From every assumed start, with the assumed noise and slew, the tracker enters the "
-                         "certified set, which it never leaves.");
+  const StartCovarianceText covariance = quadrature_particulars(certificate).start_covariance;
+  const auto add = [&](theorems::Derivation derivation) {
+    if (!derivation.evidence.empty()) {
+      add_start_covariance(covariance, std::nullopt, derivation);
+    }
+    certificate.derivations.push_back(std::move(derivation));
+  };
+  Claim claim = claim_of(capture, covariance, "ekf/capture", "with the assumed noise and slew");
   const bool is_disturbed = !(question.noise == Interval(0.0) && question.slew == Interval(0.0));
   std::optional<StartCapture> noise_free;
   if (claim.verdict == Verdict::undecided && is_disturbed) {
@@ -111,20 +123,20 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
         quadrature::capture_starts(question, set->set, "capture/noise-free", kMostCellsWithoutNoise, report);
     if (noise_free->result.verdict == Verdict::refuted) {
       claim.verdict = Verdict::refuted;
-      claim.reason = "Without noise and slew, which is allowed: " + claim_of(*noise_free, "", "").reason;
+      claim.reason =
+          "Without noise and slew, which is allowed: " + claim_of(*noise_free, covariance, "", "").reason;
     }
   }
   sets::StartResult& starts = certificate.contraction->starts;
   starts = std::move(capture.result);
   starts.loses_lock = claim.verdict == Verdict::refuted;
   certificate.claims.push_back(std::move(claim));
-  certificate.derivations.push_back(std::move(capture.derivation));
+  add(std::move(capture.derivation));
   if (noise_free) {
-    certificate.claims.push_back(claim_of(*noise_free, "ekf/capture-noise-free",
-                                          "From every assumed start, without noise and slew, the tracker "
-                                          "enters the certified set, which it never leaves."));
+    certificate.claims.push_back(
+        claim_of(*noise_free, covariance, "ekf/capture-noise-free", "without noise and slew"));
     const bool captured = noise_free->result.verdict == Verdict::proved;
-    certificate.derivations.push_back(std::move(noise_free->derivation));
+    add(std::move(noise_free->derivation));
     if (captured) {
       starts.proved_instead = certificate.claims.back().statement;
       add_capture_at_reduced_noise(certificate, set->set, report);

@@ -4,6 +4,7 @@
 #include "analysis/quadrature/leak/steady_certificate.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/quadrature/start_covariance.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "trackers/tone_model.hpp"
 
@@ -28,10 +29,23 @@ trackers::ToneModel<double> nearest_at_unit_amplitude(const QuadratureEkfTables&
 
 sets::ContractionQuestion contraction_question(const Design& design) {
   const QuadratureEkfTables& tables = quadrature_tables(design);
-  return contraction_question(enclosed_at_unit_amplitude(tables), tables.assume);
+  sets::ContractionQuestion question =
+      contraction_question(enclosed_at_unit_amplitude(tables), tables.assume, tables.require);
+  question.start_covariance = start_covariance(tables);
+  return question;
+}
+
+std::string start_covariance_words(const Certificate& certificate) {
+  return covariance_words(quadrature_particulars(certificate).start_covariance,
+                          certificate.contraction->starts.covariance_multiples);
 }
 
 void add_contraction(Certificate& certificate) {
+  StartCovarianceText& covariance = quadrature_particulars(certificate).start_covariance;
+  {
+    const rigor::NearestRounding nearest;
+    covariance = start_covariance_text(quadrature_tables(certificate.design));
+  }
   if (quadrature_tables(certificate.design).design.without_leak()) {
     quadrature::ContractionCertificate found =
         quadrature::certify_contraction(contraction_question(certificate.design));
@@ -56,6 +70,8 @@ void add_contraction(Certificate& certificate) {
     certificate.derivations.push_back(std::move(found.derivation));
     certificate.contraction = std::move(found.result);
   }
+  add_start_covariance(covariance, certificate.contraction->starts.covariance_multiples,
+                       certificate.derivations.back());
 }
 
 }  // namespace veritrack::certificates

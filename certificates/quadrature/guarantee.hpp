@@ -1,6 +1,8 @@
 // What contraction proves of the quadrature tracker.
 #pragma once
 
+#include <string>
+
 #include "analysis/sets/contraction_question.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
@@ -17,6 +19,9 @@ namespace veritrack::certificates {
 
 /// What is asked of contraction for the quadrature tracker, at amplitude 1. Needs the upward mode.
 [[nodiscard]] sets::ContractionQuestion contraction_question(const Design& design);
+
+/// For which P(0|0) the sentences are true: "and with P(0|0) from ...". After add_contraction.
+[[nodiscard]] std::string start_covariance_words(const Certificate& certificate);
 
 /// Adds the derivation "contraction" and its certified sets.
 void add_contraction(Certificate& certificate);

@@ -120,9 +120,13 @@ void certify_quadrature(Certificate& certificate, const CertifyProgress& progres
   add_contraction(certificate);
   add_capture(certificate, progress);
   add_comparison(certificate);
-  add_required_claims(certificate, tables.require, tables.assume);
-  certificate.claims.push_back(
-      guarantee_claim(certificate, {tables.assume, tables.require, !tables.design.without_leak()}));
+  const GuaranteeTerms terms{tables.assume, tables.require, !tables.design.without_leak(), true,
+                             start_covariance_words(certificate)};
+  add_required_claims(certificate, terms);
+  certificate.claims.push_back(guarantee_claim(certificate, terms));
+  for (Claim& claim : set_claims(certificate, terms)) {
+    certificate.claims.push_back(std::move(claim));
+  }
 }
 
 }  // namespace veritrack::certificates

@@ -12,9 +12,9 @@ namespace {
 Json audit_point_json(const theorems::AuditPoint& point) {
   Json json{{"step", point.step},
             {"verdict", std::string(rigor::to_string(point.verdict))},
-            {"margin", enclosure_json(point.margin)}};
+            {"margin", readable_enclosure_json(point.margin)}};
   if (!rigor::is_empty(point.relative_margin)) {
-    json["relative_margin"] = enclosure_json(point.relative_margin);
+    json["relative_margin"] = readable_enclosure_json(point.relative_margin);
   }
   return json;
 }
@@ -62,13 +62,13 @@ Json compared_json(const ComparedResult& row) {
     json["verdict"] = std::string(rigor::to_string(*row.verdict));
   }
   if (row.frequency_error) {
-    json["initial_frequency_error"] = enclosure_json(*row.frequency_error);
+    json["initial_frequency_error"] = readable_enclosure_json(*row.frequency_error);
   }
   if (row.noise) {
-    json["noise"] = enclosure_json(*row.noise);
+    json["noise"] = readable_enclosure_json(*row.noise);
   }
   if (row.rate) {
-    json["rate"] = enclosure_json(*row.rate);
+    json["rate"] = readable_enclosure_json(*row.rate);
   }
   return json;
 }
@@ -98,7 +98,6 @@ Json quadrature_design_json(const Design& read) {
             {"epsilon", number_json(design.epsilon)}}},
           {"assume", assume_json(assume)},
           {"require", require_json(require)},
-          {"simulate", simulate_json(simulate)},
           {"theorem_2_9",
            {{"R_x", number_json(theorem.state_bound)},
             {"sigma", number_json(theorem.sigma)},
@@ -108,11 +107,18 @@ Json quadrature_design_json(const Design& read) {
 }
 
 Json quadrature_evidence_json(const Certificate& certificate) {
-  const QuadratureParticulars& particulars = quadrature_particulars(certificate);
-  Json json{{"certified_sets", Json::array()}, {"audits", Json::array()}, {"comparison", Json::array()}};
-  for (const NamedSet& set : particulars.certified_sets) {
-    json["certified_sets"].push_back(certified_set_json(set));
+  Json sets = Json::array();
+  for (const NamedSet& set : quadrature_particulars(certificate).certified_sets) {
+    sets.push_back(certified_set_json(set));
   }
+  return {{"certified_sets", sets}};
+}
+
+Json quadrature_report_json(const Certificate& certificate) {
+  const QuadratureParticulars& particulars = quadrature_particulars(certificate);
+  Json json{{"simulate", simulate_json(quadrature_tables(certificate.design).simulate)},
+            {"audits", Json::array()},
+            {"comparison", Json::array()}};
   for (const AuditedDerivation& audited : particulars.audits) {
     json["audits"].push_back(audit_json(audited));
   }

@@ -12,4 +12,7 @@ namespace veritrack::certificates {
 /// certified_sets, audits and comparison.
 [[nodiscard]] Json quadrature_evidence_json(const Certificate& certificate);
 
+/// Audits, the comparison and the settings of the simulated run.
+[[nodiscard]] Json quadrature_report_json(const Certificate& certificate);
+
 }  // namespace veritrack::certificates

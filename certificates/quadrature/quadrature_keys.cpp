@@ -42,11 +42,15 @@ std::vector<BoundTable> bind_tables(std::any& tables) {
           bound_table("theorem_2_9", kTheorem29Keys, target.theorem_2_9)};
 }
 
+std::optional<TableObjection> objection(const std::any& tables) {
+  return objection_to(std::any_cast<const QuadratureEkfTables&>(tables).require);
+}
+
 }  // namespace
 
 const DesignFormat& quadrature_format() {
   static const DesignFormat format{"quadrature-ekf", [] { return std::any(QuadratureEkfTables{}); },
-                                   bind_tables};
+                                   bind_tables, objection};
   return format;
 }
 

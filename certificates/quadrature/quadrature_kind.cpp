@@ -26,26 +26,6 @@ namespace {
 
 using markdown::escaped;
 using markdown::math;
-using rigor::Verdict;
-
-/// "Theorem 2.9 guarantees nothing for it", or what else its readings together say.
-std::string theorem_sentence(const Certificate& certificate) {
-  std::vector<theorems::Derivation> readings = derivations_of(certificate, "theorem-2.9/");
-  std::erase_if(readings, [](const theorems::Derivation& reading) {
-    return reading.id == "theorem-2.9/repaired";  // ours, not the published theorem
-  });
-  const auto all_are = [&](Verdict verdict) {
-    return std::all_of(readings.begin(), readings.end(),
-                       [verdict](const theorems::Derivation& reading) { return reading.verdict == verdict; });
-  };
-  if (all_are(Verdict::refuted)) {
-    return "Theorem 2.9 guarantees nothing for it: its conditions are REFUTED";
-  }
-  if (all_are(Verdict::proved)) {
-    return "it satisfies the conditions of Theorem 2.9";
-  }
-  return "whether Theorem 2.9 applies to it is UNDECIDED";
-}
 
 std::string design_section(const Certificate& certificate) {
   const Design& design = certificate.design;
@@ -81,14 +61,6 @@ std::string coverage_section() {
          "A bound that the run violates is not a bound for that run.\n\n";
 }
 
-std::string headline_without_requirements(const Certificate& certificate) {
-  if (const auto bound = proved_bound_headline(certificate)) {
-    return *bound;
-  }
-  return "Nothing is required of this design, nothing is certified for the assumed start, and " +
-         theorem_sentence(certificate);
-}
-
 std::string summary(const Certificate& certificate) {
   return guarantee_section(certificate) + summary_section(certificate);
 }
@@ -108,10 +80,10 @@ const TrackerKind& quadrature_kind() {
   static const TrackerKind kind{.name = "quadrature-ekf",
                                 .design_json = quadrature_design_json,
                                 .certify = certify_quadrature,
-                                .headline = headline_without_requirements,
                                 .summary = summary,
                                 .sections = sections,
                                 .evidence_json = quadrature_evidence_json,
+                                .report_json = quadrature_report_json,
                                 .formal_proofs = coq::theorem_2_9_proofs};
   return kind;
 }

@@ -10,6 +10,7 @@
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/theorems/audit.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/quadrature/start_covariance.hpp"
 
 namespace veritrack::certificates {
 
@@ -45,6 +46,7 @@ struct ComparedResult {
 };
 
 struct QuadratureParticulars {
+  StartCovarianceText start_covariance;
   std::vector<NamedSet> certified_sets;
   std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
   std::vector<AuditedDerivation> audits;

@@ -84,10 +84,11 @@ std::vector<State> corners(const quadrature::StartBox& box, const rigor::Matrix<
   return starts;
 }
 
-/// Until it is settled, within reason.
+/// Until it is within twice the bound of the long run, within reason.
 std::vector<double> bound_from(quadrature::CertifiedLevel level) {
   std::vector<double> bound;
-  while (bound.size() < kLongest && !(bound.size() >= kShortest && level.settled())) {
+  const double settled = 2.0 * level.ultimate_frequency_error();
+  while (bound.size() < kLongest && !(bound.size() >= kShortest && settled > 0.0 && level.settled(settled))) {
     bound.push_back(level.frequency_error());
     level.step();
   }

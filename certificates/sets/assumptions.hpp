@@ -29,7 +29,8 @@ struct Assumptions {
 /// [require]: what CI must find PROVED.
 struct Requirements {
   std::optional<Number> frequency_error_below;            ///< rad/sample, for ever
-  std::optional<Number> settles_within;                   ///< samples to come within twice the ultimate bound
+  std::optional<Number> settles_within;                   ///< samples, after which the frequency error stays
+  std::optional<Number> settled_below;                    ///< below that many rad/sample
   std::optional<Number> largest_noise_at_least;           ///< signal units, at a constant frequency
   std::optional<Number> largest_slew_at_least;            ///< rad/sample per sample, without noise
   std::optional<Number> frequency_error_radius_at_least;  ///< rad/sample, of an invariant set

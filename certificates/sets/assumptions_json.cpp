@@ -26,6 +26,7 @@ Json require_json(const Requirements& require) {
   Json json = Json::object();
   add_number(json, "frequency_error_below", require.frequency_error_below);
   add_number(json, "settles_within", require.settles_within);
+  add_number(json, "settled_below", require.settled_below);
   add_number(json, "largest_noise_at_least", require.largest_noise_at_least);
   add_number(json, "largest_slew_at_least", require.largest_slew_at_least);
   add_number(json, "frequency_error_radius_at_least", require.frequency_error_radius_at_least);

@@ -1,5 +1,7 @@
 #include "certificates/sets/contraction.hpp"
 
+#include <cmath>
+
 namespace veritrack::certificates {
 
 using rigor::Interval;
@@ -22,16 +24,23 @@ std::optional<rigor::IntervalMatrix<3>> covariance_at_unit_amplitude(const Assum
 }
 
 sets::ContractionQuestion contraction_question(const trackers::ToneModel<Interval>& model,
-                                               const Assumptions& assume) {
+                                               const Assumptions& assume, const Requirements& require) {
   const Interval& amplitude = assume.amplitude.value;
   sets::ContractionQuestion question;
   question.design = model;
-  question.noise = assume.noise.value / amplitude;
-  question.slew = assume.slew.value;
+  // A little more than is assumed, so that another arithmetic finds it tolerated, too.
+  const Interval margin = Interval::from_bounds(1.0, 1.0 + 0x1p-48);
+  question.noise = assume.noise.value / amplitude * margin;
+  question.slew = assume.slew.value * margin;
   question.initial_amplitude_error = assume.initial_amplitude_error.value / amplitude;
   question.initial_phase_error = assume.initial_phase_error.value;
   question.initial_frequency_error = assume.initial_frequency_error.value;
-  question.initial_covariance = covariance_at_unit_amplitude(assume);
+  if (const auto given = covariance_at_unit_amplitude(assume)) {
+    question.start_covariance = sets::StartCovariance{*given, Interval(1.0), true};
+  }
+  if (require.settled_below) {
+    question.settled_frequency_error = std::nextafter(require.settled_below->value.lower(), 0.0);
+  }
   return question;
 }
 

@@ -13,9 +13,11 @@ namespace veritrack::certificates {
 /// upward mode.
 [[nodiscard]] std::optional<rigor::IntervalMatrix<3>> covariance_at_unit_amplitude(const Assumptions& assume);
 
-/// What is asked for a model at amplitude 1 under what is assumed. Needs the upward mode.
+/// What is asked for a model at amplitude 1 under what is assumed, with the start covariance that is given.
+/// Needs the upward mode.
 [[nodiscard]] sets::ContractionQuestion contraction_question(
-    const trackers::ToneModel<rigor::Interval>& model, const Assumptions& assume);
+    const trackers::ToneModel<rigor::Interval>& model, const Assumptions& assume,
+    const Requirements& require);
 
 /// The proved bound on |frequency error|, rad/sample, at every sample from the start on; none when the
 /// contraction certificate does not cover the assumed start, noise and slew.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/elementary.hpp"
 #include "analysis/sets/contraction_result.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/sets/assumptions.hpp"
@@ -30,25 +31,6 @@ bool is_zero(const Number& number) {
   return number.value == Interval(0.0);
 }
 
-/// "With measurement noise of at most 0.001 and a constant frequency, started within ..., "
-std::string assumptions(const GuaranteeTerms& terms) {
-  const Assumptions& assume = terms.assume;
-  std::string text = is_zero(assume.noise) ? "Without measurement noise"
-                                           : "With measurement noise of at most " + assume.noise.text;
-  text += is_zero(assume.slew)
-              ? " and at a constant frequency"
-              : fmt::format(" and a frequency that changes by at most {} rad/sample per sample",
-                            assume.slew.text);
-  if (terms.in_band) {
-    text += fmt::format(" between {} and {} rad/sample", assume.frequency[0].text, assume.frequency[1].text);
-  }
-  return text + fmt::format(
-                    ", started within {} rad/sample of the true frequency, {} rad of the phase and {} of the "
-                    "amplitude ({}), ",
-                    assume.initial_frequency_error.text, assume.initial_phase_error.text,
-                    assume.initial_amplitude_error.text, assume.amplitude.text);
-}
-
 /// Why the bound is true, and its value in the long run.
 std::string ground(const sets::StartResult& starts) {
   const std::optional<theorems::Quantity>& captured = starts.capture_samples;
@@ -58,16 +40,6 @@ std::string ground(const sets::StartResult& starts) {
         "Verified propagation shows that every such start enters a certified invariant set within {} "
         "samples. ",
         rigor::upper_decimal(captured->value, kDigits));
-  }
-  const theorems::Quantity& ultimate = starts.ultimate_frequency_error;
-  if (ultimate.applies()) {
-    const theorems::Quantity& samples = starts.settling_samples;
-    text += fmt::format("In the long run the frequency error is at most {} rad/sample",
-                        rigor::upper_decimal(ultimate.value, kDigits));
-    const bool takes_time = samples.applies() && samples.value.upper() > 0.0;
-    text += takes_time ? fmt::format(", and at most twice that after {} samples.",
-                                     rigor::upper_decimal(samples.value, kDigits))
-                       : ".";
   }
   return text;
 }
@@ -84,6 +56,38 @@ std::string objection(const sets::StartResult& starts) {
 
 }  // namespace
 
+std::string tone(const GuaranteeTerms& terms, bool disturbed) {
+  const Assumptions& assume = terms.assume;
+  std::string text = "In exact arithmetic, for a tone of constant amplitude " + assume.amplitude.text;
+  if (disturbed) {
+    text += is_zero(assume.slew) ? " at a constant frequency"
+                                 : fmt::format(" whose frequency changes by at most {} rad/sample per sample",
+                                               assume.slew.text);
+  }
+  if (terms.in_band) {
+    text += fmt::format(" between {} and {} rad/sample", assume.frequency[0].text, assume.frequency[1].text);
+  }
+  if (disturbed && is_zero(assume.noise)) {
+    text += ", without measurement noise";
+  } else if (disturbed) {
+    text += ", with measurement noise of at most " + assume.noise.text;
+    text += terms.two_channels
+                ? fmt::format(" (the length of the error in both channels; {} in each is enough)",
+                              rigor::lower_decimal(assume.noise.value / sqrt(Interval(2.0)), kDigits))
+                : "";
+  }
+  return text;
+}
+
+std::string hypotheses(const GuaranteeTerms& terms) {
+  const Assumptions& assume = terms.assume;
+  return fmt::format(
+      "{}, started within {} rad/sample of the true frequency, {} rad of the phase and {} of the "
+      "amplitude {}, ",
+      tone(terms, true), assume.initial_frequency_error.text, assume.initial_phase_error.text,
+      assume.initial_amplitude_error.text, terms.covariance);
+}
+
 Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& terms) {
   const sets::StartResult& starts = certificate.contraction.value().starts;
   const std::optional<Interval> bound = starts.proved_bound();
@@ -91,19 +95,26 @@ Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& term
   const Claim* requirement = find_claim(certificate, "ekf/frequency-error-bound");
   Claim claim;
   claim.id = kGuarantee;
-  claim.statement = assumptions(terms);
-  claim.statement +=
-      required ? fmt::format("the frequency error stays below {} rad/sample for ever", required->text)
-      : bound  ? fmt::format("the frequency error never exceeds {} rad/sample",
-                             rigor::upper_decimal(*bound, kDigits))
-               : "the tracker keeps its lock for ever";
+  claim.statement = hypotheses(terms);
+  claim.statement += required ? requirement->requirement : "the tracker keeps its lock for ever";
   if (bound && (requirement == nullptr || requirement->verdict == Verdict::proved)) {
     claim.verdict = Verdict::proved;
-    claim.statement +=
-        required ? fmt::format(": it never exceeds {} rad/sample", rigor::upper_decimal(*bound, kDigits))
-                 : "";
-    claim.reason = ground(starts);
+    claim.statement += fmt::format(": the frequency error never exceeds {} rad/sample",
+                                   rigor::upper_decimal(*bound, kDigits));
     claim.evidence = {starts.frequency_error_bound};
+    if (starts.settling_samples.applies() && starts.settled_frequency_error.applies()) {
+      claim.statement += fmt::format("; from sample {} on it stays at or below {} rad/sample",
+                                     rigor::upper_decimal(starts.settling_samples.value, kDigits),
+                                     rigor::upper_decimal(starts.settled_frequency_error.value, kDigits));
+      claim.evidence.push_back(starts.settling_samples);
+      claim.evidence.push_back(starts.settled_frequency_error);
+    }
+    if (starts.ultimate_frequency_error.applies()) {
+      claim.statement += fmt::format("; in the long run it is at most {} rad/sample",
+                                     rigor::upper_decimal(starts.ultimate_frequency_error.value, kDigits));
+      claim.evidence.push_back(starts.ultimate_frequency_error);
+    }
+    claim.reason = ground(starts);
   } else if (requirement != nullptr && (bound || requirement->verdict == Verdict::refuted)) {
     claim.verdict = requirement->verdict;
     claim.reason = requirement->reason;
@@ -115,45 +126,60 @@ Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& term
   return claim;
 }
 
-std::string guarantee_section(const Certificate& certificate) {
-  const Claim* claim = find_claim(certificate, kGuarantee);
-  if (claim == nullptr) {
-    return "";
-  }
-  std::string text = fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
-                                 claim->verdict == Verdict::proved ? "Why" : "Why not", claim->reason);
+std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTerms& terms) {
   const sets::ContractionResult& found = certificate.contraction.value();
-  if (found.frequency_error_radius.applies() && found.contraction_rate.applies()) {
-    text += fmt::format(
-        "- The largest certified invariant set, under the assumed noise and slew, contains frequency errors "
-        "up to {} rad/sample{}; in it, {} by at most {}{}, before noise and slew.\n",
-        rigor::lower_decimal(found.frequency_error_radius.value, kDigits),
+  std::vector<Claim> claims;
+  const bool invariant =
+      std::any_of(found.starts.conditions.begin(), found.starts.conditions.end(),
+                  [](const theorems::Condition& condition) {
+                    return condition.id == "invariant-set" && condition.verdict == Verdict::proved;
+                  }) ||
+      certificate.contraction->frequency_error_radius.applies();
+  if (invariant && found.frequency_error_radius.applies() && found.contraction_rate.applies()) {
+    Claim claim;
+    claim.id = "ekf/invariant-set";
+    claim.verdict = Verdict::proved;
+    claim.statement = fmt::format(
+        "{}, a certified invariant set contains frequency errors up to {} rad/sample{}; in it, {} by at most "
+        "{}{}, "
+        "before noise and slew.",
+        tone(terms, true), rigor::lower_decimal(found.frequency_error_radius.value, kDigits),
         found.about_steady_state ? ", measured from the steady state, which the leak biases" : "",
         found.rate_window == 1 ? "each sample multiplies the error" : "the error is multiplied",
         rigor::upper_decimal(found.contraction_rate.value, kDigits),
         found.rate_window == 1 ? std::string()
                                : fmt::format(" per sample on average over {} samples", found.rate_window));
+    claim.evidence = {found.frequency_error_radius, found.contraction_rate};
+    claims.push_back(std::move(claim));
   }
   if (found.largest_noise.applies() && found.largest_slew.applies()) {
-    text += fmt::format(
-        "- Limits of this design: at a constant frequency, the tracker tolerates noise up to {} of the "
-        "amplitude; without noise, it tolerates a slew up to {} rad/sample per sample. A certified invariant "
-        "set exists for each.\n",
-        rigor::lower_decimal(found.largest_noise.value, kDigits),
+    Claim claim;
+    claim.id = "ekf/limits";
+    claim.verdict = Verdict::proved;
+    claim.statement = fmt::format(
+        "{}, at a constant frequency the tracker tolerates noise up to {} of the amplitude, and without "
+        "noise a slew "
+        "up to {} rad/sample per sample: a certified invariant set exists for each.",
+        tone(terms, false), rigor::lower_decimal(found.largest_noise.value, kDigits),
         rigor::lower_decimal(found.largest_slew.value, kDigits));
+    claim.evidence = {found.largest_noise, found.largest_slew};
+    claims.push_back(std::move(claim));
   }
-  return text;
+  return claims;
 }
 
-std::optional<std::string> proved_bound_headline(const Certificate& certificate) {
-  const std::optional<Interval> bound = proved_frequency_bound(certificate);
-  if (!bound) {
-    return std::nullopt;
+std::string guarantee_section(const Certificate& certificate) {
+  std::string text;
+  for (const char* id : {kGuarantee, "ekf/invariant-set", "ekf/limits"}) {
+    if (const Claim* claim = find_claim(certificate, id)) {
+      text += fmt::format("{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement);
+      if (!claim->reason.empty()) {
+        text +=
+            fmt::format("{}: {}\n\n", claim->verdict == Verdict::proved ? "Why" : "Why not", claim->reason);
+      }
+    }
   }
-  return fmt::format(
-      "Nothing is required of this design; PROVED: the frequency error stays at or below {} rad/sample for "
-      "ever",
-      rigor::upper_decimal(*bound, kDigits));
+  return text;
 }
 
 }  // namespace veritrack::certificates

@@ -1,8 +1,8 @@
 // The guarantee in one sentence, in engineering words: what an engineer may rely on, or what is missing.
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "certificates/document/certificate.hpp"
 #include "certificates/sets/assumptions.hpp"
@@ -13,8 +13,17 @@ namespace veritrack::certificates {
 struct GuaranteeTerms {
   const Assumptions& assume;
   const Requirements& require;
-  bool in_band = false;  ///< only for frequencies of the assumed band
+  bool in_band = false;      ///< only for frequencies of the assumed band
+  bool two_channels = true;  ///< the noise is a vector in the plane
+  std::string covariance;    ///< "and with P(0|0) ...": for which start covariances
 };
+
+/// "In exact arithmetic, for a tone of constant amplitude 1 ...", with the assumed noise and slew if
+/// `disturbed`.
+[[nodiscard]] std::string tone(const GuaranteeTerms& terms, bool disturbed);
+
+/// The same, "..., started within ..., ": every hypothesis of a guarantee.
+[[nodiscard]] std::string hypotheses(const GuaranteeTerms& terms);
 
 /// The claim "ekf/guarantee": with this noise and slew, started within these errors, the frequency error
 /// stays below so much for ever. PROVED with the bound that is certified (and the one that is required, when
@@ -22,10 +31,11 @@ struct GuaranteeTerms {
 /// and what would repair it. Not a requirement itself. Call after add_required_claims.
 [[nodiscard]] Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& terms);
 
-/// The top of the document: that claim, and the limits that the design tolerates.
-[[nodiscard]] std::string guarantee_section(const Certificate& certificate);
+/// What is proved whatever the start: how large the invariant set is ("ekf/invariant-set"), and how much
+/// noise and slew the design tolerates ("ekf/limits"); those of the two that are proved.
+[[nodiscard]] std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTerms& terms);
 
-/// The first line of the document when nothing is required but a bound is proved; none otherwise.
-[[nodiscard]] std::optional<std::string> proved_bound_headline(const Certificate& certificate);
+/// The top of the document: those claims.
+[[nodiscard]] std::string guarantee_section(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

@@ -37,6 +37,7 @@ constexpr std::array kRequireKeys{
                  kOptional},
     Key<Require>{"settles_within", "a whole number of samples, 1 or more",
                  whole_number<&Require::settles_within, at_least_one>, kOptional},
+    Key<Require>{"settled_below", kPositive, real<&Require::settled_below, positive>, kOptional},
     Key<Require>{"largest_noise_at_least", kPositive, real<&Require::largest_noise_at_least, positive>,
                  kOptional},
     Key<Require>{"largest_slew_at_least", kPositive, real<&Require::largest_slew_at_least, positive>,
@@ -51,6 +52,16 @@ using Simulate = SimulationSettings;
 
 std::span<const Key<Requirements>> require_keys() {
   return kRequireKeys;
+}
+
+std::optional<TableObjection> objection_to(const Requirements& require) {
+  if (require.settles_within.has_value() == require.settled_below.has_value()) {
+    return std::nullopt;
+  }
+  return TableObjection{
+      "require",
+      "settles_within (samples) and settled_below (rad/sample, the frequency error that counts as "
+      "settled) need each other; allowed: both or neither"};
 }
 
 std::span<const Key<SimulationSettings>> simulate_keys() {

@@ -22,15 +22,26 @@ std::string contraction_objection(const sets::StartResult& starts) {
   return "The contraction certificate gives no bound for the assumed start.";
 }
 
-Claim frequency_error_claim(const sets::StartResult& starts, const Assumptions& assume,
-                            const Number& required) {
-  const std::optional<Interval> bound = starts.proved_bound();
-  const std::optional<theorems::Quantity>& wrong_lock = starts.wrong_lock_frequency_error;
+/// What [require] asks, in short and with all hypotheses.
+Claim claim_of(const char* id, std::string requirement, const std::string& hypotheses,
+               const Number& required) {
   Claim claim;
-  claim.id = "ekf/frequency-error-bound";
-  claim.statement = fmt::format("the frequency error stays below {} rad/sample for ever", required.text);
+  claim.id = id;
+  claim.statement = hypotheses + requirement + ".";
+  claim.requirement = std::move(requirement);
   claim.required = true;
   claim.position = required.position;
+  return claim;
+}
+
+Claim frequency_error_claim(const sets::StartResult& starts, const GuaranteeTerms& terms) {
+  const Assumptions& assume = terms.assume;
+  const Number& required = *terms.require.frequency_error_below;
+  const std::optional<Interval> bound = starts.proved_bound();
+  const std::optional<theorems::Quantity>& wrong_lock = starts.wrong_lock_frequency_error;
+  Claim claim = claim_of("ekf/frequency-error-bound",
+                         fmt::format("the frequency error stays below {} rad/sample for ever", required.text),
+                         hypotheses(terms), required);
   if (bound && rigor::certainly_less(*bound, required.value)) {
     claim.verdict = Verdict::proved;
     claim.reason =
@@ -57,24 +68,26 @@ Claim frequency_error_claim(const sets::StartResult& starts, const Assumptions& 
   return claim;
 }
 
-Claim settling_claim(const sets::StartResult& starts, const Number& required) {
+Claim settling_claim(const sets::StartResult& starts, const GuaranteeTerms& terms) {
+  const Number& within = *terms.require.settles_within;
+  const Number& below = *terms.require.settled_below;
   const bool covered = starts.verdict == Verdict::proved;
   const theorems::Quantity& samples = starts.settling_samples;
-  Claim claim;
-  claim.id = "ekf/settling-time";
-  claim.statement = fmt::format("within {} samples the frequency error comes within twice its ultimate bound",
-                                required.text);
-  claim.required = true;
-  claim.position = required.position;
-  if (covered && samples.applies()) {
-    const bool soon_enough = rigor::certainly_less_equal(samples.value, required.value);
-    claim.verdict = soon_enough ? Verdict::proved : Verdict::undecided;
-    claim.reason =
-        fmt::format("By contraction it takes at most {} samples{}.", rigor::upper_decimal(samples.value),
-                    soon_enough ? "" : ", which is more than required; a sharper certificate might suffice");
-    claim.evidence = {samples};
+  const theorems::Quantity& error = starts.settled_frequency_error;
+  Claim claim = claim_of("ekf/settling-time",
+                         fmt::format("from sample {} on, the frequency error stays below {} rad/sample",
+                                     within.text, below.text),
+                         hypotheses(terms), within);
+  if (covered && samples.applies() && error.applies()) {
+    const bool settles = rigor::certainly_less_equal(samples.value, within.value) &&
+                         rigor::certainly_less(error.value, below.value);
+    claim.verdict = settles ? Verdict::proved : Verdict::undecided;
+    claim.reason = fmt::format("By contraction it stays at or below {} rad/sample from sample {} on{}.",
+                               rigor::upper_decimal(error.value), rigor::upper_decimal(samples.value),
+                               settles ? "" : ", which is not what is required");
+    claim.evidence = {samples, error};
   } else if (covered) {
-    claim.reason = "Without noise and slew the ultimate bound is zero, which is approached but not reached.";
+    claim.reason = samples.not_applicable.value_or("No settling time is certified.");
   } else {
     claim.reason = contraction_objection(starts);
   }
@@ -85,17 +98,18 @@ Claim settling_claim(const sets::StartResult& starts, const Number& required) {
 struct LeastSize {
   const char* claim;  ///< id
   const theorems::Quantity& certified;
-  const char* statement;  ///< of which {} is the number as written
-  const char* largest;    ///< what the quantity is, for the reason
-  Interval scale;         ///< from the quantity's unit to the requirement's
+  const char* statement;           ///< of which {} is the number as written
+  const char* largest;             ///< what the quantity is, for the reason
+  Interval scale;                  ///< from the quantity's unit to the requirement's
+  bool under_assumptions = false;  ///< the assumed noise and slew are among the hypotheses
+  const char* addition = "";       ///< to the sentence
 };
 
-Claim least_size_claim(const LeastSize& size, const Number& required) {
-  Claim claim;
-  claim.id = size.claim;
-  claim.statement = fmt::format(fmt::runtime(size.statement), required.text);
-  claim.required = true;
-  claim.position = required.position;
+Claim least_size_claim(const LeastSize& size, const GuaranteeTerms& terms, const Number& required) {
+  const std::string tone_text = tone(terms, size.under_assumptions) + ", ";
+  Claim claim =
+      claim_of(size.claim, fmt::format(fmt::runtime(size.statement), required.text), tone_text, required);
+  claim.statement.insert(claim.statement.size() - 1, size.addition);
   if (!size.certified.applies()) {
     claim.reason = fmt::format("No {} could be certified.", size.largest);
     return claim;
@@ -111,18 +125,19 @@ Claim least_size_claim(const LeastSize& size, const Number& required) {
 
 }  // namespace
 
-void add_required_claims(Certificate& certificate, const Requirements& require, const Assumptions& assume) {
+void add_required_claims(Certificate& certificate, const GuaranteeTerms& terms) {
+  const auto& [assume, require, in_band, two_channels, covariance] = terms;
   const sets::ContractionResult& found = certificate.contraction.value();
   const auto add_least_size = [&](const std::optional<Number>& required, const LeastSize& size) {
     if (required) {
-      certificate.claims.push_back(least_size_claim(size, *required));
+      certificate.claims.push_back(least_size_claim(size, terms, *required));
     }
   };
   if (require.frequency_error_below) {
-    certificate.claims.push_back(frequency_error_claim(found.starts, assume, *require.frequency_error_below));
+    certificate.claims.push_back(frequency_error_claim(found.starts, terms));
   }
   if (require.settles_within) {
-    certificate.claims.push_back(settling_claim(found.starts, *require.settles_within));
+    certificate.claims.push_back(settling_claim(found.starts, terms));
   }
   add_least_size(
       require.largest_noise_at_least,
@@ -133,14 +148,13 @@ void add_required_claims(Certificate& certificate, const Requirements& require, 
                                                  "without noise, the tracker tolerates a slew up to {} "
                                                  "rad/sample per sample: a certified invariant set exists",
                                                  "slew without noise", Interval(1.0)});
-  add_least_size(require.frequency_error_radius_at_least,
-                 {"ekf/frequency-error-radius", found.frequency_error_radius,
-                  found.about_steady_state
-                      ? "under the assumed noise and slew, a certified invariant set contains frequency "
-                        "errors up to {} rad/sample, measured from the steady state"
-                      : "under the assumed noise and slew, a certified invariant set contains frequency "
-                        "errors up to {} rad/sample",
-                  "frequency error in an invariant set", Interval(1.0)});
+  add_least_size(
+      require.frequency_error_radius_at_least,
+      {"ekf/frequency-error-radius", found.frequency_error_radius,
+       "under the assumed noise and slew, a certified invariant set contains frequency errors up to {} "
+       "rad/sample",
+       "frequency error in an invariant set", Interval(1.0), true,
+       found.about_steady_state ? ", measured from the steady state, which the leak biases" : ""});
   conclude_requirements(certificate);
 }
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "certificates/document/certificate.hpp"
-#include "certificates/sets/assumptions.hpp"
+#include "certificates/sets/guarantee_sentence.hpp"
 
 namespace veritrack::certificates {
 
 /// Adds a claim for each key of [require], decided by the certificate's contraction, and the certificate's
 /// verdict. Throws std::bad_optional_access when nothing was certified by contraction. Needs the upward mode.
-void add_required_claims(Certificate& certificate, const Requirements& require, const Assumptions& assume);
+void add_required_claims(Certificate& certificate, const GuaranteeTerms& terms);
 
 /// Sets the certificate's verdict: all required claims together, none when nothing is required.
 void conclude_requirements(Certificate& certificate);

@@ -18,4 +18,7 @@ namespace veritrack::certificates {
 /// [simulate]
 [[nodiscard]] std::span<const Key<SimulationSettings>> simulate_keys();
 
+/// What no single key of [require] can say: that settling takes two.
+[[nodiscard]] std::optional<TableObjection> objection_to(const Requirements& require);
+
 }  // namespace veritrack::certificates

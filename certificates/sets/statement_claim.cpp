@@ -9,6 +9,7 @@ Claim to_claim(const theorems::Statement& statement) {
   claim.verdict = statement.verdict;
   claim.reason = statement.witness;
   claim.evidence = statement.evidence;
+  claim.values = statement.values;
   return claim;
 }
 

@@ -87,18 +87,6 @@ std::string process_noise_words(const SingleChannelDesignTable& design) {
 
 }  // namespace
 
-std::string single_channel_headline(const Certificate& certificate) {
-  const Derivation bias = middle_bias(certificate);
-  if (bias.verdict != Verdict::proved) {
-    return "Nothing is required of this design, and its steady state on a noise-free tone is not verified: " +
-           bias.conditions.front().reason;
-  }
-  return fmt::format(
-      "Nothing is required of this design; PROVED: on a noise-free tone of {} rad/sample the steady-state "
-      "frequency error has the mean {} rad/sample",
-      frequency_text(certificate, bias), enclosure(value_of(bias, "mean_bias"), 6));
-}
-
 std::string single_channel_summary(const Certificate& certificate) {
   std::string text = "- " + bias_sentence(certificate, middle_bias(certificate)) + "\n";
   for (const Claim& claim : certificate.claims) {

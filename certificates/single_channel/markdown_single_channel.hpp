@@ -7,9 +7,6 @@
 
 namespace veritrack::certificates {
 
-/// What the document begins with when nothing is required.
-[[nodiscard]] std::string single_channel_headline(const Certificate& certificate);
-
 /// The answers in a few sentences.
 [[nodiscard]] std::string single_channel_summary(const Certificate& certificate);
 

@@ -181,8 +181,8 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
                         i == middle ? "single-channel-bias" : "single-channel-bias/" + frequencies[i].text,
                         quadrature_bias(quadrature, frequencies[i].value)));
   }
-  single_channel::PhaseCertificate contraction =
-      single_channel::certify_over_phases({contraction_question(design, tables.assume), band});
+  single_channel::PhaseCertificate contraction = single_channel::certify_over_phases(
+      {contraction_question(design, tables.assume, tables.require), band});
   certificate.derivations.push_back(std::move(contraction.derivation));
   certificate.contraction = std::move(contraction.result);
   certificate.derivations.push_back(single_channel::transfer_function(single_channel::mean_gain(
@@ -202,8 +202,14 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
   add_all(
       single_channel::proposition_1_conclusion(at_middle, exact, design.epsilon, frequencies[middle].text));
   add_all(single_channel::proposition_2());
-  add_required_claims(certificate, tables.require, tables.assume);
-  certificate.claims.push_back(guarantee_claim(certificate, {tables.assume, tables.require, true}));
+  const GuaranteeTerms terms{
+      tables.assume, tables.require, true, false,
+      "and with P(0|0) = the filter's steady state at that frequency and at the estimated phase"};
+  add_required_claims(certificate, terms);
+  certificate.claims.push_back(guarantee_claim(certificate, terms));
+  for (Claim& claim : set_claims(certificate, terms)) {
+    certificate.claims.push_back(std::move(claim));
+  }
 }
 
 }  // namespace veritrack::certificates

@@ -9,4 +9,7 @@ namespace veritrack::certificates {
 /// The tables of the design, with a member a table.
 [[nodiscard]] Json single_channel_design_json(const Design& read);
 
+/// The settings of the simulated run.
+[[nodiscard]] Json single_channel_report_json(const Certificate& certificate);
+
 }  // namespace veritrack::certificates

@@ -50,13 +50,13 @@ std::vector<BoundTable> bind_tables(std::any& tables) {
 }
 
 std::optional<TableObjection> objection(const std::any& tables) {
-  const SingleChannelDesignTable& design = std::any_cast<const SingleChannelEkfTables&>(tables).design;
+  const auto& [design, assume, require, simulate] = std::any_cast<const SingleChannelEkfTables&>(tables);
   const bool by_variances = design.variances.has_value();
   const bool by_ratio = design.lambda.has_value();
   const bool consistent = by_ratio ? !design.q && !design.r && !by_variances
                                    : design.r.has_value() && design.q.has_value() != by_variances;
   if (consistent) {
-    return std::nullopt;
+    return objection_to(require);
   }
   return TableObjection{"design",
                         "the keys of [design] do not form a valid combination; allowed: q and r; or lambda = "

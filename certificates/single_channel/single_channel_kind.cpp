@@ -16,10 +16,6 @@ namespace veritrack::certificates {
 
 namespace {
 
-std::string headline_without_requirements(const Certificate& certificate) {
-  return proved_bound_headline(certificate).value_or(single_channel_headline(certificate));
-}
-
 std::string summary(const Certificate& certificate) {
   return guarantee_section(certificate) + single_channel_summary(certificate);
 }
@@ -39,9 +35,9 @@ const TrackerKind& single_channel_kind() {
   static const TrackerKind kind{.name = "single-channel-ekf",
                                 .design_json = single_channel_design_json,
                                 .certify = certify_single_channel,
-                                .headline = headline_without_requirements,
                                 .summary = summary,
                                 .sections = sections,
+                                .report_json = single_channel_report_json,
                                 .formal_proofs = coq::proposition_1_proofs};
   return kind;
 }

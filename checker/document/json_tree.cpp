@@ -94,12 +94,9 @@ void Tree::require(Kind kind, const char* what) const {
 }
 
 const Tree* Tree::find(std::string_view name) const {
-  for (const auto& [key, value] : members()) {
-    if (key == name) {
-      return &value;
-    }
-  }
-  return nullptr;
+  require(Kind::object, "an object");
+  const auto place = places_.find(name);
+  return place == places_.end() ? nullptr : &members_[place->second].second;
 }
 
 const Tree& Tree::at(std::string_view name) const {
@@ -119,23 +116,46 @@ const Tree& Tree::at(std::size_t index) const {
 
 const std::vector<std::pair<std::string, Tree>>& Tree::members() const {
   require(Kind::object, "an object");
+  read_ = true;
   return members_;
 }
 const std::vector<Tree>& Tree::elements() const {
   require(Kind::array, "an array");
+  read_ = true;
   return elements_;
 }
 const std::string& Tree::text() const {
   require(Kind::text, "a string");
+  read_ = true;
   return text_;
 }
 bool Tree::truth() const {
   require(Kind::truth, "true or false");
+  read_ = true;
   return truth_;
 }
 
+std::vector<std::string> Tree::unread(std::size_t most) const {
+  std::vector<std::string> paths;
+  add_unread("", most, paths);
+  return paths;
+}
+
+void Tree::add_unread(const std::string& path, std::size_t most, std::vector<std::string>& paths) const {
+  // As deep as the file is nested, which the reader limits.
+  for (const auto& [name, value] : members_) {
+    value.add_unread(path.empty() ? name : path + "." + name, most, paths);
+  }
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    elements_[i].add_unread(path + "[" + std::to_string(i) + "]", most, paths);
+  }
+  if (members_.empty() && elements_.empty() && !read_ && paths.size() < most) {
+    paths.push_back(path);
+  }
+}
+
 bool Tree::add_key(std::string name) {
-  if (find(name) != nullptr) {
+  if (!places_.emplace(name, members_.size()).second) {
     return false;
   }
   members_.emplace_back(std::move(name), Tree());

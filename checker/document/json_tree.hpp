@@ -1,8 +1,12 @@
 // The certificate as a tree. Read with a SAX parser: duplicate keys, which a DOM would silently resolve, are
 // malformed, as are numbers with a fraction (reals that mean something are strings) and what is nested
 // deeply.
+//
+// The tree knows what has been read of it: a value that no check reads is a place to lie, and `unread` finds
+// them all.
 #pragma once
 
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -36,6 +40,10 @@ class Tree {
   [[nodiscard]] const std::string& text() const;
   [[nodiscard]] bool truth() const;
   [[nodiscard]] Kind kind() const { return kind_; }
+  /// The paths, as "claims[3].verdict", of the values that nothing has read, at most so many. A text or a
+  /// truth value is read when it was asked for, an object or array when all in it is, and an empty one when
+  /// its members or elements were asked for.
+  [[nodiscard]] std::vector<std::string> unread(std::size_t most) const;
 
   /// Adds a member; false when there is one of this name.
   bool add_key(std::string name);
@@ -44,13 +52,16 @@ class Tree {
 
  private:
   void require(Kind kind, const char* what) const;
+  void add_unread(const std::string& path, std::size_t most, std::vector<std::string>& paths) const;
 
   Kind kind_ = Kind::nothing;
+  mutable bool read_ = false;
   bool truth_ = false;
   long integer_ = 0;
   std::string text_;
   std::vector<Tree> elements_;
-  std::vector<std::pair<std::string, Tree>> members_;
+  std::vector<std::pair<std::string, Tree>> members_;       ///< in the order of the file
+  std::map<std::string, std::size_t, std::less<>> places_;  ///< of the members, by name
 };
 
 /// Throws Malformed.

@@ -1,4 +1,4 @@
-// The parts of a certificate, each with what is wrong with it.
+// The parts of a certificate, each with what is wrong with it, and the sentences that are established.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,31 @@ struct Part {
   Objections objections;  ///< none: verified
 };
 
+/// A claim of the certificate in the checker's own words.
+struct Sentence {
+  std::string id;
+  Verdict verdict = Verdict::undecided;  ///< of the sentence as written
+  std::string text;                      ///< with all hypotheses
+  bool is_summary = false;               ///< belongs to the block at the top of the document
+};
+
+/// What a key of [require] asks.
+struct Requirement {
+  std::string claim;  ///< the id of the claim that decides it
+  std::string text;   ///< in short
+  Verdict verdict = Verdict::undecided;
+};
+
 struct Verification {
   std::vector<Part> parts;
-  std::int64_t cells = 0;  ///< boxes that the certified sets took
-  /// True only when every part is verified, and there is one.
+  std::vector<Sentence> sentences;        ///< of the claims that are verified
+  std::vector<Requirement> requirements;  ///< in the order of the certificate's claims
+  /// Everything that [require] asks for is among them and PROVED, and something is asked for.
+  bool requirements_proved = false;
+  std::vector<std::string> quoted;  ///< name and source of the design, which nothing rests on
+  std::string design_sha256;        ///< of the design file, as the certificate says
+  std::int64_t cells = 0;           ///< boxes that the certified sets took
+  /// True only when every part is verified, and there is something beside the design and the verdict.
   [[nodiscard]] bool verified() const;
 };
 
@@ -34,11 +55,11 @@ struct TrackerKind {
   void (*verify)(const Tree& certificate, bool all_boxes, Verification& result);
 };
 
-/// Adds a part for each claim, checked by `check`, and one for the verdict of the certificate: the required
-/// claims are those of [require] (`asked`, their ids), each of them is verified, and the verdict
-/// is theirs together.
-void check_claims(const Tree& certificate, std::vector<std::string> asked,
-                  const std::function<void(const Tree& claim, Objections& objections)>& check,
+/// Adds a part for each claim, checked by `check`, which says what was found of it, and one for the verdict
+/// of the certificate: the claims that are marked as required are those that [require] asks for (`asked`),
+/// and the verdict is that of all of these together, UNDECIDED where a claim is not there.
+void check_claims(const Tree& certificate, std::vector<Requirement> asked,
+                  const std::function<Claim(const Tree& claim, Objections& objections)>& check,
                   Verification& result);
 
 }  // namespace veritrack::checker

@@ -13,21 +13,6 @@ auto find_named(const Range& range, const std::string& name) {
   return std::find_if(range.begin(), range.end(), [&](const auto& item) { return item.name == name; });
 }
 
-/// "[a, b]" as two balls.
-std::pair<Ball, Ball> read_decimals(const std::string& text) {
-  const std::size_t comma = text.find(", ");
-  if (text.size() < 6 || text.front() != '[' || text.back() != ']' || comma == std::string::npos) {
-    throw Malformed("not a pair of decimals: " + text);
-  }
-  return {from_decimal(std::string_view(text).substr(1, comma - 1)),
-          from_decimal(std::string_view(text).substr(comma + 2, text.size() - comma - 3))};
-}
-
-bool is_unproved(const Tree& quantity) {
-  const Tree* proved = quantity.find("proved");
-  return proved != nullptr && !proved->truth();
-}
-
 }  // namespace
 
 Verdict decide_less(const Ball& x, const Ball& y) {
@@ -56,133 +41,122 @@ Verdict verdict_from(const std::string& text) {
   if (text == "refuted") {
     return Verdict::refuted;
   }
-  if (text != "undecided") {
-    throw Malformed("not a verdict: " + text);
-  }
-  return Verdict::undecided;
+  throw Malformed("not a verdict: " + text.substr(0, 60));
 }
 
 Ball read_enclosure(const Tree& enclosure, const std::string& name, Objections& objections) {
   const Ball low = low_of(enclosure);
   const Ball high = high_of(enclosure);
-  const auto [decimal_low, decimal_high] = read_decimals(enclosure.at("decimal").text());
   if (!certainly_at_most(low, high)) {
     objections.push_back(name + ": lo exceeds hi");
-  }
-  // Decimals are read as balls: up to 2^-100 of the number, which no reader can see.
-  const bool outward = (certainly_at_most(decimal_low, low) ||
-                        certainly_at_most(decimal_low - low, abs(low) * Ball(0x1p-100))) &&
-                       (certainly_at_most(high, decimal_high) ||
-                        certainly_at_most(high - decimal_high, abs(high) * Ball(0x1p-100)));
-  if (!outward) {
-    objections.push_back(name + ": the decimals are narrower than the enclosure");
   }
   return Ball::hull(low, high);
 }
 
-Ball read_number(const Tree& number, Objections& objections) {
-  const std::string& text = number.at("text").text();
-  Ball value = from_decimal(text);
-  check_enclosure(number, {text, value}, objections);
-  return value;
-}
-
 void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections& objections) {
   const auto& [name, value, sense] = quantity;
-  read_enclosure(enclosure, name, objections);
-  const Ball low = low_of(enclosure);
-  const Ball high = high_of(enclosure);
-  const bool above = certainly_at_most(low, value.low);
-  const bool below = certainly_at_most(value.high, high);
+  const auto end = [&](const char* which) {
+    const Tree* number = enclosure.find(which);
+    return number != nullptr ? std::optional(exact_number(*number)) : std::nullopt;
+  };
+  const std::optional<Ball> low = end("lo");
+  const std::optional<Ball> high = end("hi");
   const std::string found = ", found " + value.low.text();
-  if (sense == Sense::encloses && (certainly_less(value.high, low) || certainly_less(high, value.low))) {
-    objections.push_back("ALARM: " + name + " lies outside its enclosure" + found);
-  } else if (sense == Sense::encloses && !(above && below)) {
-    objections.push_back(name + " is not proved to lie in its enclosure" + found);
-  } else if (sense == Sense::bounds_above && !below) {
-    objections.push_back(name + " is not proved to be an upper bound" + found);
-  } else if (sense == Sense::bounds_below && !above) {
-    objections.push_back(name + " is not proved to be a lower bound" + found);
+  if (!low && !high) {
+    objections.push_back(name + " says nothing");
+  }
+  if (low && high && !certainly_at_most(*low, *high)) {
+    objections.push_back(name + ": lo exceeds hi");
+  }
+  if (low && sense == Sense::bounds_above) {
+    objections.push_back(name + " can only be bounded from above");
+  } else if (low && !certainly_at_most(*low, value.low)) {
+    const bool alarm = certainly_less(value.high, *low);
+    objections.push_back((alarm ? "ALARM: " : "") + name + " is not proved to be at least lo" + found);
+  }
+  if (high && sense == Sense::bounds_below) {
+    objections.push_back(name + " can only be bounded from below");
+  } else if (high && !certainly_at_most(value.high, *high)) {
+    const bool alarm = sense == Sense::encloses && certainly_less(*high, value.low);
+    objections.push_back((alarm ? "ALARM: " : "") + name + " is not proved to be at most hi" + found);
   }
 }
 
 void check_verdict(const std::string& claimed, Verdict found, const std::string& name,
                    Objections& objections) {
-  const Verdict verdict = verdict_from(claimed);
-  if (verdict != Verdict::undecided && verdict != found) {
+  if (verdict_from(claimed) != found) {
     objections.push_back(name + " is claimed to be " + claimed + ", which could not be verified");
   }
 }
 
+Verdict verdict_of(const Tree& derivation) {
+  const Tree* verdict = derivation.find("verdict");
+  return verdict != nullptr ? verdict_from(verdict->text()) : Verdict::undecided;
+}
+
+namespace {
+
+/// Objects to values that are not known, and to those that are not true.
+void check_values(const Tree& claimed, const std::vector<Quantity>& known, Objections& objections) {
+  for (const auto& [name, value] : claimed.members()) {
+    const auto quantity = find_named(known, name);
+    if (quantity == known.end()) {
+      objections.push_back(name + " is not known here");
+    } else {
+      check_enclosure(value, *quantity, objections);
+    }
+  }
+}
+
+/// The verdict on a condition and what is said of its sides.
+Verdict check_condition(const Tree& claimed, const Condition& known, Objections& objections) {
+  check_verdict(claimed.at("verdict").text(), known.verdict, "condition " + known.id, objections);
+  const auto check_side = [&](const char* side, const std::optional<Range>& value, Sense sense) {
+    if (const Tree* enclosure = claimed.find(side)) {
+      check_enclosure(*enclosure, {known.id + " " + side, value.value_or(Ball::everything()), sense},
+                      objections);
+    }
+  };
+  check_side("lhs", known.lhs, known.lhs_sense);
+  check_side("rhs", known.rhs, Sense::encloses);
+  return verdict_from(claimed.at("verdict").text());
+}
+
+}  // namespace
+
 void check_claim(const Tree& claimed, const Claim& found, Objections& objections) {
-  const std::string& verdict = claimed.at("verdict").text();
-  const bool decided = verdict_from(verdict) != Verdict::undecided;
-  if (decided && claimed.at("statement").text() != found.statement) {
-    objections.emplace_back("the statement is not the one that was checked");
+  check_verdict(claimed.at("verdict").text(), found.verdict, "the claim", objections);
+  if (found.statement.empty()) {
+    objections.emplace_back("there is no sentence for this claim");
   }
-  check_verdict(verdict, found.verdict, "the claim", objections);
-  for (const auto& [name, value] : claimed.at("evidence").members()) {
-    if (is_unproved(value)) {
-      continue;
-    }
-    const auto known = find_named(found.evidence, name);
-    if (known == found.evidence.end()) {
-      objections.push_back(name + " is not evidence of this claim");
-    } else {
-      check_enclosure(value, *known, objections);
-    }
-  }
+  check_values(claimed.at("evidence"), found.evidence, objections);
 }
 
-void check_derivation(const Tree& claimed, const Derivation& found, Objections& objections) {
-  if (claimed.at("title").text() != found.title) {
-    objections.push_back("the title is not that of the derivation");
-  }
-  for (const auto& [name, value] : claimed.at("quantities").members()) {
-    const auto known = find_named(found.quantities, name);
-    if (is_unproved(value)) {
-      continue;
-    }
-    if (known == found.quantities.end()) {
-      objections.push_back(name + " is not a quantity of this derivation");
-    } else {
-      check_enclosure(value, *known, objections);
-    }
-  }
+std::string check_derivation(const Tree& claimed, const Derivation& found, Objections& objections) {
+  check_values(claimed.at("quantities"), found.quantities, objections);
   std::vector<Verdict> verdicts;
-  const auto& conditions = claimed.at("conditions").elements();
-  if (conditions.size() != found.conditions.size()) {
-    objections.push_back("the conditions are not all there, or too many");
-    return;
-  }
-  for (std::size_t i = 0; i < conditions.size(); ++i) {
-    const Condition& known = found.conditions[i];
-    const Tree& condition = conditions[i];
-    if (condition.at("id").text() != known.id || condition.at("statement").text() != known.statement) {
-      objections.push_back("condition " + condition.at("id").text() + " is not the one that was checked");
-      continue;
+  auto next = found.conditions.begin();
+  for (const Tree& condition : claimed.at("conditions").elements()) {
+    const std::string& id = condition.at("id").text();
+    next =
+        std::find_if(next, found.conditions.end(), [&](const Condition& one_of) { return one_of.id == id; });
+    if (next == found.conditions.end()) {
+      objections.push_back("condition " + id + " is not one of this derivation, or not in its place");
+      return found.title;
     }
-    check_verdict(condition.at("verdict").text(), known.verdict, "condition " + known.id, objections);
-    verdicts.push_back(verdict_from(condition.at("verdict").text()));
-    const auto check_side = [&](const char* side, const std::optional<Range>& value, Sense sense) {
-      if (const Tree* enclosure = condition.find(side)) {
-        check_enclosure(*enclosure, {known.id + " " + side, value.value_or(Ball::everything()), sense},
-                        objections);
-      }
-    };
-    check_side("lhs", known.lhs, known.lhs_sense);
-    check_side("rhs", known.rhs, Sense::encloses);
+    verdicts.push_back(check_condition(condition, *next, objections));
+    ++next;
   }
-  check_verdict(claimed.at("verdict").text(), all_of(verdicts), "the derivation", objections);
-}
-
-std::optional<Ball> decimal_between(const std::string& text, const std::string& before,
-                                    const std::string& after) {
-  if (text.size() <= before.size() + after.size() || !text.starts_with(before) || !text.ends_with(after)) {
-    return std::nullopt;
+  const Verdict verdict = verdict_of(claimed);
+  if (verdict == Verdict::undecided) {
+    return found.title;
   }
-  return from_decimal(
-      std::string_view(text).substr(before.size(), text.size() - before.size() - after.size()));
+  const bool complete = verdicts.size() == found.conditions.size();
+  const Verdict together = all_of(verdicts);
+  if (together != verdict || (verdict == Verdict::proved && !complete)) {
+    objections.push_back("the verdict of the derivation is not that of its conditions together");
+  }
+  return found.title;
 }
 
 }  // namespace veritrack::checker

@@ -19,7 +19,7 @@ Verdict decide_less(const Ball& x, const Ball& y);
 Verdict decide_at_most(const Ball& x, const Ball& y);
 /// REFUTED when one is, PROVED when all are, and there is one.
 Verdict all_of(const std::vector<Verdict>& verdicts);
-/// "proved", "refuted" or "undecided". Throws Malformed for anything else.
+/// "proved" or "refuted". Throws Malformed for anything else.
 Verdict verdict_from(const std::string& text);
 inline Verdict proved_if(bool certain) {
   return certain ? Verdict::proved : Verdict::undecided;
@@ -28,7 +28,8 @@ inline Verdict proved_if(bool certain) {
 /// What is wrong with a part of a certificate; nothing when it is verified.
 using Objections = std::vector<std::string>;
 
-/// The meaning of [lo, hi] for a value: it lies in it, is at most hi, or is at least lo.
+/// What a certificate may say of a value: that it lies between lo and hi, that it is at most hi, or that it
+/// is at least lo. What may be said of both sides may be said of one.
 enum class Sense { encloses, bounds_above, bounds_below };
 
 struct Quantity {
@@ -53,32 +54,29 @@ struct Derivation {
 
 /// A claim as the checker computes it.
 struct Claim {
-  std::string statement;
+  std::string statement;  ///< one sentence with all its hypotheses
   Verdict verdict = Verdict::undecided;
   std::vector<Quantity> evidence;
+  bool is_summary = false;  ///< belongs to the block at the top of the document
 };
 
-/// The decimal between the two ends of a sentence; nothing when it has other ends.
-std::optional<Ball> decimal_between(const std::string& text, const std::string& before,
-                                    const std::string& after);
-
-/// A number of the design file, from its decimal text, which [lo, hi] must contain.
-Ball read_number(const Tree& number, Objections& objections);
-/// [lo, hi] as a ball. Objects when the decimals beside it are narrower than it is.
+/// [lo, hi] as a ball.
 Ball read_enclosure(const Tree& enclosure, const std::string& name, Objections& objections);
-/// Objects unless the enclosure is true of `value`. An enclosure that shares no point with `value` is an
-/// alarm.
+/// Objects unless what is said of the value, in `lo` and `hi`, is true of it. An enclosure that shares no
+/// point with the value is an alarm.
 void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections& objections);
-/// Objects unless the checker came to this verdict as well; UNDECIDED claims nothing.
+/// Objects unless the checker came to this verdict as well. What is undecided is not said in a certificate.
 void check_verdict(const std::string& claimed, Verdict found, const std::string& name,
                    Objections& objections);
 
-/// Compares the title, all quantities, all conditions and the verdict of `claimed` with `found`. Quantities
-/// that are said not to be proved, and those that are said not to be applicable, claim nothing.
-void check_derivation(const Tree& claimed, const Derivation& found, Objections& objections);
+/// Compares all quantities, all conditions and the verdict of `claimed` with `found`. A certificate may say
+/// less than was found, but a derivation is PROVED only when all of its conditions are there. The title of
+/// the derivation.
+std::string check_derivation(const Tree& claimed, const Derivation& found, Objections& objections);
+/// The verdict of a derivation: UNDECIDED when the certificate does not say it.
+Verdict verdict_of(const Tree& derivation);
 
-/// The same for a claim. Evidence that is not known is an objection; the words of an UNDECIDED claim claim
-/// nothing.
+/// The same for a claim.
 void check_claim(const Tree& claimed, const Claim& found, Objections& objections);
 
 }  // namespace veritrack::checker

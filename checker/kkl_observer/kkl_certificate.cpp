@@ -3,26 +3,48 @@
 #include <array>
 #include <set>
 
+#include "checker/document/design_number.hpp"
 #include "checker/document/evidence.hpp"
 #include "checker/kkl_observer/kkl_ell.hpp"
 #include "checker/kkl_observer/paper_claims.hpp"
 #include "checker/kkl_observer/robustness.hpp"
+#include "checker/numbers/decimal_text.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
 /// A key of [require], and the claim that it makes of a quantity of "kkl-robustness".
-struct Requirement {
+struct RequiredBound {
   const char *key, *claim, *quantity, *before, *after;
 };
 constexpr std::array kRequirements{
-    Requirement{"frequency_error_below", "kkl/frequency-error-bound", "frequency_error_bound",
-                "the frequency error stays below ", " rad/s once settled"},
-    Requirement{"amplitude_error_below", "kkl/amplitude-error-bound", "amplitude_error_bound",
-                "the amplitude error stays below ", " signal units once settled"},
-    Requirement{"settles_within", "kkl/settling-time", "settling_time", "the proved bounds are valid from ",
-                " s after the start on"}};
+    RequiredBound{"frequency_error_below", "kkl/frequency-error-bound", "frequency_error_bound",
+                  "the frequency error stays below ", " rad/s once settled"},
+    RequiredBound{"amplitude_error_below", "kkl/amplitude-error-bound", "amplitude_error_bound",
+                  "the amplitude error stays below ", " signal units once settled"},
+    RequiredBound{"settles_within", "kkl/settling-time", "settling_time", "the proved bounds are valid from ",
+                  " s after the start on"}};
+
+/// "In continuous time and exact arithmetic, for every tone ..., ".
+std::string hypotheses(const Tree& assume) {
+  const auto range = [&](const char* name, const char* unit) {
+    const Tree& ends = assume.at(name);
+    return "from " + text_of(ends.at(0)) + " to " + text_of(ends.at(1)) + unit;
+  };
+  std::string text = "In continuous time and exact arithmetic, for every tone of constant frequency " +
+                     range("frequency", " rad/s") + " and constant amplitude " +
+                     range("amplitude", " signal units");
+  const Tree* disturbance = assume.find("disturbance");
+  if (disturbance == nullptr) {
+    return text + ", without disturbance, ";
+  }
+  if (const Tree* bound = disturbance->find("bound")) {
+    return text + ", with any disturbance of at most " + text_of(*bound) + " signal units, ";
+  }
+  return text + ", with a sinusoidal disturbance of amplitude " + text_of(disturbance->at("amplitude")) +
+         " signal units and frequency " + text_of(disturbance->at("frequency")) + " rad/s, ";
+}
 
 /// Walks through a certificate of the KKL observer.
 class KklVerifier {
@@ -32,27 +54,32 @@ class KklVerifier {
   void run() {
     Objections objections;
     design_ = read_kkl_design(certificate_.at("design"), objections);
+    std::vector<Requirement> asked;
+    for (const auto& [key, value] : certificate_.at("design").at("require").members()) {
+      const RequiredBound* known = requirement_of(&RequiredBound::key, key);
+      if (known == nullptr) {
+        objections.push_back("[require] has no key " + key);
+        continue;
+      }
+      read_positive(value, key, objections);
+      asked.push_back({known->claim, known->before + text_of(value) + known->after});
+    }
     result_.parts.push_back({"design", objections});
+    if (!objections.empty()) {
+      return;  // nothing is said of what is no design
+    }
     for (const Tree& derivation : certificate_.at("derivations").elements()) {
       check_one(derivation);
     }
-    for (const char* list : {"certified_sets", "comparison"}) {
-      if (!certificate_.at(list).elements().empty()) {
-        result_.parts.push_back({list, {kUnknown}});
-      }
-    }
-    std::vector<std::string> asked;
-    for (const auto& [key, value] : certificate_.at("design").at("require").members()) {
-      const Requirement* known = requirement_of(&Requirement::key, key);
-      asked.push_back(known != nullptr ? known->claim : key);
-    }
-    const auto check = [this](const Tree& claim, Objections& found) { check_requirement(claim, found); };
+    const auto check = [this](const Tree& claim, Objections& found) {
+      return check_requirement(claim, found);
+    };
     check_claims(certificate_, asked, check, result_);
   }
 
  private:
-  static const Requirement* requirement_of(const char* Requirement::*member, const std::string& name) {
-    for (const Requirement& requirement : kRequirements) {
+  static const RequiredBound* requirement_of(const char* RequiredBound::*member, const std::string& name) {
+    for (const RequiredBound& requirement : kRequirements) {
       if (name == requirement.*member) {
         return &requirement;
       }
@@ -75,14 +102,11 @@ class KklVerifier {
       infimum_ = check_kkl_ell(derivation, design_, objections);
     } else if (id == "kkl-robustness") {
       check_kkl_robustness(derivation, design_, ell_in_use(), objections);
-      if (objections.empty() && verdict_from(derivation.at("verdict").text()) == Verdict::proved) {
+      if (objections.empty() && verdict_of(derivation) == Verdict::proved) {
         robustness_ = &derivation;
       }
     } else if (id == "kkl-paper") {
       check_paper_claims(derivation, design_, ell_in_use(), infimum_, objections);
-    } else if (id == "kkl-section-v") {
-      // Simulations, for which no proof is claimed.
-      check_derivation(derivation, {"The simulations of section V, repeated", {}, {}}, objections);
     } else {
       objections.emplace_back(kUnknown);
     }
@@ -90,23 +114,34 @@ class KklVerifier {
   }
 
   /// A requirement on a bound follows from the bound, which was verified.
-  void check_requirement(const Tree& claim, Objections& objections) const {
-    const Requirement* known = requirement_of(&Requirement::claim, claim.at("id").text());
-    const Tree* asked = known != nullptr ? certificate_.at("design").at("require").find(known->key) : nullptr;
+  Claim check_requirement(const Tree& claim, Objections& objections) const {
+    const RequiredBound* known = requirement_of(&RequiredBound::claim, claim.at("id").text());
+    const Tree& design = certificate_.at("design");
+    const Tree* asked = known != nullptr ? design.at("require").find(known->key) : nullptr;
     if (asked == nullptr) {
       objections.emplace_back(kUnknown);
-      return;
+      return {};
     }
-    Ball bound = Ball::everything();
-    if (robustness_ != nullptr) {
-      bound = high_of(robustness_->at("quantities").at(known->quantity));
-    }
-    const Ball limit = read_number(*asked, objections);
-    check_claim(claim,
-                {known->before + asked->at("text").text() + known->after,
-                 proved_if(certainly_less(bound, limit)),
-                 {{known->quantity, bound, Sense::bounds_above}}},
-                objections);
+    const auto bound = [this](const char* name) {
+      const Tree* quantity = robustness_ != nullptr ? robustness_->at("quantities").find(name) : nullptr;
+      return quantity != nullptr ? high_of(*quantity) : Ball::everything();
+    };
+    const Ball settling = bound("settling_time");
+    const Ball value = bound(known->quantity);
+    Claim found;
+    found.is_summary = true;
+    found.statement = hypotheses(design.at("assume")) + known->before + text_of(*asked) + known->after +
+                      ": from " + upper_decimal(settling) + " s after the start on, ";
+    const bool is_time = std::string(known->quantity) == "settling_time";
+    found.statement += is_time ? "the frequency error is at most " +
+                                     upper_decimal(bound("frequency_error_bound")) +
+                                     " rad/s and the amplitude error at most " +
+                                     upper_decimal(bound("amplitude_error_bound")) + " signal units."
+                               : "it is at most " + upper_decimal(value) + ".";
+    found.verdict = proved_if(certainly_less(value, read_number(*asked, objections)));
+    found.evidence = {{known->quantity, value, Sense::bounds_above}};
+    check_claim(claim, found, objections);
+    return found;
   }
 
   const Tree& certificate_;

@@ -1,16 +1,13 @@
 #include "checker/kkl_observer/kkl_design.hpp"
 
+#include "checker/document/design_number.hpp"
 #include "checker/document/evidence.hpp"
 
 namespace veritrack::checker {
 
 KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
   const auto positive = [&](const Tree& number) {
-    Ball value = read_number(number, objections);
-    if (!certainly_positive(value)) {
-      objections.push_back(number.at("text").text() + " is not positive");
-    }
-    return value;
+    return read_positive(number, text_of(number), objections);
   };
   const Tree& chosen = tree.at("design");
   const Tree& assume = tree.at("assume");
@@ -35,6 +32,9 @@ KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
   range(assume.at("amplitude"), design.amplitude_low, design.amplitude_high);
   if (const Tree* disturbance = assume.find("disturbance")) {
     for (const auto& [key, value] : disturbance->members()) {
+      if (key != "bound" && key != "amplitude" && key != "frequency") {
+        throw Malformed("a disturbance has no " + key);
+      }
       auto& number = key == "bound"       ? design.bound
                      : key == "amplitude" ? design.disturbance_amplitude
                                           : design.disturbance_frequency;

@@ -237,7 +237,7 @@ void check_paper_claims(const Tree& claimed, const KklDesign& design, const Ball
     add_inverse(design, ell, *infimum, claimed, found);
   }
   // A slip of the paper is none of the design.
-  if (claimed.at("verdict").text() != "undecided") {
+  if (verdict_of(claimed) != Verdict::undecided) {
     objections.emplace_back("the paper's claims must not have an overall verdict");
   }
   check_derivation(claimed, found, objections);

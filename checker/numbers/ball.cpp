@@ -36,11 +36,11 @@ bool read_digits(std::string_view text, std::size_t& at, std::string& number) {
 
 /// An end of a ball, by one of Arb's functions for it, as an exact ball.
 template <typename Function>
-Ball end_of(Function* function, const Ball& x) {
+Ball end_of(Function* function, const Ball& x, slong to_bits) {
   Ball z;
   arf_t end;
   arf_init(end);
-  function(end, x.raw(), bits);
+  function(end, x.raw(), to_bits);
   arb_set_arf(z.raw(), end);
   arf_clear(end);
   return z;
@@ -49,7 +49,7 @@ Ball end_of(Function* function, const Ball& x) {
 /// x = |t| at the two ends of a ball: an even function that is monotone in |t| lies between its values there.
 template <typename Function>
 Ball between_ends(const Ball& t, const Function& f) {
-  return Ball::hull(f(end_of(arb_get_abs_lbound_arf, t)), f(end_of(arb_get_abs_ubound_arf, t)));
+  return Ball::hull(f(end_of(arb_get_abs_lbound_arf, t, bits)), f(end_of(arb_get_abs_ubound_arf, t, bits)));
 }
 
 /// Below this the ratios are replaced by bounds that are true between 0 and here: (1 +- 2^-38) of their
@@ -83,18 +83,38 @@ Ball Ball::hull(const Ball& low, const Ball& high) {
   return z;
 }
 
+Ball Ball::from_end(const Ball& end, const Ball& other) {
+  // The middle is moved by the radius, rounded up, so that the rounding goes to the far side.
+  Ball z;
+  const Ball way = other - end;
+  const bool upward = arb_is_positive(way.x_) != 0;
+  arf_t most;
+  arf_init(most);
+  arb_get_abs_ubound_arf(most, way.x_, bits);
+  arf_mul_2exp_si(most, most, -1);
+  arf_get_mag(arb_radref(z.x_), most);
+  arf_set_mag(most, arb_radref(z.x_));
+  if (upward) {
+    arf_add(arb_midref(z.x_), arb_midref(end.x_), most, ARF_PREC_EXACT, ARF_RND_DOWN);
+  } else {
+    arf_sub(arb_midref(z.x_), arb_midref(end.x_), most, ARF_PREC_EXACT, ARF_RND_DOWN);
+  }
+  arf_clear(most);
+  return z;
+}
+
 Ball Ball::within(const Ball& x) {
   Ball z;
   arb_add_error(z.x_, x.x_);
   return z;
 }
 
-Ball Ball::lower() const {
-  return end_of(arb_get_lbound_arf, *this);
+Ball Ball::lower(slong to_bits) const {
+  return end_of(arb_get_lbound_arf, *this, to_bits);
 }
 
-Ball Ball::upper() const {
-  return end_of(arb_get_ubound_arf, *this);
+Ball Ball::upper(slong to_bits) const {
+  return end_of(arb_get_ubound_arf, *this, to_bits);
 }
 
 Ball Ball::middle() const {
@@ -155,7 +175,7 @@ Ratio arctangent_ratio(const Ball& t) {
   return {between_ends(t, ratio), between_ends(t, slope)};
 }
 
-Ball from_decimal(std::string_view text) {
+Ball from_decimal(std::string_view text, slong to_bits) {
   std::string number;
   std::size_t at = 0;
   if (!text.empty() && (text[0] == '+' || text[0] == '-')) {
@@ -181,7 +201,7 @@ Ball from_decimal(std::string_view text) {
     }
   }
   Ball z;
-  if (at != text.size() || arb_set_str(z.raw(), number.c_str(), bits) != 0 || !z.finite()) {
+  if (at != text.size() || arb_set_str(z.raw(), number.c_str(), to_bits) != 0 || !z.finite()) {
     refuse(text);
   }
   return z;

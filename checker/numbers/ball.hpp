@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "checker/numbers/budget.hpp"
+
 namespace veritrack::checker {
 
 /// The precision of all arithmetic, in bits. Set once, before anything is computed.
@@ -37,14 +39,16 @@ class Ball {
   static Ball everything();
   /// All reals from the least of `low` to the greatest of `high`.
   static Ball hull(const Ball& low, const Ball& high);
+  /// All reals from `end`, exactly, to at least `other`: no point lies beyond `end`, which must be exact.
+  static Ball from_end(const Ball& end, const Ball& other);
   /// All reals between -|x| and |x|.
   static Ball within(const Ball& x);
 
   /// Certainly finite: neither infinities nor "not a number" among the points.
   [[nodiscard]] bool finite() const { return arb_is_finite(x_) != 0; }
-  /// The ends of the ball, rounded outward to `precision()` bits, as exact balls.
-  [[nodiscard]] Ball lower() const;
-  [[nodiscard]] Ball upper() const;
+  /// The ends of the ball, rounded outward to so many bits, as exact balls.
+  [[nodiscard]] Ball lower(slong bits = precision()) const;
+  [[nodiscard]] Ball upper(slong bits = precision()) const;
   /// The middle and the radius of the ball, as exact balls.
   [[nodiscard]] Ball middle() const;
   [[nodiscard]] Ball radius() const;
@@ -59,10 +63,12 @@ class Ball {
   [[nodiscard]] arb_srcptr raw() const { return x_; }
 
   Ball& operator+=(const Ball& y) {
+    spend();
     arb_add(x_, x_, y.x_, precision());
     return *this;
   }
   Ball& operator-=(const Ball& y) {
+    spend();
     arb_sub(x_, x_, y.x_, precision());
     return *this;
   }
@@ -80,6 +86,7 @@ inline const Ball four(4.0);
 /// The value of one of Arb's functions, rounded to `precision()` bits.
 template <typename Function, typename... Operands>
 Ball value_of_arb(Function* function, const Operands&... operands) {
+  spend();
   Ball z;
   function(z.raw(), operands.raw()..., precision());
   return z;
@@ -181,7 +188,7 @@ Ratio arctangent_ratio(const Ball& t);
 
 /// A decimal as a design file writes it: sign, digits, point, exponent; underscores between digits. Throws
 /// std::invalid_argument for anything else.
-Ball from_decimal(std::string_view text);
+Ball from_decimal(std::string_view text, slong bits = precision());
 /// A hexadecimal floating-point number of at most 53 bits, exactly: -0x1.8p-3. Throws std::invalid_argument.
 Ball from_hexadecimal(std::string_view text);
 

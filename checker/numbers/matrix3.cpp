@@ -35,6 +35,15 @@ Matrix3 operator-(const Matrix3& x, const Matrix3& y) {
   return each([&](std::size_t i, std::size_t j) { return x[i][j] - y[i][j]; });
 }
 
+Matrix3 scaled(const Ball& factor, Matrix3 p) {
+  for (auto& row : p) {
+    for (Ball& entry : row) {
+      entry = factor * entry;
+    }
+  }
+  return p;
+}
+
 bool symmetric(const Matrix3& p) {
   return certainly_equal(p[1][0], p[0][1]) && certainly_equal(p[2][0], p[0][2]) &&
          certainly_equal(p[2][1], p[1][2]);

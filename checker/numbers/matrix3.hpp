@@ -32,6 +32,7 @@ using Matrix3 = SquareMatrix<3>;
 
 Matrix3 operator+(const Matrix3& x, const Matrix3& y);
 Matrix3 operator-(const Matrix3& x, const Matrix3& y);
+Matrix3 scaled(const Ball& factor, Matrix3 p);
 /// Entries across the diagonal are the same exact number.
 bool symmetric(const Matrix3& p);
 Matrix3 diagonal(const Ball& x, const Ball& y, const Ball& z);

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "checker/document/evidence.hpp"
+#include "checker/numbers/decimal_text.hpp"
 #include "checker/quadrature/followed_starts.hpp"
+#include "checker/quadrature/start_covariance.hpp"
 #include "checker/quadrature/start_cover.hpp"
 
 namespace veritrack::checker {
@@ -81,20 +82,23 @@ void conclude(const Cover& cover, const Ball& largest, const Setting& set, const
   const Ball samples(*std::max_element(cover.samples.begin(), cover.samples.end()));
   found.verdict = Verdict::proved;
   found.bound = bound;
+  found.ultimate = ultimate;
   if (const auto claim = settling_claim(quantities)) {
-    bool settles = true;
+    bool settles = !cover.boxes.empty();
     for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
       const Ball rest = claim->samples - Ball(cover.samples[i]);
       settles = settles && certainly_not_negative(rest) &&
-                settled(set, disturbed, cover.levels[i], claim->twice_ultimate, rest);
+                settled(set, disturbed, cover.levels[i], claim->frequency_error, rest);
     }
-    found.settling = settles ? std::optional(claim->samples) : std::nullopt;
+    found.settled = settles ? claim : std::nullopt;
   }
+  const Settled settling = found.settled.value_or(Settled{Ball::everything(), Ball::everything()});
   const Ball total(static_cast<double>(cover.boxes.size()));
   found.quantities = {{"capture_samples", samples, Sense::bounds_above},
                       {"frequency_error_bound", bound, Sense::bounds_above},
                       {"ultimate_frequency_error", ultimate, Sense::bounds_above},
-                      {"settling_samples", found.settling.value_or(Ball::everything()), Sense::bounds_above},
+                      {"settling_samples", settling.samples, Sense::bounds_above},
+                      {"settled_frequency_error", settling.frequency_error, Sense::bounds_above},
                       {"cells", total},
                       {"cells_captured", total}};
 }
@@ -131,13 +135,14 @@ Ball follow_all(const Cover& cover, const Followed& followed, bool symmetric, bo
 /// Follows the starts in the evidence, which are boxes that cover all assumed ones, or a witness, into the
 /// set.
 void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting& set,
-                     const Design& disturbed, bool all_boxes, Captured& found, Objections& objections) {
+                     const Design& disturbed, const StartCovariance& start, bool all_boxes, Captured& found,
+                     Objections& objections) {
   const Cover cover = read_cover(evidence);
   const Loop loop{disturbed.q1, disturbed.q2,    disturbed.r,   disturbed.epsilon,
                   zero,         disturbed.noise, disturbed.slew};
-  const Matrix3 covariance = disturbed.covariance ? *disturbed.covariance : steady_covariance(set);
-  const bool is_symmetric = !disturbed.covariance || (certainly_equal(covariance[0][1], zero) &&
-                                                      certainly_equal(covariance[0][2], zero));
+  const Matrix3 covariance = start.enclosure();
+  const bool is_symmetric =
+      certainly_equal(start.matrix[0][1], zero) && certainly_equal(start.matrix[0][2], zero);
   const bool captured = certainly_equal(cover.turns, zero);
   // The least frequency error in the shifted set, which is invariant, too: for the frequency error acts
   // through its sine and cosine alone.
@@ -170,21 +175,6 @@ void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting
   }
 }
 
-/// Noise and slew in the sentence of "ekf/capture-at-reduced-noise"; nothing when it is another sentence.
-std::optional<std::pair<Ball, Ball>> reduced_noise(const std::string& sentence) {
-  static const std::string start = "From every assumed start, with noise of at most ";
-  static const std::string between = " of the amplitude and slew of at most ";
-  const std::size_t at = sentence.find(between);
-  if (at == std::string::npos) {
-    return std::nullopt;
-  }
-  const auto noise = decimal_between(sentence.substr(0, at), start, "");
-  const auto slew =
-      decimal_between(sentence.substr(at), between,
-                      " rad/sample per sample, the tracker enters the certified set, which it never leaves.");
-  return noise && slew ? std::optional(std::pair(*noise, *slew)) : std::nullopt;
-}
-
 }  // namespace
 
 Captured check_capture(const Tree& claimed, const Design& design, const std::vector<CertifiedSet>& sets,
@@ -193,8 +183,9 @@ Captured check_capture(const Tree& claimed, const Design& design, const std::vec
   Captured found;
   found.noise = assumed_noise ? design.noise : zero;
   found.slew = assumed_noise ? design.slew : zero;
-  const Tree* evidence = claimed.find("evidence");
-  evidence = evidence != nullptr ? &evidence->at(0) : nullptr;
+  const Tree* evidence = find_evidence(claimed, "cover");
+  evidence = evidence != nullptr ? evidence : find_evidence(claimed, "witness");
+  const std::optional<StartCovariance> start = read_start_covariance(claimed, design, objections);
   if (evidence != nullptr) {
     const Ball noise = exact_number(evidence->at("numbers").at("noise"));
     const Ball slew = exact_number(evidence->at("numbers").at("slew"));
@@ -209,8 +200,10 @@ Captured check_capture(const Tree& claimed, const Design& design, const std::vec
   disturbed.slew = found.slew;
   const Setting* set = first_of(sets, "start-error");
   const bool tolerated = set != nullptr && tolerates(*set, disturbed);
-  if (evidence != nullptr && tolerated && objections.empty()) {
-    follow_evidence(*evidence, claimed.at("quantities"), *set, disturbed, all_boxes, found, objections);
+  found.covariance = start ? start->words : "";
+  if (evidence != nullptr && start && tolerated && objections.empty()) {
+    follow_evidence(*evidence, claimed.at("quantities"), *set, disturbed, *start, all_boxes, found,
+                    objections);
   }
   check_derivation(
       claimed,
@@ -226,37 +219,35 @@ bool is_capture_claim(const std::string& id) {
   return id == "ekf/capture" || id == "ekf/capture-noise-free" || id == "ekf/capture-at-reduced-noise";
 }
 
-void check_capture_claim(const Tree& claimed, const std::map<std::string, Captured>& captured,
-                         Objections& objections) {
+Claim check_capture_claim(const Tree& claimed, const std::map<std::string, Captured>& captured,
+                          Objections& objections) {
   const std::string& id = claimed.at("id").text();
   const auto found_of = [&](const char* derivation) {
     const auto found = captured.find(derivation);
     return found != captured.end() ? found->second : Captured();
   };
-  Claim claim;
+  std::string disturbance = "with the assumed noise and slew";
   Captured found = found_of("capture");
-  claim.statement =
-      "From every assumed start, with the assumed noise and slew, the tracker enters the certified set, "
-      "which it never leaves.";
+  Verdict verdict = found.verdict;
   if (id == "ekf/capture") {
     // No noise is allowed noise.
-    const bool refuted = found_of("capture/noise-free").verdict == Verdict::refuted;
-    claim.verdict = refuted ? Verdict::refuted : found.verdict;
+    verdict = found_of("capture/noise-free").verdict == Verdict::refuted ? Verdict::refuted : verdict;
   } else if (id == "ekf/capture-noise-free") {
-    claim.statement =
-        "From every assumed start, without noise and slew, the tracker enters the certified set, which it "
-        "never leaves.";
+    disturbance = "without noise and slew";
     found = found_of("capture/noise-free");
-    claim.verdict = found.verdict;
+    verdict = found.verdict;
   } else {
     found = found_of("capture/reduced-noise");
-    claim.statement = claimed.at("statement").text();
-    const auto limits = found.verdict == Verdict::proved ? reduced_noise(claim.statement) : std::nullopt;
-    claim.verdict = proved_if(limits && certainly_at_most(limits->first, found.noise) &&
-                              certainly_at_most(limits->second, found.slew));
+    disturbance = "with noise of at most " + lower_decimal(found.noise) +
+                  " of the amplitude and slew of at most " + lower_decimal(found.slew) +
+                  " rad/sample per sample";
+    verdict = found.verdict;
   }
-  claim.evidence = found.quantities;
+  Claim claim{"In exact arithmetic, from every assumed start " + found.covariance + ", " + disturbance +
+                  ", the tracker enters the certified set, which it never leaves.",
+              verdict, found.quantities};
   check_claim(claimed, claim, objections);
+  return claim;
 }
 
 }  // namespace veritrack::checker

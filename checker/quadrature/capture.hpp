@@ -16,7 +16,10 @@ struct Captured {
   Ball noise, slew;  ///< the starts were followed under at most these
   Verdict verdict = Verdict::undecided;
   std::vector<Quantity> quantities;
-  std::optional<Ball> bound, settling, wrong_lock;  ///< as in Promises
+  // As in Promises.
+  std::optional<Ball> bound, ultimate, wrong_lock;
+  std::optional<Settled> settled;
+  std::string covariance;
 };
 
 /// Objects unless the boxes in the evidence cover all assumed starts and every one of them is followed into
@@ -27,7 +30,7 @@ Captured check_capture(const Tree& derivation, const Design& design, const std::
 
 /// The claims "ekf/capture...", from what was found of the derivations that were verified, by their ids.
 bool is_capture_claim(const std::string& id);
-void check_capture_claim(const Tree& claim, const std::map<std::string, Captured>& captured,
-                         Objections& objections);
+Claim check_capture_claim(const Tree& claim, const std::map<std::string, Captured>& captured,
+                          Objections& objections);
 
 }  // namespace veritrack::checker

@@ -7,17 +7,6 @@ namespace veritrack::checker {
 
 namespace {
 
-/// A covariance of exact numbers that is below every one in the balls, in the Loewner order, or above.
-Covariance<Ball> beyond(const Covariance<Ball>& p, bool above) {
-  Covariance<Ball> point = p;
-  const Ball radius = p.p23.radius();
-  point.p23 = p.p23.middle();
-  point.p11 = above ? p.p11.upper() : p.p11.lower();
-  point.p22 = above ? (p.p22 + radius).upper() : (p.p22 - radius).lower();
-  point.p33 = above ? (p.p33 + radius).upper() : (p.p33 - radius).lower();
-  return point;
-}
-
 /// The first row and column are zero but for the diagonal.
 bool amplitude_is_apart(const Matrix3& m) {
   return certainly_equal(m[0][1], zero) && certainly_equal(m[0][2], zero) && certainly_equal(m[1][0], zero) &&
@@ -146,25 +135,6 @@ const Setting* first_of(const std::vector<CertifiedSet>& sets, const std::string
     }
   }
   return nullptr;
-}
-
-Matrix3 steady_covariance(const Setting& set) {
-  constexpr int kIterations = 1000;
-  Covariance<Ball> lower = set.lower;
-  Covariance<Ball> upper = set.upper;
-  for (int k = 0; k < kIterations; ++k) {
-    lower = beyond(update(set, lower, one).filtered, false);
-    upper = beyond(update(set, upper, one).filtered, true);
-  }
-  const Covariance<Ball> gap = upper - lower;
-  const std::array<Ball, 3> width{sqrt(gap.p11), sqrt(gap.p22), sqrt(gap.p33)};
-  Matrix3 p = whole(lower);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      p[i][j] += Ball::within(width[i] * width[j]);
-    }
-  }
-  return p;
 }
 
 CertifiedSet check_set(const Tree& tree, const Design& design, std::int64_t& cells, Objections& objections) {

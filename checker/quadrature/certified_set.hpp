@@ -45,8 +45,5 @@ bool positive_definite(const Covariance<Ball>& p);
 Matrix3 whole(const Covariance<Ball>& p);
 /// P - lower > 0 and upper - P > 0.
 bool between(const Matrix3& p, const Covariance<Ball>& lower, const Covariance<Ball>& upper);
-/// The filter's steady state, by Lemma 2: between the iterates of the bounds of an invariant order interval
-/// at the exact estimate. |P_ij - L_ij| <= sqrt(D_ii D_jj) for L <= P <= L + D.
-Matrix3 steady_covariance(const Setting& set);
 
 }  // namespace veritrack::checker

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "checker/quadrature/start_covariance.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -10,10 +12,9 @@ Ball start_level(const Setting& s, const Design& d) {
   return largest_level(s.metric, d.amplitude_error, d.phase_error, d.frequency_error);
 }
 
-/// The steady state lies between invariant bounds (Lemma 2), given that q1, q2 > 0.
-bool contains_starts(const Setting& s, const Design& d) {
-  return certainly_at_most(start_level(s, d), s.radius) &&
-         (d.covariance ? between(*d.covariance, s.lower, s.upper) : certainly_positive(d.q1));
+bool contains_starts(const Setting& s, const Design& d, const std::optional<StartCovariance>& covariance) {
+  return covariance && certainly_at_most(start_level(s, d), s.radius) &&
+         covariance->between(s.lower, s.upper);
 }
 
 /// Every trajectory in `outer` is in `inner` from some sample on.
@@ -49,12 +50,13 @@ struct StartSets {
   Promises promises;
   std::vector<const Setting*> bases;
 };
-StartSets follow_starts(const std::vector<CertifiedSet>& sets, const Setting* whole, const Design& design) {
+StartSets follow_starts(const std::vector<CertifiedSet>& sets, const Setting* whole, const Design& design,
+                        const std::optional<StartCovariance>& covariance) {
   StartSets found;
   Promises& promises = found.promises;
   const std::vector<const Setting*> useful = usable(sets, design);
   for (const Setting* set : useful) {
-    if (contains_starts(*set, design)) {
+    if (contains_starts(*set, design, covariance)) {
       found.bases.push_back(set);
       improve(promises.ultimate, ultimate_level(*set, design) / set->metric.frequency);
       improve(promises.bound,
@@ -77,11 +79,11 @@ StartSets follow_starts(const std::vector<CertifiedSet>& sets, const Setting* wh
 }
 
 /// Is it true of the starts of some base?
-bool settles(const StartSets& starts, const Design& design, const SettlingClaim& claim) {
+bool settles(const StartSets& starts, const Design& design, const Settled& claim) {
   return certainly_not_negative(claim.samples) &&
          std::any_of(starts.bases.begin(), starts.bases.end(), [&](const Setting* base) {
            const Ball level = starts.promises.starts_inside ? start_level(*base, design) : base->radius;
-           return settled(*base, design, level, claim.twice_ultimate, claim.samples);
+           return settled(*base, design, level, claim.frequency_error, claim.samples);
          });
 }
 
@@ -119,27 +121,28 @@ Promises check_contraction(const Tree& claimed, const Design& design, const std:
   const Setting* whole = first_of(sets, "start-error");
   const Setting* noisy = first_of(sets, "largest-noise");
   const Setting* slewing = first_of(sets, "largest-slew");
-  StartSets starts = follow_starts(sets, whole, design);
+  const std::optional<StartCovariance> covariance = read_start_covariance(claimed, design, objections);
+  StartSets starts = follow_starts(sets, whole, design, covariance);
   Promises& promises = starts.promises;
+  promises.covariance = covariance ? covariance->words : "";
   Derivation found;
   found.title = "Contraction of the errors in an invariant set";
   if (whole != nullptr) {
     found.quantities = size_of(*whole);
     if (tolerates(*whole, design)) {
       promises.reach = whole->radius * inverse_rows(whole->metric)[2];
+      promises.rate = whole->rate;
     }
   }
   promises.noise = noisy != nullptr ? std::optional(noisy->noise) : std::nullopt;
   promises.slew = slewing != nullptr ? std::optional(slewing->slew) : std::nullopt;
   add_bounds(promises, found);
   if (const auto claim = settling_claim(claimed.at("quantities"))) {
-    const std::optional<Ball> samples =
-        settles(starts, design, *claim) ? std::optional(claim->samples) : std::nullopt;
-    if (promises.starts_inside) {
-      promises.settling = samples;
+    if (settles(starts, design, *claim)) {
+      found.quantities.push_back({"settling_samples", claim->samples, Sense::bounds_above});
+      found.quantities.push_back({"settled_frequency_error", claim->frequency_error, Sense::bounds_above});
+      promises.settled = promises.starts_inside ? claim : std::nullopt;
     }
-    found.quantities.push_back(
-        {"settling_samples", samples.value_or(Ball::everything()), Sense::bounds_above});
   }
   found.conditions = conditions_of(whole, promises, design);
   check_derivation(claimed, found, objections);

@@ -1,6 +1,7 @@
 #include "checker/quadrature/steady_contraction.hpp"
 
 #include "checker/document/evidence.hpp"
+#include "checker/quadrature/start_covariance.hpp"
 #include "checker/quadrature/steady_start.hpp"
 
 namespace veritrack::checker {
@@ -66,8 +67,7 @@ void add_whole(const SteadySet& whole, const std::optional<SteadyStart>& start, 
   const Ball nothing = Ball::everything();
   const std::array<Ball, 3> radii = error_radii(whole);
   const Ball rate = slowest(whole);
-  // From the start, or from level 1 when the starts are not known to enter the set.
-  const Ball settling = start ? start->settling : Ball(static_cast<double>(whole.levels.size() - 1));
+  const Settled settled = promises.settled.value_or(Settled{nothing, nothing});
   const std::vector<Quantity> quantities{
       {"contraction_rate", rate, Sense::bounds_above},
       {"radius", one},
@@ -75,7 +75,8 @@ void add_whole(const SteadySet& whole, const std::optional<SteadyStart>& start, 
       {"phase_error_radius", radii[1]},
       {"amplitude_error_radius", radii[0]},
       {"ultimate_frequency_error", promises.ultimate.value_or(nothing), Sense::bounds_above},
-      {"settling_samples", settling, Sense::bounds_above},
+      {"settling_samples", settled.samples, Sense::bounds_above},
+      {"settled_frequency_error", settled.frequency_error, Sense::bounds_above},
       {"frequency_error_bound", promises.bound.value_or(nothing), Sense::bounds_above},
       {"capture_samples", start ? start->samples : nothing, Sense::bounds_above}};
   found.quantities.insert(found.quantities.end(), quantities.begin(), quantities.end());
@@ -94,11 +95,16 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
   const auto branch = steady_branch(design, 0.3, 1e-4);
   const auto fine = branch ? steady_branch(design, 0.05, 2e-5) : std::nullopt;
   const Tree* evidence = claimed.find("evidence");
+  const std::optional<StartCovariance> covariance = read_start_covariance(claimed, design, objections);
   std::vector<SteadySet> sets;
   Promises promises;
+  promises.covariance = covariance ? covariance->words : "";
   promises.about_steady_state = true;
   if (fine && evidence != nullptr) {
     for (const Tree& item : evidence->elements()) {
+      if (item.at("name").text() == "start-covariance") {
+        continue;
+      }
       const SteadySet& set = sets.emplace_back(check_steady_set(item, design, *branch, cells, objections));
       if (set.verified) {
         improve(promises.noise, set.noise);
@@ -119,13 +125,19 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
     found.quantities.push_back({"bias_frequency", bias});
   }
   if (whole != nullptr) {
-    const auto start = steady_start(design, *whole, *fine, start_claim(claimed));
+    const auto start =
+        covariance ? steady_start(design, *whole, *fine, covariance->enclosure(), start_claim(claimed))
+                   : std::nullopt;
     promises.starts_inside = start.has_value();
     promises.reach = error_radii(*whole)[2];
+    promises.rate = slowest(*whole);
     promises.ultimate = max(abs(bias.low), abs(bias.high)) + whole->levels.back() * *promises.reach;
     if (start) {
       promises.bound = start->bound;
-      promises.settling = start->settling;
+      const auto claim = settling_claim(claimed.at("quantities"));
+      const bool settles = claim && certainly_at_most(start->settling, claim->samples) &&
+                           certainly_at_most(*promises.ultimate, claim->frequency_error);
+      promises.settled = settles ? claim : std::nullopt;
     }
     add_whole(*whole, start, promises, found);
   }

@@ -17,8 +17,13 @@ bool keeps(const SteadyStart& start, const SteadyStartClaim& claim) {
 /// The starts at some frequencies of a cell.
 class Part {
  public:
-  Part(const Design& design, const SteadySet& set, const SteadyCell& cell, const Ball& frequency)
-      : design_(design), set_(set), frequency_(frequency), steady_(cell.at(frequency)) {}
+  Part(const Design& design, const SteadySet& set, const Matrix3& covariance, const SteadyCell& cell,
+       const Ball& frequency)
+      : design_(design),
+        set_(set),
+        covariance_(covariance),
+        frequency_(frequency),
+        steady_(cell.at(frequency)) {}
 
   /// A level of the set that contains errors and covariances: balls of e and of P. Everything when none does.
   [[nodiscard]] Ball level_of(const std::array<Ball, 3>& image, const Matrix3& covariance) const {
@@ -34,12 +39,12 @@ class Part {
     return Ball::everything();
   }
 
-  /// At the start. A start with the steady covariance of its frequency is in the middle of its bounds.
+  /// At the start.
   [[nodiscard]] Ball start_level() const {
     const std::array<Ball, 3> image = set_.setting.metric.image<Ball>(
         Ball::within(design_.amplitude_error) - steady_[0], Ball::within(design_.phase_error) - steady_[1],
         Ball::within(design_.frequency_error) - steady_[2]);
-    return (design_.covariance ? level_of(image, *design_.covariance) : norm(image)).upper();
+    return level_of(image, covariance_).upper();
   }
 
   /// What comes of a start at this level after so many samples, with errors up to `way` until then.
@@ -62,7 +67,7 @@ class Part {
         {design_.q1, design_.q2, design_.r, design_.epsilon, frequency_, design_.noise, zero},
         {Ball::within(design_.amplitude_error), Ball::within(design_.phase_error),
          Ball::within(design_.frequency_error)},
-        design_.covariance ? *design_.covariance : steady_covariance());
+        covariance_);
     const TriangularMetric& t = set_.setting.metric;
     const Matrix3 metric{{{t.t11, t.t12, t.t13}, {zero, t.t22, t.t23}, {zero, zero, t.t33}}};
     Ball way = design_.frequency_error;
@@ -72,7 +77,7 @@ class Part {
       if (certainly_at_most(level, one)) {
         found = from(k, level, way, bias());
       }
-      if (k == most || (found && keeps(*found, claim))) {
+      if (k >= most || (found && keeps(*found, claim))) {
         return found;
       }
       states.step();
@@ -94,6 +99,7 @@ class Part {
 
   const Design& design_;
   const SteadySet& set_;
+  const Matrix3& covariance_;
   Ball frequency_;
   StateVector steady_;
 };
@@ -115,12 +121,13 @@ std::array<Ball, 3> error_radii(const SteadySet& set) {
 }
 
 std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& set,
-                                        const std::vector<SteadyCell>& branch,
+                                        const std::vector<SteadyCell>& branch, const Matrix3& covariance,
                                         const SteadyStartClaim& claim) {
   constexpr int kHalvings = 3;
   constexpr int kMostSamples = 100;
   const bool still = certainly_equal(design.slew, zero);
-  const int most = claim.samples && certainly_at_most(*claim.samples, Ball(kMostSamples))
+  const int most = claim.samples && certainly_not_negative(*claim.samples) &&
+                           certainly_at_most(*claim.samples, Ball(kMostSamples))
                        ? static_cast<int>(claim.samples->near())
                        : kMostSamples;
   Ball largest_bias(0.0);
@@ -129,7 +136,7 @@ std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& s
   }
   const auto of = [&](const auto& self, const SteadyCell& cell, double from, double to,
                       int halvings) -> std::optional<SteadyStart> {
-    const Part part(design, set, cell, Ball::hull(Ball(from), Ball(to)));
+    const Part part(design, set, covariance, cell, Ball::hull(Ball(from), Ball(to)));
     std::optional<SteadyStart> found;
     if (still) {
       found = part.followed(most, claim);
@@ -145,6 +152,9 @@ std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& s
     const auto high = low ? self(self, cell, middle, to, halvings - 1) : std::nullopt;
     return high ? std::optional(both(*low, *high)) : std::nullopt;
   };
+  if (branch.empty()) {
+    return std::nullopt;
+  }
   SteadyStart all;
   for (const SteadyCell& cell : branch) {
     const auto found = of(of, cell, cell.from, cell.to, kHalvings);

@@ -23,10 +23,11 @@ struct SteadyStartClaim {
   std::optional<Ball> samples, level, bound, settling;
 };
 
-/// Nothing when some start does not certainly enter the set. Starts outside are followed, with the
-/// design's noise, when there is no slew.
+/// Nothing when the branch has no cell, or some start does not certainly enter the set. Starts outside are
+/// followed, with the design's noise, when there is no slew. `covariance` contains every P(0|0).
 std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& set,
-                                        const std::vector<SteadyCell>& branch, const SteadyStartClaim& claim);
+                                        const std::vector<SteadyCell>& branch, const Matrix3& covariance,
+                                        const SteadyStartClaim& claim);
 
 /// At least |e_i - e*_i| over level 1: amplitude, phase (rad), frequency (rad/sample).
 std::array<Ball, 3> error_radii(const SteadySet& set);

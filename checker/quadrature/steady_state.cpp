@@ -256,6 +256,9 @@ std::optional<std::vector<SteadyCell>> steady_branch(const Design& design, doubl
       width = std::min(2.0 * width, widest);
     }
   }
+  if (cells.empty()) {
+    return std::nullopt;  // nothing covers no band
+  }
   return cells;
 }
 

@@ -1,8 +1,12 @@
 #include "checker/sets/guarantee.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
+#include "checker/document/design_number.hpp"
 #include "checker/document/evidence.hpp"
+#include "checker/numbers/decimal_text.hpp"
 
 namespace veritrack::checker {
 
@@ -11,119 +15,32 @@ namespace {
 const std::string kBound = "ekf/frequency-error-bound";
 const std::string kSettling = "ekf/settling-time";
 const std::string kSentence = "ekf/guarantee";
-const std::string kStays = "the frequency error stays below ";
-const std::string kForEver = " rad/sample for ever";
-
-/// A key of [require] that requires a set of at least some size.
-struct LeastSize {
-  std::string claim, key, quantity, before, after;
-  std::optional<Ball> Promises::*size;
-};
-const std::vector<LeastSize>& least_sizes() {
-  static const std::vector<LeastSize> sizes{
-      {"ekf/largest-noise", "largest_noise_at_least", "largest_noise",
-       "at a constant frequency, the tracker tolerates noise up to ", ": a certified invariant set exists",
-       &Promises::noise},
-      {"ekf/largest-slew", "largest_slew_at_least", "largest_slew",
-       "without noise, the tracker tolerates a slew up to ",
-       " rad/sample per sample: a certified invariant set exists", &Promises::slew},
-      {"ekf/frequency-error-radius", "frequency_error_radius_at_least", "frequency_error_radius",
-       "under the assumed noise and slew, a certified invariant set contains frequency errors up to ",
-       " rad/sample", &Promises::reach}};
-  return sizes;
-}
+const std::string kNoise = "ekf/largest-noise";
+const std::string kSlew = "ekf/largest-slew";
+const std::string kReach = "ekf/frequency-error-radius";
+const std::string kSet = "ekf/invariant-set";
+const std::string kLimits = "ekf/limits";
+const std::string kPerSample = " rad/sample";
 
 bool is_zero(const Tree& number) {
-  return certainly_equal(from_decimal(number.at("text").text()), zero);
+  return certainly_equal(from_decimal(text_of(number)), zero);
 }
 
-/// "With measurement noise of at most ..., started within ..., ": in the words of the design file.
-std::string assumptions(const Tree& design, Frequencies frequencies) {
-  const Tree& assume = design.at("assume");
-  const auto words = [&](const char* name) { return assume.at(name).at("text").text(); };
-  std::string text = is_zero(assume.at("noise")) ? "Without measurement noise"
-                                                 : "With measurement noise of at most " + words("noise");
-  text += is_zero(assume.at("slew"))
-              ? " and at a constant frequency"
-              : " and a frequency that changes by at most " + words("slew") + " rad/sample per sample";
-  if (frequencies == Frequencies::assumed_band) {
-    const Tree& band = assume.at("frequency");
-    text +=
-        " between " + band.at(0).at("text").text() + " and " + band.at(1).at("text").text() + " rad/sample";
-  }
-  return text + ", started within " + words("initial_frequency_error") +
-         " rad/sample of the true frequency, " + words("initial_phase_error") + " rad of the phase and " +
-         words("initial_amplitude_error") + " of the amplitude (" + words("amplitude") + "), ";
+Ball of(const std::optional<Ball>& value) {
+  return value.value_or(Ball::everything());
 }
 
-Ball bound_of(const Promises& promises) {
-  return promises.bound.value_or(Ball::everything());
-}
-
-/// What [require] asks of the frequency error, and whether it is so; no text when it asks for nothing.
-struct Limit {
-  std::string text;
-  Verdict below = Verdict::undecided;
-};
-Limit limit_of(const Tree& design, const Promises& promises, Objections& objections) {
-  const Tree* asked = design.at("require").find("frequency_error_below");
-  if (asked == nullptr) {
-    return {};
-  }
-  const Ball value = read_number(*asked, objections);
-  Limit limit{asked->at("text").text(), proved_if(certainly_less(bound_of(promises), value))};
-  if (limit.below == Verdict::proved) {
-    return limit;
-  }
-  // A start with that much error is allowed, and is not below.
-  const Ball start = read_number(design.at("assume").at("initial_frequency_error"), objections);
-  const bool exceeded = certainly_at_most(value, start) ||
-                        (promises.wrong_lock && certainly_at_most(value, *promises.wrong_lock));
-  return {limit.text, exceeded ? Verdict::refuted : Verdict::undecided};
-}
-
-Claim settling_of(const Tree& design, const Promises& promises, Objections& objections) {
-  const Tree& asked = design.at("require").at("settles_within");
-  const Ball samples = promises.settling.value_or(Ball::everything());
-  return {"within " + asked.at("text").text() +
-              " samples the frequency error comes within twice its ultimate bound",
-          proved_if(certainly_at_most(samples, read_number(asked, objections))),
-          {{"settling_samples", samples, Sense::bounds_above}}};
-}
-
-Claim size_of(const LeastSize& size, const Tree& design, const Promises& promises, Objections& objections) {
-  const Tree& asked = design.at("require").at(size.key);
-  const Ball certified = (promises.*(size.size)).value_or(Ball::everything());
-  // Noise is certified relative to the amplitude.
-  const Ball unit =
-      size.quantity == "largest_noise" ? read_number(design.at("assume").at("amplitude"), objections) : one;
-  // The reach is an enclosure; the other two are the numbers that a set gives.
-  const Sense sense = size.quantity == "frequency_error_radius" ? Sense::encloses : Sense::bounds_below;
-  const bool from_steady_state = promises.about_steady_state && size.quantity == "frequency_error_radius";
-  return {size.before + asked.at("text").text() + size.after +
-              (from_steady_state ? ", measured from the steady state" : ""),
-          proved_if(certainly_at_most(read_number(asked, objections), certified * unit)),
-          {{size.quantity, certified, sense}}};
-}
-
-/// The guarantee: that the error stays below the limit, and what it never exceeds when the statement says so.
-Claim sentence_of(const std::string& statement, const std::string& start, const Limit& limit,
-                  const Promises& promises) {
-  const std::string stays = start + kStays + limit.text + kForEver;
-  const std::string exceeds =
-      limit.text.empty() ? start + "the frequency error never exceeds " : stays + ": it never exceeds ";
-  if (const auto number = decimal_between(statement, exceeds, " rad/sample.")) {
-    const bool stays_below = limit.text.empty() || limit.below == Verdict::proved;
-    return {statement, proved_if(stays_below && certainly_at_most(bound_of(promises), *number)), {}};
-  }
-  return {stays + ".", limit.below, {}};
+std::vector<Quantity> settling_evidence(const Promises& promises) {
+  const Settled settled = promises.settled.value_or(Settled{Ball::everything(), Ball::everything()});
+  return {{"settling_samples", settled.samples, Sense::bounds_above},
+          {"settled_frequency_error", settled.frequency_error, Sense::bounds_above}};
 }
 
 }  // namespace
 
 void add_bounds(const Promises& promises, Derivation& found) {
   const auto add = [&](const char* name, const std::optional<Ball>& value, Sense sense) {
-    found.quantities.push_back({name, value.value_or(Ball::everything()), sense});
+    found.quantities.push_back({name, of(value), sense});
   };
   add("ultimate_frequency_error", promises.ultimate, Sense::bounds_above);
   add("frequency_error_bound", promises.bound, Sense::bounds_above);
@@ -131,55 +48,252 @@ void add_bounds(const Promises& promises, Derivation& found) {
   add("largest_slew", promises.slew, Sense::bounds_below);
 }
 
-bool is_guarantee(const std::string& id) {
-  const auto& sizes = least_sizes();
-  return id == kBound || id == kSettling || id == kSentence ||
-         std::any_of(sizes.begin(), sizes.end(), [&](const LeastSize& size) { return size.claim == id; });
-}
-
-std::vector<std::string> requirements(const Tree& design) {
-  std::vector<std::string> ids;
-  for (const auto& [name, value] : design.at("require").members()) {
-    std::string id = name == "frequency_error_below" ? kBound : name == "settles_within" ? kSettling : name;
-    for (const LeastSize& size : least_sizes()) {
-      id = size.key == name ? size.claim : id;
-    }
-    ids.push_back(id);
-  }
-  return ids;
-}
-
-std::optional<SettlingClaim> settling_claim(const Tree& quantities) {
+std::optional<Settled> settling_claim(const Tree& quantities) {
   const Tree* samples = quantities.find("settling_samples");
-  const Tree* ultimate = quantities.find("ultimate_frequency_error");
-  if (samples == nullptr || ultimate == nullptr) {
+  const Tree* error = quantities.find("settled_frequency_error");
+  if (samples == nullptr || error == nullptr) {
     return std::nullopt;
   }
-  return SettlingClaim{low_of(*samples), two * low_of(*ultimate)};
+  return Settled{high_of(*samples), high_of(*error)};
 }
 
-void check_guarantee(const Tree& claim, const Tree& certificate, const Promises& promises,
-                     Frequencies frequencies, Objections& objections) {
-  const std::string& id = claim.at("id").text();
-  const Tree& design = certificate.at("design");
-  const Limit limit = limit_of(design, promises, objections);
-  const auto& sizes = least_sizes();
-  const auto size =
-      std::find_if(sizes.begin(), sizes.end(), [&](const LeastSize& known) { return known.claim == id; });
-  Claim found;
-  if (id == kSettling) {
-    found = settling_of(design, promises, objections);
-  } else if (size != sizes.end()) {
-    found = size_of(*size, design, promises, objections);
-  } else {
-    found = id == kBound ? Claim{kStays + limit.text + kForEver, limit.below, {}}
-                         : sentence_of(claim.at("statement").text(), assumptions(design, frequencies), limit,
-                                       promises);
-    found.evidence = {{"frequency_error_bound", bound_of(promises), Sense::bounds_above},
-                      {"wrong_lock_frequency_error", promises.wrong_lock.value_or(Ball::everything()),
-                       Sense::bounds_below}};
+Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections)
+    : design_(design), wording_(wording) {
+  const std::array<std::pair<std::string, std::optional<Number>*>, 6> keys{
+      {{"frequency_error_below", &frequency_error_below_},
+       {"settles_within", &settles_within_},
+       {"settled_below", &settled_below_},
+       {"largest_noise_at_least", &noise_},
+       {"largest_slew_at_least", &slew_},
+       {"frequency_error_radius_at_least", &reach_}}};
+  for (const auto& [name, value] : design.at("require").members()) {
+    const auto* key =
+        std::find_if(keys.begin(), keys.end(), [&](const auto& known) { return known.first == name; });
+    if (key == keys.end()) {
+      objections.push_back("[require] has no key " + name);
+      continue;
+    }
+    const Number number{text_of(value), read_number(value, objections)};
+    if (!certainly_positive(number.value)) {
+      objections.push_back(name + " must be positive");
+    }
+    *key->second = number;
   }
+  if (settles_within_.has_value() != settled_below_.has_value()) {
+    objections.emplace_back("settles_within and settled_below need each other");
+  }
+  const auto require = [&](bool asked, const std::string& id) {
+    if (asked) {
+      required_.push_back({id, short_text(id)});
+    }
+  };
+  require(frequency_error_below_.has_value(), kBound);
+  require(settles_within_.has_value(), kSettling);
+  require(noise_.has_value(), kNoise);
+  require(slew_.has_value(), kSlew);
+  require(reach_.has_value(), kReach);
+  const Tree& assume = design.at("assume");
+  amplitude_ = read_number(assume.at("amplitude"), objections);
+  assumed_noise_ = read_number(assume.at("noise"), objections);
+  start_error_ = read_number(assume.at("initial_frequency_error"), objections);
+}
+
+bool Guarantee::is_guarantee(const std::string& id) {
+  const std::array ids{kBound, kSettling, kSentence, kNoise, kSlew, kReach, kSet, kLimits};
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+/// "In exact arithmetic, for a tone of constant amplitude 1 ...", with the assumed noise and slew.
+std::string Guarantee::tone(bool disturbed) const {
+  const Tree& assume = design_.at("assume");
+  std::string text =
+      "In exact arithmetic, for a tone of constant amplitude " + text_of(assume.at("amplitude"));
+  if (disturbed) {
+    const Tree& slew = assume.at("slew");
+    text += is_zero(slew)
+                ? " at a constant frequency"
+                : " whose frequency changes by at most " + text_of(slew) + kPerSample + " per sample";
+  }
+  if (wording_.in_band) {
+    const Tree& band = assume.at("frequency");
+    text += " between " + text_of(band.at(0)) + " and " + text_of(band.at(1)) + kPerSample;
+  }
+  if (disturbed && is_zero(assume.at("noise"))) {
+    text += ", without measurement noise";
+  } else if (disturbed) {
+    text += ", with measurement noise of at most " + text_of(assume.at("noise"));
+    text += wording_.two_channels ? " (the length of the error in both channels; " +
+                                        lower_decimal(assumed_noise_ / sqrt(two)) + " in each is enough)"
+                                  : "";
+  }
+  return text;
+}
+
+std::string Guarantee::hypotheses(const Promises& promises) const {
+  const Tree& assume = design_.at("assume");
+  const auto words = [&](const char* name) { return text_of(assume.at(name)); };
+  return tone(true) + ", started within " + words("initial_frequency_error") + kPerSample +
+         " of the true frequency, " + words("initial_phase_error") + " rad of the phase and " +
+         words("initial_amplitude_error") + " of the amplitude " + promises.covariance + ", ";
+}
+
+/// What [require] asks.
+std::string Guarantee::short_text(const std::string& id) const {
+  if (id == kBound) {
+    return "the frequency error stays below " + frequency_error_below_->text + kPerSample + " for ever";
+  }
+  if (id == kSettling) {
+    return "from sample " + settles_within_->text + " on, the frequency error stays below " +
+           settled_below_->text + kPerSample;
+  }
+  if (id == kNoise) {
+    return "at a constant frequency, the tracker tolerates noise up to " + noise_->text +
+           ": a certified invariant set exists";
+  }
+  if (id == kSlew) {
+    return "without noise, the tracker tolerates a slew up to " + slew_->text + kPerSample +
+           " per sample: a certified invariant set exists";
+  }
+  return "under the assumed noise and slew, a certified invariant set contains frequency errors up to " +
+         reach_->text + kPerSample;
+}
+
+/// That the error stays below the limit. A start with that much error is allowed, and is not below.
+Claim Guarantee::frequency_error(const Promises& promises) const {
+  const Ball& limit = frequency_error_below_->value;
+  const bool exceeded = certainly_at_most(limit, start_error_) ||
+                        (promises.wrong_lock && certainly_at_most(limit, *promises.wrong_lock));
+  Claim found;
+  found.statement = hypotheses(promises) + short_text(kBound) + ".";
+  found.verdict = certainly_less(of(promises.bound), limit) ? Verdict::proved
+                  : exceeded                                ? Verdict::refuted
+                                                            : Verdict::undecided;
+  found.evidence = {{"frequency_error_bound", of(promises.bound), Sense::bounds_above},
+                    {"wrong_lock_frequency_error", of(promises.wrong_lock), Sense::bounds_below}};
+  return found;
+}
+
+Claim Guarantee::settling(const Promises& promises) const {
+  Claim found;
+  found.statement = hypotheses(promises) + short_text(kSettling) + ".";
+  found.evidence = settling_evidence(promises);
+  found.verdict =
+      proved_if(promises.settled && certainly_at_most(promises.settled->samples, settles_within_->value) &&
+                certainly_less(promises.settled->frequency_error, settled_below_->value));
+  return found;
+}
+
+Claim Guarantee::size(const std::string& id, const Promises& promises) const {
+  Claim found;
+  found.statement = tone(id == kReach) + ", " + short_text(id);
+  if (id == kNoise) {
+    // Noise is certified relative to the amplitude.
+    found.verdict = proved_if(certainly_at_most(noise_->value, of(promises.noise) * amplitude_));
+    found.evidence = {{"largest_noise", of(promises.noise), Sense::bounds_below}};
+  } else if (id == kSlew) {
+    found.verdict = proved_if(certainly_at_most(slew_->value, of(promises.slew)));
+    found.evidence = {{"largest_slew", of(promises.slew), Sense::bounds_below}};
+  } else {
+    found.statement +=
+        promises.about_steady_state ? ", measured from the steady state, which the leak biases" : "";
+    found.verdict = proved_if(certainly_at_most(reach_->value, of(promises.reach)));
+    found.evidence = {{"frequency_error_radius", of(promises.reach), Sense::bounds_below}};
+  }
+  found.statement += ".";
+  return found;
+}
+
+/// How large the set is, and how fast errors in it shrink.
+Claim Guarantee::invariant_set(const Tree& claim, const Promises& promises) const {
+  const Tree& evidence = claim.at("evidence");
+  const Ball reach = low_of(evidence.at("frequency_error_radius"));
+  const Ball rate = high_of(evidence.at("contraction_rate"));
+  Claim found;
+  found.is_summary = true;
+  found.evidence = {{"frequency_error_radius", of(promises.reach), Sense::bounds_below},
+                    {"contraction_rate", of(promises.rate), Sense::bounds_above}};
+  found.verdict = proved_if(promises.reach && promises.rate);
+  found.statement =
+      tone(true) + ", a certified invariant set contains frequency errors up to " + lower_decimal(reach) +
+      kPerSample +
+      (promises.about_steady_state ? ", measured from the steady state, which the leak biases" : "") +
+      "; in it, " +
+      (promises.rate_window == 1 ? "each sample multiplies the error" : "the error is multiplied") +
+      " by at most " + upper_decimal(rate) +
+      (promises.rate_window == 1
+           ? ""
+           : " per sample on average over " + std::to_string(promises.rate_window) + " samples") +
+      ", before noise and slew.";
+  return found;
+}
+
+/// How much noise and how much slew are tolerated, one at a time.
+Claim Guarantee::limits(const Tree& claim, const Promises& promises) const {
+  const Tree& evidence = claim.at("evidence");
+  Claim found;
+  found.is_summary = true;
+  found.evidence = {{"largest_noise", of(promises.noise), Sense::bounds_below},
+                    {"largest_slew", of(promises.slew), Sense::bounds_below}};
+  found.verdict = proved_if(promises.noise && promises.slew);
+  found.statement = tone(false) + ", at a constant frequency the tracker tolerates noise up to " +
+                    lower_decimal(low_of(evidence.at("largest_noise"))) +
+                    " of the amplitude, and without noise a slew up to " +
+                    lower_decimal(low_of(evidence.at("largest_slew"))) + kPerSample +
+                    " per sample: a certified invariant set exists for each.";
+  return found;
+}
+
+/// The guarantee: that the error stays below the limit, what it never exceeds, and when it has settled.
+Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
+  Claim found;
+  if (frequency_error_below_) {
+    found = frequency_error(promises);
+    found.statement.pop_back();
+  } else {
+    found.statement = hypotheses(promises) + "the tracker keeps its lock for ever";
+    found.verdict = promises.bound        ? Verdict::proved
+                    : promises.wrong_lock ? Verdict::refuted
+                                          : Verdict::undecided;
+    found.evidence = {{"frequency_error_bound", of(promises.bound), Sense::bounds_above},
+                      {"wrong_lock_frequency_error", of(promises.wrong_lock), Sense::bounds_below}};
+  }
+  found.is_summary = true;
+  const std::vector<Quantity> settling = settling_evidence(promises);
+  found.evidence.insert(found.evidence.end(), settling.begin(), settling.end());
+  found.evidence.push_back({"ultimate_frequency_error", of(promises.ultimate), Sense::bounds_above});
+  // What the evidence says is checked beside this.
+  const Tree& evidence = claim.at("evidence");
+  if (const Tree* bound = evidence.find("frequency_error_bound")) {
+    found.statement += ": the frequency error never exceeds " + upper_decimal(high_of(*bound)) + kPerSample;
+  }
+  if (const auto settled = settling_claim(evidence)) {
+    found.statement += "; from sample " + upper_decimal(settled->samples) + " on it stays at or below " +
+                       upper_decimal(settled->frequency_error) + kPerSample;
+  }
+  if (const Tree* ultimate = evidence.find("ultimate_frequency_error")) {
+    found.statement += "; in the long run it is at most " + upper_decimal(high_of(*ultimate)) + kPerSample;
+  }
+  found.statement += ".";
+  return found;
+}
+
+Claim Guarantee::check(const Tree& claim, const Promises& promises, Objections& objections) const {
+  const std::string& id = claim.at("id").text();
+  const bool asked = id == kSentence || id == kSet || id == kLimits ||
+                     std::any_of(required_.begin(), required_.end(),
+                                 [&](const Requirement& requirement) { return requirement.claim == id; });
+  if (!asked) {
+    objections.emplace_back("[require] does not ask for this");
+    return {};
+  }
+  Claim found = id == kBound      ? frequency_error(promises)
+                : id == kSettling ? settling(promises)
+                : id == kSentence ? sentence(claim, promises)
+                : id == kSet      ? invariant_set(claim, promises)
+                : id == kLimits   ? limits(claim, promises)
+                                  : size(id, promises);
   check_claim(claim, found, objections);
+  return found;
 }
 
 }  // namespace veritrack::checker

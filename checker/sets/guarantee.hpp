@@ -3,46 +3,81 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "checker/document/statement.hpp"
+#include "checker/document/parts.hpp"
 
 namespace veritrack::checker {
+
+/// From that sample on |frequency error| stays at or below that many rad/sample.
+struct Settled {
+  Ball samples, frequency_error;
+};
 
 /// What the verified sets that tolerate the assumed noise and slew prove of the assumed starts.
 struct Promises {
   bool starts_inside = false;
   std::optional<Ball> ultimate;    ///< limsup of |frequency error|, rad/sample: an upper bound
   std::optional<Ball> bound;       ///< of |frequency error| at every sample, rad/sample
-  std::optional<Ball> settling;    ///< samples until it is within twice the ultimate bound that is claimed
+  std::optional<Settled> settled;  ///< both numbers are the certificate's
   std::optional<Ball> wrong_lock;  ///< what |frequency error| ends above from some start: a lower bound
   // Of invariant sets, whatever the start: noise without slew (relative to the amplitude), slew
   // without noise, and how far the set for the assumed noise and slew reaches in frequency, rad/sample. Lower
   // bounds.
   std::optional<Ball> noise, slew, reach;
+  std::optional<Ball> rate;         ///< by which errors in that set shrink at least, a sample
+  std::size_t rate_window = 1;      ///< samples over which that is a mean
   bool about_steady_state = false;  ///< the reach is measured from a biased steady state
+  /// For which P(0|0) all this is true, as the sentences say it: "and with P(0|0) = ...".
+  std::string covariance;
 };
 
 /// The bounds on the frequency error, and on the noise and slew that are tolerated, as a derivation states
 /// them.
 void add_bounds(const Promises& promises, Derivation& found);
 
-/// The frequencies of which a guarantee speaks: those that are assumed, or every one below Nyquist.
-enum class Frequencies { assumed_band, every };
+/// What a derivation says of settling, which is to be proved; nothing when it says nothing.
+std::optional<Settled> settling_claim(const Tree& quantities);
 
-bool is_guarantee(const std::string& id);
-
-/// The ids of the claims in a design's [require], in their order.
-std::vector<std::string> requirements(const Tree& design);
-
-/// Objects to a claim of these that the bounds do not prove.
-void check_guarantee(const Tree& claim, const Tree& certificate, const Promises& promises,
-                     Frequencies frequencies, Objections& objections);
-
-/// What a derivation says of settling: after so many samples the frequency error is within twice the ultimate
-/// bound that the derivation itself states (which is checked beside it).
-struct SettlingClaim {
-  Ball samples, twice_ultimate;
+/// How a kind of tracker words its hypotheses.
+struct Wording {
+  bool in_band = true;       ///< true of the assumed frequencies; else of every one
+  bool two_channels = true;  ///< the noise is a vector in the plane
 };
-std::optional<SettlingClaim> settling_claim(const Tree& quantities);
+
+/// The claims of [require] and the guarantee of a design whose [assume] and [require] this reads.
+class Guarantee {
+ public:
+  /// Objects to a key of [require] that is not known, and to numbers that are not in it.
+  Guarantee(const Tree& design, Wording wording, Objections& objections);
+
+  static bool is_guarantee(const std::string& id);
+  /// What [require] asks.
+  [[nodiscard]] const std::vector<Requirement>& required() const { return required_; }
+  /// Objects to a claim of these that the promises do not prove. The claim with its sentence.
+  [[nodiscard]] Claim check(const Tree& claim, const Promises& promises, Objections& objections) const;
+
+ private:
+  struct Number {
+    std::string text;
+    Ball value;
+  };
+  [[nodiscard]] std::string tone(bool disturbed) const;
+  [[nodiscard]] std::string hypotheses(const Promises& promises) const;
+  [[nodiscard]] std::string short_text(const std::string& id) const;
+  [[nodiscard]] Claim frequency_error(const Promises& promises) const;
+  [[nodiscard]] Claim settling(const Promises& promises) const;
+  [[nodiscard]] Claim size(const std::string& id, const Promises& promises) const;
+  [[nodiscard]] Claim sentence(const Tree& claim, const Promises& promises) const;
+  [[nodiscard]] Claim invariant_set(const Tree& claim, const Promises& promises) const;
+  [[nodiscard]] Claim limits(const Tree& claim, const Promises& promises) const;
+
+  const Tree& design_;
+  Wording wording_;
+  std::vector<Requirement> required_;
+  std::optional<Number> frequency_error_below_, settles_within_, settled_below_, noise_, slew_, reach_;
+  Ball amplitude_, assumed_noise_, start_error_;
+};
 
 }  // namespace veritrack::checker

@@ -32,7 +32,7 @@ std::optional<SteadyStateBias> check_bias(const Tree& derivation, const SingleCh
 
 /// "Unbiased if and only if epsilon omega = 0", at the frequency that the claim names: objects unless it
 /// follows for epsilon = 0 (proposition-1/if), or from an established bias (proposition-1/only-if).
-void check_proposition_1(const Tree& claim, const SingleChannelDesign& design,
-                         const std::vector<SteadyStateBias>& established, Objections& objections);
+Claim check_proposition_1(const Tree& claim, const SingleChannelDesign& design,
+                          const std::vector<SteadyStateBias>& established, Objections& objections);
 
 }  // namespace veritrack::checker

@@ -189,11 +189,11 @@ std::optional<StartSet> starts_of(const ErrorSets& sets, bool starts_inside, boo
   return invariant ? std::optional(StartSet{*sets.whole, sets.whole->start()}) : std::nullopt;
 }
 
-bool settles(const StartSet& starts, const SettlingClaim& claim) {
+bool settles(const StartSet& starts, const Settled& claim) {
   constexpr double kMost = 10000.0;
+  const double samples = claim.samples.near();
   return certainly_not_negative(claim.samples) && certainly_at_most(claim.samples, Ball(kMost)) &&
-         starts.set.settled(starts.level, claim.twice_ultimate,
-                            static_cast<std::size_t>(claim.samples.near()));
+         starts.set.settled(starts.level, claim.frequency_error, static_cast<std::size_t>(samples));
 }
 
 std::vector<Condition> conditions_of(const ErrorSets& sets, const SingleChannelDesign& design, bool invariant,
@@ -221,6 +221,8 @@ Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign&
                        verified_set(claimed, "largest-noise", design, cells, objections),
                        verified_set(claimed, "largest-slew", design, cells, objections)};
   Promises promises;
+  promises.covariance =
+      "and with P(0|0) = the filter's steady state at that frequency and at the estimated phase";
   promises.starts_inside = sets.bound && tolerates(*sets.bound, design) && holds_starts(*sets.bound, design);
   promises.noise = sets.noisy ? std::optional(sets.noisy->noise()) : std::nullopt;
   promises.slew = sets.slewing ? std::optional(sets.slewing->window().slew) : std::nullopt;
@@ -229,6 +231,8 @@ Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign&
   const bool invariant = sets.whole && tolerates(*sets.whole, design);
   if (invariant) {
     add_size(*sets.whole, found);
+    promises.rate = sets.whole->rate();
+    promises.rate_window = sets.whole->samples();
     promises.reach = sets.whole->start() * root_of_non_negative(max(sets.whole->window().least_p33, zero));
   }
   if (const auto starts = starts_of(sets, promises.starts_inside, invariant)) {
@@ -238,7 +242,8 @@ Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign&
     }
     if (const auto claim = settling_claim(claimed.at("quantities")); claim && settles(*starts, *claim)) {
       found.quantities.push_back({"settling_samples", claim->samples, Sense::bounds_above});
-      promises.settling = promises.starts_inside ? std::optional(claim->samples) : std::nullopt;
+      found.quantities.push_back({"settled_frequency_error", claim->frequency_error, Sense::bounds_above});
+      promises.settled = promises.starts_inside ? claim : std::nullopt;
     }
   }
   add_bounds(promises, found);

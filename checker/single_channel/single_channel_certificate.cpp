@@ -13,28 +13,13 @@ namespace veritrack::checker {
 
 namespace {
 
-/// Every number of a design file is in an object with its text.
-void read_numbers(const Tree& tree, Objections& objections) {
-  if (tree.kind() == Tree::Kind::array) {
-    for (const Tree& element : tree.elements()) {
-      read_numbers(element, objections);
-    }
-  } else if (tree.kind() == Tree::Kind::object && tree.find("text") != nullptr) {
-    read_number(tree, objections);
-  } else if (tree.kind() == Tree::Kind::object) {
-    for (const auto& [key, value] : tree.members()) {
-      read_numbers(value, objections);
-    }
-  }
-}
-
 void verify(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
   Objections objections;
-  read_numbers(certificate.at("design"), objections);
   const SingleChannelDesign design = read_single_channel_design(certificate.at("design"), objections);
+  const Guarantee guarantee(certificate.at("design"), {.in_band = true, .two_channels = false}, objections);
   result.parts.push_back({"design", objections});
-  for (const Tree& set : certificate.at("certified_sets").elements()) {
-    result.parts.push_back({"certified set " + set.at("purpose").text(), {kUnknown}});
+  if (!objections.empty()) {
+    return;  // nothing is said of what is no design
   }
   Promises promises;
   std::vector<SteadyStateBias> biases;
@@ -58,23 +43,23 @@ void verify(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
     }
     result.parts.push_back({id, objections});
   }
-  for (const Tree& row : certificate.at("comparison").elements()) {
-    result.parts.push_back({"comparison " + row.at("result").text(), {kUnknown}});
-  }
   const std::map<std::string, Claim> propositions = proposition_claims();
   const auto check = [&](const Tree& claim, Objections& found) {
     const std::string& id = claim.at("id").text();
-    if (is_guarantee(id)) {
-      check_guarantee(claim, certificate, promises, Frequencies::assumed_band, found);
-    } else if (id == "proposition-1/if" || id == "proposition-1/only-if") {
-      check_proposition_1(claim, design, biases, found);
-    } else if (const auto known = propositions.find(id); known != propositions.end()) {
-      check_claim(claim, known->second, found);
-    } else {
-      found.emplace_back(kUnknown);
+    if (Guarantee::is_guarantee(id)) {
+      return guarantee.check(claim, promises, found);
     }
+    if (id == "proposition-1/if" || id == "proposition-1/only-if") {
+      return check_proposition_1(claim, design, biases, found);
+    }
+    if (const auto known = propositions.find(id); known != propositions.end()) {
+      check_claim(claim, known->second, found);
+      return known->second;
+    }
+    found.emplace_back(kUnknown);
+    return Claim();
   };
-  check_claims(certificate, requirements(certificate.at("design")), check, result);
+  check_claims(certificate, guarantee.required(), check, result);
 }
 
 }  // namespace

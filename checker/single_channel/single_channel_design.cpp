@@ -1,57 +1,68 @@
 #include "checker/single_channel/single_channel_design.hpp"
 
+#include "checker/document/design_number.hpp"
+
 namespace veritrack::checker {
 
-SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& objections) {
-  const auto number = [&](const Tree& table, const char* name) {
-    return read_number(table.at(name), objections);
+namespace {
+
+/// Q = diag(q1, q1, q2) and r, in signal units.
+void read_variances(const Tree& chosen, SingleChannelDesign& design, Objections& objections) {
+  const auto not_negative = [&](const Tree& table, const char* name) {
+    return read_not_negative(table.at(name), name, objections);
   };
-  const Tree& chosen = tree.at("design");
-  const Tree& assume = tree.at("assume");
-  SingleChannelDesign design;
-  design.amplitude = number(assume, "amplitude");
   const Tree& process_noise = chosen.at("process_noise");
   const bool by_ratio = chosen.find("lambda") != nullptr;
   if (by_ratio && (chosen.find("q") != nullptr || chosen.find("r") != nullptr)) {
     throw Malformed("lambda replaces q and r");
   }
-  const auto q = [&] { return by_ratio ? one : number(chosen, "q"); };
-  design.r = number(chosen, by_ratio ? "lambda" : "r");
-  design.epsilon = number(chosen, "epsilon");
+  design.r = not_negative(chosen, by_ratio ? "lambda" : "r");
   if (process_noise.kind() == Tree::Kind::object) {
-    design.q1 = number(process_noise, "q1");
-    design.q2 = number(process_noise, "q2");
-  } else if (process_noise.text() == "identity" || process_noise.text() == "frequency-only") {
-    design.q1 = process_noise.text() == "identity" ? q() : zero;
-    design.q2 = q();
-  } else {
-    throw Malformed("no process noise: " + process_noise.text());
+    design.q1 = not_negative(process_noise, "q1");
+    design.q2 = read_positive(process_noise.at("q2"), "q2", objections);
+    return;
   }
+  const std::string& kind = process_noise.text();
+  if (kind != "identity" && kind != "frequency-only") {
+    throw Malformed("no process noise: " + kind.substr(0, 60));
+  }
+  design.q2 = by_ratio ? one : read_positive(chosen.at("q"), "q", objections);
+  design.q1 = kind == "identity" ? design.q2 : zero;
+}
+
+}  // namespace
+
+SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& objections) {
+  const Tree& chosen = tree.at("design");
+  const Tree& assume = tree.at("assume");
+  const auto not_negative = [&](const Tree& table, const char* name) {
+    return read_not_negative(table.at(name), name, objections);
+  };
+  SingleChannelDesign design;
+  design.amplitude = read_positive(assume.at("amplitude"), "amplitude", objections);
+  read_variances(chosen, design, objections);
+  design.epsilon = not_negative(chosen, "epsilon");
   design.q1 = design.q1 / square(design.amplitude);
   design.r = design.r / square(design.amplitude);
-  const Tree& band = assume.at("frequency");
-  design.lowest = read_number(band.at(0), objections);
-  design.highest = read_number(band.at(1), objections);
-  const bool in_order = band.at(0).at("text").text() == band.at(1).at("text").text() ||
-                        certainly_at_most(design.lowest, design.highest);
-  design.noise = number(assume, "noise") / design.amplitude;
-  design.slew = number(assume, "slew");
-  design.amplitude_error = number(assume, "initial_amplitude_error") / design.amplitude;
-  design.phase_error = number(assume, "initial_phase_error");
-  design.frequency_error = number(assume, "initial_frequency_error");
+  const Band band = read_band(assume.at("frequency"), objections);
+  design.lowest = band.lowest;
+  design.highest = band.highest;
+  design.noise = not_negative(assume, "noise") / design.amplitude;
+  design.slew = not_negative(assume, "slew");
+  design.amplitude_error = not_negative(assume, "initial_amplitude_error") / design.amplitude;
+  design.phase_error = not_negative(assume, "initial_phase_error");
+  design.frequency_error = not_negative(assume, "initial_frequency_error");
+  if (!certainly_less(design.epsilon, one)) {
+    objections.emplace_back("epsilon must be below 1");
+  }
   const Tree& covariance = assume.at("initial_covariance");
   design.starts_in_steady_state = covariance.kind() == Tree::Kind::text;
-  if (design.starts_in_steady_state && covariance.text() != "steady-state") {
-    throw Malformed("initial_covariance is neither a matrix nor steady-state");
-  }
-  if (!certainly_positive(design.amplitude) || !certainly_positive(design.q2) || !in_order) {
-    objections.emplace_back("amplitude and q2 must be positive, and the frequencies in order");
-  }
-  for (const Ball* bound : {&design.q1, &design.r, &design.epsilon, &design.noise, &design.slew,
-                            &design.amplitude_error, &design.phase_error, &design.frequency_error}) {
-    if (!certainly_not_negative(*bound)) {
-      objections.emplace_back("variances, the leak, noise, slew and start errors must not be negative");
+  if (!design.starts_in_steady_state) {
+    for (std::size_t i = 0; i < 9; ++i) {
+      read_number(covariance.at(i / 3).at(i % 3), objections);
     }
+  } else if (covariance.text() != "steady-state") {
+    throw Malformed("initial_covariance is neither a matrix nor steady-state");
   }
   return design;
 }

@@ -15,9 +15,11 @@ struct Design {
   Ball q1, q2, r, epsilon;
   Ball lowest_frequency, highest_frequency, largest_frequency;  ///< rad/sample
   Ball noise, slew;
-  Ball amplitude_error, phase_error, frequency_error;            ///< of the start, bounds on absolute values
-  std::optional<std::array<std::array<Ball, 3>, 3>> covariance;  ///< none: the filter's steady state
-  Ball state_bound, sigma, gamma_fraction, c1, c2;               ///< of Theorem 2.9
+  Ball amplitude_error, phase_error, frequency_error;  ///< of the start, bounds on absolute values
+  std::optional<std::array<std::array<Ball, 3>, 3>>
+      covariance;  ///< P(0|0); none: a multiple of a matrix of ours
+  std::array<std::array<std::string, 3>, 3> covariance_texts;  ///< as written, in signal units
+  Ball state_bound, sigma, gamma_fraction, c1, c2;             ///< of Theorem 2.9
   bool q1_equals_q2 = false;
   [[nodiscard]] bool without_leak() const { return certainly_equal(epsilon, zero); }
 };

@@ -87,7 +87,7 @@ Derivation riccati_bounds(const Design& d, const Tree& /*claimed*/) {
                                                : Verdict::undecided,
                 is_proved ? sound : reached,
                 c.p,
-                Sense::bounds_above};
+                is_proved ? Sense::bounds_above : Sense::encloses};
     found.conditions.push_back(p);
     found.conditions.push_back({"q-" + name, R"(\lVert P(k \mid k)^{-1} \rVert \le q)",
                                 proved_if(certainly_at_most(information, c.q)), information, c.q});

@@ -35,9 +35,9 @@ bool is_published_result(const std::string& id) {
   return results().count(id) != 0;
 }
 
-void check_published_result(const std::string& id, const Tree& derivation, const Design& design,
-                            Objections& objections) {
-  check_derivation(derivation, results().at(id)(design, derivation), objections);
+std::string check_published_result(const std::string& id, const Tree& derivation, const Design& design,
+                                   Objections& objections) {
+  return check_derivation(derivation, results().at(id)(design, derivation), objections);
 }
 
 }  // namespace veritrack::checker

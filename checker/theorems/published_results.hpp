@@ -12,7 +12,7 @@ namespace veritrack::checker {
 bool is_published_result(const std::string& id);
 
 /// Objects to what of the derivation could not be re-established.
-void check_published_result(const std::string& id, const Tree& derivation, const Design& design,
-                            Objections& objections);
+std::string check_published_result(const std::string& id, const Tree& derivation, const Design& design,
+                                   Objections& objections);
 
 }  // namespace veritrack::checker

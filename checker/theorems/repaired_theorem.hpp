@@ -8,6 +8,6 @@
 namespace veritrack::checker {
 
 /// Objects to what of the derivation "theorem-2.9/repaired" its evidence does not prove.
-void check_repaired_theorem(const Tree& derivation, const Design& design, Objections& objections);
+std::string check_repaired_theorem(const Tree& derivation, const Design& design, Objections& objections);
 
 }  // namespace veritrack::checker

@@ -20,6 +20,7 @@ Constants29 constants_2_9(const Design& design, Reading reading);
 Ball largest_initial_error(const Design& design);
 
 /// Objects to what of the derivation, feasibility included, could not be re-established.
-void check_theorem_2_9(const Tree& derivation, const Design& design, Reading reading, Objections& objections);
+std::string check_theorem_2_9(const Tree& derivation, const Design& design, Reading reading,
+                              Objections& objections);
 
 }  // namespace veritrack::checker

@@ -97,8 +97,12 @@ CaptureTube capture_tube(const sets::ContractionQuestion& question, const Certif
     tube.frequency_errors.push_back(
         std::max(region.frequency_errors.at(index), captured ? captured->frequency_error() : 0.0));
   }
-  for (int k = last_capture; captured && captured->can_settle() && k <= kLongest; ++k) {
-    if (captured->settled()) {
+  if (captured) {
+    tube.settled_frequency_error =
+        question.settled_frequency_error.value_or(2.0 * captured->ultimate_frequency_error());
+  }
+  for (int k = last_capture; captured && tube.settled_frequency_error > 0.0 && k <= kLongest; ++k) {
+    if (captured->settled(tube.settled_frequency_error)) {
       tube.settling_samples = k;
       break;
     }
@@ -117,16 +121,19 @@ sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& 
                                  const Region& region, const CaptureTube& tube) {
   const bool proved = verdict_on_starts == Verdict::proved;
   constexpr const char* kNotAll = "Not every assumed start is proved to be captured.";
+  constexpr const char* kNotSettled = "No number of samples is certified for it.";
   std::optional<Interval> samples;
   std::optional<Interval> bound;
   std::optional<Interval> ultimate;
   std::optional<Interval> settling;
+  std::optional<Interval> settled;
   if (proved) {
     ultimate = Interval(tube.ultimate_frequency_error);
     samples = Interval(static_cast<double>(capture_samples(region)));
     bound = Interval(*std::max_element(tube.frequency_errors.begin(), tube.frequency_errors.end()));
     if (tube.settling_samples) {
       settling = Interval(static_cast<double>(*tube.settling_samples));
+      settled = Interval(tube.settled_frequency_error);
     }
   }
   sets::StartResult result;
@@ -138,9 +145,10 @@ sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& 
       "\\max(\\max_{k \\le k_c} |\\nu(k)|,\\ |T e(k_c)|\\,|e_3' T^{-1}|,\\ \\nu_\\infty)", bound, kNotAll);
   set(result.ultimate_frequency_error, "u\\,|e_3' T^{-1}|", ultimate, kNotAll);
   set(result.settling_samples,
-      "k_c + \\min \\{k : \\kappa^{2k} |T e(k_c)|^2 + (1 - \\kappa^{2k}) u^2 \\le 4 u^2\\}", settling,
-      proved ? "Without noise and slew the ultimate bound is zero, which is approached but not reached."
-             : kNotAll);
+      "k_c + \\min \\{k : \\kappa^{2k} |T e(k_c)|^2 + (1 - \\kappa^{2k}) u^2 \\le (\\nu_s / |e_3' "
+      "T^{-1}|)^2\\}",
+      settling, proved ? kNotSettled : kNotAll);
+  set(result.settled_frequency_error, "", settled, proved ? kNotSettled : kNotAll);
   if (const std::optional<Interval> wrong = wrong_lock(set_of_capture, region)) {
     result.wrong_lock_frequency_error = sets::quantities::wrong_lock_frequency_error();
     set(*result.wrong_lock_frequency_error, "2 \\pi |n| - R\\,|e_3' T^{-1}|", wrong, "");
@@ -150,7 +158,8 @@ sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& 
 
 std::vector<Quantity> capture_quantities(const sets::StartResult& result, const Region& region) {
   std::vector<Quantity> all{*result.capture_samples, result.frequency_error_bound,
-                            result.ultimate_frequency_error, result.settling_samples};
+                            result.ultimate_frequency_error, result.settling_samples,
+                            result.settled_frequency_error};
   if (result.wrong_lock_frequency_error) {
     all.push_back(*result.wrong_lock_frequency_error);
   }

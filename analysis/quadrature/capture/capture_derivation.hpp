@@ -19,6 +19,7 @@ struct CaptureTube {
   std::vector<double> frequency_errors;
   double ultimate_frequency_error = 0.0;  ///< of the set that captures
   std::optional<int> settling_samples;
+  double settled_frequency_error = 0.0;  ///< from then on, rad/sample
 };
 
 /// The tube of a region of which every cell is PROVED. Needs the upward mode.

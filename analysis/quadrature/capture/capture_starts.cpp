@@ -58,18 +58,10 @@ std::optional<CaptureProblem> capture_problem(const sets::ContractionQuestion& q
   problem.design = question.design;
   problem.noise = question.noise.upper();
   problem.slew = question.slew.upper();
-  if (question.initial_covariance) {
-    problem.initial_covariance = *question.initial_covariance;
-    return problem;
-  }
-  const sets::LockBranch branch = sets::verify_lock_branch(question.design, Interval(0.0));
-  if (branch.verdict != Verdict::proved || branch.cells.empty()) {
+  if (!question.start_covariance) {
     return std::nullopt;
   }
-  const auto state = branch.cells.front().box();
-  problem.initial_covariance << state[3], state[4], state[5],  //
-      state[4], state[6], state[7],                            //
-      state[5], state[7], state[8];
+  problem.initial_covariance = question.start_covariance->enclosure();
   return problem;
 }
 
@@ -100,12 +92,10 @@ StartCapture capture_starts(const sets::ContractionQuestion& question, const Cer
     }
     derivation.conditions.push_back(starts_captured(capture.region, derivation.notes));
   } else {
-    derivation.conditions.push_back({"starts-captured",
-                                     "X(k_c) \\in \\Omega \\text{ from every assumed start}",
-                                     Verdict::undecided, Interval::empty(), Interval::empty(),
-                                     can_begin ? "the covariance at the start, the filter's steady state, "
-                                                 "could not be enclosed, so that no start could be followed."
-                                               : "no start was followed."});
+    derivation.conditions.push_back(
+        {"starts-captured", "X(k_c) \\in \\Omega \\text{ from every assumed start}", Verdict::undecided,
+         Interval::empty(), Interval::empty(),
+         can_begin ? "the question names no covariance at the start." : "no start was followed."});
   }
   derivation.verdict =
       rigor::conjunction({derivation.conditions[0].verdict, derivation.conditions[1].verdict});

@@ -27,8 +27,4 @@ void CertifiedLevel::step() {
   level_ = Interval(rigor::sqrt(next).upper());
 }
 
-bool CertifiedLevel::settled() const {
-  return can_settle() && certainly_less_equal(level_, Interval(2.0) * Interval(ultimate_.lower()));
-}
-
 }  // namespace veritrack::quadrature

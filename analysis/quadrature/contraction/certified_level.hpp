@@ -27,10 +27,10 @@ class CertifiedLevel {
   [[nodiscard]] bool above(const CertifiedLevel& other) const {
     return certainly_less_equal(other.level_, level_);
   }
-  /// Without noise and slew the ultimate bound is zero, which is approached but not reached.
-  [[nodiscard]] bool can_settle() const { return certainly_positive(ultimate_); }
-  /// Certainly within twice the ultimate bound u.
-  [[nodiscard]] bool settled() const;
+  /// |frequency error| is at most that from now on, certainly; rad/sample.
+  [[nodiscard]] bool settled(double frequency_error) const {
+    return largest_frequency_error() <= frequency_error;
+  }
 
  private:
   [[nodiscard]] double frequency_error_at(const rigor::Interval& level) const;

@@ -18,13 +18,18 @@ Interval better(const Interval& best, const Interval& other) {
 
 }  // namespace
 
-Promises::Promises(const sets::ContractionQuestion& question, const std::vector<CertifiedSet>& sets) {
+Promises::Promises(const sets::ContractionQuestion& question, const std::vector<CertifiedSet>& sets)
+    : settled_(question.settled_frequency_error) {
   std::vector<StartBounds> others;
   for (const CertifiedSet& set : sets) {
     const StartBounds bounds(question, set);
     (bounds.contains_starts() ? bases_ : others).push_back(bounds);
   }
   starts_inside_ = !bases_.empty();
+  for (const StartBounds& base : bases_) {
+    const Interval multiples = base.covariance_multiples().value();
+    multiples_ = multiples_ ? rigor::intersection(*multiples_, multiples) : multiples;
+  }
   if (!starts_inside_ && !others.empty()) {
     bases_ = {others.front()};
   }
@@ -49,14 +54,29 @@ Interval Promises::frequency_error_bound() const {
   return bound;
 }
 
-Interval Promises::settling_samples() const {
+Interval Promises::samples_until(const Interval& frequency_error) const {
   Interval samples;
-  if (certainly_positive(ultimate_)) {
-    for (const StartBounds& base : bases_) {
-      samples = better(samples, base.samples_until(Interval(2.0) * ultimate_).value_or(Interval()));
-    }
+  for (const StartBounds& base : bases_) {
+    samples = better(samples, base.samples_until(frequency_error).value_or(Interval()));
   }
   return samples;
+}
+
+std::optional<Promises::Settling> Promises::settling() const {
+  std::vector<Interval> levels;
+  if (settled_) {
+    levels.emplace_back(*settled_);
+  }
+  if (certainly_positive(ultimate_)) {
+    levels.emplace_back((Interval(2.0) * ultimate_).upper());
+  }
+  for (const Interval& level : levels) {
+    const Interval samples = samples_until(level);
+    if (rigor::is_finite(samples)) {
+      return Settling{level, samples};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace veritrack::quadrature

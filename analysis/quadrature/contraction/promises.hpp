@@ -1,6 +1,7 @@
 // The bounds that several certified sets prove together for the assumed starts, noise and slew.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "analysis/quadrature/contraction/start_bounds.hpp"
@@ -21,14 +22,26 @@ class Promises {
   [[nodiscard]] const rigor::Interval& ultimate_frequency_error() const { return ultimate_; }
   /// A bound on |frequency error| at every sample, rad/sample. Empty when there is none.
   [[nodiscard]] rigor::Interval frequency_error_bound() const;
-  /// A number of samples after which |frequency error| is within twice the ultimate one. Empty when no set
-  /// gives one.
-  [[nodiscard]] rigor::Interval settling_samples() const;
+  /// A frequency error (rad/sample), and a number of samples after which it is not exceeded: the one that is
+  /// to count as settled, or, where none is asked for or no set gives a number for it, twice the ultimate
+  /// one.
+  struct Settling {
+    rigor::Interval frequency_error, samples;
+  };
+  [[nodiscard]] std::optional<Settling> settling() const;
+  /// The multiples of the start covariance for which all this is true; nothing when no set contains the
+  /// starts.
+  [[nodiscard]] const std::optional<rigor::Interval>& covariance_multiples() const { return multiples_; }
 
  private:
+  /// The smallest number of samples that a set gives; empty when none does.
+  [[nodiscard]] rigor::Interval samples_until(const rigor::Interval& frequency_error) const;
+
   std::vector<StartBounds> bases_;  ///< of the sets that contain the starts
   bool starts_inside_ = false;
   rigor::Interval ultimate_;
+  std::optional<double> settled_;
+  std::optional<rigor::Interval> multiples_;
 };
 
 }  // namespace veritrack::quadrature

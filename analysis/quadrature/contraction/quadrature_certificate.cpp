@@ -30,7 +30,8 @@ Condition start_in_set(const sets::ContractionQuestion& question, const Certifie
                       starts_inside ? Verdict::proved : Verdict::undecided,
                       Interval(level.upper()),
                       radius,
-                      {}};
+                      {},
+                      theorems::Sense::at_most};
   condition.reason =
       starts_inside ? "every assumed start lies in a certified set."
       : certainly_less_equal(level, radius)
@@ -75,10 +76,13 @@ void set_promises(const Promises& promises, sets::StartResult& starts) {
       promises.starts_inside() ? promises.frequency_error_bound() : Interval(),
       "The assumed starts are not in a certified set.");
   const bool settles = certainly_positive(promises.ultimate_frequency_error());
-  set(starts.settling_samples, "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
-      promises.settling_samples(),
-      settles ? "No certified set gives a settling time."
-              : "Without noise and slew the ultimate bound is zero, which is approached but not reached.");
+  const std::optional<Promises::Settling> settling = promises.settling();
+  const char* why_not = settles ? "No certified set gives a settling time."
+                                : "The bound in the long run is zero, which is approached but not reached.";
+  set(starts.settling_samples, "|\\nu(k)| \\le \\nu_s \\text{ for } k \\ge k_s",
+      settling ? settling->samples : Interval(), why_not);
+  set(starts.settled_frequency_error, "", settling ? settling->frequency_error : Interval(), why_not);
+  starts.covariance_multiples = promises.covariance_multiples();
 }
 
 Condition leak(const Interval& epsilon) {
@@ -169,7 +173,8 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
     certificate.ultimate_set = find_inner_set(question, certificate.set->set);
   }
   const Interval ultimate = Promises(question, sets_of(certificate)).ultimate_frequency_error();
-  certificate.settling_set = find_set(question, Objective::settling, 2.0 * ultimate.upper());
+  certificate.settling_set = find_set(question, Objective::settling,
+                                      question.settled_frequency_error.value_or(2.0 * ultimate.upper()));
 }
 
 }  // namespace

@@ -37,9 +37,11 @@ StartBounds::StartBounds(const sets::ContractionQuestion& question, const Certif
       rigor::symmetric(question.initial_phase_error.upper()),
       rigor::symmetric(question.initial_frequency_error.upper());
   start_level_ = metric_norm(set, start);
-  contains_starts_ = question.initial_covariance
-                         ? certainly_contains(set, start, *question.initial_covariance)
-                         : certainly_less_equal(start_level_, Interval(set.radius));
+  if (question.start_covariance) {
+    multiples_ =
+        sets::multiples_between(*question.start_covariance, set.covariance_lower, set.covariance_upper);
+  }
+  contains_starts_ = multiples_ && certainly_less_equal(start_level_, Interval(set.radius));
 }
 
 Interval StartBounds::ultimate_frequency_error() const {

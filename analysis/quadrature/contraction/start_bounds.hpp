@@ -20,11 +20,12 @@ class StartBounds {
  public:
   StartBounds(const sets::ContractionQuestion& question, const CertifiedSet& set);
 
-  /// True only when every assumed start lies in the set. For the steady state no covariance needs to be
-  /// checked: the bounds are invariant under the Riccati map at |z| = 1 without a turn, whose iterates from
-  /// any covariance tend to the steady state.
+  /// True only when every assumed start lies in the set, with every covariance of the question.
   [[nodiscard]] bool contains_starts() const { return contains_starts_; }
   [[nodiscard]] const CertifiedSet& set() const { return set_; }
+  /// The multiples of the question's start covariance that lie between the bounds of the set; nothing when it
+  /// does not itself.
+  [[nodiscard]] const std::optional<rigor::Interval>& covariance_multiples() const { return multiples_; }
   /// The largest |T e(0)| that is assumed.
   [[nodiscard]] const rigor::Interval& start_level() const { return start_level_; }
 
@@ -40,6 +41,7 @@ class StartBounds {
  private:
   CertifiedSet set_;
   rigor::Interval start_level_, ultimate_level_;
+  std::optional<rigor::Interval> multiples_;
   bool contains_starts_ = false;
 };
 

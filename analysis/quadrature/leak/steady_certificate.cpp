@@ -81,7 +81,8 @@ Condition invariant_set(const LeakQuestion& question, const Search& search,
                       rate ? Verdict::proved : Verdict::undecided,
                       rate.value_or(Interval::empty()),
                       Interval(1.0),
-                      search.why};
+                      search.why,
+                      theorems::Sense::at_most};
   if (!rate && search.branch.verdict == Verdict::proved) {
     invariant.reason =
         "no set could be certified for this noise and slew: " + search.why + " Of the limits: " +
@@ -128,6 +129,7 @@ sets::ContractionResult result_of(const Search& search, const std::optional<Stea
   set(*starts.capture_samples, "", report ? report->capture_samples() : std::nullopt, outside);
   set(starts.settling_samples, "k_c + n - j(k_c),\\ s_{j(k_c)} \\ge s(k_c)",
       said([](const SteadyReport& r) { return r.settling(); }), why);
+  set(starts.settled_frequency_error, "", said([](const SteadyReport& r) { return r.ultimate(); }), why);
   set(result.largest_noise, "", above_zero(search.largest_noise), why);
   set(result.largest_slew, "", above_zero(search.largest_slew), why);
   result.bias_frequency = sets::frequency_bias(search.branch);

@@ -29,7 +29,8 @@ theorems::Condition SteadyReport::start_in_set() const {
                                 start_.reached ? Verdict::proved : Verdict::undecided,
                                 start_.level ? Interval(*start_.level) : Interval::empty(),
                                 Interval(1.0),
-                                {}};
+                                {},
+                                theorems::Sense::at_most};
   if (start_.reached && start_.samples == 0) {
     condition.reason =
         "every assumed start lies in the certified set around the steady state of its frequency.";

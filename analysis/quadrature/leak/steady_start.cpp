@@ -34,10 +34,10 @@ SteadyStart start_of(const sets::ContractionQuestion& question, const sets::Quad
   IntervalVector<3> error;
   error << starts.amplitude_error, starts.phase_error, starts.frequency_error;
   SteadyStart result;
-  std::optional<double> covariance = 0.0;  // a start with the steady covariance is at its middle
-  if (question.initial_covariance) {
-    covariance =
-        covariance_level(IntervalMatrix<3>(*question.initial_covariance - covariance_of(steady)), set);
+  std::optional<double> covariance;
+  if (question.start_covariance) {
+    covariance = covariance_level(
+        IntervalMatrix<3>(question.start_covariance->enclosure() - covariance_of(steady)), set);
   }
   const Interval norm = metric_norm(set, IntervalVector<3>(error - steady.head<3>()));
   if (covariance && is_finite(norm)) {
@@ -53,11 +53,10 @@ SteadyStart start_of(const sets::ContractionQuestion& question, const sets::Quad
 SteadyStart follow_part(const sets::ContractionQuestion& question, const sets::QuadratureTube& cell,
                         const Interval& part, const SteadySet& set) {
   SteadyStart result = start_of(question, cell, part, set);
-  if (result.reached || !(question.slew == Interval(0.0))) {
+  if (result.reached || !(question.slew == Interval(0.0)) || !question.start_covariance) {
     return result;
   }
-  const IntervalMatrix<3> covariance =
-      question.initial_covariance ? *question.initial_covariance : covariance_of(cell.at(part));
+  const IntervalMatrix<3> covariance = question.start_covariance->enclosure();
   // Beyond the boundary, which gives a smaller bound.
   constexpr double kLevel = 0.5;
   constexpr int kMostSamples = 100;

@@ -26,8 +26,8 @@ struct SteadyStart {
 /// What holds for all of them. Throws std::invalid_argument when there are none.
 [[nodiscard]] SteadyStart joined(const std::vector<SteadyStart>& starts);
 
-/// Starts are relative to the true signal: the errors of the question around it, with the question's initial
-/// covariance, or the steady one of the frequency. Where Omega_1 does not hold them they are followed, at a
+/// Starts are relative to the true signal: the errors of the question around it, with the question's start
+/// covariances, without which none is reached. Where Omega_1 does not hold them they are followed, at a
 /// constant frequency (slew zero) and with the noise of the set, until Omega_s with s <= 1/2 does
 /// (capture.hpp). One for each cell, in their order, up to the first few that are not reached. Opens its own
 /// rounding scope; deterministic.

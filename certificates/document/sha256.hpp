@@ -1,0 +1,12 @@
+// The SHA-256 of a text, by which a file is known.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace veritrack::certificates {
+
+/// 64 hexadecimal digits (FIPS 180-4).
+[[nodiscard]] std::string sha256(std::string_view text);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,141 @@
+#include "checker/document/design_file.hpp"
+
+#include <toml++/toml.h>
+#include <cctype>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "checker/document/design_number.hpp"
+#include "checker/document/sha256.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+/// What a design file means that leaves a key out (docs/design-file.md).
+const std::string* default_of(const std::string& path) {
+  static const std::map<std::string, std::string> defaults{{"assume.amplitude", "1"},
+                                                           {"assume.slew", "0"},
+                                                           {"assume.initial_covariance", "steady-state"},
+                                                           {"design.epsilon", "0"},
+                                                           {"source", ""},
+                                                           {"theorem_2_9.R_x", "7"},
+                                                           {"theorem_2_9.sigma", "1e-3"},
+                                                           {"theorem_2_9.gamma_fraction", "0.5"},
+                                                           {"theorem_2_9.c1", "3"},
+                                                           {"theorem_2_9.c2", "3"}};
+  const auto found = defaults.find(path);
+  return found == defaults.end() ? nullptr : &found->second;
+}
+
+/// Walks through the certificate's design and the file together.
+class Comparison {
+ public:
+  Comparison(const std::string& file, Objections& objections) : objections_(objections) {
+    std::istringstream stream(file);
+    for (std::string line; std::getline(stream, line);) {
+      lines_.push_back(line);
+    }
+  }
+
+  void table(const std::string& path, const Tree& claimed, const toml::table* file) {
+    for (const auto& [name, value] : claimed.members()) {
+      node(path.empty() ? name : path + "." + name, value, file != nullptr ? file->get(name) : nullptr);
+    }
+    if (file == nullptr) {
+      return;
+    }
+    for (const auto& [key, value] : *file) {
+      const std::string name(key.str());
+      const bool left_aside = path.empty() && name == "simulate";
+      if (!left_aside && claimed.find(name) == nullptr) {
+        objections_.push_back(path + "." + name + " is in the design file and not in the certificate");
+      }
+    }
+  }
+
+ private:
+  void node(const std::string& path, const Tree& claimed, const toml::node* file) {
+    const bool is_number = claimed.kind() == Tree::Kind::object && claimed.find("text") != nullptr;
+    if (is_number) {
+      same(path, text_of(claimed), file, file != nullptr && file->is_number() ? literal(*file) : "");
+    } else if (claimed.kind() == Tree::Kind::text) {
+      same(path, claimed.text(), file, file != nullptr && file->is_string() ? file->as_string()->get() : "");
+    } else if (claimed.kind() == Tree::Kind::object) {
+      if (file != nullptr && !file->is_table()) {
+        objections_.push_back(path + " is no table in the design file");
+        return;
+      }
+      table(path, claimed, file != nullptr ? file->as_table() : nullptr);
+    } else {
+      array(path, claimed, file);
+    }
+  }
+
+  void array(const std::string& path, const Tree& claimed, const toml::node* file) {
+    const auto& elements = claimed.elements();
+    const toml::array* values = file != nullptr ? file->as_array() : nullptr;
+    // One frequency is a band of one frequency.
+    const bool is_single = file != nullptr && file->is_number() && path == "assume.frequency";
+    if (!is_single && (values == nullptr || values->size() != elements.size())) {
+      objections_.push_back(path + " is another array in the design file");
+      return;
+    }
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      node(path + "[" + std::to_string(i) + "]", elements[i], is_single ? file : values->get(i));
+    }
+  }
+
+  void same(const std::string& path, const std::string& claimed, const toml::node* file,
+            const std::string& text) {
+    const std::string* fallback = default_of(path);
+    if (file == nullptr && fallback == nullptr) {
+      objections_.push_back(path + " is in the certificate and not in the design file");
+    } else if (claimed != (file == nullptr ? *fallback : text)) {
+      objections_.push_back(path + " is " + (file == nullptr ? *fallback + " by default" : text) +
+                            " in the design file");
+    }
+  }
+
+  /// A number as it is written: toml++ says only where. Columns count characters, as UTF-8 writes them.
+  [[nodiscard]] std::string literal(const toml::node& number) const {
+    const toml::source_position begin = number.source().begin;
+    if (begin.line < 1 || begin.line > lines_.size()) {
+      return "";
+    }
+    const std::string& line = lines_[begin.line - 1];
+    std::size_t at = 0;
+    for (toml::source_index column = 1; column < begin.column && at < line.size(); ++column) {
+      do {
+        ++at;
+      } while (at < line.size() && (static_cast<unsigned char>(line[at]) & 0xC0U) == 0x80U);
+    }
+    std::size_t end = at;
+    while (end < line.size() &&
+           (std::isalnum(static_cast<unsigned char>(line[end])) != 0 || line[end] == '.' ||
+            line[end] == '+' || line[end] == '-' || line[end] == '_')) {
+      ++end;
+    }
+    return line.substr(at, end - at);
+  }
+
+  std::vector<std::string> lines_;
+  Objections& objections_;
+};
+
+}  // namespace
+
+void compare_with_design_file(const Tree& certificate, const std::string& file, Objections& objections) {
+  if (sha256(file) != certificate.at("design_sha256").text()) {
+    objections.emplace_back("the design file has another SHA-256 than the certificate names");
+  }
+  try {
+    const toml::table table = toml::parse(file);
+    Comparison(file, objections).table("", certificate.at("design"), &table);
+  } catch (const toml::parse_error& error) {
+    throw Malformed("the design file is not TOML: " + std::string(error.description()));
+  }
+}
+
+}  // namespace veritrack::checker

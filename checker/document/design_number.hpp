@@ -1,0 +1,30 @@
+// A number of the design file as a certificate repeats it: its text, and the doubles around it.
+#pragma once
+
+#include <string>
+
+#include "checker/document/json_tree.hpp"
+#include "checker/document/statement.hpp"
+
+namespace veritrack::checker {
+
+/// What {text, lo, hi} stands for: the decimal and the double nearest to it, with which a filter runs, and
+/// all between them. Objects unless [lo, hi] is the tightest interval of doubles around the decimal. Throws
+/// std::invalid_argument for a text that is no decimal, or longer than 200 characters.
+Ball read_number(const Tree& number, Objections& objections);
+
+/// The same for a number of which more is known. Objects unless it is.
+Ball read_positive(const Tree& number, const std::string& name, Objections& objections);
+Ball read_not_negative(const Tree& number, const std::string& name, Objections& objections);
+
+/// The ends of [lowest, highest], rad/sample. Objects unless 0 <= lowest <= highest <= pi, so that a band is
+/// never empty.
+struct Band {
+  Ball lowest, highest;
+};
+Band read_band(const Tree& band, Objections& objections);
+
+/// The decimal as it is written.
+const std::string& text_of(const Tree& number);
+
+}  // namespace veritrack::checker

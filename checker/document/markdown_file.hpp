@@ -1,0 +1,22 @@
+// The document beside a certificate: does it say what was verified?
+#pragma once
+
+#include <string>
+
+#include "checker/document/parts.hpp"
+
+namespace veritrack::checker {
+
+/// The heading of the section in which a document repeats every sentence that the checker establishes.
+constexpr const char* kSectionOfTheChecker = "## What the checker verifies";
+
+/// The first line of a document: what is required with its verdict.
+std::string headline(const Verification& verified);
+
+/// Objects unless the document names the SHA-256 of the certificate, begins with the headline, and its lines
+/// and rows that give a verdict in the block at the top, under "What was required" and in the section of the
+/// checker are exactly the sentences that were established.
+void compare_with_markdown(const Verification& verified, const std::string& certificate_sha256,
+                           const std::string& document, Objections& objections);
+
+}  // namespace veritrack::checker

@@ -7,6 +7,7 @@
 
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/output_files.hpp"
+#include "reports/example_linearization.hpp"
 #include "reports/gnuplot.hpp"
 
 namespace veritrack::reports {
@@ -155,6 +156,7 @@ std::string document(const std::vector<StartRates>& rates, int seeds, std::uint6
       "away, is not locked. These are simulations in double precision; they prove nothing.\n\n",
       seeds, rates.size());
   text += rate_table(rates) + "\n";
+  text += linearization_section();
   text +=
       "## Figure 2\n\n![Two panels: the estimate over 1000 samples, with and without "
       "leak](figures/figure-2.svg)\n\n"

@@ -12,6 +12,11 @@
 // (frequency_only_process_noise, identity_process_noise), and so is Q = diag(q1, q1, q2); any other symmetric
 // Q >= 0 enters through FactoredCovariance::from_matrix.
 //
+// The paper defines F(t) of the Riccati equation at the estimate x(t-1|t-1), twice, and uses it for P(t+1).
+// That is one sample late: with it the tracker locks on both frequencies of the paper's Example 1 for none of
+// 20 noise seeds, whichever Q (`veritrack reproduce`, docs/reports/bittanti-savaresi-2000/report.md). Here F
+// is evaluated at x(t|t), the estimate from which the state is predicted, as in every extended Kalman filter.
+//
 // To use it in a program of your own, copy the folder trackers/; it needs a C++20 compiler and Eigen's
 // headers:
 //

@@ -16,8 +16,12 @@ using rigor::Interval;
 using rigor::Verdict;
 using Number = rigor::Dual<Interval, 3>;  // by q1, q2, r
 
-/// Why the table says nothing of this design; empty when it does.
-std::string why_not_applicable(const Theorem29Input& input) {
+/// Why the table says nothing of this design; empty when it does. Needs the upward rounding mode.
+std::string why_not_applicable(Theorem29Variant variant, const Theorem29Input& input) {
+  const Interval sigma_end = variant == Theorem29Variant::printed ? sqrt(Interval(0.5)) : Interval(1.0);
+  if (!certainly_positive(input.sigma) || !certainly_less(input.sigma, sigma_end)) {
+    return "Not applicable: sigma is not in its range, so that there is no epsilon_r and no b_1.";
+  }
   if (input.q1_equals_q2 || certainly_less_equal(input.q1, input.q2)) {
     return "";
   }
@@ -184,7 +188,7 @@ Derivation evaluate_table_3_1(Theorem29Variant variant, const TrackerInput& unch
                          ? "Table 3.1 of the thesis as printed: alpha and beta by q1, q2 and r"
                          : "Table 3.1 of the thesis with the errata sheet: alpha and beta by q1, q2 and r";
   const std::string source = printed ? "thesis, Table 3.1" : "errata to page 69";
-  const std::string refusal = why_not_applicable(input);
+  const std::string refusal = why_not_applicable(variant, input);
   const auto add = [&](const QuantityText& text, const Interval& value) {
     add_quantity(derivation, text, refusal.empty() ? value : Interval::empty(), refusal);
   };

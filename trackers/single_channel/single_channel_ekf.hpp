@@ -31,10 +31,11 @@
 //     }
 //
 // A template over the scalar: the code that tracks in double is the code that
-// encloses over intervals and differentiates over dual numbers. It does not allocate. The one thing that can
-// go wrong in a step is an innovation variance of exactly zero, with which the gain is 0/0: that is
-// ZeroInnovationVariance. It takes r = 0 and a prediction that is certain of x1, such as P(0|0) = 0 with the
-// frequency-only process noise.
+// encloses over intervals and differentiates over dual numbers. What is certified is this step in the frame
+// of the signal, single_channel_rotating_frame.hpp; a test ties the two as an identity. It does not allocate.
+// The one thing that can go wrong in a step is an innovation variance of exactly zero, with which the gain is
+// 0/0: that is ZeroInnovationVariance. It takes r = 0 and a prediction that is certain of x1, such as P(0|0)
+// = 0 with the frequency-only process noise.
 //
 // Numerics. As in the quadrature tracker the covariance is kept factored, and both updates are sums and
 // quotients of non-negative terms: symmetry holds by construction, and the variances keep their sign for r =

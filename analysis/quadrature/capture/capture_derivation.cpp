@@ -116,6 +116,7 @@ CaptureTube capture_tube(const sets::ContractionQuestion& question, const Certif
 sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& set_of_capture,
                                  const Region& region, const CaptureTube& tube) {
   const bool proved = verdict_on_starts == Verdict::proved;
+  const bool undisturbed = tube.ultimate_frequency_error == 0.0;  // by noise or slew
   constexpr const char* kNotAll = "Not every assumed start is proved to be captured.";
   std::optional<Interval> samples;
   std::optional<Interval> bound;
@@ -139,8 +140,10 @@ sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& 
   set(result.ultimate_frequency_error, "u\\,|e_3' T^{-1}|", ultimate, kNotAll);
   set(result.settling_samples,
       "k_c + \\min \\{k : \\kappa^{2k} |T e(k_c)|^2 + (1 - \\kappa^{2k}) u^2 \\le 4 u^2\\}", settling,
-      proved ? "Without noise and slew the ultimate bound is zero, which is approached but not reached."
-             : kNotAll);
+      !proved ? kNotAll
+      : undisturbed
+          ? "Without noise and slew the ultimate bound is zero, which is approached but not reached."
+          : "No settling time was found.");
   if (const std::optional<Interval> wrong = wrong_lock(set_of_capture, region)) {
     result.wrong_lock_frequency_error = sets::quantities::wrong_lock_frequency_error();
     set(*result.wrong_lock_frequency_error, "2 \\pi |n| - R\\,|e_3' T^{-1}|", wrong, "");

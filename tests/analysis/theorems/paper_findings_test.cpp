@@ -8,6 +8,7 @@
 #include "analysis/theorems/other_results.hpp"
 #include "analysis/theorems/theorem_2_9_gaps.hpp"
 #include "tests/analysis/theorems/tracker_inputs.hpp"
+#include "tests/support/golden.hpp"
 
 namespace {
 
@@ -76,6 +77,15 @@ TEST_CASE("each line of the ledger is about something, once") {
         finding.claim.starts_with("proposition-") || finding.claim.starts_with("kkl-paper/");
     CAPTURE(finding.claim);
     CHECK((of_another_tracker || used.contains(&finding)));
+  }
+}
+
+TEST_CASE("the page on published results has the whole ledger") {
+  const std::string page = test::read_file(VERITRACK_SOURCE_DIR "/docs/published-results.md");
+  for (const theorems::PaperFinding& finding : theorems::paper_findings()) {
+    const std::string line = "| `" + std::string(finding.claim) + "` | " +
+                             std::string(to_string(finding.kind)) + " | " + std::string(finding.place) + " |";
+    CHECK_MESSAGE(page.find(line) != std::string::npos, line);
   }
 }
 

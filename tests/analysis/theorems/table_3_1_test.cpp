@@ -83,6 +83,17 @@ TEST_CASE("q1 = 0 and values unknown decide nothing") {
   }
 }
 
+TEST_CASE("a sigma out of its range, where the constants mean nothing, decides nothing") {
+  test::TestDesign design = test::table_design(test::kTable32[3]);
+  for (const double sigma : {0.0, 0.8, 1.5}) {
+    design.sigma = sigma;
+    for (const auto& condition :
+         theorems::evaluate_table_3_1(Theorem29Variant::printed, test::tracker_input(design)).conditions) {
+      CHECK(condition.verdict == Verdict::undecided);
+    }
+  }
+}
+
 TEST_CASE("q1 > q2, for which the thesis gives the opposite signs: not applicable, and nothing is decided") {
   test::TestDesign design = test::table_design(test::kTable32[3]);
   design.q1_equals_q2 = false;

@@ -9,6 +9,7 @@
 
 #include "analysis/rigor/rounding.hpp"
 #include "tests/trackers/textbook_single_channel_ekf.hpp"
+#include "trackers/single_channel/single_channel_ekf.hpp"
 
 namespace veritrack::single_channel {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/output_files.hpp"
+#include "reports/example_linearization.hpp"
 #include "reports/gnuplot.hpp"
 
 namespace veritrack::reports {
@@ -154,7 +155,7 @@ std::string document(const std::vector<StartRates>& rates, int seeds, std::uint6
       "about the mean below 0.5 rad/sample; an estimate that settles at an alias, a multiple of $`2\\pi`$ "
       "away, is not locked. These are simulations in double precision; they prove nothing.\n\n",
       seeds, rates.size());
-  text += rate_table(rates) + "\n";
+  text += rate_table(rates) + "\n" + linearization_section();
   text +=
       "## Figure 2\n\n![Two panels: the estimate over 1000 samples, with and without "
       "leak](figures/figure-2.svg)\n\n"

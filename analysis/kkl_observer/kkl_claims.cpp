@@ -9,6 +9,7 @@
 #include "analysis/kkl_observer/kkl_identities.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/eigenvalues.hpp"
+#include "analysis/theorems/paper_findings.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 
 namespace veritrack::kkl_observer {
@@ -30,11 +31,13 @@ std::vector<Condition> claims_of_every_design() {
       "invariance", "\\tfrac{\\partial T}{\\partial x} f = F T + G h", transform_is_invariant(),
       "an identity in all rates and states with x1' = -x2, x2' = x3 x1, the signs of the paper's proof: its "
       "residual is the zero polynomial, by exact evaluation on a grid."));
-  claims.push_back(condition("phase-formula", "\\Phi = \\tan^{-1}(\\sqrt{x_{30}}\\, x_{10} / x_{20})",
-                             transform_is_invariant_with_other_sign(),
-                             "Witness x(0) = (1, 1, 1): the formula gives y(t) = sqrt(2) sin(t + pi/4), "
-                             "which increases at 0, but T of (6) solves (3) only with x1' = -x2, under which "
-                             "x1 decreases. With (6) the phase is atan2(w x1, -x2)."));
+  claims.push_back(condition(
+      "phase-formula",
+      "\\Phi = \\tan^{-1}(\\sqrt{x_{30}}\\, x_{10} / x_{20}) \\text{ where } T \\text{ of (6) solves (3)}",
+      transform_is_invariant_with_other_sign(),
+      "Witness x(0) = (1, 1, 1): the formula gives y(t) = sqrt(2) sin(t + pi/4), "
+      "which increases at 0, but T of (6) solves (3) only with x1' = -x2, under which "
+      "x1 decreases. With (6) the phase is atan2(w x1, -x2)."));
   claims.push_back(
       condition("determinant", "\\det(L^T L) = |M\\xi|^2", determinant_is_excitation(),
                 "an identity in all rates and all xi, by exact evaluation on a grid of 6561 points."));
@@ -135,8 +138,10 @@ theorems::Derivation derive_kkl_claims(const KklClaimsQuestion& question) {
   }
   // A REFUTED claim is a slip of the paper's, not a fault of the design; together they have no verdict.
   derivation.verdict = Verdict::undecided;
+  theorems::cite_findings(derivation);
   derivation.notes.emplace_back(
-      "A claim that is REFUTED here is refuted as the paper prints it. These verdicts concern the paper, not "
+      "A claim that is REFUTED here is refuted as the paper prints it, as far as the scan shows that. These "
+      "verdicts concern the paper, not "
       "this design.");
   return derivation;
 }

@@ -120,26 +120,22 @@ theorems::Quantity quantity(std::string name, std::string symbol, std::string fo
   return result;
 }
 
-/// Whether a solver's value is the minimum, as far as the enclosure can tell.
-theorems::Condition solver_condition(const std::string& id, const std::string& solver, double value,
-                                     const Interval& enclosure) {
-  theorems::Condition condition;
-  condition.id = id;
-  condition.statement = "\\ell_{" + solver + "} \\in [\\ell_{lo}, \\ell_{hi}]";
-  condition.lhs = Interval(value);
-  condition.rhs = enclosure;
+/// How a solver's value compares with the enclosure: a sentence, since a solver proves nothing and can be as
+/// far off as its tolerance without being wrong.
+std::string comparison(const std::string& solver, double value, const Interval& enclosure) {
   const Interval point(value);
-  if (rigor::is_subset(point, enclosure)) {
-    condition.verdict = Verdict::proved;
-    condition.reason = solver + "'s value lies in the verified enclosure.";
-  } else if (rigor::is_finite(enclosure)) {
-    condition.verdict = Verdict::refuted;
-    condition.reason = solver + " FAILED: its value " + rigor::to_decimal(value, 12, rigor::Direction::down) +
-                       " is not the minimum, which lies in the verified enclosure.";
-  } else {
-    condition.reason = "without a verified enclosure nothing can be said about " + solver + "'s value.";
+  if (!rigor::is_finite(enclosure) || !certainly_positive(enclosure)) {
+    return "Without a verified enclosure nothing can be said about " + solver + "'s value.";
   }
-  return condition;
+  if (!rigor::is_finite(point)) {
+    return solver + " found no number.";
+  }
+  if (rigor::is_subset(point, enclosure)) {
+    return solver + "'s value lies in the verified enclosure.";
+  }
+  const Interval off = abs(point - enclosure) / enclosure;
+  return solver + "'s value differs from the verified minimum by a relative " +
+         rigor::to_decimal(off.upper(), 2, rigor::Direction::up) + " at most.";
 }
 
 }  // namespace
@@ -206,14 +202,13 @@ theorems::Derivation derive_kkl_ell(const KklRange& range, const search::Verifie
   positive.reason = positive.verdict == Verdict::proved
                         ? "the enclosure lies above zero: an ell that the inverse can use exists."
                         : "the enclosure does not lie above zero.";
-  derivation.conditions = {tight, positive, solver_condition("ipopt", "Ipopt", proposals[0], ell),
-                           solver_condition("nlopt", "NLopt", proposals[1], ell),
-                           solver_condition("nlopt-global", "DIRECT", proposals[2], ell)};
-  // What solvers say is reported, and decides nothing.
+  derivation.conditions = {tight, positive};
   derivation.verdict = rigor::conjunction({tight.verdict, positive.verdict});
   derivation.notes = {
       "The values of Ipopt (on (10) as the paper states it) and of NLopt (on the reduced problem, locally "
-      "and globally) are proposals: they are compared with the enclosure, and no proof uses them."};
+      "and globally) are proposals: they are compared with the enclosure, and no proof uses them.",
+      comparison("Ipopt", proposals[0], ell), comparison("NLopt", proposals[1], ell),
+      comparison("DIRECT", proposals[2], ell)};
   return derivation;
 }
 

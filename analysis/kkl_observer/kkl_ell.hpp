@@ -21,8 +21,8 @@ struct KklRange {
 
 /// The derivation "kkl-ell" from what enclose_ell found for the range: quantities ell, ell_ipopt, ell_nlopt,
 /// ell_nlopt_global, argmin_omega, of which only ell and argmin_omega are proved; conditions that ell is
-/// enclosed to 1e-9 and is positive, and that each solver's value lies in the enclosure. Opens its own
-/// rounding scopes.
+/// enclosed to 1e-9 and is positive. How each solver's value compares with the enclosure is in the notes.
+/// Opens its own rounding scopes.
 [[nodiscard]] theorems::Derivation derive_kkl_ell(const KklRange& range,
                                                   const search::VerifiedMinimum<1>& minimum);
 

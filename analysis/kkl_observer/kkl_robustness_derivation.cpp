@@ -35,9 +35,11 @@ theorems::Condition regular_condition(const KklRobustness& found, const Interval
         "mu of (9) vanishes at every filter state that the disturbance can cause: the bounds apply.";
   } else {
     condition.reason =
-        "the ell in use is not proved to be small enough for mu of (9) to vanish under the disturbance (" +
-        rigor::lower_decimal(found.largest_ell) +
-        " is small enough): the bounds are for an observer with a smaller ell.";
+        "the ell in use is not proved to be small enough for mu of (9) to vanish under the disturbance";
+    condition.reason += rigor::is_finite(found.largest_ell) && rigor::certainly_positive(found.largest_ell)
+                            ? " (" + rigor::lower_decimal(found.largest_ell) +
+                                  " is small enough): the bounds are for an observer with a smaller ell."
+                            : ", and no ell was found that is.";
   }
   return condition;
 }

@@ -98,6 +98,26 @@ constexpr std::array<Caption, 3> kCaptions{{{1.9999, 0.0947, 2.9956, 0.1164, 1e-
                                             {2.0, 0.0108, 3.0, 0.0142, 1e-1},
                                             {2.0, 0.0011, 3.0, 0.0014, 1e-1}}};
 
+/// How many numbers of the captions come out: to the last digit, and within a unit of it.
+struct Agreement {
+  int exact = 0;
+  int close = 0;
+  void count(const SectionVRun& found, const Caption& printed) {
+    compare(found.amplitude.mean, printed.amplitude_mean, printed.mean_unit);
+    compare(found.amplitude.deviation, printed.amplitude_deviation, kDeviationUnit);
+    compare(found.frequency.mean, printed.frequency_mean, printed.mean_unit);
+    compare(found.frequency.deviation, printed.frequency_deviation, kDeviationUnit);
+  }
+
+ private:
+  void compare(double found, double printed, double unit) {
+    const rigor::NearestRounding nearest;
+    const double rounded = std::round(found / unit) * unit;
+    exact += std::fabs(rounded - printed) < 0.5 * unit ? 1 : 0;
+    close += std::fabs(rounded - printed) < 1.5 * unit ? 1 : 0;
+  }
+};
+
 void add_pair(theorems::Derivation& derivation, const std::string& name, const std::string& source,
               const SteadyStatistics& found) {
   const auto add = [&](const std::string& kind, double value) {
@@ -132,6 +152,40 @@ SectionVRun run_kkl_section_v(const Eigen::Vector4d& lambda, double ell, double 
       });
 }
 
+SectionVRun run_caption_window(const Eigen::Vector4d& lambda, double ell, double disturbance_frequency) {
+  const rigor::NearestRounding nearest;
+  constexpr double kBegin = 5.687;  // s
+  constexpr double kEnd = 25.674;   // s
+  constexpr double kPhase = 6.109;  // of the disturbance, rad
+  struct Sinusoid {
+    double amplitude, frequency, phase;
+  };
+  const std::array<Sinusoid, 2> signal{
+      {{kAmplitude, kFrequency, 0.0}, {kDisturbance, disturbance_frequency, kPhase}}};
+  const trackers::KklObserverDesign<double, 4> design{lambda, ell};
+  const auto steps = static_cast<long>(std::ceil((kEnd - kBegin) / (2.0 * std::numbers::pi) *
+                                                 static_cast<double>(steps_a_period(disturbance_frequency))));
+  Statistics amplitude;
+  Statistics frequency;
+  for (long k = 0; k <= steps; ++k) {
+    const double time = kBegin + (kEnd - kBegin) * static_cast<double>(k) / static_cast<double>(steps);
+    Eigen::Vector4d filters = Eigen::Vector4d::Zero();
+    for (const Sinusoid& part : signal) {
+      for (int i = 0; i < 4; ++i) {
+        // The response of xi' = -lambda xi + sin(w t + p).
+        filters(i) += part.amplitude *
+                      std::sin(part.frequency * time + part.phase - std::atan2(part.frequency, lambda(i))) /
+                      std::hypot(lambda(i), part.frequency);
+      }
+    }
+    const auto x = trackers::kkl_inverse<double, 4>(filters, design);
+    const auto estimate = trackers::in_engineering_units(x);
+    amplitude.add(x(2) > 0.0 ? estimate.amplitude : kNone);
+    frequency.add(x(2) > 0.0 ? estimate.frequency : kNone);
+  }
+  return {disturbance_frequency, amplitude.result(), frequency.result(), {}};
+}
+
 SectionVRun run_adaptive_section_v(double disturbance_frequency) {
   const rigor::NearestRounding nearest;
   const long steps = steps_a_period(disturbance_frequency);
@@ -146,26 +200,22 @@ theorems::Derivation derive_kkl_section_v(const Eigen::Vector4d& lambda, double 
   theorems::Derivation derivation;
   derivation.id = "kkl-section-v";
   derivation.title = "The simulations of section V, repeated";
-  int exact = 0;
-  int close = 0;
-  const auto compare = [&](double found, double printed, double unit) {
-    const rigor::NearestRounding nearest;
-    const double rounded = std::round(found / unit) * unit;
-    exact += std::fabs(rounded - printed) < 0.5 * unit ? 1 : 0;
-    close += std::fabs(rounded - printed) < 1.5 * unit ? 1 : 0;
-  };
+  Agreement over_a_period;
+  Agreement over_the_window;
   for (std::size_t i = 0; i < kSectionVDisturbances.size(); ++i) {
     const double disturbance = kSectionVDisturbances[i];
     const std::string at = "_at_" + std::to_string(std::lround(disturbance));
     const SectionVRun found = run_kkl_section_v(lambda, ell, disturbance);
-    const Caption& printed = kCaptions[i];
-    compare(found.amplitude.mean, printed.amplitude_mean, printed.mean_unit);
-    compare(found.amplitude.deviation, printed.amplitude_deviation, kDeviationUnit);
-    compare(found.frequency.mean, printed.frequency_mean, printed.mean_unit);
-    compare(found.frequency.deviation, printed.frequency_deviation, kDeviationUnit);
+    const SectionVRun in_window = run_caption_window(lambda, ell, disturbance);
+    over_a_period.count(found, kCaptions.at(i));
+    over_the_window.count(in_window, kCaptions.at(i));
     const rigor::UpwardRounding upward;
     add_pair(derivation, "amplitude" + at, "paper, Figure " + std::to_string(i + 1), found.amplitude);
     add_pair(derivation, "frequency" + at, "paper, Figure " + std::to_string(i + 4), found.frequency);
+    add_pair(derivation, "amplitude_in_window" + at, "paper, Figure " + std::to_string(i + 1),
+             in_window.amplitude);
+    add_pair(derivation, "frequency_in_window" + at, "paper, Figure " + std::to_string(i + 4),
+             in_window.frequency);
     add_pair(derivation, "adaptive_frequency" + at, "paper, Figure " + std::to_string(i + 7),
              run_adaptive_section_v(disturbance).frequency);
   }
@@ -174,12 +224,23 @@ theorems::Derivation derive_kkl_section_v(const Eigen::Vector4d& lambda, double 
     derivation.quantities.push_back({name, "", "", "paper, Figures 1 to 6", Interval(value), std::nullopt,
                                      theorems::Sense::sampled, words});
   };
-  count("captions_reproduced", exact, "captions of Figures 1 to 6 reproduced to the last digit, of twelve");
-  count("captions_within_one_unit", close, "within one unit of the last digit, of twelve");
+  count("captions_reproduced", over_a_period.exact,
+        "captions of Figures 1 to 6 reproduced to the last digit, of twelve, over a period of the disturbed "
+        "signal");
+  count("captions_within_one_unit", over_a_period.close, "within one unit of the last digit, of twelve");
+  count("captions_reproduced_in_window", over_the_window.exact,
+        "captions of Figures 1 to 6 reproduced to the last digit, of twelve, over the window of 20 s");
   derivation.notes = {
       "The paper prints, as mean and deviation: amplitude 1.9999 and 0.0947 (10 rad/s), 2.0 and 0.0108 (100 "
       "rad/s), 2.0 and 0.0011 (1000 rad/s); frequency 2.9956 and 0.1164, 3.0 and 0.0142, 3.0 and 0.0014 "
       "rad/s.",
+      "The paper does not say over what time the means and deviations are taken, nor the phase of the "
+      "disturbance. One "
+      "choice reproduces all twelve: in steady state, t from 5.687 to 25.674 s, y = 2 sin(3 t) + 0.2 sin(w t "
+      "+ 6.109) "
+      "(the quantities ..._in_window). It need not be the authors'. Over a whole period of the disturbed "
+      "signal the four "
+      "at 10 rad/s differ.",
       "The captions do not determine ell: every ell for which mu vanishes along the run gives the same "
       "numbers. They do distinguish such an ell from a larger one.",
       "For the adaptive observer (Figures 7 to 9) the paper prints 2.6677 and 0.8463, 3.7028 and 1.1004, "

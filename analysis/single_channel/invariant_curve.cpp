@@ -80,11 +80,9 @@ void read_off(const InvariantTube& tube, SteadyStateBias& bias) {
   bias.reason = "an invariant curve is verified, and every start near it converges to it";
 }
 
-}  // namespace
-
-SteadyStateBias steady_state_bias(const ToneModel<Interval>& design, const Interval& frequency,
-                                  std::size_t most_cells) {
-  const rigor::UpwardRounding upward;
+/// The bias from a tube that is verified.
+SteadyStateBias bias_in_tube(const ToneModel<Interval>& design, const Interval& frequency,
+                             std::size_t most_cells) {
   SteadyStateBias bias;
   bias.frequency = frequency;
   if (!rigor::certainly_less_equal(Interval(0.0), frequency) ||
@@ -103,7 +101,7 @@ SteadyStateBias steady_state_bias(const ToneModel<Interval>& design, const Inter
   for (std::size_t count = std::min(fewest_cells, most_cells); count <= most_cells; count *= 4) {
     const auto tube = propose_tube(design, frequency, *curve, count);
     if (!tube) {
-      bias.reason = "the simulated tracker has no exponentially stable steady state";
+      bias.reason = "no contracting tube was found around the simulated steady state";
       return bias;
     }
     const TubeVerification verification = verify_tube(*tube);
@@ -116,6 +114,32 @@ SteadyStateBias steady_state_bias(const ToneModel<Interval>& design, const Inter
     if (verification.attempt != TubeAttempt::wants_smaller_cells) {
       return bias;
     }
+  }
+  return bias;
+}
+
+}  // namespace
+
+bool settles_exactly(const ToneModel<Interval>& design, const Interval& frequency) {
+  return design.without_leak() && rigor::certainly_positive(design.q1) &&
+         rigor::certainly_positive(design.q2) && rigor::certainly_positive(design.r) &&
+         rigor::certainly_positive(frequency) && rigor::certainly_less(frequency, rigor::pi());
+}
+
+SteadyStateBias steady_state_bias(const ToneModel<Interval>& design, const Interval& frequency,
+                                  std::size_t most_cells) {
+  const rigor::UpwardRounding upward;
+  SteadyStateBias bias = bias_in_tube(design, frequency, most_cells);
+  if (bias.verdict != Verdict::proved && settles_exactly(design, frequency)) {
+    bias.verdict = Verdict::proved;
+    bias.rate.reset();
+    bias.distance = 0.0;
+    bias.mean_bias = bias.min_error = bias.max_error = Interval(0.0);
+    bias.reason =
+        "without a leak the exact estimate is an exponentially stable steady state at every frequency "
+        "between 0 and pi "
+        "(docs/single-channel.md, section 2); no rate is verified here: " +
+        bias.reason;
   }
   return bias;
 }

@@ -28,6 +28,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "analysis/rigor/interval.hpp"
@@ -47,16 +48,24 @@ struct SteadyStateBias {
   /// (1/pi) int_0^pi nu*(phi) dphi. It is also the mean over time along every trajectory when omega / pi is
   /// irrational (Weyl), as it is for every rational omega but 0.
   rigor::Interval mean_bias;
-  rigor::Interval min_error;  ///< min over phi of nu*
-  rigor::Interval max_error;  ///< max over phi of nu*
-  double rate = 1.0;          ///< kappa, an upper bound
-  double distance = 0.0;      ///< rho / (1 - kappa), an upper bound
+  rigor::Interval min_error;   ///< min over phi of nu*
+  rigor::Interval max_error;   ///< max over phi of nu*
+  std::optional<double> rate;  ///< kappa, an upper bound; none when the steady state is proved without a tube
+  double distance = 0.0;       ///< rho / (1 - kappa), an upper bound
 };
+
+/// True only when the exact estimate, nu = 0, is an exponentially stable steady state for every design and
+/// every frequency (rad/sample) in question, without a tube: no leak, q1, q2, r > 0, and a frequency between
+/// 0 and pi, where the linear system that the exact estimate follows is uniformly observable and controllable
+/// (docs/single-channel.md, section 2). Needs the upward rounding mode.
+[[nodiscard]] bool settles_exactly(const trackers::ToneModel<rigor::Interval>& design,
+                                   const rigor::Interval& frequency);
 
 /// The bias for every design in `design` (q1, q2, r, epsilon at amplitude 1) and every omega in `frequency`
 /// (rad/sample, in [0, pi]): a decimal's enclosure, or an interval of some thousandths, over which the
 /// enclosures hold for each frequency. At most that many cells of phase
-/// are tried. Deterministic. Holds its own rounding modes.
+/// are tried. Where no tube is verified but settles_exactly, PROVED without a rate. Deterministic. Holds its
+/// own rounding modes.
 [[nodiscard]] SteadyStateBias steady_state_bias(const trackers::ToneModel<rigor::Interval>& design,
                                                 const rigor::Interval& frequency,
                                                 std::size_t most_cells = 2048);

@@ -3,6 +3,7 @@
 #include "analysis/single_channel/polynomial_identity.hpp"
 #include "analysis/single_channel/propositions.hpp"
 #include "analysis/theorems/comparison.hpp"
+#include "analysis/theorems/paper_findings.hpp"
 
 namespace veritrack::single_channel {
 
@@ -148,6 +149,7 @@ std::vector<Statement> proposition_1_formulas() {
                "That transfer function is (z² − 2z cos x3 + 1) / (z² − z(K2 sin x3 + 2 cos x3 − K1 cos x3) + "
                "1 − K1), which is proper; its zeros lie on the unit circle, at the angles ±x3.",
                [](const Symbols& x) { return zeros_polynomial(x) * x.w - rotation_polynomial(x); }));
+  theorems::cite_findings(statements);
   return statements;
 }
 

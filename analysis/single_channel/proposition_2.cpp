@@ -3,6 +3,7 @@
 #include "analysis/single_channel/polynomial_identity.hpp"
 #include "analysis/single_channel/propositions.hpp"
 #include "analysis/theorems/comparison.hpp"
+#include "analysis/theorems/paper_findings.hpp"
 
 namespace veritrack::single_channel {
 
@@ -77,14 +78,15 @@ std::vector<Statement> proposition_2() {
   const Interval twice = first_gain(2.0);
   statements.push_back(theorems::make_statement(
       "proposition-2/same-start",
-      "With q and r multiplied by α and the same initialization, P(0) included, the estimates are the same "
-      "(as the paper's text asks for).",
+      "With q and r multiplied by α and the same P(0), the estimates are the same (one reading of \"the same "
+      "initialization\", of which the paper's proof names the state only).",
       rigor::certainly_less(twice, once) ? Verdict::refuted : Verdict::undecided,
       fmt::format(
           "Q = q I with q = r = 1, P(0|0) = I, x(0|0) = (0, 0, 0): the first gain K1 is {}; with α = 2 "
           "it is {}, and so is x1(1|1) for y(1) = 1",
           theorems::enclosed(once), theorems::enclosed(twice)),
       {gain("gain", once), gain("gain_scaled", twice)}));
+  theorems::cite_findings(statements);
   return statements;
 }
 

@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -52,6 +53,32 @@ WindowSummary summarize(const ExampleRun& run, std::size_t end) {
   return summary;
 }
 
+using Tracker = trackers::SingleChannelEkf<double>;
+using Estimate = trackers::SingleChannelEstimate<double>;
+
+/// The recursion as printed. F(t) enters the covariance alone: what it predicts from the estimate one sample
+/// earlier, with the covariance of now, is P(t+1); the state is predicted from the estimate of now.
+class PrintedTracker {
+ public:
+  PrintedTracker(const trackers::SingleChannelEkfDesign<double>& design, const Estimate& start)
+      : design_(design), before_(start), filtered_(start) {}
+
+  void step(double measurement) {
+    Estimate late = before_;
+    late.covariance = filtered_.covariance;
+    Estimate predicted = trackers::time_update(filtered_, design_);
+    predicted.covariance = trackers::time_update(late, design_).covariance;
+    before_ = filtered_;
+    filtered_ = trackers::measurement_update(predicted, measurement, design_);
+  }
+  [[nodiscard]] const Estimate& filtered() const { return filtered_; }
+
+ private:
+  trackers::SingleChannelEkfDesign<double> design_;
+  Estimate before_;  ///< x(t-1|t-1); at the start the start itself
+  Estimate filtered_;
+};
+
 /// The share of seeds for which `holds` of the run's summary.
 template <typename Predicate>
 double share(const std::vector<RunSummary>& runs, const Predicate& holds) {
@@ -72,15 +99,10 @@ std::vector<ExampleStart> example_starts() {
           {"x = (1, 0, π/6), P = 0.01 I", 1.0, 0.0, kLow, 0.01}};
 }
 
-ExampleRun run_example(const ExampleSetting& setting, std::uint64_t seed) {
-  const rigor::NearestRounding nearest;
-  const auto process_noise = setting.reading == ProcessNoiseReading::identity
-                                 ? trackers::identity_process_noise(setting.q)
-                                 : trackers::frequency_only_process_noise(setting.q);
-  const ExampleStart& start = setting.start;
-  trackers::SingleChannelEkf<double> tracker(
-      {process_noise, setting.r, setting.epsilon},
-      {start.in_phase, start.quadrature, start.frequency, trackers::identity_process_noise(start.variance)});
+namespace {
+
+template <typename AnyTracker>
+ExampleRun run_with(AnyTracker tracker, const ExampleSetting& setting, std::uint64_t seed) {
   trackers::RandomStream random(seed);
   ExampleRun run;
   double phase = 0.0;
@@ -101,6 +123,22 @@ ExampleRun run_example(const ExampleSetting& setting, std::uint64_t seed) {
   return run;
 }
 
+}  // namespace
+
+ExampleRun run_example(const ExampleSetting& setting, std::uint64_t seed) {
+  const rigor::NearestRounding nearest;
+  const auto process_noise = setting.reading == ProcessNoiseReading::identity
+                                 ? trackers::identity_process_noise(setting.q)
+                                 : trackers::frequency_only_process_noise(setting.q);
+  const ExampleStart& start = setting.start;
+  const trackers::SingleChannelEkfDesign<double> design{process_noise, setting.r, setting.epsilon};
+  const Estimate from{start.in_phase, start.quadrature, start.frequency,
+                      trackers::identity_process_noise(start.variance)};
+  return setting.linearization == LinearizationPoint::as_printed
+             ? run_with(PrintedTracker(design, from), setting, seed)
+             : run_with(Tracker(design, from), setting, seed);
+}
+
 std::vector<RunSummary> summarize_runs(const ExampleSetting& setting, int seeds) {
   std::vector<RunSummary> summaries(static_cast<std::size_t>(seeds));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, summaries.size()), [&](const auto& range) {
@@ -110,6 +148,14 @@ std::vector<RunSummary> summarize_runs(const ExampleSetting& setting, int seeds)
     }
   });
   return summaries;
+}
+
+int locked_runs(ProcessNoiseReading reading, double epsilon, const ExampleStart& start,
+                LinearizationPoint linearization, int seeds) {
+  const auto runs =
+      summarize_runs({Example::one, reading, 0.005, 0.01, epsilon, start, linearization}, seeds);
+  return static_cast<int>(std::count_if(
+      runs.begin(), runs.end(), [](const RunSummary& run) { return run.first.locked && run.last.locked; }));
 }
 
 std::vector<StatementRate> statement_rates(ProcessNoiseReading reading, const ExampleStart& start,

@@ -28,11 +28,16 @@ struct ExampleStart {
 enum class ProcessNoiseReading { frequency_only, identity };
 enum class Example { one, two };
 
+/// Where F of P(t+1) = F (P - K H P) F' + Q is evaluated. The EKF: at x(t|t), from which the state is
+/// predicted. The paper defines F(t), below (2b) and again below (14), at x(t-1|t-1), one sample late.
+enum class LinearizationPoint { latest_estimate, as_printed };
+
 struct ExampleSetting {
   Example example = Example::one;
   ProcessNoiseReading reading = ProcessNoiseReading::identity;
   double q = 1.0, r = 1.0, epsilon = 0.0;
   ExampleStart start;
+  LinearizationPoint linearization = LinearizationPoint::latest_estimate;
 };
 
 /// One run, samples t = 1, ..., 1000 at index t - 1.
@@ -59,6 +64,11 @@ struct RunSummary {
 
 /// Summaries of the runs with seeds 1, ..., seeds, in that order, whatever the number of threads.
 [[nodiscard]] std::vector<RunSummary> summarize_runs(const ExampleSetting& setting, int seeds);
+
+/// How many of the seeds 1, ..., seeds lock on both frequencies of Example 1 with F at that point (q = 0.005,
+/// r = 0.01).
+[[nodiscard]] int locked_runs(ProcessNoiseReading reading, double epsilon, const ExampleStart& start,
+                              LinearizationPoint linearization, int seeds);
 
 /// A statement of the text or of a figure, and the share of the seeds for which it came out.
 struct StatementRate {

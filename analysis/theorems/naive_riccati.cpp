@@ -4,6 +4,7 @@
 #include "analysis/theorems/covariance_range.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 #include "analysis/theorems/signal_model.hpp"
+#include "analysis/theorems/theorem_2_9_gaps_parts.hpp"
 
 namespace veritrack::theorems {
 
@@ -51,27 +52,38 @@ void add_exact_gramians(Derivation& derivation, const Theorem29Input& input) {
 }
 
 /// p and q of one reading, over the band of |z| that its epsilon_r allows: 1 - epsilon_r <= |z| <= 1 +
-/// epsilon_r.
+/// epsilon_r. The errata sheet admits every epsilon_r that leaves sigma small against (1 - epsilon_r)^2.
 void add_reading(Derivation& derivation, Theorem29Variant variant, const Theorem29Input& input) {
   const std::string name = variant == Theorem29Variant::printed ? "printed" : "errata";
+  const bool printed = variant == Theorem29Variant::printed;
   const Theorem29Constants constants = theorem_2_9_constants(variant, input);
-  const Interval smallest = Interval(1.0) - constants.epsilon_r;
+  const Interval smallest =
+      printed ? Interval(1.0) - constants.epsilon_r : gaps::admitted_estimates(input).smallest;
   const Interval attained = attained_covariance(input, smallest);
   const Interval sound = largest_covariance(input, smallest);
   add_quantity(derivation, {"p_" + name, "p", R"(\frac{1}{b_1} + a_1)", "thesis, section 2.4.3, " + name},
                constants.p);
   add_quantity(derivation,
                {"p_sound_" + name, R"(\sup \lVert P(k \mid k) \rVert)",
-                R"(\sup_{1 - \epsilon_r \le |z| \le 1 + \epsilon_r} \lVert P(k \mid k) \rVert)", kBounds, "",
-                Sense::at_most},
+                printed ? R"(\sup_{1 - \epsilon_r \le |z| \le 1 + \epsilon_r} \lVert P(k \mid k) \rVert)"
+                        : R"(\sup_{\sqrt{2\sigma} \le |z| \le 2 - \sqrt{2\sigma}} \lVert P(k \mid k) \rVert)",
+                kBounds, "", Sense::at_most},
                sound);
   add_quantity(derivation, {"q_" + name, "q", R"(\frac{1}{a_2} + b_2)", "thesis, section 2.4.3, " + name},
                constants.q);
 
   Condition covariance = compare(
-      "p-" + name, R"(\lVert P(k \mid k) \rVert \le p \text{ for } \bigl||z| - 1\bigr| \le \epsilon_r)",
+      "p-" + name,
+      printed ? R"(\lVert P(k \mid k) \rVert \le p \text{ for } \bigl||z| - 1\bigr| \le \epsilon_r)"
+              : R"(\lVert P(k \mid k) \rVert \le p \text{ for } \bigl||z| - 1\bigr| \le 1 - \sqrt{2\sigma})",
       {"the sound bound on |P(k|k)|", sound}, {"p", constants.p}, Strictness::weak);
-  if (covariance.verdict != Verdict::proved) {
+  if (covariance.verdict == Verdict::refuted && !printed) {
+    covariance.verdict = Verdict::undecided;
+    covariance.reason =
+        "The sound bound is larger than p, which decides nothing: the errata sheet leaves sigma arbitrarily "
+        "small, "
+        "and p grows as sigma falls.";
+  } else if (covariance.verdict != Verdict::proved && printed) {
     // Only a variance that a filter attains refutes p; a bound on the amplitude variance that exceeds p does
     // not.
     covariance = compare(covariance.id, covariance.statement,

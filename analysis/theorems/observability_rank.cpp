@@ -125,12 +125,12 @@ Derivation evaluate_observability_to_the_letter(const TrackerInput& unchecked) {
   derivation.title = "Further statements of section 3.2.1 of the thesis, taken literally";
   derivation.conditions.push_back(compare("rank-everywhere", R"(0 < \det J'J \text{ for every } x)", zero(),
                                           {"the determinant at z = 0", determinant(Interval(0.0), epsilon)}));
-  // In the scan the entry reads -2 x2 - 1 - epsilon x2, without the parentheses; at x = (1, 0, 0):
+  // In the scan the entry reads -2 x2 - 1 - epsilon x2; "printed-gram" has the parentheses. At x = (1, 0, 0):
   const rigor::IntervalVector<3> witness(Interval(1.0), Interval(0.0), Interval(0.0));
   derivation.conditions.push_back(
-      compare("gram-entry", R"((J'J)_{13} \le -2x_2 - 1 - \epsilon x_2)",
+      compare("gram-entry", R"((J'J)_{13} \le -2x_2 - 1 - \epsilon x_2 \text{, as the scan reads})",
               {"the entry at x = (1, 0, 0)", observability_gram(witness, epsilon)(0, 2)},
-              {"the printed entry, without parentheses,", Interval(-1.0)}, Strictness::weak));
+              {"the entry as the scan reads, without parentheses,", Interval(-1.0)}, Strictness::weak));
   // Two states that differ in frequency alone have the same output at k = 0.
   derivation.conditions.push_back(
       compare("definition-3.1", R"(h(f^k(x)) \ne h(f^k(\bar x)) \text{ for every } k = 0, \ldots, n-1)",

@@ -16,6 +16,23 @@ using rigor::Interval;
 using rigor::Verdict;
 using Number = rigor::Dual<Interval, 3>;  // by q1, q2, r
 
+/// Why the table says nothing of this design; empty when it does. Needs the upward rounding mode.
+std::string why_not_applicable(Theorem29Variant variant, const Theorem29Input& input) {
+  const Interval sigma_end = variant == Theorem29Variant::printed ? sqrt(Interval(0.5)) : Interval(1.0);
+  if (!certainly_positive(input.sigma) || !certainly_less(input.sigma, sigma_end)) {
+    return "Not applicable: sigma is not in its range, so that there is no epsilon_r and no b_1.";
+  }
+  if (input.q1_equals_q2 || certainly_less_equal(input.q1, input.q2)) {
+    return "";
+  }
+  if (certainly_less(input.q2, input.q1)) {
+    return "Not applicable: the table is for q_1 <= q_2, and here q_1 > q_2, for which the thesis's footnote "
+           "to it "
+           "gives the opposite signs.";
+  }
+  return "Not applicable: the table is for q_1 <= q_2, which is not known of this design.";
+}
+
 /// The parameters of the constants other than q1, q2 and r.
 struct Factors {
   Interval b1;           ///< B1
@@ -171,13 +188,14 @@ Derivation evaluate_table_3_1(Theorem29Variant variant, const TrackerInput& unch
                          ? "Table 3.1 of the thesis as printed: alpha and beta by q1, q2 and r"
                          : "Table 3.1 of the thesis with the errata sheet: alpha and beta by q1, q2 and r";
   const std::string source = printed ? "thesis, Table 3.1" : "errata to page 69";
-  add_quantity(derivation,
-               {"r_alpha", R"(r_\alpha)", R"(\partial\alpha/\partial r = 0)", "enclosed by bisection"},
-               r_alpha);
-  add_quantity(derivation, {"r_alpha_formula", R"(r_\alpha)", "", source}, formula.alpha);
-  add_quantity(derivation,
-               {"r_beta", R"(r_\beta)", R"(\partial\beta/\partial r = 0)", "enclosed by bisection"}, r_beta);
-  add_quantity(derivation, {"r_beta_formula", R"(r_\beta)", "", source}, formula.beta);
+  const std::string refusal = why_not_applicable(variant, input);
+  const auto add = [&](const QuantityText& text, const Interval& value) {
+    add_quantity(derivation, text, refusal.empty() ? value : Interval::empty(), refusal);
+  };
+  add({"r_alpha", R"(r_\alpha)", R"(\partial\alpha/\partial r = 0)", "enclosed by bisection"}, r_alpha);
+  add({"r_alpha_formula", R"(r_\alpha)", "", source}, formula.alpha);
+  add({"r_beta", R"(r_\beta)", R"(\partial\beta/\partial r = 0)", "enclosed by bisection"}, r_beta);
+  add({"r_beta_formula", R"(r_\beta)", "", source}, formula.beta);
   const auto slope = [&](Measure measure, int direction) {
     return derivative_over_box(factors, design, measure, direction);
   };
@@ -194,10 +212,17 @@ Derivation evaluate_table_3_1(Theorem29Variant variant, const TrackerInput& unch
       agreement("r_alpha", R"(r_\alpha \text{ is what the formula gives, to } 10^{-3})", formula.alpha,
                 r_alpha),
       agreement("r_beta", R"(r_\beta \text{ is what the formula gives, to } 10^{-3})", formula.beta, r_beta)};
+  if (!refusal.empty()) {
+    for (Condition& condition : derivation.conditions) {
+      condition = {condition.id,      condition.statement, Verdict::undecided,
+                   Interval::empty(), Interval::empty(),   refusal};
+    }
+  }
   derivation.notes = {
       "The derivatives are those of p q = beta^2 and of s p^2 q, which have the signs of the derivatives of "
       "beta and "
-      "alpha; the box is half to twice each of q1, q2 and r. In r both are convex on logarithmic scales, so "
+      "alpha; the box is half to twice each of q1, q2 and r, as far as q1 <= q2, for which the table is. In "
+      "r both are convex on logarithmic scales, so "
       "that a "
       "stationary point is the minimum.",
       "r_alpha, and r_beta as printed, are equations rather than formulas: p, q and s depend on r. They are "

@@ -12,7 +12,8 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-/// low < middle < high, each strict or weak: reported as middle against high, explained by what failed first.
+/// low < middle < high, each strict or weak: reported and explained by the two sides that failed first,
+/// middle and high when none did.
 Condition between(std::string id, std::string statement, const Side& low, Strictness low_strictness,
                   const Side& middle, const Side& high, Strictness high_strictness) {
   const Verdict above = decide(low.value, middle.value, low_strictness);
@@ -20,9 +21,10 @@ Condition between(std::string id, std::string statement, const Side& low, Strict
   const Verdict verdict = rigor::conjunction({above, below});
   const bool lower_end_decided_it =
       above == Verdict::refuted || (above != Verdict::proved && below != Verdict::refuted);
-  return {std::move(id), std::move(statement),
-          verdict,       middle.value,
-          high.value,    lower_end_decided_it ? explain(low, middle, above) : explain(middle, high, below)};
+  const Side& left = lower_end_decided_it ? low : middle;
+  const Side& right = lower_end_decided_it ? middle : high;
+  return {std::move(id), std::move(statement), verdict,
+          left.value,    right.value,          explain(left, right, lower_end_decided_it ? above : below)};
 }
 
 /// The ranges of the free parameters.
@@ -51,6 +53,8 @@ void require_noise_bound(Condition& condition, const std::optional<Interval>& no
   const Verdict verdict = decide_less_equal(largest.value, bound.value);
   if (verdict != Verdict::proved) {
     condition.verdict = verdict;
+    condition.lhs = largest.value;
+    condition.rhs = bound.value;
     condition.reason = noise ? explain(largest, bound, verdict) : "Nothing is assumed about " + name + ".";
   }
 }
@@ -89,6 +93,8 @@ void add_standing_assumptions(std::vector<Condition>& conditions, const Theorem2
   if (input.q1_equals_q2) {
     for (Condition* condition : {&controllable, &excited}) {
       condition->verdict = decide_less(Interval(0.0), input.q1);
+      condition->lhs = Interval(0.0);
+      condition->rhs = input.q1;
       condition->reason = "q_1 and q_2 are the same number, at least " + at_least(input.q1) + ".";
     }
   }

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "analysis/theorems/paper_findings.hpp"
 #include "analysis/theorems/theorem_2_9_gaps_parts.hpp"
 
 namespace veritrack::theorems {
@@ -31,6 +32,7 @@ std::vector<Statement> theorem_2_9_gaps(const Theorem29Input& input) {
     statements.insert(statements.end(), std::make_move_iterator(found.begin()),
                       std::make_move_iterator(found.end()));
   }
+  cite_findings(statements);
   return statements;
 }
 

@@ -61,11 +61,7 @@ Statement time_index_statement(const Readings& readings) {
       {evidence("eigenvalue_at_1", "", "", now), evidence("eigenvalue_at_three_quarters", "", "", before)});
 }
 
-/// The range of |z|, z = x1 + i x2 of an estimate: the signal is on the unit circle and |e| <= epsilon_r.
-/// Empty unless epsilon_r is certain to be positive.
-struct EstimateRange {
-  Interval smallest, largest;
-};
+/// The signal is on the unit circle and |e| <= epsilon_r. Empty unless epsilon_r is certain to be positive.
 EstimateRange estimate_range(const Theorem29Constants& c) {
   if (!certainly_positive(c.epsilon_r)) {
     return {};
@@ -74,12 +70,26 @@ EstimateRange estimate_range(const Theorem29Constants& c) {
   return {max(one - c.epsilon_r, Interval(0.0)), one + c.epsilon_r};
 }
 
+bool is_printed(const Reading& reading) {
+  return reading.name == "printed";
+}
+
+/// The estimates of which a reading speaks.
+EstimateRange estimates_of(const Reading& reading, const Readings& readings) {
+  return is_printed(reading) ? estimate_range(reading.constants) : admitted_estimates(readings.input);
+}
+
+/// The errata sheet's claims are shown at the largest eps_r that is admitted.
+std::string at_largest(bool printed) {
+  return printed ? "" : " for eps_r = 1 - sqrt(2 sigma)";
+}
+
 Statement range_statement(const Reading& reading, const Readings& readings) {
   const Theorem29Constants& c = reading.constants;
-  const EstimateRange range = estimate_range(c);
+  const EstimateRange range = estimates_of(reading, readings);
   const Interval smallest = square(range.smallest);
   const Interval largest = square(range.largest);
-  const bool printed = reading.name == "printed";
+  const bool printed = is_printed(reading);
   const Interval ball = sqrt(Interval(2.0)) * c.epsilon_r;
   const Interval low = printed ? square(Interval(1.0) - ball) : readings.input.sigma;
   const Interval high =
@@ -89,39 +99,53 @@ Statement range_statement(const Reading& reading, const Readings& readings) {
       printed ? rigor::conjunction({decide_less_equal(low, smallest), decide_less_equal(largest, high)})
               : rigor::conjunction({decide_less(low, smallest), decide_less(largest, high)});
   return make_statement(gap_id("w_3-range", reading.name),
-                        std::string("For every error with |e| <= eps_r, ") +
-                            (printed ? "(1 - sqrt(2) eps_r)^2 <= w3 <= (1 + sqrt(2) eps_r)^2."
-                                     : "sigma < w3 < 3 + 4 R_x (eps_r = 1 - sigma, which the sheet allows)."),
+                        printed
+                            ? "For every error with |e| <= eps_r, (1 - sqrt(2) eps_r)^2 <= w3 <= (1 + "
+                              "sqrt(2) eps_r)^2."
+                            : "For every eps_r in (0, 1 - sqrt(2 sigma)] and every error with |e| <= eps_r, "
+                              "sigma < w3 < 3 + 4 R_x.",
                         verdict,
-                        "The estimates (1 - eps_r, 0) and (1 + eps_r, 0) have w3 = " + enclosed(smallest) +
-                            " and " + enclosed(largest) + "; the ends of the range are " + enclosed(low) +
-                            " and " + enclosed(high) + ".",
+                        "The estimates (1 - eps_r, 0) and (1 + eps_r, 0)" + at_largest(printed) +
+                            " have w3 = " + enclosed(smallest) + " and " + enclosed(largest) +
+                            "; the ends of the range are " + enclosed(low) + " and " + enclosed(high) + ".",
                         {evidence("w_3_smallest", R"((1 - \epsilon_r)^2)", "", smallest),
                          evidence("w_3_largest", R"((1 + \epsilon_r)^2)", "", largest),
                          evidence("range_low", "", "", low), evidence("range_high", "", "", high)});
 }
 
 Statement lower_bound_statement(const Reading& reading, const Readings& readings) {
-  const Interval m = estimate_range(reading.constants).smallest;
+  const bool printed = is_printed(reading);
+  const Interval m = estimates_of(reading, readings).smallest;
   const Interval exact = observability_eigenvalues(m, readings.input.r, readings.input.epsilon).smallest;
   const Interval& bound = reading.constants.b_1;
   return make_statement(
-      gap_id("b_1", reading.name), "b_1 I <= O(k,1) for every estimate that |e| <= eps_r allows.",
+      gap_id("b_1", reading.name),
+      printed
+          ? "b_1 I <= O(k,1) for every estimate that |e| <= eps_r allows."
+          : "b_1 I <= O(k,1) for every eps_r in (0, 1 - sqrt(2 sigma)] and every estimate that |e| <= eps_r "
+            "allows.",
       decide_less_equal(bound, exact),
-      "At the estimate (1 - eps_r, 0), 1 - eps_r = " + enclosed(m) + ", the smallest eigenvalue is " +
-          enclosed(exact) + "; b_1 is " + enclosed(bound) + ". It grows with |z|.",
+      "At the estimate (1 - eps_r, 0)" + at_largest(printed) + ", 1 - eps_r = " + enclosed(m) +
+          ", the smallest eigenvalue is " + enclosed(exact) + "; b_1 is " + enclosed(bound) +
+          ". It grows with |z|.",
       {evidence("smallest_eigenvalue", R"(\lambda_{\min})", R"(\lambda_{\min}(\mathcal{O}(k,1)))", exact),
        evidence("b_1", "b_1", "", bound)});
 }
 
 Statement upper_bound_statement(const Reading& reading, const Readings& readings) {
-  const Interval m = estimate_range(reading.constants).largest;
+  // The errata sheet admits every eps_r below 1, and its b_2 does not depend on sigma: the supremum is the
+  // value at |z| = 2, which is not attained, but approached.
+  const bool printed = is_printed(reading);
+  const Interval m = printed ? estimate_range(reading.constants).largest : Interval(2.0);
   const Interval exact = observability_eigenvalues(m, readings.input.r, readings.input.epsilon).largest;
   const Interval& bound = reading.constants.b_2;
   return make_statement(
-      gap_id("b_2", reading.name), "O(k,1) <= b_2 I for every estimate that |e| <= eps_r allows.",
+      gap_id("b_2", reading.name),
+      printed ? "O(k,1) <= b_2 I for every estimate that |e| <= eps_r allows."
+              : "O(k,1) <= b_2 I for every eps_r in (0, 1) and every estimate that |e| <= eps_r allows.",
       decide_less_equal(exact, bound),
-      "At the estimate (1 + eps_r, 0), 1 + eps_r = " + enclosed(m) + ", the largest eigenvalue is " +
+      (printed ? "At the estimate (1 + eps_r, 0), 1 + eps_r = " + enclosed(m) + ", the largest eigenvalue is "
+               : "At the estimate (1 + eps_r, 0), as eps_r tends to 1, the largest eigenvalue tends to ") +
           enclosed(exact) + "; b_2 is " + enclosed(bound) + ". It grows with |z|.",
       {evidence("largest_eigenvalue", R"(\lambda_{\max})", R"(\lambda_{\max}(\mathcal{O}(k,1)))", exact),
        evidence("b_2", "b_2", "", bound)});
@@ -141,6 +165,15 @@ Statement state_bound_statement(const Readings& readings) {
 }
 
 }  // namespace
+
+EstimateRange admitted_estimates(const Theorem29Input& input) {
+  const Interval two_sigma = Interval(2.0) * input.sigma;
+  if (!certainly_positive(two_sigma) || !certainly_less(two_sigma, Interval(1.0))) {
+    return {};
+  }
+  const Interval smallest = sqrt(two_sigma);
+  return {smallest, Interval(2.0) - smallest};
+}
 
 std::vector<Statement> gramian_gaps(const Readings& readings) {
   const Interval one(1.0);

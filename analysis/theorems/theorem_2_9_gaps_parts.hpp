@@ -25,6 +25,17 @@ struct Readings {
   [[nodiscard]] const Theorem29Constants& printed() const { return each[0].constants; }
 };
 
+/// The range of |z|, z = x1 + i x2 of an estimate.
+struct EstimateRange {
+  rigor::Interval smallest, largest;
+};
+
+/// The estimates that the errata sheet admits (to pages 67 and 68: eps_r in (0, 1), sigma "arbitrarily
+/// small"). Our reading: sigma is small against (1 - eps_r)^2, that is 2 sigma <= (1 - eps_r)^2. So a claim
+/// of the sheet about every error with |e| <= eps_r is about every estimate with |z| in [sqrt(2 sigma), 2 -
+/// sqrt(2 sigma)]. Empty unless it is certain that 0 < 2 sigma < 1.
+[[nodiscard]] EstimateRange admitted_estimates(const Theorem29Input& input);
+
 /// "theorem-2.9/<place>", followed by "/<reading>" unless that is empty.
 [[nodiscard]] std::string gap_id(const std::string& place, const std::string& reading = "");
 

@@ -82,7 +82,7 @@ std::string proof_section(const Certificate& certificate) {
       "Each possible gap in the proof (La Scala 1994, chapter 2 and section 3.5) is a sentence with a "
       "verdict. The witness is a point, or a set, where both sides can be evaluated again. Where the "
       "readings differ, both are given; *general* means for every system, *repaired* is our own "
-      "correction.\n\n";
+      "correction. The witness of a REFUTED sentence begins with the kind of mistake, and the place.\n\n";
   std::vector<std::vector<std::string>> rows;
   rows.reserve(found.size());
   for (const Row& row : found) {

@@ -158,7 +158,9 @@ std::string bias_section(const Certificate& certificate) {
     rows.push_back({frequency_text(certificate, bias), cell("mean_bias", 6), cell("min_error", 4),
                     cell("max_error", 4), around.not_applicable ? "not verified" : enclosure(around.value, 4),
                     markdown::verdict(bias.verdict), quadrature_cell(bias),
-                    proved ? cell("contraction_rate", 3) : bias.conditions.front().reason});
+                    theorems::applicable_quantity(bias, "contraction_rate") != nullptr
+                        ? cell("contraction_rate", 3)
+                        : bias.conditions.front().reason});
   }
   return text +
          markdown::table({"Frequency, rad/sample", "Mean bias", "Smallest error", "Largest error",

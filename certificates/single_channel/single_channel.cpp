@@ -43,16 +43,21 @@ Interval quadrature_bias(const sets::LockBranch& branch, const Interval& frequen
 /// The frequencies around one, rad/sample, over which the bias is enclosed as well.
 constexpr double kBiasHalfWidth = 0.002;
 
-/// The bias over the frequencies around that of `bias`, when there is one and it is not zero.
+/// The bias over the frequencies around that of `bias`, when there is one; without a leak it is zero there,
+/// too.
 SteadyStateBias bias_around(const trackers::ToneModel<Interval>& design, const SteadyStateBias& bias) {
   constexpr std::size_t kMostCells = 128;  // more would take too long
   SteadyStateBias around;
   around.reason = bias.reason;
   if (bias.verdict == Verdict::proved) {
-    around = bias;
+    const rigor::UpwardRounding upward;
+    const Interval interval = Interval(midpoint(bias.frequency)) + rigor::symmetric(kBiasHalfWidth);
     if (!design.without_leak()) {
-      const Interval interval = Interval(midpoint(bias.frequency)) + rigor::symmetric(kBiasHalfWidth);
       around = single_channel::steady_state_bias(design, interval, kMostCells);
+    } else if (single_channel::settles_exactly(design, bias.frequency + rigor::symmetric(kBiasHalfWidth))) {
+      around = bias;
+    } else {
+      around.reason = "not all frequencies around it are between 0 and pi";
     }
   }
   return around;
@@ -77,8 +82,8 @@ theorems::Derivation bias_derivation(const SteadyStateBias& bias, const SteadySt
   add_around("mean_bias_around", around.mean_bias);
   add_around("min_error_around", around.min_error);
   add_around("max_error_around", around.max_error);
-  if (bias.verdict == Verdict::proved) {
-    add("contraction_rate", "\\kappa", "", Interval::from_bounds(0.0, bias.rate));
+  if (bias.verdict == Verdict::proved && bias.rate) {
+    add("contraction_rate", "\\kappa", "", Interval::from_bounds(0.0, *bias.rate));
   }
   theorems::add_quantity(derivation,
                          {"quadrature_bias", "\\nu_*", "",

@@ -136,19 +136,6 @@ std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& 
       {"enclosed", R"((\ell_{hi} - \ell_{lo}) / \ell_{lo} \le 10^{-9})",
        proved_if(enclosed && certainly_at_most(width, nine_digits)), width, nine_digits},
       {"positive", R"(\ell > 0)", proved_if(certainly_positive(value)), Range(low, high), zero}};
-  // Whether a solver's number lies in the enclosure can be seen from the two.
-  const std::vector<std::array<std::string, 2>> solvers{
-      {"ipopt", "Ipopt"}, {"nlopt", "NLopt"}, {"nlopt-global", "DIRECT"}};
-  const auto& conditions = claimed.at("conditions").elements();
-  for (const auto& [id, name] : solvers) {
-    const std::size_t at = found.conditions.size();
-    const Tree* side = at < conditions.size() ? conditions[at].find("lhs") : nullptr;
-    const Ball number = side != nullptr ? low_of(*side) : nothing;
-    const Verdict verdict = all_of({decide_at_most(enclosed ? low : nothing, number),
-                                    decide_at_most(number, enclosed ? high : nothing)});
-    found.conditions.push_back(
-        {id, R"(\ell_{)" + name + R"(} \in [\ell_{lo}, \ell_{hi}])", verdict, number, Range(low, high)});
-  }
   check_derivation(claimed, found, objections);
   return enclosed ? std::optional(EllEnclosure{low, high, attained}) : std::nullopt;
 }

@@ -160,7 +160,8 @@ std::vector<Condition> claims_of_every_design() {
   const Ball largest = two * excitation_ratio({one, two, Ball(3.0), four}, Ball(3.0));
   const Ball printed(5.0);
   return {{"invariance", R"(\tfrac{\partial T}{\partial x} f = F T + G h)", invariant},
-          {"phase-formula", R"(\Phi = \tan^{-1}(\sqrt{x_{30}}\, x_{10} / x_{20}))",
+          {"phase-formula",
+           R"(\Phi = \tan^{-1}(\sqrt{x_{30}}\, x_{10} / x_{20}) \text{ where } T \text{ of (6) solves (3)})",
            formula_fails ? Verdict::refuted : Verdict::undecided},
           {"determinant", R"(\det(L^T L) = |M\xi|^2)", vanishes<8>(determinant_difference, 2)},
           {"null-space", R"(M\lambda = 0,\ M 1 = 0)",

@@ -176,9 +176,20 @@ std::optional<SteadyStateBias> check_bias(const Tree& claimed, const SingleChann
 
   const bool undecided = claimed.at("conditions").elements().empty();
   bool established = false;
-  if (!undecided) {
+  const auto add_zeros = [&] {
+    const bool exact = exact_without_leak(design, frequency + Ball::within(around()));
+    for (const char* name : {"mean_bias", "min_error", "max_error"}) {
+      found.quantities.push_back({name, zero});
+      found.quantities.push_back({std::string(name) + "_around", exact ? zero : Ball::everything()});
+    }
+  };
+  const Tree* rate_quantity = quantities.find("contraction_rate");
+  if (!undecided && no_leak && rate_quantity == nullptr && exact_without_leak(design, frequency)) {
+    // The argument at the top of bias.hpp; no rate is claimed.
+    established = true;
+    add_zeros();
+  } else if (!undecided) {
     constexpr double kAnyRate = 0.99;
-    const Tree* rate_quantity = quantities.find("contraction_rate");
     const Ball rate = rate_quantity == nullptr ? Ball(kAnyRate) : high_of(*rate_quantity);
     const bool has_around = !no_leak && quantities.find("mean_bias_around") != nullptr;
     const auto curve = establish_invariant_curve({design.q1, design.q2, design.r, design.epsilon}, frequency,
@@ -187,11 +198,7 @@ std::optional<SteadyStateBias> check_bias(const Tree& claimed, const SingleChann
     if (curve && no_leak) {
       // The errors of C are zero, and the step keeps them so.
       established = true;
-      const bool exact = exact_without_leak(design, frequency + Ball::within(around()));
-      for (const char* name : {"mean_bias", "min_error", "max_error"}) {
-        found.quantities.push_back({name, zero});
-        found.quantities.push_back({std::string(name) + "_around", exact ? zero : Ball::everything()});
-      }
+      add_zeros();
     } else if (curve) {
       established = locked(*curve, curve->here, curve->near_here[0]);
       add_errors(quantities, "", curve->family, curve->here, curve->near_here[error], found);

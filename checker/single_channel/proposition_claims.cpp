@@ -109,8 +109,8 @@ std::map<std::string, Claim> proposition_claims() {
   const Ball once = two / Ball(3.0);
   const Ball twice = Ball(3.0) / Ball(5.0);
   claims["proposition-2/same-start"] = {
-      "With q and r multiplied by α and the same initialization, P(0) included, the estimates are the same "
-      "(as the paper's text asks for).",
+      "With q and r multiplied by α and the same P(0), the estimates are the same (one reading of \"the same "
+      "initialization\", of which the paper's proof names the state only).",
       certainly_less(twice, once) ? Verdict::refuted : Verdict::undecided,
       {{"gain", once}, {"gain_scaled", twice}}};
   return claims;

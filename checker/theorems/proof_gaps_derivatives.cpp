@@ -16,29 +16,38 @@ Verdict agree(const Ball& x, const Ball& y) {
 
 void add_gramian(Claims& claims, const Design& d, const Constants29& c, const std::string& reading) {
   const bool printed = reading == "printed";
-  const Ball smallest = square(max(one - c.epsilon_r, zero));
-  const Ball largest = square(one + c.epsilon_r);
+  const Ball admitted = smallest_admitted_estimate(d);
+  const Ball smallest = printed ? square(max(one - c.epsilon_r, zero)) : square(admitted);
+  const Ball largest = printed ? square(one + c.epsilon_r) : square(two - admitted);
   const Ball ball = sqrt(two) * c.epsilon_r;
   const Ball low = printed ? square(one - ball) : d.sigma;
   const Ball high = printed ? square(one + ball) : Ball(3.0) + four * d.state_bound;
   const Verdict range = printed ? all_of({decide_at_most(low, smallest), decide_at_most(largest, high)})
                                 : all_of({decide_less(low, smallest), decide_less(largest, high)});
-  const bool allowed = certainly_positive(c.epsilon_r);
+  const bool allowed = printed ? certainly_positive(c.epsilon_r) : admitted.finite();
   add(claims, "w_3-range/" + reading,
-      std::string("For every error with |e| <= eps_r, ") +
-          (printed ? "(1 - sqrt(2) eps_r)^2 <= w3 <= (1 + sqrt(2) eps_r)^2."
-                   : "sigma < w3 < 3 + 4 R_x (eps_r = 1 - sigma, which the sheet allows)."),
+      printed
+          ? "For every error with |e| <= eps_r, (1 - sqrt(2) eps_r)^2 <= w3 <= (1 + sqrt(2) eps_r)^2."
+          : "For every eps_r in (0, 1 - sqrt(2 sigma)] and every error with |e| <= eps_r, sigma < w3 < 3 + 4 "
+            "R_x.",
       allowed ? range : Verdict::undecided,
       {{"w_3_smallest", smallest}, {"w_3_largest", largest}, {"range_low", low}, {"range_high", high}});
   // The eigenvalues grow with w3.
   const Ball leaked = square(one / (one - d.epsilon));
   const Ball least = gramian_eigenvalues(smallest * leaked).smallest / d.r;
-  const Ball most = gramian_eigenvalues(largest * leaked).largest / d.r;
-  add(claims, "b_1/" + reading, "b_1 I <= O(k,1) for every estimate that |e| <= eps_r allows.",
+  // Every eps_r below 1 is admitted for b_2, which does not depend on sigma.
+  const Ball most = gramian_eigenvalues((printed ? largest : four) * leaked).largest / d.r;
+  add(claims, "b_1/" + reading,
+      printed
+          ? "b_1 I <= O(k,1) for every estimate that |e| <= eps_r allows."
+          : "b_1 I <= O(k,1) for every eps_r in (0, 1 - sqrt(2 sigma)] and every estimate that |e| <= eps_r "
+            "allows.",
       allowed ? decide_at_most(c.b_1, least) : Verdict::undecided,
       {{"smallest_eigenvalue", least}, {"b_1", c.b_1}});
-  add(claims, "b_2/" + reading, "O(k,1) <= b_2 I for every estimate that |e| <= eps_r allows.",
-      allowed ? decide_at_most(most, c.b_2) : Verdict::undecided,
+  add(claims, "b_2/" + reading,
+      printed ? "O(k,1) <= b_2 I for every estimate that |e| <= eps_r allows."
+              : "O(k,1) <= b_2 I for every eps_r in (0, 1) and every estimate that |e| <= eps_r allows.",
+      allowed || !printed ? decide_at_most(most, c.b_2) : Verdict::undecided,
       {{"largest_eigenvalue", most}, {"b_2", c.b_2}});
 }
 

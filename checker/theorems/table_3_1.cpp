@@ -147,6 +147,19 @@ std::string check_table_3_1(const Tree& derivation, const Design& d, bool printe
       agrees("r_alpha", R"(r_\alpha \text{ is what the formula gives, to } 10^{-3})", r.alpha_formula,
              r.alpha),
       agrees("r_beta", R"(r_\beta \text{ is what the formula gives, to } 10^{-3})", r.beta_formula, r.beta)};
+  // The table is for q1 <= q2, and for a sigma in its range.
+  const bool ordered = d.q1_equals_q2 || certainly_at_most(d.q1, d.q2);
+  const bool in_range = certainly_positive(d.sigma) && certainly_less(d.sigma, printed ? sqrt(half) : one);
+  if (!ordered || !in_range) {
+    for (Quantity& quantity : found.quantities) {
+      quantity.value = Ball::everything();
+    }
+    for (Condition& condition : found.conditions) {
+      condition.verdict = Verdict::undecided;
+      condition.lhs.reset();
+      condition.rhs.reset();
+    }
+  }
   return check_derivation(derivation, found, objections);
 }
 

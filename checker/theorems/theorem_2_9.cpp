@@ -1,5 +1,7 @@
 #include "checker/theorems/theorem_2_9.hpp"
 
+#include "checker/document/evidence.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -36,40 +38,84 @@ std::vector<Quantity> quantities_of(const Constants29& c, const Design& d) {
           {"initial_error_bound", c.initial_error_bound}};
 }
 
-std::vector<Condition> conditions_of(const Constants29& c, const Design& d, Reading reading) {
+/// One inequality of a condition that has several.
+struct Part {
+  Range left, right;
+  Verdict verdict;
+};
+Part weak(const Ball& left, const Ball& right) {
+  return {left, right, decide_at_most(left, right)};
+}
+Part strict(const Ball& left, const Ball& right) {
+  return {left, right, decide_less(left, right)};
+}
+
+bool encloses(const Tree* side, const Range& value) {
+  return side == nullptr ||
+         (certainly_at_most(low_of(*side), value.low) && certainly_at_most(value.high, high_of(*side)));
+}
+
+/// The condition that all parts make. The certificate shows the two sides of one of them; of a REFUTED
+/// condition it must be a part that is refuted.
+Condition of_parts(const Tree& claimed, const std::string& id, const std::string& statement,
+                   const std::vector<Part>& parts) {
+  std::vector<Verdict> verdicts;
+  for (const Part& part : parts) {
+    verdicts.push_back(part.verdict);
+  }
+  Condition condition{id, statement, all_of(verdicts), parts.front().left, parts.front().right};
+  for (const Tree& shown : claimed.at("conditions").elements()) {
+    if (shown.at("id").text() != id) {
+      continue;
+    }
+    const bool refuted = verdict_from(shown.at("verdict").text()) == Verdict::refuted;
+    for (const Part& part : parts) {
+      if ((!refuted || part.verdict == Verdict::refuted) && encloses(shown.find("lhs"), part.left) &&
+          encloses(shown.find("rhs"), part.right)) {
+        condition.lhs = part.left;
+        condition.rhs = part.right;
+        return condition;
+      }
+    }
+  }
+  return condition;
+}
+
+std::vector<Condition> conditions_of(const Tree& claimed, const Constants29& c, const Design& d,
+                                     Reading reading) {
   const bool printed = reading == Reading::printed;
   const Ball sigma_end = printed ? sqrt(half) : one;
   const Ball leaked = d.epsilon * d.largest_frequency;
   const Ball largest_state = sqrt(one + square(d.largest_frequency));
   const Ball initial_error = largest_initial_error(d);
-  const Verdict q1_positive = decide_less(zero, d.q1);
-  const auto no_more_than_q2 = [&] { return d.q1_equals_q2 ? Verdict::proved : decide_at_most(d.q1, d.q2); };
+  const Part q1_positive = strict(zero, d.q1);
+  const Part no_more_than_q2{d.q1, d.q2, d.q1_equals_q2 ? Verdict::proved : decide_at_most(d.q1, d.q2)};
   // The largest |w| is anything from what leaks at constant frequency to that and the slew.
   const Verdict process = certainly_at_most(leaked + d.slew, c.process_noise) ? Verdict::proved
                           : certainly_less(c.process_noise, leaked)           ? Verdict::refuted
                                                                               : Verdict::undecided;
+  const auto all = [&claimed](const std::string& id, const std::string& statement,
+                              const std::vector<Part>& parts) {
+    return of_parts(claimed, id, statement, parts);
+  };
   return {
-      {"sigma", printed ? R"(0 < \sigma < \frac{1}{\sqrt{2}})" : R"(0 < \sigma < 1)",
-       all_of({decide_less(zero, d.sigma), decide_less(d.sigma, sigma_end)}), d.sigma, sigma_end},
-      {"epsilon_r", R"(0 < \epsilon_r < R_x)",
-       all_of({decide_less(zero, c.epsilon_r), decide_less(c.epsilon_r, d.state_bound)}), c.epsilon_r,
-       d.state_bound},
-      {"gamma", R"(0 < \gamma s p^2 < 1)",
-       all_of({decide_less(zero, d.gamma_fraction), decide_less(d.gamma_fraction, one)}), d.gamma_fraction,
-       one},
-      {"epsilon", R"(0 \le \epsilon < 1)",
-       all_of({decide_at_most(zero, d.epsilon), decide_less(d.epsilon, one)}), d.epsilon, one},
-      {"2.24", R"(0 < a_2 \le a_1)", all_of({q1_positive, no_more_than_q2()}), d.q1, d.q2},
-      {"2.25", R"(0 < b_1 \le b_2)", all_of({decide_less(zero, c.b_1), decide_at_most(c.b_1, c.b_2)}), c.b_1,
-       c.b_2},
+      all("sigma", printed ? R"(0 < \sigma < \frac{1}{\sqrt{2}})" : R"(0 < \sigma < 1)",
+          {strict(zero, d.sigma), strict(d.sigma, sigma_end)}),
+      all("epsilon_r", R"(0 < \epsilon_r < R_x)",
+          {strict(zero, c.epsilon_r), strict(c.epsilon_r, d.state_bound)}),
+      all("gamma", R"(0 < \gamma s p^2 < 1)",
+          {strict(zero, d.gamma_fraction), strict(d.gamma_fraction, one)}),
+      all("epsilon", R"(0 \le \epsilon < 1)", {weak(zero, d.epsilon), strict(d.epsilon, one)}),
+      all("2.24", R"(0 < a_2 \le a_1)", {q1_positive, no_more_than_q2}),
+      all("2.25", R"(0 < b_1 \le b_2)", {strict(zero, c.b_1), weak(c.b_1, c.b_2)}),
       {"2.26", R"(\lvert x(k) \rvert \le R_x)", decide_at_most(largest_state, d.state_bound), largest_state,
        d.state_bound},
-      {"2.28",
-       R"(0 < \delta_1, \quad \delta_1 I \le Q, \quad \lvert w(k) \rvert \le \lVert w \rVert = c_1 \sqrt{q_2})",
-       all_of({q1_positive, no_more_than_q2(), process}), d.q1, d.q2},
-      {"2.29",
-       R"(0 < \delta_2, \quad \delta_2 I \le R, \quad \lvert v(k) \rvert \le \lVert v \rVert = c_2 \sqrt{r})",
-       all_of({decide_less(zero, d.r), decide_at_most(d.noise, c.measurement_noise)}), zero, d.r},
+      all("2.28",
+          R"(0 < \delta_1, \quad \delta_1 I \le Q, \quad \lvert w(k) \rvert \le \lVert w \rVert = c_1 \sqrt{q_2})",
+          {q1_positive, no_more_than_q2, {Range(leaked, leaked + d.slew), c.process_noise, process}}),
+      all("2.29",
+          R"(0 < \delta_2, \quad \delta_2 I \le R, \quad \lvert v(k) \rvert \le \lVert v \rVert = c_2 \sqrt{r})",
+          {strict(zero, d.r), weak(d.noise, c.measurement_noise)}),
       {"2.43", R"(\beta(\zeta + \eta) + \alpha < 1)",
        decide_less(c.beta * (c.zeta + c.eta), c.one_minus_alpha),
        c.beta * (c.zeta + c.eta) + one - c.one_minus_alpha, one},
@@ -152,6 +198,12 @@ Constants29 constants_2_9(const Design& d, Reading reading) {
   return c;
 }
 
+Ball smallest_admitted_estimate(const Design& d) {
+  const Ball two_sigma = two * d.sigma;
+  return certainly_positive(two_sigma) && certainly_less(two_sigma, one) ? sqrt(two_sigma)
+                                                                         : Ball::everything();
+}
+
 Ball largest_initial_error(const Design& d) {
   // |e|^2 = a^2 + 4 (1 + a) sin^2(phase/2) + nu^2, largest at the largest of each; half a turn is the most.
   const Ball half_phase = min(d.phase_error, pi()) / two;
@@ -163,12 +215,11 @@ std::string check_theorem_2_9(const Tree& claimed, const Design& design, Reading
                               Objections& objections) {
   const Constants29 c = constants_2_9(design, reading);
   const bool printed = reading == Reading::printed;
-  const std::string title =
-      check_derivation(claimed,
-                       {printed ? "Theorem 2.9 (EKF stability) as printed in the 1994 thesis"
-                                : "Theorem 2.9 (EKF stability) with the errata sheet of the 1994 thesis",
-                        quantities_of(c, design), conditions_of(c, design, reading)},
-                       objections);
+  const std::string title = check_derivation(claimed,
+                   {printed ? "Theorem 2.9 (EKF stability) as printed in the 1994 thesis"
+                            : "Theorem 2.9 (EKF stability) with the errata sheet of the 1994 thesis",
+                    quantities_of(c, design), conditions_of(claimed, c, design, reading)},
+                   objections);
   if (const Tree* feasibility = claimed.find("feasibility")) {
     check_feasibility(*feasibility, design, reading, objections);
   }

@@ -16,6 +16,10 @@ struct Constants29 {
 };
 Constants29 constants_2_9(const Design& design, Reading reading);
 
+/// The least |z| of an estimate with |e| <= eps_r, over all eps_r that the errata sheet admits when "sigma
+/// arbitrarily small" means 2 sigma <= (1 - eps_r)^2: sqrt(2 sigma). Everything unless 0 < 2 sigma < 1.
+Ball smallest_admitted_estimate(const Design& design);
+
 /// sup |e(0)| over the assumed starts.
 Ball largest_initial_error(const Design& design);
 

@@ -24,8 +24,9 @@
 //     }
 //
 // Everything is a template over the scalar, free of branches on scalar values: the code that tracks in double
-// is the code that encloses over intervals and differentiates over dual numbers. It does not allocate, and it
-// never throws unless the scalar does.
+// is the code that encloses over intervals and differentiates over dual numbers. What is certified is this
+// step in the coordinates of the errors, quadrature_polar_frame.hpp; a test ties the two as an identity. It
+// does not allocate, and it never throws unless the scalar does.
 //
 // Numerics. The covariance is kept factored (see FactoredCovariance), and both updates are written as sums
 // and quotients of non-negative terms, so that symmetry holds by construction and positive definiteness

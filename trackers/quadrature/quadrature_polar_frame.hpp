@@ -14,9 +14,10 @@
 // `turn` alone; that equation is monotone in P. For epsilon = 0 the errors a = psi = nu = 0 stay zero
 // whatever P is. And the rows of the state bound amplitude, phase and frequency error directly.
 //
-// This is the filter of quadrature_ekf.hpp in other coordinates and another order of evaluation; tests hold
-// the two together. It makes sense for any symmetric P with det S != 0, S the innovation covariance, and as
-// long as the filtered z is not zero.
+// This is the filter of quadrature_ekf.hpp in other coordinates and another order of evaluation. Certificates
+// are about this map; tests tie it to `step` there, by an identity of values and first derivatives on dual
+// numbers over intervals (tests/trackers/frame_identity_test.cpp). It makes sense for any symmetric P with
+// det S != 0, S the innovation covariance, and as long as the filtered z is not zero.
 #pragma once
 
 #include <Eigen/Core>

@@ -12,6 +12,11 @@
 // (frequency_only_process_noise, identity_process_noise), and so is Q = diag(q1, q1, q2); any other symmetric
 // Q >= 0 enters through FactoredCovariance::from_matrix.
 //
+// The paper defines F(t) of the Riccati equation at the estimate x(t-1|t-1), twice, and uses it for P(t+1).
+// That is one sample late: with it the tracker locks on both frequencies of the paper's Example 1 for none of
+// 20 noise seeds, whichever Q (`veritrack reproduce`, docs/reports/bittanti-savaresi-2000/report.md). Here F
+// is evaluated at x(t|t), the estimate from which the state is predicted, as in every extended Kalman filter.
+//
 // To use it in a program of your own, copy the folder trackers/; it needs a C++20 compiler and Eigen's
 // headers:
 //
@@ -26,10 +31,11 @@
 //     }
 //
 // A template over the scalar: the code that tracks in double is the code that
-// encloses over intervals and differentiates over dual numbers. It does not allocate. The one thing that can
-// go wrong in a step is an innovation variance of exactly zero, with which the gain is 0/0: that is
-// ZeroInnovationVariance. It takes r = 0 and a prediction that is certain of x1, such as P(0|0) = 0 with the
-// frequency-only process noise.
+// encloses over intervals and differentiates over dual numbers. What is certified is this step in the frame
+// of the signal, single_channel_rotating_frame.hpp; a test ties the two as an identity. It does not allocate.
+// The one thing that can go wrong in a step is an innovation variance of exactly zero, with which the gain is
+// 0/0: that is ZeroInnovationVariance. It takes r = 0 and a prediction that is certain of x1, such as P(0|0)
+// = 0 with the frequency-only process noise.
 //
 // Numerics. As in the quadrature tracker the covariance is kept factored, and both updates are sums and
 // quotients of non-negative terms: symmetry holds by construction, and the variances keep their sign for r =

@@ -6,7 +6,8 @@
 // phi), so that X(k+1) depends on the phase: a skew product over phi(k+1) = phi(k) + omega(k). Turned by pi,
 // h changes its sign, and so do innovation and gain: the map is pi-periodic in phi.
 //
-// Tests hold this against the filter.
+// Certificates are about this map. Tests tie it to the filter, by an identity of values and first derivatives
+// on dual numbers over intervals (tests/trackers/frame_identity_test.cpp).
 #pragma once
 
 #include "trackers/rotating_frame.hpp"

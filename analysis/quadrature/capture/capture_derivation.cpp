@@ -120,7 +120,10 @@ CaptureTube capture_tube(const sets::ContractionQuestion& question, const Certif
 sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& set_of_capture,
                                  const Region& region, const CaptureTube& tube) {
   const bool proved = verdict_on_starts == Verdict::proved;
+  const bool undisturbed = tube.ultimate_frequency_error == 0.0;  // by noise or slew
   constexpr const char* kNotAll = "Not every assumed start is proved to be captured.";
+  constexpr const char* kApproached =
+      "Without noise and slew the bound in the long run is zero, which is approached but not reached.";
   constexpr const char* kNotSettled = "No number of samples is certified for it.";
   std::optional<Interval> samples;
   std::optional<Interval> bound;
@@ -147,8 +150,8 @@ sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& 
   set(result.settling_samples,
       "k_c + \\min \\{k : \\kappa^{2k} |T e(k_c)|^2 + (1 - \\kappa^{2k}) u^2 \\le (\\nu_s / |e_3' "
       "T^{-1}|)^2\\}",
-      settling, proved ? kNotSettled : kNotAll);
-  set(result.settled_frequency_error, "", settled, proved ? kNotSettled : kNotAll);
+      settling, !proved ? kNotAll : undisturbed ? kApproached : kNotSettled);
+  set(result.settled_frequency_error, "", settled, !proved ? kNotAll : undisturbed ? kApproached : kNotSettled);
   if (const std::optional<Interval> wrong = wrong_lock(set_of_capture, region)) {
     result.wrong_lock_frequency_error = sets::quantities::wrong_lock_frequency_error();
     set(*result.wrong_lock_frequency_error, "2 \\pi |n| - R\\,|e_3' T^{-1}|", wrong, "");

@@ -68,17 +68,19 @@ void set_size(const std::optional<Verification>& found, sets::ContractionResult&
 }
 
 /// The bounds of the sets for the assumed starts.
-void set_promises(const Promises& promises, sets::StartResult& starts) {
+void set_promises(const sets::ContractionQuestion& question, const Promises& promises,
+                  sets::StartResult& starts) {
   set(starts.ultimate_frequency_error,
       "u\\,|e_3' T^{-1}|,\\ u^2 = \\tfrac{L_v^2 V^2 + L_w^2 W^2}{1 - \\kappa^2}",
       promises.ultimate_frequency_error());
   set(starts.frequency_error_bound, "\\max(|T e(0)|, u)\\,|e_3' T^{-1}|",
       promises.starts_inside() ? promises.frequency_error_bound() : Interval(),
       "The assumed starts are not in a certified set.");
-  const bool settles = certainly_positive(promises.ultimate_frequency_error());
+  const bool undisturbed = question.noise == Interval(0.0) && question.slew == Interval(0.0);
   const std::optional<Promises::Settling> settling = promises.settling();
-  const char* why_not = settles ? "No certified set gives a settling time."
-                                : "The bound in the long run is zero, which is approached but not reached.";
+  const char* why_not =
+      undisturbed ? "Without noise and slew the bound in the long run is zero, which is approached but not reached."
+                  : "No certified set gives a settling time.";
   set(starts.settling_samples, "|\\nu(k)| \\le \\nu_s \\text{ for } k \\ge k_s",
       settling ? settling->samples : Interval(), why_not);
   set(starts.settled_frequency_error, "", settling ? settling->frequency_error : Interval(), why_not);
@@ -202,7 +204,7 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& ques
   }
   sets::ContractionResult& result = certificate.result;
   set_size(certificate.set, result);
-  set_promises(promises, result.starts);
+  set_promises(question, promises, result.starts);
   const auto& noisy = certificate.noise_set;
   const auto& slewing = certificate.slew_set;
   set(result.largest_noise, "", noisy ? Interval(noisy->set.noise) : Interval());

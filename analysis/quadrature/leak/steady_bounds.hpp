@@ -15,7 +15,7 @@ struct SteadyBounds {
   /// step plus gram_rest on the diagonal.
   Symmetric<Scalar> gram;
   Scalar gram_factor, gram_rest;
-  Scalar noise_gain;     ///< upper bound on |T (e+ with noise v - e+ without)| / |v|
+  Scalar noise_gain;     ///< upper bound on |T J K|: what the noise adds to T e+ is T J K v
   Scalar least_along;    ///< lower bound on the component of z along the steady one
   Scalar tangent_reach;  ///< how far the tangent of the turn, over s, may be from that of the mean gain
 };
@@ -34,10 +34,12 @@ inline rigor::Interval balance(const rigor::Interval& a, const rigor::Interval& 
 
 /// The z that a step leaves lies within `radius` of the mean one, z_bar = rho* + s shift, on which the
 /// Jacobian J of (|z|, arg z) depends: its rows are the radial unit vector, which turns by at most 1/|z| per
-/// unit, and the transverse one over |z|, which changes by 1/|z|^2. Averaged over the segment from z_bar, J
-/// is J(z_bar) + E with rows of E up to half of that times `radius`. And (X + Y)(X + Y)' <= (1 + theta) X X'
-/// + (1
-/// + 1/theta) |Y|^2 I for every theta > 0.
+/// unit, and the transverse one over |z|, which changes by 1/|z|^2. The spread of the gain and the noise
+/// share one segment: it leads from z_bar, the estimate after the mean gain without noise, to the z that the
+/// step leaves, so that `radius` is the sum of what both do, and one averaged J multiplies both. Averaged
+/// over that segment, J is J(z_bar) + E with rows of E up to half of that times `radius`; `gram` (the spread)
+/// and `noise_gain` (the noise) both contain E. And (X + Y)(X + Y)' <= (1 + theta) X X' + (1 + 1/theta) |Y|^2
+/// I for every theta > 0.
 template <typename Scalar>
 [[nodiscard]] SteadyBounds<Scalar> steady_bounds(const SteadyStep<Scalar>& step,
                                                  const SteadySetting<Scalar>& setting, const Scalar& level,

@@ -14,7 +14,10 @@ namespace veritrack::quadrature {
 /// one as a share of its reach, and the frequency.
 enum SteadyVariable : std::size_t { kX = 0, kY = 1, kAcross = 2, kFrequency = 3 };
 using SteadySecant = rigor::Secant<4>;
-/// How far the variables are from the centre.
+/// How far the variables are from the centre. The slopes of a secant belong to one point x of the cell, f(x)
+/// = f(c) + s(x) (x - c). A check on corners holds these slopes fixed and takes the offset as an extra
+/// parameter, by which every entry of a matrix is moved alike: the matrix is then affine in the offset, so
+/// that what is positive definite in all corners, for every slope that occurs, is so at the offset x - c.
 using SteadyOffset = SteadySecant::Slopes;
 
 /// The setting of a cell of frequencies: over all of it, and from its middle.

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -109,6 +110,31 @@ TEST_CASE("the injectivity inequality holds for random pairs of states and rando
       CHECK(left <= d * std::sqrt(squared) * (1.0 + 1e-9));
     }
   }
+}
+
+TEST_CASE(
+    "the paper's injectivity constant, without the factor, fails at the witness of docs/kkl-observer.md") {
+  const std::vector<double> rates{0.1, 0.2, 0.3, 1.0};
+  const Eigen::Vector3d a(99.5743, -139.3188, 100.0);
+  const Eigen::Vector3d b(98.5743, -137.9253, 99.0);
+  double squared = 0.0;
+  for (const double l : rates) {
+    const double difference = (l * a(0) + a(1)) / (l * l + a(2)) - (l * b(0) + b(1)) / (l * l + b(2));
+    squared += difference * difference;
+  }
+  const double mean = 0.5 * (a(2) + b(2));
+  const double c = 0.5 * (std::fabs(a(0)) + std::fabs(a(1)) + std::fabs(b(0)) + std::fabs(b(1)));
+  const double left = std::fabs(a(0) - b(0)) + std::fabs(a(1) - b(1)) + c * std::fabs(a(2) - b(2));
+  Eigen::Matrix4d vandermonde;
+  for (int i = 0; i < 4; ++i) {
+    const double l = rates[static_cast<std::size_t>(i)];
+    vandermonde.row(i) << l * l * l, l * l, l, 1.0;
+  }
+  const double smallest = vandermonde.jacobiSvd().singularValues()(3);
+  const double printed = (1.0 + mean) * (1.0 + mean) * (1.0 + mean) / smallest;  // the largest rate is 1
+  const double factor = std::sqrt(2.0 * (1.0 + mean) * (1.0 + mean) + 2.0) / (1.0 + mean);
+  CHECK(left > 1.2 * printed * std::sqrt(squared));
+  CHECK(left <= factor * printed * std::sqrt(squared));
 }
 
 TEST_CASE("the modulus of continuity bounds differences of gamma") {

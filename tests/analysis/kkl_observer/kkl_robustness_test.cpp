@@ -106,7 +106,16 @@ TEST_CASE("an ell for which mu does not vanish, or a disturbance too large, leav
   }
   auto large = question(BoundedDisturbance{Interval(1.0)});
   large.cells = 3'000;
-  CHECK(derive_kkl_robustness(large).verdict == Verdict::undecided);
+  const auto with_large_disturbance = derive_kkl_robustness(large);
+  CHECK(with_large_disturbance.verdict == Verdict::undecided);
+  const rigor::UpwardRounding upward;
+  // Where no ell is small enough, none is named.
+  for (const auto* found : {&with_large_ell, &with_large_disturbance}) {
+    const bool exists = rigor::certainly_positive(theorems::find_quantity(*found, "largest_ell").value);
+    const std::string& reason = found->conditions.front().reason;
+    CHECK((reason.find("is small enough)") != std::string::npos) == exists);
+    CHECK((reason.find("(nan") == std::string::npos && reason.find("(0 ") == std::string::npos));
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "analysis/rigor/rounding.hpp"
 #include "tests/trackers/textbook_single_channel_ekf.hpp"
+#include "trackers/single_channel/single_channel_ekf.hpp"
 
 namespace veritrack::single_channel {
 namespace {
@@ -108,6 +109,42 @@ TEST_CASE("without a leak the error part of the steady state is exactly zero") {
     CHECK(bias.min_error == Interval(0.0));
     CHECK(bias.max_error == Interval(0.0));
   }
+}
+
+TEST_CASE(
+    "without a leak the steady state is exact at every frequency between 0 and pi, with a tube or without") {
+  for (const double frequency : {1e-6, 0.001, 3.14}) {
+    const SteadyStateBias bias = bias_of({0.005, 0.005, 0.01, 0.0}, frequency);
+    CAPTURE(bias.reason);
+    CHECK(bias.verdict == Verdict::proved);
+    CHECK(!bias.rate);
+    CHECK(bias.min_error == Interval(0.0));
+    CHECK(bias.max_error == Interval(0.0));
+  }
+  // The oracle: the errors of the filter die out there, too, if slowly.
+  const double frequency = 3.0;
+  trackers::SingleChannelEkf<double> tracker(
+      {trackers::identity_process_noise(0.005), 0.01, 0.0},
+      {1.0, 0.0, frequency + 1e-4, trackers::identity_process_noise(0.005)});
+  for (int k = 1; k <= 4000; ++k) {
+    tracker.step(std::cos(frequency * k));
+  }
+  CHECK(std::fabs(tracker.filtered().frequency - frequency) <= 1e-9);
+
+  const rigor::UpwardRounding upward;
+  const Interval inside(1.5);
+  const auto settles = [](double q1, double q2, double r, double epsilon, const Interval& at) {
+    return settles_exactly({Interval(q1), Interval(q2), Interval(r), Interval(epsilon)}, at);
+  };
+  CHECK(settles(0.005, 0.005, 0.01, 0.0, inside));
+  CHECK_FALSE(settles(0.0, 0.005, 0.01, 0.0, inside));
+  CHECK_FALSE(settles(0.005, 0.0, 0.01, 0.0, inside));
+  CHECK_FALSE(settles(0.005, 0.005, 0.0, 0.0, inside));
+  CHECK_FALSE(settles(0.005, 0.005, 0.01, 1e-300, inside));
+  CHECK_FALSE(settles(0.005, 0.005, 0.01, 0.0, Interval(0.0)));
+  CHECK_FALSE(settles(0.005, 0.005, 0.01, 0.0, Interval::from_bounds(-0.001, 0.003)));
+  CHECK_FALSE(settles(0.005, 0.005, 0.01, 0.0, Interval::from_bounds(3.0, 3.1416)));
+  CHECK_FALSE(settles(0.005, 0.005, 0.01, 0.0, Interval::empty()));
 }
 
 TEST_CASE("what is not verified is undecided, says why, and gives no number") {

@@ -3,8 +3,11 @@
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
+
+#include "trackers/signals/random.hpp"
 
 namespace veritrack::single_channel {
 namespace {
@@ -51,6 +54,50 @@ TEST_CASE("with q diag(1, 1, 1) the tracker locks, with the leak's bias; with q 
     CHECK_FALSE(run.first.locked);
     CHECK(run.first.near_zero);
   }
+}
+
+/// The oracle: the paper's (2a) with matrices, F(t) at x(t-1|t-1).
+TEST_CASE("F as printed is one sample late: the run is that of the printed recursion") {
+  const ExampleSetting setting{Example::one, ProcessNoiseReading::identity, 0.005, 0.01, 0.05,
+                               kTruth,       LinearizationPoint::as_printed};
+  const ExampleRun run = run_example(setting, 3);
+  const auto transition = [](const Eigen::Vector3d& x) {
+    Eigen::Matrix3d f;
+    f << std::cos(x[2]), -std::sin(x[2]), -std::sin(x[2]) * x[0] - std::cos(x[2]) * x[1],  //
+        std::sin(x[2]), std::cos(x[2]), std::cos(x[2]) * x[0] - std::sin(x[2]) * x[1],     //
+        0.0, 0.0, 0.95;
+    return f;
+  };
+  trackers::RandomStream random(3);
+  Eigen::Vector3d x(kTruth.in_phase, kTruth.quadrature, kTruth.frequency);
+  Eigen::Vector3d before = x;
+  // P(1) from P(0|0); then P(t+1) from P(t).
+  Eigen::Matrix3d p = transition(x) * transition(x).transpose() + 0.005 * Eigen::Matrix3d::Identity();
+  double phase = 0.0;
+  for (std::size_t t = 1; t <= 60; ++t) {
+    phase += run.true_frequency[t - 1];
+    const double y = std::cos(phase) + 0.1 * random.normal();
+    const Eigen::Vector3d predicted(std::cos(x[2]) * x[0] - std::sin(x[2]) * x[1],
+                                    std::sin(x[2]) * x[0] + std::cos(x[2]) * x[1], 0.95 * x[2]);
+    const Eigen::Vector3d gain = p.col(0) / (p(0, 0) + 0.01);
+    before = x;
+    x = predicted + gain * (y - predicted[0]);
+    const Eigen::Matrix3d filtered = p - gain * p.row(0);
+    p = transition(before) * filtered * transition(before).transpose() + 0.005 * Eigen::Matrix3d::Identity();
+    CAPTURE(t);
+    CHECK(run.frequency[t - 1] == doctest::Approx(x[2]).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("with F as printed no run locks on both frequencies of Example 1, for either Q") {
+  for (const ExampleStart& start : example_starts()) {
+    CAPTURE(start.words);
+    for (const auto reading : {ProcessNoiseReading::frequency_only, ProcessNoiseReading::identity}) {
+      CHECK(locked_runs(reading, 0.0, start, LinearizationPoint::as_printed, 20) == 0);
+    }
+  }
+  CHECK(locked_runs(ProcessNoiseReading::identity, 0.0, kTruth, LinearizationPoint::latest_estimate, 20) >=
+        15);
 }
 
 TEST_CASE("rates are shares, the same whatever the number of threads") {

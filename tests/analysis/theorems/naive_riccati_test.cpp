@@ -95,10 +95,22 @@ TEST_CASE("riccati-bounds: the naive forms are refuted for the designs of the th
     CHECK(test::find_condition(derivation, "naive-matrix").verdict == Verdict::refuted);
     CHECK(test::find_condition(derivation, "naive-number").verdict == Verdict::refuted);
     CHECK(test::find_condition(derivation, "p-printed").verdict == Verdict::proved);
-    CHECK(test::find_condition(derivation, "p-errata").verdict == Verdict::refuted);
+    CHECK(test::find_condition(derivation, "p-errata").verdict == Verdict::proved);
     CHECK(test::find_condition(derivation, "q-printed").verdict == Verdict::proved);
     CHECK(test::find_condition(derivation, "q-errata").verdict == Verdict::proved);
     CHECK(derivation.verdict == Verdict::refuted);
+  }
+}
+
+TEST_CASE("p of the errata sheet is never refuted: the sheet leaves sigma to be chosen smaller") {
+  test::TestDesign design = test::table_design(test::kTable32[0]);
+  design.q1 = design.q2 = 40.0 * design.r;
+  for (const double sigma : {1e-6, 1e-3, 0.3, 0.7}) {
+    design.sigma = sigma;
+    const auto derivation = theorems::evaluate_riccati_bounds(test::tracker_input(design));
+    const theorems::Condition& condition = test::find_condition(derivation, "p-errata");
+    CHECK(condition.verdict == Verdict::undecided);
+    CHECK_FALSE(condition.reason.empty());
   }
 }
 

@@ -82,3 +82,36 @@ TEST_CASE("q1 = 0 and values unknown decide nothing") {
     }
   }
 }
+
+TEST_CASE("a sigma out of its range, where the constants mean nothing, decides nothing") {
+  test::TestDesign design = test::table_design(test::kTable32[3]);
+  for (const double sigma : {0.0, 0.8, 1.5}) {
+    design.sigma = sigma;
+    for (const auto& condition :
+         theorems::evaluate_table_3_1(Theorem29Variant::printed, test::tracker_input(design)).conditions) {
+      CHECK(condition.verdict == Verdict::undecided);
+    }
+  }
+}
+
+TEST_CASE("q1 > q2, for which the thesis gives the opposite signs: not applicable, and nothing is decided") {
+  test::TestDesign design = test::table_design(test::kTable32[3]);
+  design.q1_equals_q2 = false;
+  design.q1 = 1.5 * design.q2;
+  for (const auto variant : {Theorem29Variant::printed, Theorem29Variant::errata}) {
+    const auto derivation = theorems::evaluate_table_3_1(variant, test::tracker_input(design));
+    CHECK(derivation.verdict == Verdict::undecided);
+    for (const theorems::Condition& condition : derivation.conditions) {
+      INFO(condition.id, ": ", condition.reason);
+      CHECK(condition.verdict == Verdict::undecided);
+      CHECK(condition.reason.find("q_1 > q_2") != std::string::npos);
+    }
+    for (const theorems::Quantity& quantity : derivation.quantities) {
+      CHECK_FALSE(quantity.applies());
+    }
+  }
+  // With q1 < q2 the table is decided, in doubles that are not the same number.
+  design.q1 = 0.5 * design.q2;
+  CHECK(theorems::evaluate_table_3_1(Theorem29Variant::errata, test::tracker_input(design)).verdict ==
+        Verdict::proved);
+}

@@ -39,9 +39,9 @@ TEST_CASE("the verdicts for the designs of Table 3.2") {
                                                 {"gramian-eigenvalue/repaired", Verdict::proved},
                                                 {"gramian-time-index", Verdict::refuted},
                                                 {"w_3-range/printed", Verdict::proved},
-                                                {"w_3-range/errata", Verdict::refuted},
+                                                {"w_3-range/errata", Verdict::proved},
                                                 {"b_1/printed", Verdict::proved},
-                                                {"b_1/errata", Verdict::refuted},
+                                                {"b_1/errata", Verdict::proved},
                                                 {"b_2/printed", Verdict::proved},
                                                 {"b_2/errata", Verdict::refuted},
                                                 {"R_x", Verdict::proved},
@@ -122,7 +122,9 @@ TEST_CASE("sampled estimates never break a proved b_1 or b_2, and the witness br
     const auto found = verdicts(design.input());
     for (const bool errata : {false, true}) {
       const std::string name = errata ? "errata" : "printed";
-      const double radius = errata ? 1.0 - design.sigma : std::sqrt(0.5) - design.sigma;
+      // The errata sheet: 2 sigma <= (1 - eps_r)^2 for b_1, every eps_r below 1 for b_2.
+      const double radius = errata ? 1.0 - std::sqrt(2.0 * design.sigma) : std::sqrt(0.5) - design.sigma;
+      const double upper_radius = errata ? 1.0 - 1e-12 : radius;
       const double t = std::sqrt(2.0) * design.sigma;
       const double b_1 = (errata ? design.sigma : t * t * (1.0 - t * t / 4.0)) / (2.0 * design.r);
       const double b_2 = (errata ? 5.0 : 3.0 * (2.0 - t) * (2.0 - t)) / design.r;
@@ -133,12 +135,13 @@ TEST_CASE("sampled estimates never break a proved b_1 or b_2, and the witness br
         return textbook_eigenvalues({m, 0.0, 0.7}, design.r, design.epsilon)[2];
       };
       for (int sample = 0; sample < 5; ++sample) {
-        const double m = 1.0 + radius * random.uniform(-1.0, 1.0);
+        const double part = random.uniform(-1.0, 1.0);
+        const double m = 1.0 + radius * part;
         if (found.at("b_1/" + name) == Verdict::proved && m > 1e-3) {
           CHECK(smallest(m) >= b_1 * (1.0 - 1e-9));
         }
         if (found.at("b_2/" + name) == Verdict::proved) {
-          CHECK(largest(m) <= b_2 * (1.0 + 1e-9));
+          CHECK(largest(1.0 + upper_radius * part) <= b_2 * (1.0 + 1e-9));
         }
       }
       if (found.at("b_1/" + name) == Verdict::refuted && 1.0 - radius > 1e-3) {
@@ -147,11 +150,25 @@ TEST_CASE("sampled estimates never break a proved b_1 or b_2, and the witness br
       }
       if (found.at("b_2/" + name) == Verdict::refuted) {
         ++refuted;
-        CHECK(largest(1.0 + radius) >= b_2 * (1.0 - 1e-9));
+        CHECK(largest(1.0 + upper_radius) >= b_2 * (1.0 - 1e-9));
       }
     }
   }
   CHECK(refuted > 0);
+}
+
+TEST_CASE("the errata sheet's sigma is read as small: no sigma, or a large one, decides nothing") {
+  test::TestDesign design = test::table_design(test::kTable32[0]);
+  for (const double sigma : {0.0, 0.5, 0.9}) {
+    design.sigma = sigma;
+    const auto found = verdicts(design.input());
+    CHECK(found.at("w_3-range/errata") == Verdict::undecided);
+    CHECK(found.at("b_1/errata") == Verdict::undecided);
+  }
+  // A bound on the state that is too small is found out, at an error that the sheet admits.
+  design.sigma = 1e-3;
+  design.state_bound = 0.2;
+  CHECK(verdicts(design.input()).at("w_3-range/errata") == Verdict::refuted);
 }
 
 TEST_CASE("inputs that are no numbers decide nothing about the design") {

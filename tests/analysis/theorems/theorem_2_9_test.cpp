@@ -205,6 +205,38 @@ TEST_CASE("where every hypothesis holds there is an error bound") {
   CHECK(certainly_positive(theorem.error_bound->ultimate()));
 }
 
+TEST_CASE("a condition of several inequalities shows the one that decided it") {
+  test::TestDesign design = test::table_design(test::kTable32[3]);
+  auto input = design.input();
+  input.measurement_noise = Interval(0.0);
+  const auto condition = [&](const char* id) {
+    const auto derivation = theorems::evaluate_theorem_2_9(Theorem29Variant::errata, input).derivation;
+    const auto found = std::find_if(derivation.conditions.begin(), derivation.conditions.end(),
+                                    [&](const auto& one) { return one.id == id; });
+    REQUIRE(found != derivation.conditions.end());
+    return *found;
+  };
+  const rigor::UpwardRounding upward;
+  // (2.28) by the noise: |w| against c_1 sqrt(q_2), not q_1 against q_2.
+  input.process_noise = Interval(7.0);
+  CHECK(condition("2.28").verdict == Verdict::refuted);
+  CHECK(rigor::identical(condition("2.28").lhs, Interval(7.0)));
+  CHECK(rigor::midpoint(condition("2.28").rhs) == doctest::Approx(design.c1 * std::sqrt(design.q2)));
+  // (2.29) likewise.
+  input.measurement_noise = Interval(9.0);
+  CHECK(condition("2.29").verdict == Verdict::refuted);
+  CHECK(rigor::identical(condition("2.29").lhs, Interval(9.0)));
+  // By the order of q_1 and q_2, and by q_1 = 0.
+  input.process_noise = Interval(0.0);
+  input.q1_equals_q2 = false;
+  input.q1 = Interval(1.0);
+  CHECK(condition("2.28").verdict == Verdict::refuted);
+  CHECK(rigor::identical(condition("2.28").lhs, Interval(1.0)));
+  input.q1 = Interval(0.0);
+  CHECK(condition("2.28").verdict == Verdict::refuted);
+  CHECK(rigor::identical(condition("2.28").rhs, Interval(0.0)));
+}
+
 TEST_CASE("inadmissible parameters refute their condition") {
   const auto evaluate = [](Theorem29Variant variant, auto change) {
     test::TestDesign design;

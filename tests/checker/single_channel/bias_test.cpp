@@ -141,6 +141,50 @@ TEST_CASE("every number of the derivation, one part in a thousand better") {
   CHECK(refused >= 14);
 }
 
+TEST_CASE(
+    "without a leak zero needs no curve, but a frequency between 0 and pi, and no rate is taken on trust") {
+  Json derivation = accepted()["derivations"][0];
+  const Json zero{{"lo", "0x0p+0"}, {"hi", "0x0p+0"}, {"decimal", "[0, 0]"}};
+  for (const char* name :
+       {"mean_bias", "min_error", "max_error", "mean_bias_around", "min_error_around", "max_error_around"}) {
+    derivation["quantities"][name] = zero;
+  }
+  derivation["quantities"].erase("contraction_rate");
+  checker::Objections none;
+  auto design = checker::read_single_channel_design(checker::read_json(accepted()["design"].dump()), none);
+  design.epsilon = Ball(0.0);
+  const auto objections_at = [&](double frequency, double q1, const Json& claimed) {
+    Json at = claimed;
+    at["quantities"]["frequency"] = {
+        {"lo", hexadecimal(frequency)}, {"hi", hexadecimal(frequency)}, {"decimal", "[-10, 10]"}};
+    auto changed = design;
+    changed.q1 = Ball(q1);
+    checker::QuadratureBranch quadrature({changed.q1, changed.q2, changed.r, changed.epsilon});
+    checker::Objections objections;
+    check_bias(checker::read_json(at.dump()), changed, quadrature, objections);
+    return objections;
+  };
+  Json without_around = derivation;
+  for (const char* name : {"mean_bias_around", "min_error_around", "max_error_around"}) {
+    without_around["quantities"].erase(name);
+  }
+  CHECK(objections_at(1.5, 1.0, derivation).empty());
+  CHECK(objections_at(0.001, 1.0, without_around).empty());
+  CHECK(objections_at(3.14, 1.0, without_around).empty());
+  // Around 0.001 there are frequencies below 0.
+  CHECK_FALSE(objections_at(0.001, 1.0, derivation).empty());
+  CHECK_FALSE(objections_at(3.15, 1.0, without_around).empty());
+  CHECK_FALSE(objections_at(-0.5, 1.0, without_around).empty());
+  CHECK_FALSE(objections_at(0.0, 1.0, without_around).empty());
+  CHECK_FALSE(objections_at(1.5, 0.0, without_around).empty());
+  Json biased = without_around;
+  biased["quantities"]["min_error"] = {{"lo", "0x1p-9"}, {"hi", "0x1p-9"}, {"decimal", "[0.001, 0.002]"}};
+  CHECK_FALSE(objections_at(1.5, 1.0, biased).empty());
+  Json fast = without_around;
+  fast["quantities"]["contraction_rate"] = {{"lo", "0x0p+0"}, {"hi", "0x1p-3"}, {"decimal", "[0, 0.125]"}};
+  CHECK_FALSE(objections_at(0.001, 1.0, fast).empty());
+}
+
 TEST_CASE("words, verdicts and another frequency") {
   Json derivation = accepted()["derivations"][0];
   for (const char* name : {"mean_bias_around", "min_error_around", "max_error_around"}) {

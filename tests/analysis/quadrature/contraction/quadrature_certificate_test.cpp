@@ -92,6 +92,12 @@ TEST_CASE("starts beyond the set and noise beyond the limit are undecided, with 
   const ContractionCertificate loud = certify_contraction(noisy);
   CHECK(loud.derivation.verdict == Verdict::undecided);
   CHECK(condition(loud, "invariant-set").reason.find("largest certified noise") != std::string::npos);
+  // "Without noise" is said of no noise only.
+  const auto why_no_settling_time = [](const ContractionCertificate& certificate) {
+    return find_quantity(certificate.derivation, "settling_samples").not_applicable.value();
+  };
+  CHECK(why_no_settling_time(loud).find("Without noise") == std::string::npos);
+  CHECK(why_no_settling_time(outside).find("Without noise") != std::string::npos);
 
   sets::ContractionQuestion wide = question(0.0023, 0.05);
   wide.search_evaluations = 10;

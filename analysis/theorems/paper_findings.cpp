@@ -1,0 +1,127 @@
+#include "analysis/theorems/paper_findings.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace veritrack::theorems {
+
+namespace {
+
+using rigor::Verdict;
+using enum FindingKind;
+
+/// "False as stated (thesis, (2.33)): " before the reason, when the claim is in the ledger and REFUTED.
+void cite(std::string_view claim, Verdict verdict, std::string& reason) {
+  const PaperFinding* finding = verdict == Verdict::refuted ? find_paper_finding(claim) : nullptr;
+  if (finding == nullptr) {
+    return;
+  }
+  std::string words(to_string(finding->kind));
+  words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+  reason = words + " (" + std::string(finding->place) + "): " + reason;
+}
+
+}  // namespace
+
+std::string_view to_string(FindingKind kind) {
+  switch (kind) {
+    case false_as_stated:
+      return "false as stated";
+    case slip_without_consequence:
+      return "slip without consequence";
+    case needs_unstated_assumption:
+      return "needs an assumption that is not stated";
+    case illegible:
+      return "illegible";
+  }
+  return "";
+}
+
+const std::vector<PaperFinding>& paper_findings() {
+  static const std::vector<PaperFinding> ledger{
+      // La Scala 1994.
+      {"baras-bensoussan-james/units", false_as_stated, "thesis, theorem 2.2, (2.16)"},
+      {"theorem-2.9/final-bound-sum", slip_without_consequence, "thesis, theorem 2.7, the bound at k = 0"},
+      {"theorem-2.9/zeta", false_as_stated, "thesis, theorem 2.7 and lemma 2.5, zeta"},
+      {"theorem-2.9/past-errors", false_as_stated,
+       "thesis, (2.34), as used in theorem 2.7, lemmas 2.3 and 2.5"},
+      {"theorem-2.9/remainder-constant", false_as_stated, "thesis, section 2.4.3, rho_4 in (2.33)"},
+      {"theorem-2.9/remainder-sign", slip_without_consequence, "thesis, theorem 2.9, the sign of kappa_f"},
+      {"theorem-2.9/decomposition", false_as_stated, "thesis, proof of theorem 2.8, B(k)"},
+      {"theorem-2.9/bounds-from-the-start", needs_unstated_assumption,
+       "thesis, theorem 2.8, the bounds on P(k|k) at k = 0"},
+      {"theorem-2.9/decrease-factor", slip_without_consequence,
+       "thesis, proof of theorem 2.8; (2.36) has the right factor"},
+      {"theorem-2.9/s", false_as_stated, "thesis, section 2.4.3, s"},
+      {"theorem-2.9/linearised-rate", false_as_stated,
+       "thesis, lemma 2.3, as used in the proof of theorem 2.9"},
+      {"theorem-2.9/eta-slope", slip_without_consequence,
+       "thesis, lemma 2.4, (2.40); the proof of theorem 2.7 needs eta only"},
+      {"theorem-2.9/eta-size", false_as_stated, "thesis, lemma 2.4, (2.40), as used in theorem 2.7"},
+      {"theorem-2.9/final-bound", slip_without_consequence, "thesis, theorem 2.9, R_x in place of r_x"},
+      {"theorem-2.9/radius-order", needs_unstated_assumption, "thesis, proof of theorem 2.9"},
+      {"theorem-2.9/2.44-follows", needs_unstated_assumption,
+       "thesis, the note that ends the proof of theorem 2.9"},
+      {"theorem-2.9/lemma-3.1", false_as_stated, "thesis, lemma 3.1"},
+      {"theorem-2.9/gramian-eigenvalue", false_as_stated, "thesis, section 3.5, w_3 without (1 - epsilon)^2"},
+      {"theorem-2.9/gramian-time-index", slip_without_consequence, "thesis, section 3.5, w_3 at (k|k)"},
+      {"theorem-2.9/w_3-range", false_as_stated, "thesis, section 3.5; errata sheet to page 67"},
+      {"theorem-2.9/b_1", false_as_stated, "thesis, section 3.5; errata sheet to page 68"},
+      {"theorem-2.9/b_2", false_as_stated, "thesis, section 3.5; errata sheet to page 68"},
+      {"theorem-2.9/rho_1", false_as_stated, "thesis, section 3.5"},
+      {"theorem-2.9/rho_2", false_as_stated, "thesis, section 3.5"},
+      {"theorem-2.9/rho_3", false_as_stated, "thesis, section 3.5"},
+      {"riccati-bounds/naive-matrix", false_as_stated, "thesis, section 2.4.3, after Deyst and Price"},
+      {"riccati-bounds/naive-number", false_as_stated, "thesis, section 2.4.3, after Deyst and Price"},
+      {"riccati-bounds/p-printed", false_as_stated, "thesis, section 2.4.3, p"},
+      {"theorem-3.1/to-the-letter/rank-everywhere", needs_unstated_assumption,
+       "thesis, section 3.2.1; it takes (x1, x2) other than 0"},
+      {"theorem-3.1/to-the-letter/gram-entry", illegible,
+       "thesis, section 3.2.1; the parentheses of (1 - epsilon) are missing in print, or lost in the scan"},
+      {"theorem-3.1/to-the-letter/definition-3.1", slip_without_consequence,
+       "thesis, definition 3.1; some k is meant"},
+      {"theorem-3.2/any-start/any-start", needs_unstated_assumption, "thesis, theorem 3.2"},
+      {"lemma-3.1/exact-to-second-order", false_as_stated, "thesis, lemma 3.1"},
+      {"lemma-3.1/under-estimate", false_as_stated, "thesis, section 3.4.2"},
+      {"table-3.1/printed/alpha-r", slip_without_consequence,
+       "thesis, Table 3.1; corrected by the errata sheet to page 69"},
+      // Bittanti and Savaresi 2000.
+      {"proposition-1/denominator-printed", slip_without_consequence, "paper, (4) and (6)"},
+      {"proposition-1/response-printed", slip_without_consequence, "paper, (6)"},
+      {"proposition-2/same-start", needs_unstated_assumption,
+       "paper, the conclusion of the proof of proposition 2; P(0) is not named there"},
+      // Praly, Marconi and Isidori.
+      {"kkl-paper/phase-formula", illegible,
+       "paper, section III; with (4), which the scan lost, one could tell whether the sign of the formula or "
+       "that "
+       "of (6) is the slip"},
+      {"kkl-paper/dimensions", slip_without_consequence, "paper, (8)"},
+      {"kkl-paper/section-v-ell", false_as_stated, "paper, section V"}};
+  return ledger;
+}
+
+const PaperFinding* find_paper_finding(std::string_view claim) {
+  const auto find = [](std::string_view wanted) -> const PaperFinding* {
+    const auto& ledger = paper_findings();
+    const auto found = std::find_if(ledger.begin(), ledger.end(),
+                                    [&](const PaperFinding& finding) { return finding.claim == wanted; });
+    return found == ledger.end() ? nullptr : &*found;
+  };
+  const PaperFinding* exact = find(claim);
+  const std::size_t slash = claim.rfind('/');
+  return exact != nullptr || slash == std::string_view::npos ? exact : find(claim.substr(0, slash));
+}
+
+void cite_findings(std::vector<Statement>& statements) {
+  for (Statement& statement : statements) {
+    cite(statement.id, statement.verdict, statement.witness);
+  }
+}
+
+void cite_findings(Derivation& derivation) {
+  for (Condition& condition : derivation.conditions) {
+    cite(derivation.id + "/" + condition.id, condition.verdict, condition.reason);
+  }
+}
+
+}  // namespace veritrack::theorems

@@ -85,6 +85,9 @@ class Cover {
         Interval((rate_ - (bounds.noise_gain * disturbance_.noise + disturbance_.motion) / level).lower());
     const Interval share((rate_ - disturbance_.covariance_motion / level).lower());
     outcome.order = keeps_covariance(settings_, corners, secants, level_, bounds.tangent_reach, share);
+    // `along` cannot bind: in the middle of the level it is the component that least_along bounds, and the
+    // step divides by it, so that it is zero nowhere in a level whose cells all hold. It keeps a cell from
+    // being believed by itself.
     outcome.contracts = outcome.order.kept && certainly_positive(outcome.left) &&
                         certainly_positive(bounds.least_along) && certainly_positive(step.along) &&
                         certainly_less(abs(step.swing), Interval(1.5)) &&

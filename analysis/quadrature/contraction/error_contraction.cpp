@@ -73,9 +73,9 @@ class Cover {
     const RayRate proposal = propose_rate(forms.proposal, middle_.metric, middle_constants_);
     const CellVerdict verdict = check_cell(forms, setting_.metric, constants_, middle_.metric,
                                            middle_constants_, proposal.multiplier);
-    // The last two cannot bind: the form divides by `real`, and by z1 all the way to where corrections reach
-    // along it. So neither is zero in any cell whose inequality holds, and both are 1 at s = 0; where all
-    // cells hold they are positive in all of them. They keep a cell from being believed by itself.
+    // cannot bind (least_along, mean_real): the form divides by `mean.real`, and by z1 all the way to where
+    // corrections reach along it. So neither is zero in a cell whose inequality holds, and at s = 0 both are
+    // 1; where all cells hold they are positive in all. These two keep a cell from being believed by itself.
     if (verdict.holds && certainly_positive(forms.over.least_along) &&
         certainly_positive(forms.over.mean_real)) {
       return true;

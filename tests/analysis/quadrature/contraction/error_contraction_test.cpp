@@ -12,15 +12,18 @@ namespace {
 
 using rigor::Interval;
 
-/// A tracker with such a gain in amplitude and phase, whose covariance is known exactly: r = 1 and nearly no
+/// A tracker with such a gain in amplitude and phase, whose covariance is known closely: r = 1 and nearly no
 /// process noise.
 StepSetting<Interval> setting_of(double gain, double largest_amplitude, double largest_chi, double noise) {
   const double variance = gain / (1.0 - gain);
-  const BlockCovariance<Interval> p{Interval(variance), Interval(variance), Interval(0.0), Interval(1e-9)};
+  const auto covariance = [&](double factor) {
+    return BlockCovariance<Interval>{Interval(factor * variance), Interval(factor * variance), Interval(0.0),
+                                     Interval(factor * 1e-6)};
+  };
   return {{Interval(1e-9), Interval(1e-9), Interval(1.0), Interval(0.0)},
           {Interval(1.0), Interval(1.0), Interval(0.0), Interval(1.0)},
-          p,
-          p,
+          covariance(1.0),
+          covariance(1.001),
           Interval(largest_amplitude),
           Interval(largest_chi),
           Interval(noise)};

@@ -9,16 +9,9 @@ namespace {
 
 using rigor::Interval;
 
-/// The scalar steady state of a tracker that follows neither phase nor frequency closely is enough here:
-/// diagonal covariances at zero frequency, of which each entry keeps its own bounds.
-struct Example {
-  SteadySettings settings;
-  double p33;
-};
-
-/// Bounds of `below` and `above` around the steady covariance of the design, which an order interval of this
-/// shape keeps.
-SteadySettings settings_of(double below, double above) {
+/// A tracker with diagonal covariances: its phase and its amplitude are scalar filters, nearly. The band
+/// reaches from the steady state by these shares of it.
+SteadySettings settings_with(double below, double above) {
   // Without coupling of phase and frequency (p33 = 0 and q2 = 0) phase and amplitude are scalar filters: P =
   // p with (p + q) r / (p + q + r) = p.
   const double q = 0.5;
@@ -62,16 +55,16 @@ bool keeps(const SteadySettings& settings, double share = 1.0) {
 
 TEST_CASE("each bound on the covariance must be kept by itself") {
   const rigor::UpwardRounding upward;
-  CHECK(keeps(settings_of(0.5, 0.5)));
+  CHECK(keeps(settings_with(0.5, 0.5)));
   // The steady state of the example is near, not exact: bounds closer than that are broken, on either side.
-  CHECK_FALSE(keeps(settings_of(0.5, 1e-9)));
-  CHECK_FALSE(keeps(settings_of(1e-9, 0.5)));
+  CHECK_FALSE(keeps(settings_with(0.5, 1e-9)));
+  CHECK_FALSE(keeps(settings_with(1e-9, 0.5)));
 }
 
 TEST_CASE("a bound is kept only as far as the share goes") {
   const rigor::UpwardRounding upward;
-  CHECK_FALSE(keeps(settings_of(0.5, 0.5), 0.01));
-  CHECK_FALSE(keeps(settings_of(0.5, 0.5), -1.0));
+  CHECK_FALSE(keeps(settings_with(0.5, 0.5), 0.01));
+  CHECK_FALSE(keeps(settings_with(0.5, 0.5), -1.0));
 }
 
 }  // namespace

@@ -3,15 +3,21 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
+#include "analysis/rigor/rounding.hpp"
 #include "certificates/design/design_reader.hpp"
+#include "certificates/design/input_error.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/coq_document.hpp"
 #include "certificates/document/markdown.hpp"
 #include "certificates/document/output_files.hpp"
 #include "certificates/document/tuning.hpp"
+#include "cli/default_folder.hpp"
 #include "reports/certificate_files.hpp"
 #include "reports/check_reports.hpp"
 #include "reports/example_report.hpp"
@@ -58,60 +64,121 @@ certificates::Certificate certify_with_progress(const std::string& design_path, 
   return certificates::certify_file(design_path, std::cref(line));
 }
 
+/// Throws InputError: the design's tracker cannot do what the command is for.
+[[noreturn]] void refuse_tracker(const std::string& path, const certificates::Design& design,
+                                 const std::string& command, const std::string& able) {
+  const auto position = design.positions.find("tracker");
+  throw certificates::InputError(
+      path, position != design.positions.end() ? position->second : certificates::Position{},
+      fmt::format("veritrack {} cannot be used with the tracker {}; allowed: {}", command, design.tracker,
+                  able));
+}
+
+/// One design file; what is wrong with it is told and noted, and the others are still checked.
+reports::CheckedDesign check_one(const std::string& path, bool quiet) {
+  try {
+    return {path, certify_with_progress(path, quiet), {}, {}};
+  } catch (const certificates::InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return {path, std::nullopt, error.message(), {error.line(), error.column()}};
+  } catch (const rigor::RoundingModeError&) {
+    throw;  // nothing can be trusted any more, the other designs included
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}: {}\n", path, error.what());
+    return {path, std::nullopt, error.what(), {}};
+  }
+}
+
+ExitStatus print_verdicts(const std::string& path, const certificates::Certificate& certificate,
+                          bool strict) {
+  if (!certificate.verdict) {
+    fmt::print("{}: nothing required\n", path);
+    return strict ? not_proved : all_proved;
+  }
+  for (const certificates::Claim& claim : certificate.claims) {
+    if (claim.required) {
+      fmt::print("{}:{}: {}: {} ({})\n", path, claim.position.line, rigor::to_string(claim.verdict),
+                 claim.requirement, claim.reason);
+    }
+  }
+  return status_of(certificate);
+}
+
+/// Stages the reports that are asked for, as `junit` and `sarif` make them.
+template <typename Junit, typename Sarif>
+void stage_reports(const CheckOptions& options, certificates::OutputFiles& files, Junit junit, Sarif sarif) {
+  for (const std::string& path : options.designs) {
+    files.keep(path);
+  }
+  if (!options.junit.empty()) {
+    files.stage(options.junit, junit());
+  }
+  if (!options.sarif.empty()) {
+    files.stage(options.sarif, sarif());
+  }
+}
+
+/// What cannot be written is better known before minutes of work.
+void rehearse_reports(const CheckOptions& options) {
+  certificates::OutputFiles files;
+  const auto nothing = [] { return std::string(); };
+  stage_reports(options, files, nothing, nothing);
+}
+
+void write_reports(const CheckOptions& options, const std::vector<reports::CheckedDesign>& checked) {
+  certificates::OutputFiles files;
+  stage_reports(
+      options, files, [&] { return reports::to_junit(checked); }, [&] { return reports::to_sarif(checked); });
+  files.commit();
+}
+
 }  // namespace
 
 ExitStatus run_certify(const CertifyOptions& options) {
+  const bool by_name = options.directory.empty();
+  const std::filesystem::path directory =
+      by_name ? default_folder("certificates-out", options.design) : std::filesystem::path(options.directory);
   certificates::Certificate certificate = certify_with_progress(options.design, options.quiet);
   if (options.coq) {
     certificate.formal_proofs = certificates::coq_proofs(certificate);
   }
-  std::string directory = options.directory;
-  if (directory.empty()) {
-    directory =
-        (std::filesystem::path("certificates-out") / std::filesystem::path(options.design).stem()).string();
+  const reports::CertificateFiles files =
+      reports::write_certificate_files(certificate, directory, options.design);
+  if (by_name) {
+    mark_folder(directory, options.design);
   }
-  const std::filesystem::path document = reports::write_certificate_files(certificate, directory);
-  fmt::print("{}: {}\n", document.string(), certificates::headline(certificate));
+  if (!files.missing_figures.empty()) {
+    fmt::print(stderr, "{}: written without its figures; {}\n", files.document.string(),
+               files.missing_figures);
+  }
+  fmt::print("{}: {}\n", files.document.string(), certificates::headline(certificate));
   return status_of(certificate);
 }
 
 ExitStatus run_check(const CheckOptions& options) {
-  ExitStatus status = all_proved;
+  rehearse_reports(options);
   std::vector<reports::CheckedDesign> checked;
   for (const std::string& path : options.designs) {
-    checked.push_back({path, certify_with_progress(path, options.quiet)});
+    checked.push_back(check_one(path, options.quiet));
   }
-  certificates::OutputFiles files;
-  if (!options.junit.empty()) {
-    files.stage(options.junit, reports::to_junit(checked));
-  }
-  if (!options.sarif.empty()) {
-    files.stage(options.sarif, reports::to_sarif(checked));
-  }
-  files.commit();
-  for (const auto& [path, certificate] : checked) {
-    if (!certificate.verdict) {
-      fmt::print("{}: nothing required\n", path);
-    }
-    for (const certificates::Claim& claim : certificate.claims) {
-      if (claim.required) {
-        fmt::print("{}:{}: {}: {} ({})\n", path, claim.position.line, rigor::to_string(claim.verdict),
-                   claim.requirement, claim.reason);
-      }
-    }
-    if (status_of(certificate) != all_proved) {
-      status = not_proved;
-    }
+  write_reports(options, checked);
+  ExitStatus status = all_proved;
+  for (const auto& design : checked) {
+    status =
+        std::max(status, design.certificate ? print_verdicts(design.path, *design.certificate, options.strict)
+                                            : bad_input);
   }
   return status;
 }
 
 ExitStatus run_map(const MapOptions& options) {
   const certificates::Design design = certificates::read_design_file(options.design);
-  std::string directory = options.directory;
-  if (directory.empty()) {
-    directory = (std::filesystem::path("maps-out") / std::filesystem::path(options.design).stem()).string();
+  if (!reports::has_map(design)) {
+    refuse_tracker(options.design, design, "map", reports::trackers_with_map());
   }
+  const bool by_name = options.directory.empty();
+  const std::filesystem::path directory =
+      by_name ? default_folder("maps-out", options.design) : std::filesystem::path(options.directory);
   const reports::MapResult result = [&] {
     const ProgressLine line(options.quiet);
     return reports::write_map(design, options.request, directory, std::cref(line));
@@ -120,26 +187,35 @@ ExitStatus run_map(const MapOptions& options) {
     fmt::print("{}: undecided: {}\n", options.design, result.sentence);
     return not_proved;
   }
+  if (by_name) {
+    mark_folder(directory, options.design);
+  }
   fmt::print("{}: {}\n", result.picture->string(), result.sentence);
   return all_proved;
 }
 
 ExitStatus run_tune(const TuneOptions& options) {
-  const certificates::TuningResult result =
-      certificates::tune(certificates::read_design_file(options.design));
+  const certificates::Design design = certificates::read_design_file(options.design);
+  if (!certificates::can_be_tuned(design)) {
+    refuse_tracker(options.design, design, "tune", certificates::trackers_with_tuning());
+  }
+  const certificates::TuningResult result = certificates::tune(design);
   if (!result.design_text) {
     fmt::print("{}: undecided: {}\n", options.design, result.reason);
     return not_proved;
   }
-  std::string output = options.output;
-  if (output.empty()) {
-    output = std::filesystem::path(options.design).stem().string() + "-tuned.toml";
-  }
+  const std::filesystem::path output =
+      options.output.empty() ? std::filesystem::path(options.design).stem().string() + "-tuned.toml"
+                             : options.output;
   certificates::OutputFiles files;
+  files.keep(options.design);
   files.stage(output, *result.design_text);
   files.commit();
-  const certificates::Certificate certificate = certificates::certify_file(output);
-  fmt::print("{}: {}\n", output, certificates::headline(certificate));
+  // From the text, because the output need not be a file that can be read again.
+  const certificates::Certificate certificate =
+      certificates::certify(certificates::read_design(*result.design_text, output.string()),
+                            output.filename().string(), *result.design_text);
+  fmt::print("{}: {}\n", output.string(), certificates::headline(certificate));
   return status_of(certificate);
 }
 

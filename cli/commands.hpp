@@ -25,7 +25,8 @@ struct CheckOptions {
   std::vector<std::string> designs;
   std::string junit;
   std::string sarif;
-  bool quiet = false;  ///< no progress on standard error
+  bool strict = false;  ///< a design that requires nothing is not_proved
+  bool quiet = false;   ///< no progress on standard error
 };
 
 struct MapOptions {

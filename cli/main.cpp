@@ -1,18 +1,45 @@
 // The command line: reads arguments and calls commands.hpp.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/self_test.hpp"
+#include "certificates/design/input_error.hpp"
+#include "certificates/design/nearest_key.hpp"
 #include "cli/commands.hpp"
+#include "cli/standard_output.hpp"
 
 namespace {
 
 using namespace veritrack::cli;  // NOLINT(google-build-using-namespace): this file is made of it
 namespace rigor = veritrack::rigor;
+
+/// What to say when the first argument that is no option is no command; empty when it is one.
+std::string unknown_command(CLI::App& app, int argc, char** argv) {
+  const auto arguments = std::span(argv, static_cast<std::size_t>(argc));
+  const auto first = std::find_if(arguments.begin() + 1, arguments.end(),
+                                  [](const char* argument) { return *argument != '-'; });
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    known.push_back(command->get_name());
+  }
+  if (first == arguments.end() || std::find(known.begin(), known.end(), *first) != known.end()) {
+    return {};
+  }
+  constexpr std::size_t kShown = 100;
+  return fmt::format("veritrack: no command is called \"{}\"; nearest command: {}; allowed: {}",
+                     veritrack::certificates::printable(*first, kShown),
+                     veritrack::certificates::nearest_key(*first, known), fmt::join(known, ", "));
+}
 
 int run(int argc, char** argv) {
   CLI::App app{"Machine-checked certificates for frequency trackers.", "veritrack"};
@@ -21,7 +48,7 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit status: 0 everything required is PROVED (or nothing is required); 1 something is REFUTED or "
       "UNDECIDED;\n"
-      "2 bad input; 3 this machine's arithmetic failed the self-test.");
+      "2 bad input, or an output that cannot be written; 3 this machine's arithmetic cannot be trusted.");
 
   bool quiet = false;
   app.add_flag("--quiet", quiet, "no progress on standard error");
@@ -42,6 +69,8 @@ int run(int argc, char** argv) {
   check->add_option("DESIGN", check_options.designs, "design files (TOML)")->required();
   check->add_option("--junit", check_options.junit, "also write the verdicts as JUnit XML");
   check->add_option("--sarif", check_options.sarif, "also write what is not PROVED as SARIF 2.1.0");
+
+  check->add_flag("--strict", check_options.strict, "a design that requires nothing is 1, not 0");
 
   MapOptions map_options;
   CLI::App* map =
@@ -83,6 +112,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const std::string unknown = unknown_command(app, argc, argv); !unknown.empty()) {
+      fmt::print(stderr, "{}\n", unknown);
+      return bad_input;
+    }
     return app.exit(error) == 0 ? all_proved : bad_input;
   }
 
@@ -114,7 +147,13 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    prepare_standard_streams();
+    const int status = run(argc, argv);
+    finish_standard_output();
+    return status;
+  } catch (const rigor::RoundingModeError& error) {
+    fmt::print(stderr, "veritrack: {}; nothing that was computed can be trusted\n", error.what());
+    return bad_arithmetic;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return bad_input;

@@ -2,15 +2,24 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "certificates/document/certificate.hpp"
 
 namespace veritrack::reports {
 
+/// The folder of a certificate, written.
+struct CertificateFiles {
+  std::filesystem::path document;  ///< certificate.md
+  std::string missing_figures;     ///< one line: why there are no figures; empty when nothing is missing
+};
+
 /// Writes certificate.md, certificate.json, figures/*.svg and, if it has formal proofs, certificate.v into
-/// `directory` (made when missing) and returns the path of certificate.md. Every file appears whole or not at
-/// all. Throws certificates::OutputError, FigureError.
-std::filesystem::path write_certificate_files(const certificates::Certificate& certificate,
-                                              const std::filesystem::path& directory);
+/// `directory` (made when missing). Every file appears whole or not at all; without gnuplot all but the
+/// figures do. No output may be `design`, the file that the certificate was made from. Throws
+/// certificates::OutputError.
+[[nodiscard]] CertificateFiles write_certificate_files(const certificates::Certificate& certificate,
+                                                       const std::filesystem::path& directory,
+                                                       const std::filesystem::path& design);
 
 }  // namespace veritrack::reports

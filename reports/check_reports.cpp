@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
 
 namespace veritrack::reports {
@@ -13,10 +14,14 @@ namespace {
 using certificates::Claim;
 using rigor::Verdict;
 
-std::vector<Claim> required_claims(const certificates::Certificate& certificate) {
+constexpr const char* kBadInput = "bad-input";
+
+std::vector<Claim> required_claims(const CheckedDesign& design) {
   std::vector<Claim> claims;
-  std::copy_if(certificate.claims.begin(), certificate.claims.end(), std::back_inserter(claims),
-               [](const Claim& claim) { return claim.required; });
+  if (design.certificate) {
+    std::copy_if(design.certificate->claims.begin(), design.certificate->claims.end(),
+                 std::back_inserter(claims), [](const Claim& claim) { return claim.required; });
+  }
   return claims;
 }
 
@@ -54,16 +59,41 @@ std::string junit_case(const std::string& path, const Claim& claim) {
                                rigor::to_string(claim.verdict), xml_escaped(claim.reason));
 }
 
+std::string junit_error(const CheckedDesign& design) {
+  return fmt::format(
+      "    <testcase classname=\"{}\" name=\"design file\">\n      <error type=\"{}\" "
+      "message=\"{}\"/>\n    </testcase>\n",
+      xml_escaped(design.path), kBadInput, xml_escaped(design.error));
+}
+
+using Json = nlohmann::ordered_json;
+
+Json sarif_result(const std::string& rule, const char* level, const std::string& message,
+                  const std::string& path, certificates::Position position) {
+  Json place{{"artifactLocation", {{"uri", path}}}};
+  if (position.line > 0) {
+    place["region"] = {{"startLine", position.line}, {"startColumn", position.column}};
+  }
+  return {{"ruleId", rule},
+          {"level", level},
+          {"message", {{"text", message}}},
+          {"locations", Json::array({Json{{"physicalLocation", place}}})}};
+}
+
 }  // namespace
 
 std::string to_junit(const std::vector<CheckedDesign>& designs) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"veritrack check\">\n";
   for (const CheckedDesign& design : designs) {
-    const std::vector<Claim> claims = required_claims(design.certificate);
+    const std::vector<Claim> claims = required_claims(design);
+    const int errors = design.certificate ? 0 : 1;
     const auto failures = std::count_if(claims.begin(), claims.end(),
                                         [](const Claim& claim) { return claim.verdict != Verdict::proved; });
-    text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n", xml_escaped(design.path),
-                        claims.size(), failures);
+    text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\">\n",
+                        xml_escaped(design.path), claims.size() + (errors > 0 ? 1 : 0), failures, errors);
+    if (errors > 0) {
+      text += junit_error(design);
+    }
     for (const Claim& claim : claims) {
       text += junit_case(design.path, claim);
     }
@@ -73,30 +103,28 @@ std::string to_junit(const std::vector<CheckedDesign>& designs) {
 }
 
 std::string to_sarif(const std::vector<CheckedDesign>& designs) {
-  using Json = nlohmann::ordered_json;
   Json rules = Json::array();
   Json results = Json::array();
-  std::vector<std::string> known_rules;
+  std::set<std::string> known_rules;
+  const auto add_rule = [&](const std::string& id, const char* description) {
+    if (known_rules.insert(id).second) {
+      rules.push_back({{"id", id}, {"shortDescription", {{"text", description}}}});
+    }
+  };
   for (const CheckedDesign& design : designs) {
-    for (const Claim& claim : required_claims(design.certificate)) {
+    if (!design.certificate) {
+      add_rule(kBadInput, "a design file must be one that can be used");
+      results.push_back(sarif_result(kBadInput, "error", design.error, design.path, design.position));
+    }
+    for (const Claim& claim : required_claims(design)) {
       if (claim.verdict == Verdict::proved) {
         continue;
       }
-      if (std::find(known_rules.begin(), known_rules.end(), claim.id) == known_rules.end()) {
-        known_rules.push_back(claim.id);
-        rules.push_back(
-            {{"id", claim.id},
-             {"shortDescription", {{"text", "a requirement of the design file must be PROVED"}}}});
-      }
+      add_rule(claim.id, "a requirement of the design file must be PROVED");
       const std::string message =
           fmt::format("{}: {}. {}", rigor::to_string(claim.verdict), claim.requirement, claim.reason);
-      const Json region{{"startLine", claim.position.line}, {"startColumn", claim.position.column}};
-      const Json location{
-          {"physicalLocation", {{"artifactLocation", {{"uri", design.path}}}, {"region", region}}}};
-      results.push_back({{"ruleId", claim.id},
-                         {"level", claim.verdict == Verdict::refuted ? "error" : "warning"},
-                         {"message", {{"text", message}}},
-                         {"locations", Json::array({location})}});
+      results.push_back(sarif_result(claim.id, claim.verdict == Verdict::refuted ? "error" : "warning",
+                                     message, design.path, claim.position));
     }
   }
   const Json driver{{"name", "veritrack"}, {"version", VERITRACK_VERSION}, {"rules", rules}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "reports/kkl_observer/kkl_observer_reports.hpp"
 #include "reports/quadrature/quadrature_reports.hpp"
@@ -35,19 +36,27 @@ std::vector<Figure> draw_figures(const certificates::Certificate& certificate) {
                                                            : std::vector<Figure>{};
 }
 
-MapResult write_map(const certificates::Design& design, const MapRequest& request,
-                    const std::filesystem::path& directory, const certificates::CertifyProgress& progress) {
-  const TrackerReports* reports = reports_of(design.tracker);
-  if (reports != nullptr && reports->map != nullptr) {
-    return reports->map(design, request, directory, progress);
-  }
+std::string trackers_with_map() {
   std::vector<std::string_view> able;
   for (const TrackerReports* each : tracker_reports()) {
     if (each->map != nullptr) {
       able.push_back(each->tracker);
     }
   }
-  return {std::nullopt, fmt::format("A map needs the tracker {}.", fmt::join(able, " or "))};
+  return fmt::format("{}", fmt::join(able, " or "));
+}
+
+bool has_map(const certificates::Design& design) {
+  const TrackerReports* reports = reports_of(design.tracker);
+  return reports != nullptr && reports->map != nullptr;
+}
+
+MapResult write_map(const certificates::Design& design, const MapRequest& request,
+                    const std::filesystem::path& directory, const certificates::CertifyProgress& progress) {
+  if (!has_map(design)) {
+    throw std::logic_error("a design of the tracker " + design.tracker + " has no map");
+  }
+  return reports_of(design.tracker)->map(design, request, directory, progress);
 }
 
 }  // namespace veritrack::reports

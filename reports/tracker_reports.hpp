@@ -40,7 +40,13 @@ struct TrackerReports {
 /// All records (reports/registry.cpp).
 [[nodiscard]] std::span<const TrackerReports* const> tracker_reports();
 
-/// The map of a design, written into `directory`; a tracker without one is answered with a sentence.
+/// The names of the trackers that have a map, as a sentence lists them: "a", "a or b".
+[[nodiscard]] std::string trackers_with_map();
+
+[[nodiscard]] bool has_map(const certificates::Design& design);
+
+/// The map of a design that has one, written into `directory`. Throws std::logic_error for another design,
+/// certificates::OutputError, FigureError.
 [[nodiscard]] MapResult write_map(const certificates::Design& design, const MapRequest& request,
                                   const std::filesystem::path& directory,
                                   const certificates::CertifyProgress& progress);

@@ -25,6 +25,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/rigor/call_site.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::rigor {
@@ -184,12 +185,16 @@ class Interval {
 }
 
 /// True when `inner` is a non-empty part of `outer`.
-[[nodiscard]] inline bool is_subset(const Interval& inner, const Interval& outer) noexcept {
+[[nodiscard]] inline bool is_subset(const Interval& inner,
+                                    const Interval& outer VERITRACK_CALL_SITE) noexcept {
+  VERITRACK_MUTANT_RETURNS(true)
   return outer.lower() <= inner.lower() && inner.lower() <= inner.upper() && inner.upper() <= outer.upper();
 }
 
 /// True when `inner` is non-empty and lies in the topological interior of `outer`.
-[[nodiscard]] inline bool is_interior(const Interval& inner, const Interval& outer) noexcept {
+[[nodiscard]] inline bool is_interior(const Interval& inner,
+                                      const Interval& outer VERITRACK_CALL_SITE) noexcept {
+  VERITRACK_MUTANT_RETURNS(true)
   return outer.lower() < inner.lower() && inner.lower() <= inner.upper() && inner.upper() < outer.upper();
 }
 
@@ -204,23 +209,25 @@ class Interval {
 // negation of another.
 
 /// Every point of a is less than every point of b.
-[[nodiscard]] inline bool certainly_less(const Interval& a, const Interval& b) {
+[[nodiscard]] inline bool certainly_less(const Interval& a, const Interval& b VERITRACK_CALL_SITE) {
   require_upward_rounding();
+  VERITRACK_MUTANT_RETURNS(true)
   return is_finite(a) && is_finite(b) && a.upper() < b.lower();
 }
 /// Every point of a is less than or equal to every point of b.
-[[nodiscard]] inline bool certainly_less_equal(const Interval& a, const Interval& b) {
+[[nodiscard]] inline bool certainly_less_equal(const Interval& a, const Interval& b VERITRACK_CALL_SITE) {
   require_upward_rounding();
+  VERITRACK_MUTANT_RETURNS(true)
   return is_finite(a) && is_finite(b) && a.upper() <= b.lower();
 }
-[[nodiscard]] inline bool certainly_positive(const Interval& a) {
-  return certainly_less(Interval(0.0), a);
+[[nodiscard]] inline bool certainly_positive(const Interval& a VERITRACK_CALL_SITE) {
+  return certainly_less(Interval(0.0), a VERITRACK_SAME_CALL_SITE);
 }
-[[nodiscard]] inline bool certainly_not_negative(const Interval& a) {
-  return certainly_less_equal(Interval(0.0), a);
+[[nodiscard]] inline bool certainly_not_negative(const Interval& a VERITRACK_CALL_SITE) {
+  return certainly_less_equal(Interval(0.0), a VERITRACK_SAME_CALL_SITE);
 }
-[[nodiscard]] inline bool certainly_negative(const Interval& a) {
-  return certainly_less(a, Interval(0.0));
+[[nodiscard]] inline bool certainly_negative(const Interval& a VERITRACK_CALL_SITE) {
+  return certainly_less(a, Interval(0.0) VERITRACK_SAME_CALL_SITE);
 }
 
 // ---- set operations

@@ -108,7 +108,8 @@ template <typename DerivedA, typename DerivedB>
 /// True when every entry of `inner` is a non-empty part of the same entry of `outer`.
 template <typename DerivedA, typename DerivedB>
 [[nodiscard]] bool is_subset(const Eigen::MatrixBase<DerivedA>& inner,
-                             const Eigen::MatrixBase<DerivedB>& outer) {
+                             const Eigen::MatrixBase<DerivedB>& outer VERITRACK_CALL_SITE) {
+  VERITRACK_MUTANT_RETURNS(true)
   return detail::all_entries(inner, outer,
                              [](const Interval& x, const Interval& y) { return is_subset(x, y); });
 }
@@ -116,7 +117,8 @@ template <typename DerivedA, typename DerivedB>
 /// True when every entry of `inner` is non-empty and lies in the interior of the same entry of `outer`.
 template <typename DerivedA, typename DerivedB>
 [[nodiscard]] bool is_interior(const Eigen::MatrixBase<DerivedA>& inner,
-                               const Eigen::MatrixBase<DerivedB>& outer) {
+                               const Eigen::MatrixBase<DerivedB>& outer VERITRACK_CALL_SITE) {
+  VERITRACK_MUTANT_RETURNS(true)
   return detail::all_entries(inner, outer,
                              [](const Interval& x, const Interval& y) { return is_interior(x, y); });
 }

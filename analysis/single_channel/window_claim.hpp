@@ -50,6 +50,7 @@ struct StartBox {
 /// at every phase and frequency; `weight` in (0, 1) is a free parameter. Needs the same claim to be verified.
 [[nodiscard]] bool certainly_holds_start(const trackers::ToneModel<rigor::Interval>& design,
                                          const rigor::Interval& band, const WindowClaim& claim,
-                                         const StartBox& box, double level, double weight);
+                                         const StartBox& box, double level,
+                                         double weight VERITRACK_CALL_SITE);
 
 }  // namespace veritrack::single_channel

@@ -12,6 +12,7 @@ namespace veritrack::certificates {
 /// Owns a POSIX file descriptor; negative when there is none.
 class FileDescriptor {
  public:
+  FileDescriptor() noexcept = default;
   explicit FileDescriptor(int descriptor) noexcept : descriptor_(descriptor) {}
   ~FileDescriptor() { close(); }
   FileDescriptor(const FileDescriptor&) = delete;
@@ -21,6 +22,12 @@ class FileDescriptor {
 
   [[nodiscard]] bool is_open() const noexcept { return descriptor_ >= 0; }
   [[nodiscard]] int get() const noexcept { return descriptor_; }
+
+  /// Closes what is open and owns `descriptor` from now on.
+  void reset(int descriptor) noexcept {
+    close();
+    descriptor_ = descriptor;
+  }
 
   /// As read(2) and write(2), begun anew when a signal interrupts.
   [[nodiscard]] ssize_t read(char* buffer, std::size_t size) const noexcept {
@@ -45,7 +52,7 @@ class FileDescriptor {
   }
 
  private:
-  int descriptor_;
+  int descriptor_ = -1;
 };
 
 }  // namespace veritrack::certificates

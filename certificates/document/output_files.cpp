@@ -1,7 +1,7 @@
 #include "certificates/document/output_files.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,15 +13,13 @@
 #include <system_error>
 
 #include "certificates/design/file_descriptor.hpp"
-#include "certificates/design/input_error.hpp"
+#include "certificates/document/abandoned_files.hpp"
 
 namespace veritrack::certificates {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kTextLimit = 4096;
 
 std::string reason_of(int error) {
   return std::generic_category().message(error);
@@ -31,14 +29,21 @@ std::string reason_of(int error) {
   throw OutputError(path, reason_of(error));
 }
 
-/// A new, empty, hidden file in the folder of `target`.
-fs::path make_temporary(const fs::path& target, int& descriptor) {
-  std::string name = (target.parent_path() / ("." + target.filename().string() + ".XXXXXX")).string();
-  descriptor = ::mkostemp(name.data(), O_CLOEXEC);
-  if (descriptor < 0) {
-    fail(target, errno);
+/// A new, empty, hidden file in the folder of the target, locked: see remove_abandoned_files.
+fs::path make_temporary(const OutputTarget& target, FileDescriptor& descriptor) {
+  for (;;) {
+    std::string name = temporary_name(target.file).string();
+    descriptor.reset(::mkostemp(name.data(), O_CLOEXEC));
+    if (!descriptor.is_open()) {
+      fail(target.name, errno);
+    }
+    ::flock(descriptor.get(), LOCK_EX);  // a file system without locks is no reason to refuse the output
+    struct stat status {};
+    if (::fstat(descriptor.get(), &status) == 0 && status.st_nlink > 0) {
+      return name;
+    }
+    // Another process took it for abandoned before it was locked: once more.
   }
-  return name;
 }
 
 /// The permissions that open(2) would have given; mkostemp gives 0600. The process's mask can only be read by
@@ -62,6 +67,16 @@ void write_all(const FileDescriptor& file, std::string_view content, const fs::p
   }
 }
 
+void write_as_it_is(const OutputTarget& target, std::string_view content) {
+  const FileDescriptor file(target.open_descriptor >= 0
+                                ? ::fcntl(target.open_descriptor, F_DUPFD_CLOEXEC, 0)
+                                : ::open(target.name.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+  if (!file.is_open()) {
+    fail(target.name, errno);
+  }
+  write_all(file, content, target.name);
+}
+
 /// Makes a rename last through a power cut. Some file systems cannot; that is no reason to refuse the output.
 void synchronise_folder(const fs::path& folder) {
   const FileDescriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -76,12 +91,6 @@ fs::path folder_of(const fs::path& target) {
 }
 
 }  // namespace
-
-OutputError::OutputError(const fs::path& path, const std::string& reason)
-    : std::runtime_error(
-          printable(fmt::format("{}: cannot be written: {}", path.string(), reason), kTextLimit)),
-      path_(path),
-      reason_(reason) {}
 
 OutputFiles::~OutputFiles() {
   undo();
@@ -110,31 +119,39 @@ void OutputFiles::make_folder(const fs::path& folder) {
   }
 }
 
-void OutputFiles::stage(const fs::path& target, std::string_view content) {
-  if (!target.has_filename()) {
-    throw OutputError(target, "the name of a file is missing");
+void OutputFiles::keep(const fs::path& input) {
+  kept_.push_back(input);
+}
+
+void OutputFiles::stage(const fs::path& name, std::string_view content) {
+  const OutputTarget target = resolve_output(name);
+  if (target.as_it_is) {
+    texts_.push_back({target, std::string(content)});
+    return;
   }
-  const auto has_this_target = [&](const StagedFile& file) { return file.target == target; };
+  const auto is_this = [&](const fs::path& input) { return is_file(target, input); };
+  if (std::any_of(kept_.begin(), kept_.end(), is_this)) {
+    throw OutputError(name, "it is an input of this command");
+  }
+  const auto has_this_target = [&](const StagedFile& file) { return same_target(file.target, target); };
   if (std::any_of(files_.begin(), files_.end(), has_this_target)) {
-    throw OutputError(target, "two outputs have this name");
+    throw OutputError(name, "two outputs have this name");
   }
-  make_folder(folder_of(target));
-  std::error_code ignored;
-  if (fs::is_directory(target, ignored)) {
-    fail(target, EISDIR);
-  }
-  int descriptor = -1;
-  const fs::path temporary = make_temporary(target, descriptor);
-  FileDescriptor file(descriptor);
-  files_.push_back({target, temporary, {}, false});
+  make_folder(folder_of(target.file));
+  remove_abandoned_files(target.file);
+  StagedFile& file = files_.emplace_back();
   try {
-    give_usual_permissions(file.get(), target);
-    write_all(file, content, target);
-    if (::fsync(file.get()) != 0 || file.close() != 0) {
-      fail(target, errno);
+    file.target = target;
+    file.temporary = make_temporary(target, file.lock);
+    give_usual_permissions(file.lock.get(), name);
+    write_all(file.lock, content, name);
+    if (::fsync(file.lock.get()) != 0) {
+      fail(name, errno);
     }
   } catch (const OutputError&) {
-    ::unlink(temporary.c_str());
+    if (!file.temporary.empty()) {
+      ::unlink(file.temporary.c_str());
+    }
     files_.pop_back();
     throw;
   }
@@ -143,12 +160,16 @@ void OutputFiles::stage(const fs::path& target, std::string_view content) {
 void OutputFiles::put_in_place(StagedFile& file) {
   // A hard link keeps what stood at the target within reach, and the target never goes missing. Where the
   // file system has no hard links what stood there cannot be put back.
-  const fs::path previous = file.temporary.string() + ".previous";
-  if (::link(file.target.c_str(), previous.c_str()) == 0) {
+  const fs::path previous = name_of_previous(file.temporary);
+  file.previous_lock.reset(::open(file.target.file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (file.previous_lock.is_open()) {
+    ::flock(file.previous_lock.get(), LOCK_SH | LOCK_NB);
+  }
+  if (::link(file.target.file.c_str(), previous.c_str()) == 0) {
     file.previous = previous;
   }
-  if (::rename(file.temporary.c_str(), file.target.c_str()) != 0) {
-    fail(file.target, errno);
+  if (::rename(file.temporary.c_str(), file.target.file.c_str()) != 0) {
+    fail(file.target.name, errno);
   }
   file.in_place = true;
 }
@@ -158,6 +179,10 @@ void OutputFiles::commit() {
     for (StagedFile& file : files_) {
       put_in_place(file);
     }
+    // Last, because nobody can take back what a device or a FIFO has been given.
+    for (const StagedText& text : texts_) {
+      write_as_it_is(text.target, text.text);
+    }
   } catch (const OutputError&) {
     undo();
     throw;
@@ -166,9 +191,10 @@ void OutputFiles::commit() {
     if (!file.previous.empty()) {
       ::unlink(file.previous.c_str());
     }
-    synchronise_folder(folder_of(file.target));
+    synchronise_folder(folder_of(file.target.file));
   }
   files_.clear();
+  texts_.clear();
   made_folders_.clear();
 }
 
@@ -177,17 +203,18 @@ void OutputFiles::undo() noexcept {
     if (!file->in_place) {
       ::unlink(file->temporary.c_str());
     } else if (file->previous.empty()) {
-      ::unlink(file->target.c_str());
+      ::unlink(file->target.file.c_str());
     }
     if (!file->previous.empty()) {
       // rename(2) of two links to one file does nothing at all, hence the unlink after it.
       if (file->in_place) {
-        ::rename(file->previous.c_str(), file->target.c_str());
+        ::rename(file->previous.c_str(), file->target.file.c_str());
       }
       ::unlink(file->previous.c_str());
     }
   }
   files_.clear();
+  texts_.clear();
   for (auto folder = made_folders_.rbegin(); folder != made_folders_.rend(); ++folder) {
     ::rmdir(folder->c_str());  // fails, rightly, when somebody else has put something there
   }

@@ -14,9 +14,14 @@ struct TuningResult {
   std::string reason;                      ///< one sentence when there is none
 };
 
-/// Chooses the free values of a design for a small frequency error under what is assumed. A kind of tracker
-/// that has nothing to choose is answered with a sentence. What the file is worth `certify` says. Opens its
-/// own rounding scopes.
+/// The names of the trackers that can be tuned, as a sentence lists them: "a", "a or b".
+[[nodiscard]] std::string trackers_with_tuning();
+
+[[nodiscard]] bool can_be_tuned(const Design& design);
+
+/// Chooses the free values of a design that can be tuned, for a small frequency error under what is assumed.
+/// What the file is worth `certify` says. Throws std::logic_error for another design. Opens its own rounding
+/// scopes.
 [[nodiscard]] TuningResult tune(const Design& design);
 
 }  // namespace veritrack::certificates

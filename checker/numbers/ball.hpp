@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "checker/numbers/budget.hpp"
+#include "checker/numbers/call_site.hpp"
 
 namespace veritrack::checker {
 
@@ -154,20 +155,25 @@ inline Ball min(const Ball& x, const Ball& y) {
 Ball pi();
 
 // A comparison is true only when it is true of all points; that it is false says nothing.
-inline bool certainly_less(const Ball& x, const Ball& y) {
+inline bool certainly_less(const Ball& x, const Ball& y CHECKER_PLACE) {
+  CHECKER_IF_FORCED
   return x.finite() && y.finite() && arb_lt(x.raw(), y.raw()) != 0;
 }
-inline bool certainly_at_most(const Ball& x, const Ball& y) {
+inline bool certainly_at_most(const Ball& x, const Ball& y CHECKER_PLACE) {
+  CHECKER_IF_FORCED
   return x.finite() && y.finite() && arb_le(x.raw(), y.raw()) != 0;
 }
-inline bool certainly_positive(const Ball& x) {
+inline bool certainly_positive(const Ball& x CHECKER_PLACE) {
+  CHECKER_IF_FORCED
   return x.finite() && arb_is_positive(x.raw()) != 0;
 }
-inline bool certainly_not_negative(const Ball& x) {
+inline bool certainly_not_negative(const Ball& x CHECKER_PLACE) {
+  CHECKER_IF_FORCED
   return x.finite() && arb_is_nonnegative(x.raw()) != 0;
 }
 /// Both are exact and the same number.
-inline bool certainly_equal(const Ball& x, const Ball& y) {
+inline bool certainly_equal(const Ball& x, const Ball& y CHECKER_PLACE) {
+  CHECKER_IF_FORCED
   return x.finite() && y.finite() && arb_eq(x.raw(), y.raw()) != 0;
 }
 

@@ -54,7 +54,8 @@ class Matrix {
     return x;
   }
   /// True only when every symmetric matrix whose lower triangle is in the balls is positive definite.
-  [[nodiscard]] bool definite() const {
+  [[nodiscard]] bool definite(CHECKER_SOLE_PLACE) const {
+    CHECKER_IF_FORCED
     Matrix factor(rows(), columns());
     return arb_mat_cho(factor.x_, x_, precision()) != 0;
   }

@@ -13,7 +13,8 @@ using SquareMatrix = std::array<std::array<Ball, Size>, Size>;
 /// True only when every symmetric matrix whose lower triangle is in the balls is positive definite: each has
 /// its pivots in those found.
 template <std::size_t Size>
-bool definite(SquareMatrix<Size> m) {
+bool definite(SquareMatrix<Size> m CHECKER_PLACE) {
+  CHECKER_IF_FORCED
   for (std::size_t k = 0; k < Size; ++k) {
     if (!certainly_positive(m[k][k])) {
       return false;

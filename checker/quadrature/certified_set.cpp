@@ -76,7 +76,8 @@ std::string refusal_of(const Setting& s, std::int64_t& cells) {
 
 }  // namespace
 
-bool positive_definite(const Covariance<Ball>& p) {
+bool positive_definite(const Covariance<Ball>& p CHECKER_DECLARED_PLACE) {
+  CHECKER_IF_FORCED
   return certainly_positive(p.p11) && certainly_positive(p.p22) &&
          certainly_positive(p.p22 * p.p33 - square(p.p23));
 }

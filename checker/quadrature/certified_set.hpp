@@ -41,7 +41,7 @@ bool settled(const Setting& set, const Design& design, const Ball& start, const 
              const Ball& samples);
 
 Covariance<Ball> operator-(const Covariance<Ball>& x, const Covariance<Ball>& y);
-bool positive_definite(const Covariance<Ball>& p);
+bool positive_definite(const Covariance<Ball>& p CHECKER_PLACE);
 Matrix3 whole(const Covariance<Ball>& p);
 /// P - lower > 0 and upper - P > 0.
 bool between(const Matrix3& p, const Covariance<Ball>& lower, const Covariance<Ball>& upper);

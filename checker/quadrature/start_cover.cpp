@@ -31,7 +31,8 @@ bool is_apart(const StartBox& box, const StartBox& region) {
 
 // What no box contains as a whole is cut along a side of a box, the one nearest to its middle, and both parts
 // are covered, or it is not covered.
-bool covers(const StartBox& region, const std::vector<StartBox>& boxes) {
+bool covers(const StartBox& region, const std::vector<StartBox>& boxes CHECKER_DECLARED_PLACE) {
+  CHECKER_IF_FORCED
   std::vector<StartBox> near;
   double best = HUGE_VAL;
   std::size_t direction = 0;

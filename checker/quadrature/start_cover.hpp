@@ -17,7 +17,7 @@ struct StartBox {
 };
 
 /// Every point of the region lies in one of the boxes.
-bool covers(const StartBox& region, const std::vector<StartBox>& boxes);
+bool covers(const StartBox& region, const std::vector<StartBox>& boxes CHECKER_PLACE);
 
 /// Two halves along the side that is longest, an error of the frequency counting four times as much as one of
 /// the phase; any side will do.

@@ -38,7 +38,8 @@ CellCovariance less(const CellCovariance& a, const Ball& factor, const CellCovar
           a.p31 - factor * b.p31, a.p32 - factor * b.p32, a.p33 - factor * b.p33};
 }
 
-bool definite(const CellCovariance& a) {
+bool definite(const CellCovariance& a CHECKER_DECLARED_PLACE) {
+  CHECKER_IF_FORCED
   const auto [d1, d2, d3] = row_sums(a, [](const CellSeries& x) { return x.bend(); });
   for (const int x : {-1, 1}) {
     for (const int y : {-1, 1}) {

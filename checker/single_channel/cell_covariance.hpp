@@ -19,7 +19,7 @@ CellCovariance less(const CellCovariance& a, const Ball& factor, const CellCovar
 
 /// True only when the matrix is positive definite all over the cell: where it is at the corners, less a bound
 /// on what is quadratic, for what is linear is between its values there.
-bool definite(const CellCovariance& a);
+bool definite(const CellCovariance& a CHECKER_PLACE);
 
 /// The step of the signal to a sample: it turns by the frequency (once), into the phase `here`.
 struct Turn {

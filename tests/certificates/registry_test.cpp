@@ -32,22 +32,22 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("what a kind of tracker does not have is answered with a sentence that names those that have it") {
+TEST_CASE("what a kind of tracker does not have is not asked of it, and those that have it are named") {
   for (const TrackerKind* kind : tracker_kinds()) {
     CAPTURE(kind->name);
     Design design;
     design.tracker = kind->name;
+    CHECK(can_be_tuned(design) == (kind->tune != nullptr));
     if (kind->tune == nullptr) {
-      const TuningResult result = tune(design);
-      CHECK_FALSE(result.design_text);
-      CHECK(result.reason.find("kkl-observer") != std::string::npos);
+      CHECK_THROWS_AS((void)tune(design), std::logic_error);
     }
   }
+  CHECK(trackers_with_tuning() == "kkl-observer");
   Design observer;
   observer.tracker = "kkl-observer";
-  const reports::MapResult map = reports::write_map(observer, {}, "nowhere", {});
-  CHECK_FALSE(map.picture);
-  CHECK(map.sentence == "A map needs the tracker quadrature-ekf.");
+  CHECK_FALSE(reports::has_map(observer));
+  CHECK_THROWS_AS((void)reports::write_map(observer, {}, "nowhere", {}), std::logic_error);
+  CHECK(reports::trackers_with_map() == "quadrature-ekf");
 }
 
 TEST_CASE("a tracker that the registry does not know is an error, not another tracker") {

@@ -67,12 +67,29 @@ class Check(CliTestCase):
         rules = {rule["id"] for rule in report["runs"][0]["tool"]["driver"]["rules"]}
         self.assertEqual(rules, {entry["ruleId"] for entry in results})
 
-    def test_bad_input_writes_no_report(self):
+    def test_strict_wants_a_requirement(self):
+        self.write(DESIGN)
+        result = self.run_here("check", "design.toml", "--strict")
+        self.assertEqual((result.returncode, result.stdout), (1, "design.toml: nothing required\n"), result.stderr)
+
+    def test_one_bad_file_does_not_hide_the_others(self):
         self.write(HARD)
-        self.write("", "empty.toml")
-        result = self.run_here("check", "design.toml", "empty.toml", "--junit", "report.xml")
+        self.write(DESIGN.replace("q1 =", "q3 ="), "bad.toml")
+        result = self.run_here("check", "nowhere.toml", "bad.toml", "design.toml", "--junit", "report.xml",
+                               "--sarif", "report.sarif")
         self.assertEqual(result.returncode, 2)
-        self.assertEqual(self.files(), [])
+        self.assertEqual([line.split(":")[0] for line in result.stdout.splitlines()], ["design.toml"] * 2)
+        self.assertEqual([line.split(":")[0] for line in result.stderr.splitlines()], ["nowhere.toml", "bad.toml"])
+        suites = xml.etree.ElementTree.parse(self.folder / "report.xml").getroot()
+        self.assertEqual([suite.get("errors") for suite in suites], ["1", "1", "0"])
+        self.assertEqual([suite.get("tests") for suite in suites], ["1", "1", "2"])
+        self.assertIn("q3", suites[1][0].find("error").get("message"))
+        results = json.loads((self.folder / "report.sarif").read_text())["runs"][0]["results"]
+        self.assertEqual([entry["ruleId"] for entry in results][:2], ["bad-input"] * 2)
+        self.assertEqual([entry["level"] for entry in results], ["error", "error", "error", "warning"])
+        places = [entry["locations"][0]["physicalLocation"] for entry in results]
+        self.assertNotIn("region", places[0])
+        self.assertEqual(places[1]["region"]["startLine"], 5)
 
 
 if __name__ == "__main__":

@@ -109,8 +109,8 @@ class KklObserver(CliTestCase):
     def test_a_map_is_refused_with_a_reason(self):
         self.write(KKL)
         result = self.run_here("map", "design.toml")
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("quadrature-ekf", result.stdout)
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertRegex(result.stderr, r"^design\.toml:2:\d+: .*quadrature-ekf\n$")
 
 
 if __name__ == "__main__":

@@ -14,7 +14,8 @@ Interval metric_norm(const CertifiedSet& set, const IntervalVector<3>& error) {
 }
 
 bool certainly_contains(const CertifiedSet& set, const IntervalVector<3>& error,
-                        const IntervalMatrix<3>& covariance) {
+                        const IntervalMatrix<3>& covariance VERITRACK_DECLARED_CALL_SITE) {
+  VERITRACK_MUTANT_RETURNS(true)
   const IntervalMatrix<3> above = covariance - rigor::to_interval(set.covariance_lower);
   const IntervalMatrix<3> below = rigor::to_interval(set.covariance_upper) - covariance;
   return rigor::is_finite(covariance) &&

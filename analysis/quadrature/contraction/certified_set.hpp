@@ -33,7 +33,7 @@ struct CertifiedSet {
 /// definite for every symmetric P in `covariance`. The phase error is used unchanged; a caller who knows it
 /// modulo 2 pi only subtracts the multiple. Needs the upward mode.
 [[nodiscard]] bool certainly_contains(const CertifiedSet& set, const rigor::IntervalVector<3>& error,
-                                      const rigor::IntervalMatrix<3>& covariance);
+                                      const rigor::IntervalMatrix<3>& covariance VERITRACK_CALL_SITE);
 
 /// Bounds on |amplitude error|, |phase error| (rad) and |frequency error| (rad/sample) over {|T e|_2 <=
 /// `level`}: `level` times the lengths of the rows of T^-1. Empty when T is not certainly invertible. Needs

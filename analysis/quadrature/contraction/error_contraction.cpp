@@ -73,6 +73,9 @@ class Cover {
     const RayRate proposal = propose_rate(forms.proposal, middle_.metric, middle_constants_);
     const CellVerdict verdict = check_cell(forms, setting_.metric, constants_, middle_.metric,
                                            middle_constants_, proposal.multiplier);
+    // cannot bind (least_along, mean_real): the form divides by `mean.real`, and by z1 all the way to where
+    // corrections reach along it. So neither is zero in a cell whose inequality holds, and at s = 0 both are
+    // 1; where all cells hold they are positive in all. These two keep a cell from being believed by itself.
     if (verdict.holds && certainly_positive(forms.over.least_along) &&
         certainly_positive(forms.over.mean_real)) {
       return true;
@@ -126,7 +129,7 @@ class Cover {
       forms.half_widths[i] = std::max((Interval(cell.high[i]) - middle_of_side).upper(),
                                       (middle_of_side - Interval(cell.low[i])).upper());
     }
-    forms.tangent_squared = tangent_squared_from(axis_cosine, axis_sine, cell);
+    forms.tangent_squared = tangent_squared_from(axis_cosine, axis_sine, cell.low[kBeta], cell.high[kBeta]);
     return forms;
   }
 
@@ -153,24 +156,6 @@ class Cover {
         std::distance(weights.begin(), std::max_element(weights.begin(), weights.end())));
   }
 
-  /// An upper bound on the tangent squared of the angle between the axis and any beta of the cell; infinity
-  /// when it may be a right angle. On an interval of betas less than pi wide the tangent is monotone where
-  /// the cosine is positive at both ends.
-  static double tangent_squared_from(const Interval& axis_cosine, const Interval& axis_sine,
-                                     const Cell& cell) {
-    double largest = 0.0;
-    for (const double beta : {cell.low[kBeta], cell.high[kBeta]}) {
-      const auto [sine, cosine] = rigor::sin_cos(Interval(beta));
-      const Interval along = cosine * axis_cosine + sine * axis_sine;
-      if (!certainly_positive(along)) {
-        return std::numeric_limits<double>::infinity();
-      }
-      const Interval across = sine * axis_cosine - cosine * axis_sine;
-      largest = std::max(largest, rigor::square(across / along).upper());
-    }
-    return largest;
-  }
-
   StepSetting<Interval> setting_;
   StepConstants<Interval> constants_;
   StepSetting<double> middle_;
@@ -180,6 +165,20 @@ class Cover {
 };
 
 }  // namespace
+
+double tangent_squared_from(const Interval& axis_cosine, const Interval& axis_sine, double low, double high) {
+  double largest = 0.0;
+  for (const double beta : {low, high}) {
+    const auto [sine, cosine] = rigor::sin_cos(Interval(beta));
+    const Interval along = cosine * axis_cosine + sine * axis_sine;
+    if (!certainly_positive(along)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const Interval across = sine * axis_cosine - cosine * axis_sine;
+    largest = std::max(largest, rigor::square(across / along).upper());
+  }
+  return largest;
+}
 
 ContractionOverSet prove_contraction(const StepSetting<Interval>& setting,
                                      const StepConstants<Interval>& constants) {

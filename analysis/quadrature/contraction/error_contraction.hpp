@@ -15,6 +15,12 @@ struct ContractionOverSet {
   std::int64_t cells = 0;  ///< examined
 };
 
+/// An upper bound on the tangent squared of the angle between the axis (cos, sin) and any beta in [low,
+/// high]; infinity when it may be a right angle. On an interval of betas less than pi wide the tangent is
+/// monotone where the cosine is positive at both ends. Needs the upward mode.
+[[nodiscard]] double tangent_squared_from(const rigor::Interval& axis_cosine,
+                                          const rigor::Interval& axis_sine, double low, double high);
+
 /// Covers the projection {(a/A)^2 + (chi/C)^2 <= 1, chi >= 0} of the ellipsoid by cells in (s, beta),
 /// bisected until the inequality holds in each. Half of the ellipse is enough: the step commutes with the
 /// mirror image (psi, nu, P12, P13, v2, w) -> -(psi, nu, P12, P13, v2, w), which maps the set to itself.

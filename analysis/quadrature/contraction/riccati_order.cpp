@@ -65,7 +65,8 @@ class OrderCheck {
 }  // namespace
 
 bool certainly_keeps_covariance_between(const Block& lower, const Block& upper, const Design& design,
-                                        const std::vector<TurnBound>& turns) {
+                                        const std::vector<TurnBound>& turns VERITRACK_DECLARED_CALL_SITE) {
+  VERITRACK_MUTANT_RETURNS(true)
   constexpr int kDepth = 12;
   rigor::require_upward_rounding();
   const OrderCheck check(lower, upper, design);

@@ -65,9 +65,9 @@ struct TurnBound {
 /// True only when P_lo <= U Phi(P_lo, rho) U' and U Phi(P_hi, rho) U' <= P_hi for every rho and every turn
 /// with |tan| <= tangent (and cosine > 0) of every element of `turns`, U = diag(Rot(angle), 1). Then, by
 /// monotonicity, P_lo <= P <= P_hi is kept by every step with such a rho and turn. Needs the upward mode.
-[[nodiscard]] bool certainly_keeps_covariance_between(const BlockCovariance<rigor::Interval>& lower,
-                                                      const BlockCovariance<rigor::Interval>& upper,
-                                                      const trackers::ToneModel<rigor::Interval>& design,
-                                                      const std::vector<TurnBound>& turns);
+[[nodiscard]] bool certainly_keeps_covariance_between(
+    const BlockCovariance<rigor::Interval>& lower, const BlockCovariance<rigor::Interval>& upper,
+    const trackers::ToneModel<rigor::Interval>& design,
+    const std::vector<TurnBound>& turns VERITRACK_CALL_SITE);
 
 }  // namespace veritrack::quadrature

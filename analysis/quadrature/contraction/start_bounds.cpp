@@ -12,7 +12,8 @@ using rigor::Interval;
 using rigor::IntervalVector;
 
 bool certainly_maps_into(const CertifiedSet& outer, const CertifiedSet& inner, const Interval& noise,
-                         const Interval& slew) {
+                         const Interval& slew VERITRACK_DECLARED_CALL_SITE) {
+  VERITRACK_MUTANT_RETURNS(true)
   // |T e| comes below any level above the ultimate one after finitely many samples.
   const Interval above_one(1.0 + 0x1p-20);
   const IntervalVector<3> bounds = error_bounds(outer, above_one * ultimate_level(outer, noise, slew));

@@ -12,7 +12,8 @@ namespace veritrack::quadrature {
 /// the ellipsoid that |T e| tends to in the one lies within that of the other, and so do the covariance
 /// bounds. Needs the upward mode.
 [[nodiscard]] bool certainly_maps_into(const CertifiedSet& outer, const CertifiedSet& inner,
-                                       const rigor::Interval& noise, const rigor::Interval& slew);
+                                       const rigor::Interval& noise,
+                                       const rigor::Interval& slew VERITRACK_CALL_SITE);
 
 /// The bounds of one set; the noise and slew of the question must not exceed those of the set. All members
 /// need the upward mode.

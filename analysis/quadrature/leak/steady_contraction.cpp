@@ -85,6 +85,10 @@ class Cover {
         Interval((rate_ - (bounds.noise_gain * disturbance_.noise + disturbance_.motion) / level).lower());
     const Interval share((rate_ - disturbance_.covariance_motion / level).lower());
     outcome.order = keeps_covariance(settings_, corners, secants, level_, bounds.tangent_reach, share);
+    // cannot bind (along, swing): in the middle of a level `along` is the component that least_along bounds,
+    // and the step divides by it, so that it is zero nowhere in a level whose cells all hold; and where both
+    // are positive the phase before a step, its turn and the phase after it differ by a multiple of a turn
+    // that is continuous, and zero in the middle. These two keep a cell from being believed by itself.
     outcome.contracts = outcome.order.kept && certainly_positive(outcome.left) &&
                         certainly_positive(bounds.least_along) && certainly_positive(step.along) &&
                         certainly_less(abs(step.swing), Interval(1.5)) &&

@@ -87,7 +87,9 @@ SteadyRate propose_rate(const SteadyStep<double>& step, const SteadyBounds<doubl
 
 bool certainly_contracts(const SteadyStep<SteadySecant>& step, const SteadyBounds<Interval>& bounds,
                          const Interval& eta_squared, const std::vector<SteadyOffset>& corners,
-                         const Interval& rate_squared, const SteadyRate& multipliers) {
+                         const Interval& rate_squared,
+                         const SteadyRate& multipliers VERITRACK_DECLARED_CALL_SITE) {
+  VERITRACK_MUTANT_RETURNS(true)
   const Interval one(1.0);
   const Interval lambda(multipliers.spread_multiplier);
   const Interval mu(multipliers.error_multiplier);
@@ -119,7 +121,8 @@ bool certainly_contracts(const SteadyStep<SteadySecant>& step, const SteadyBound
   });
 }
 
-bool certainly_positive_definite(const Symmetric<Interval>& p) {
+bool certainly_positive_definite(const Symmetric<Interval>& p VERITRACK_DECLARED_CALL_SITE) {
+  VERITRACK_MUTANT_RETURNS(true)
   rigor::LowerTriangle<3> a;
   a[0][0] = p.p11;
   a[1][0] = p.p12;

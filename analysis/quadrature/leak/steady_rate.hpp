@@ -32,9 +32,10 @@ struct SteadyRate {
                                        const SteadyBounds<rigor::Interval>& bounds,
                                        const rigor::Interval& eta_squared,
                                        const std::vector<SteadyOffset>& corners,
-                                       const rigor::Interval& rate_squared, const SteadyRate& multipliers);
+                                       const rigor::Interval& rate_squared,
+                                       const SteadyRate& multipliers VERITRACK_CALL_SITE);
 
 /// Certainly positive definite. Needs the upward mode.
-[[nodiscard]] bool certainly_positive_definite(const Symmetric<rigor::Interval>& p);
+[[nodiscard]] bool certainly_positive_definite(const Symmetric<rigor::Interval>& p VERITRACK_CALL_SITE);
 
 }  // namespace veritrack::quadrature

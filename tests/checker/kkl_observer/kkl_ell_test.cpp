@@ -90,3 +90,36 @@ TEST_CASE("where the infimum is attained must be where it is, to the last bit") 
   CHECK(mentions(objections_to("0x1.6a49bap-11", "0x1.6a49ba7p-11", "0x1p+2", "0x1p+2"), "ell is"));
   CHECK(mentions(objections_to("0x1.6a49ba77p-11", high, "0x1p+2", "0x1p+2"), "ell is"));
 }
+
+namespace {
+
+/// Is the infimum over [first, last] rad/s at least `low`, as far as the checker can tell, of rates 1 to 4?
+bool is_bound(double low, double first, double last, double attained) {
+  checker::KklDesign design;
+  for (const double rate : {1.0, 2.0, 3.0, 4.0}) {
+    design.lambda.emplace_back(rate);
+  }
+  design.frequency_low = Ball(first);
+  design.frequency_high = Ball(last);
+  return checker::is_true({Ball(low), Ball(1e9), Ball(attained)}, design);
+}
+
+double ratio(double frequency) {
+  return checker::excitation_ratio({Ball(1.0), Ball(2.0), Ball(3.0), Ball(4.0)}, Ball(frequency)).near();
+}
+
+}  // namespace
+
+TEST_CASE("a bound that one end of the range satisfies is none when the ratio falls to the other") {
+  REQUIRE(ratio(4.0) < ratio(3.0));
+  CHECK(is_bound(0.999 * ratio(4.0), 3.0, 4.0, 4.0));
+  CHECK(!is_bound(1.001 * ratio(4.0), 3.0, 4.0, 4.0));
+  CHECK(!is_bound(0.5 * (ratio(3.0) + ratio(4.0)), 3.0, 4.0, 4.0));
+}
+
+TEST_CASE("the infimum is attained within the range") {
+  const double low = 0.5 * ratio(4.0);
+  CHECK(is_bound(low, 3.0, 4.0, 3.5));
+  CHECK(!is_bound(low, 3.0, 4.0, 2.9));
+  CHECK(!is_bound(low, 3.0, 4.0, 4.1));
+}

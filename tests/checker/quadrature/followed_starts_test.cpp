@@ -129,3 +129,17 @@ TEST_CASE("an estimate that may be zero is not followed") {
   starts.step();
   CHECK_FALSE(starts.frequency_error().finite());
 }
+
+TEST_CASE("phases that differ by half a turn have no polar enclosure") {
+  const Ball zero(0.0);
+  const checker::Loop loop{Ball(0.001), Ball(0.001), Ball(0.1), zero, zero, zero, zero};
+  const checker::Matrix3 p = checker::diagonal(Ball(0.01), Ball(0.01), Ball(0.01));
+  const checker::Matrix3 unit = checker::diagonal(Ball(1.0), Ball(1.0), Ball(1.0));
+  const auto phase_of = [&](double phase) {
+    const checker::FollowedStarts starts(loop, {zero, between(-phase, phase), zero}, p);
+    return starts.polar(unit, {zero, zero, zero}).error[1];
+  };
+  CHECK(phase_of(0.5).finite());
+  CHECK_FALSE(phase_of(1.8).finite());
+  CHECK_FALSE(phase_of(3.1).finite());
+}

@@ -186,6 +186,9 @@ TEST_CASE("sets around the steady state: false proposals are not PROVED") {
   SUBCASE("a covariance that must not move") {
     set.above *= 1e-3;
   }
+  SUBCASE("a covariance that must not fall") {
+    set.below *= 1e-3;
+  }
   SUBCASE("a lower bound beyond the steady state") {
     set.below *= 100.0;
   }

@@ -1,0 +1,34 @@
+#include "cli/standard_output.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace veritrack::cli {
+
+void prepare_standard_streams() {
+  for (const int standard : std::array{STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(standard, F_GETFD) < 0) {
+      // The lowest free descriptor, hence this one. Reading only: writing to it fails, as it should.
+      (void)::open("/dev/null", O_RDONLY);
+    }
+  }
+  (void)std::signal(SIGPIPE, SIG_IGN);
+}
+
+void finish_standard_output() {
+  const bool failed_before = std::ferror(stdout) != 0;
+  if (std::fflush(stdout) != 0 || failed_before) {
+    const int error = errno != 0 ? errno : EIO;
+    throw std::runtime_error("standard output cannot be written: " + std::generic_category().message(error));
+  }
+}
+
+}  // namespace veritrack::cli

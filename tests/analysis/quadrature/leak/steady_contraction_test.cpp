@@ -1,0 +1,58 @@
+#include "analysis/quadrature/leak/steady_contraction.hpp"
+
+#include <doctest/doctest.h>
+
+namespace veritrack::quadrature {
+namespace {
+
+using rigor::Interval;
+
+constexpr std::int64_t kMostCells = 600;
+
+/// A tracker without bias and with such a gain, r = 1, whose covariance moves little. The set reaches to
+/// amplitude errors of `amplitude` and predicted phase errors of `chi` (rad) at level 1.
+SteadySettings settings_of(double gain, double amplitude, double chi) {
+  const double variance = gain / (1.0 - gain);
+  const Interval none(0.0);
+  const Interval one(1.0);
+  const Interval little(1e-4);
+  SteadySettings settings;
+  SteadySetting<Interval>& s = settings.over_cell;
+  s.design = {Interval(1e-6), Interval(1e-6), one, Interval(0.01)};
+  s.steady = {one, none, none, {Interval(variance), none, none, Interval(variance), none, Interval(0.01)}};
+  s.metric = {one / Interval(amplitude), none, none, one / Interval(chi), none, one / Interval(chi)};
+  s.band = {{little, none, none, little, none, little}, {little, none, none, little, none, little}};
+  s.a11 = Interval(amplitude);
+  s.a21 = none;
+  s.a22 = Interval(chi);
+  fill_turns(s);
+  settings.secants = convert<SteadySecant>(s);
+  fill_turns(settings.secants);
+  settings.frequencies = none;
+  return settings;
+}
+
+/// Does a step from level 1 lead to so high a level that only the meaning of the step is in question?
+bool leads_anywhere(const SteadySettings& settings, double noise = 0.0) {
+  constexpr double kAnywhere = 1e9;
+  return prove_contraction(settings, 1.0, kAnywhere, {Interval(noise), Interval(0.0), Interval(0.0)},
+                           kMostCells)
+      .proved;
+}
+
+TEST_CASE("a swing beyond a quarter turn is not proved, though the step is smooth there") {
+  const rigor::UpwardRounding upward;
+  CHECK(leads_anywhere(settings_of(0.5, 0.05, 1.2)));
+  CHECK_FALSE(leads_anywhere(settings_of(0.5, 0.05, 1.6)));
+}
+
+TEST_CASE("noise that may carry the estimate through zero is not proved, nor much more noise") {
+  const rigor::UpwardRounding upward;
+  const SteadySettings settings = settings_of(0.5, 0.05, 0.3);
+  CHECK(leads_anywhere(settings, 0.1));
+  CHECK_FALSE(leads_anywhere(settings, 3.0));
+  CHECK_FALSE(leads_anywhere(settings, 1e3));
+}
+
+}  // namespace
+}  // namespace veritrack::quadrature

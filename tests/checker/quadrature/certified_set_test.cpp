@@ -1,0 +1,247 @@
+// Certified sets that break one hypothesis of the theorem and no other: each guard of check_set alone stands
+// between them and VERIFIED.
+#include "checker/quadrature/certified_set.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "checker/quadrature/contraction.hpp"
+
+using namespace veritrack::checker;
+
+namespace {
+
+using Rows = std::array<std::array<std::string, 3>, 3>;
+
+/// Of the design of La Scala's Figure 3.5 without its leak.
+struct WrittenSet {
+  Rows metric{{{"0x1.dd7f420252bdap+0", "0x0p+0", "0x0p+0"},
+               {"0x0p+0", "0x1.94a22f42e4696p+2", "-0x1.02075762a01aap+2"},
+               {"0x0p+0", "0x0p+0", "0x1.5c78cd65fb9f1p+4"}}};
+  Rows lower{{{"0x1.2e4c5a0945dbfp-7", "0x0p+0", "0x0p+0"},
+              {"0x0p+0", "0x1.832337e95f5c9p-6", "0x1.cf96fd9ebfcdbp-8"},
+              {"0x0p+0", "0x1.cf96fd9ebfcdbp-8", "0x1.d54edb3a42124p-8"}}};
+  Rows upper{{{"0x1.49e1fbad57c06p-7", "0x0p+0", "0x0p+0"},
+              {"0x0p+0", "0x1.b0b68f440f5c1p-6", "0x1.099c6fba71f43p-7"},
+              {"0x0p+0", "0x1.099c6fba71f43p-7", "0x1.080dcafbd5d4ap-7"}}};
+  std::map<std::string, std::string> numbers{
+      {"radius", "0x1.efdab44e59523p-4"}, {"noise", "0x1.0624dd2f1a9fcp-10"},     {"slew", "0x0p+0"},
+      {"rate", "0x1.fb4e515d8926ep-1"},   {"noise_gain", "0x1.fb2a00562bb92p+3"}, {"slew_gain", "0x0p+0"}};
+};
+
+std::string json_of(const Rows& rows) {
+  std::string text;
+  for (const auto& row : rows) {
+    text += (text.empty() ? "[\"" : ",[\"") + row[0] + "\",\"" + row[1] + "\",\"" + row[2] + "\"]";
+  }
+  return "[" + text + "]";
+}
+
+Design the_design() {
+  Design design;
+  design.amplitude = one;
+  design.q1 = design.q2 = Ball::hull(Ball(0x1.2d77318fc5048p-9), Ball(0x1.2d77318fc5049p-9));
+  design.r = Ball::hull(Ball(0x1.9999999999999p-5), Ball(0x1.999999999999ap-5));
+  design.epsilon = zero;
+  design.noise = Ball(0.001);
+  design.slew = zero;
+  design.amplitude_error = design.phase_error = design.frequency_error = Ball(0.005);
+  return design;
+}
+
+/// Why the set is not verified; empty when it is.
+std::string refusal(const WrittenSet& set, const Design& design = the_design()) {
+  std::string text = R"({"purpose": "a", "metric": )" + json_of(set.metric) + R"(, "covariance_lower": )" +
+                     json_of(set.lower) + R"(, "covariance_upper": )" + json_of(set.upper);
+  for (const auto& [name, number] : set.numbers) {
+    text += ", \"" + name + "\": \"" + number + "\"";
+  }
+  std::int64_t cells = 0;
+  Objections objections;
+  const CertifiedSet checked = check_set(read_json(text + "}"), design, cells, objections);
+  CHECK(checked.verified == objections.empty());
+  return objections.empty() ? std::string() : objections.front();
+}
+
+std::string refusal_with(const std::string& name, const std::string& number) {
+  WrittenSet set;
+  set.numbers.at(name) = number;
+  return refusal(set);
+}
+
+bool mentions(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+constexpr const char* kRange = "out of range";
+constexpr const char* kForm = "required form";
+
+}  // namespace
+
+TEST_CASE("the set is verified as it stands") {
+  CHECK(refusal({}).empty());
+}
+
+TEST_CASE("numbers of a set have their sign, though the theorem's inequality knows only their squares") {
+  CHECK(mentions(refusal_with("radius", "-0x1.efdab44e59523p-4"), kRange));
+  CHECK(mentions(refusal_with("noise", "-0x1.0624dd2f1a9fcp-10"), kRange));
+  CHECK(mentions(refusal_with("rate", "-0x1.fb4e515d8926ep-1"), kRange));
+  CHECK(mentions(refusal_with("noise_gain", "-0x1.fb2a00562bb92p+3"), kRange));
+  CHECK(mentions(refusal_with("slew_gain", "-0x1p-2"), kRange));
+  WrittenSet set;
+  set.numbers.at("slew_gain") = "0x1p+10";
+  set.numbers.at("slew") = "0x1p-30";
+  CHECK(refusal(set).empty());
+  set.numbers.at("slew") = "-0x1p-30";
+  CHECK(mentions(refusal(set), kRange));
+}
+
+TEST_CASE("a set whose errors do not shrink is refused, with noise and without") {
+  WrittenSet set;
+  set.numbers.at("noise") = "0x0p+0";
+  set.numbers.at("rate") = "0x1p+0";
+  CHECK(mentions(refusal(set), kRange));
+}
+
+TEST_CASE("noise that pushes the errors out of the set is refused") {
+  WrittenSet set;
+  set.numbers.at("noise") = "0x1p-8";
+  CHECK(mentions(refusal(set), "(c)"));
+}
+
+TEST_CASE("a covariance bound below zero is refused") {
+  WrittenSet set;
+  set.numbers.at("noise") = "0x0p+0";
+  set.numbers.at("radius") = "0x1p-20";
+  CHECK(refusal(set).empty());
+  SUBCASE("in the amplitude") {
+    set.lower[0][0] = "-0x1p-10";
+  }
+  SUBCASE("in the phase and the frequency") {
+    set.lower[1][2] = set.lower[2][1] = "0x1.c8p-7";
+  }
+  CHECK(mentions(refusal(set), "positive definite"));
+}
+
+TEST_CASE("an entry that the theorem's form does not have is refused, however small") {
+  for (const auto& [i, j] : {std::pair{0U, 1U}, {0U, 2U}, {1U, 0U}, {2U, 0U}, {2U, 1U}}) {
+    CAPTURE(i);
+    CAPTURE(j);
+    WrittenSet set;
+    set.metric[i][j] = "0x1p-60";
+    CHECK(mentions(refusal(set), kForm));
+  }
+  for (const auto& [i, j] : {std::pair{0U, 1U}, {0U, 2U}, {1U, 0U}, {2U, 0U}, {2U, 1U}}) {
+    CAPTURE(i);
+    CAPTURE(j);
+    for (Rows WrittenSet::*bound : {&WrittenSet::lower, &WrittenSet::upper}) {
+      WrittenSet set;
+      (set.*bound)[i][j] = i == 2 && j == 1 ? "0x1.dp-8" : "0x1p-60";
+      CHECK(mentions(refusal(set), kForm));
+    }
+  }
+  for (const std::size_t i : {0U, 1U, 2U}) {
+    CAPTURE(i);
+    WrittenSet set;
+    set.metric[i][i] = "-" + set.metric[i][i];
+    set.metric[1][2] = i > 0 ? set.metric[1][2].substr(1) : set.metric[1][2];
+    CHECK(mentions(refusal(set), kForm));
+  }
+}
+
+TEST_CASE("designs that the theorem is not about") {
+  Design leaking = the_design();
+  leaking.epsilon = Ball(0x1p-60);
+  CHECK(mentions(refusal({}, leaking), "epsilon = 0"));
+}
+
+namespace {
+
+Setting nested_setting() {
+  Setting s;
+  s.metric = {Ball(2.0), Ball(6.0), Ball(-4.0), Ball(20.0)};
+  s.lower = {Ball(0.25), Ball(0.25), zero, Ball(0.25)};
+  s.upper = {Ball(0.5), Ball(0.5), zero, Ball(0.5)};
+  s.radius = Ball(0.125);
+  s.noise = Ball(0.001);
+  s.slew = Ball(0.0005);
+  s.rate = Ball(0.5);
+  s.noise_gain = Ball(16.0);
+  s.slew_gain = Ball(16.0);
+  return s;
+}
+
+/// The ultimate frequency error that two verified sets promise, of which the smaller one is reached only if
+/// it contains where the larger one leads. A set around them that starts are in, and the one to be reached.
+double ultimate_error(const Setting& outer, const Setting& inner, const Design& design) {
+  const Tree nothing =
+      read_json(R"({"title": "", "verdict": "undecided", "conditions": [], "quantities": {}})");
+  Objections objections;
+  const Promises promises =
+      check_contraction(nothing, design, {{"outer", outer, true}, {"inner", inner, true}}, objections);
+  REQUIRE(promises.ultimate.has_value());
+  return promises.ultimate->near();
+}
+
+}  // namespace
+
+TEST_CASE("a set is reached only when errors and covariances that the other set ends with lie in it") {
+  Design design = the_design();
+  design.covariance = std::array<std::array<Ball, 3>, 3>{
+      {{Ball(0.4), zero, zero}, {zero, Ball(0.4), zero}, {zero, zero, Ball(0.4)}}};
+  const Setting outer = nested_setting();
+  Setting inner = outer;
+  inner.noise_gain = Ball(4.0);
+  inner.radius = Ball(0.0625);
+  inner.lower = {Ball(0.125), Ball(0.125), zero, Ball(0.125)};
+  inner.upper = {Ball(0.75), Ball(0.75), zero, Ball(0.75)};
+  // Starts are in the outer set only.
+  design.frequency_error = Ball(0.005);
+  design.amplitude_error = design.phase_error = Ball(0.001);
+  const double of_outer = ultimate_error(outer, outer, design);
+  REQUIRE(ultimate_error(outer, inner, design) < 0.5 * of_outer);
+  SUBCASE("errors") {
+    inner.radius = Ball(0x1p-6);
+  }
+  SUBCASE("a lower bound on the covariance that is higher") {
+    inner.lower.p33 = Ball(0.375);
+  }
+  SUBCASE("an upper bound on the covariance that is lower") {
+    inner.upper.p22 = Ball(0.375);
+  }
+  SUBCASE("a set for less noise") {
+    inner.noise = Ball(0.0009);
+  }
+  SUBCASE("a set for less slew") {
+    inner.slew = Ball(-0.0001);
+  }
+  CHECK(ultimate_error(outer, inner, design) == of_outer);
+}
+
+TEST_CASE("settling counts from where the errors begin, and never below what noise leaves") {
+  const Setting set = nested_setting();
+  const Design design = the_design();
+  const double ultimate = ultimate_level(set, design).near();
+  const Ball twice(2.0 * ultimate / 20.0);
+  const Ball start(100.0 * ultimate);
+  CHECK(settled(set, design, start, twice, Ball(6.0)));
+  CHECK(!settled(set, design, start, twice, Ball(5.0)));
+  CHECK(settled(set, design, Ball(1.9 * ultimate), twice, zero));
+  CHECK(!settled(set, design, Ball(2.1 * ultimate), twice, zero));
+  const Ball less(0.9 * ultimate / 20.0);
+  CHECK(!settled(set, design, Ball(0.5 * ultimate), less, zero));
+  CHECK(!settled(set, design, start, less, Ball(1e6)));
+}
+
+TEST_CASE("a covariance is between bounds only when it is on both sides") {
+  const Setting set = nested_setting();
+  const auto at = [](double x) { return diagonal(Ball(x), Ball(x), Ball(x)); };
+  CHECK(between(at(0.4), set.lower, set.upper));
+  CHECK(!between(at(0.2), set.lower, set.upper));
+  CHECK(!between(at(0.6), set.lower, set.upper));
+}

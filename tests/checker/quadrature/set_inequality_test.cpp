@@ -1,0 +1,101 @@
+// Settings that break one condition of the theorem of docs/contraction.md by little, or the meaning of a
+// step.
+#include "checker/quadrature/set_inequality.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+
+using namespace veritrack::checker;
+
+namespace {
+
+/// A verified set of the design of La Scala's Figure 3.5 without its leak, with a shorter radius.
+Setting the_setting() {
+  Setting s;
+  s.q1 = s.q2 = Ball(0.0023);
+  s.r = Ball(0.05);
+  s.metric = {Ball(0x1.dd7f420252bdap+0), Ball(0x1.94a22f42e4696p+2), Ball(-0x1.02075762a01aap+2),
+              Ball(0x1.5c78cd65fb9f1p+4)};
+  s.lower = {Ball(0x1.2e4c5a0945dbfp-7), Ball(0x1.832337e95f5c9p-6), Ball(0x1.cf96fd9ebfcdbp-8),
+             Ball(0x1.d54edb3a42124p-8)};
+  s.upper = {Ball(0x1.49e1fbad57c06p-7), Ball(0x1.b0b68f440f5c1p-6), Ball(0x1.099c6fba71f43p-7),
+             Ball(0x1.080dcafbd5d4ap-7)};
+  s.radius = Ball(0x1p-6);
+  s.noise = zero;
+  s.slew = zero;
+  s.rate = Ball(0.995);
+  s.noise_gain = s.slew_gain = Ball(1024.0);
+  s.largest_amplitude = (s.radius / s.metric.amplitude).upper();
+  s.largest_chi = (s.radius * sqrt(square(one / s.metric.phase) +
+                                   square((one - s.metric.coupling / s.metric.phase) / s.metric.frequency)))
+                      .upper();
+  return s;
+}
+
+bool contracts_with(const Setting& setting) {
+  std::int64_t cells = 0;
+  return contracts(setting, cells);
+}
+
+}  // namespace
+
+TEST_CASE("both bounds on the covariance must be kept") {
+  const Setting setting = the_setting();
+  CHECK(keeps_covariance(setting));
+  SUBCASE("a lower bound above the steady state") {
+    Setting changed = setting;
+    changed.lower = {setting.upper.p11 * Ball(0.999), setting.upper.p22 * Ball(0.999),
+                     setting.upper.p23 * Ball(0.999), setting.upper.p33 * Ball(0.999)};
+    CHECK_FALSE(keeps_covariance(changed));
+  }
+  SUBCASE("an upper bound below the steady state") {
+    Setting changed = setting;
+    changed.upper = {setting.lower.p11 * Ball(1.001), setting.lower.p22 * Ball(1.001),
+                     setting.lower.p23 * Ball(1.001), setting.lower.p33 * Ball(1.001)};
+    CHECK_FALSE(keeps_covariance(changed));
+  }
+}
+
+TEST_CASE("noise that may carry the estimate through zero keeps no covariance, nor much more noise") {
+  Setting setting = the_setting();
+  for (const double noise : {5.0, 1e3, 1e6}) {
+    CAPTURE(noise);
+    setting.noise = Ball(noise);
+    setting.noisy = true;
+    CHECK_FALSE(keeps_covariance(setting));
+    setting.rate = Ball(1e6);
+    setting.noise_gain = Ball(1e6);
+    CHECK_FALSE(contracts_with(setting));
+  }
+}
+
+TEST_CASE("errors contract at the rate of the tracker, and no faster") {
+  Setting setting = the_setting();
+  CHECK(contracts_with(setting));
+  setting.rate = Ball(0.9);
+  CHECK_FALSE(contracts_with(setting));
+}
+
+TEST_CASE("noise and slew need their gains") {
+  Setting setting = the_setting();
+  setting.noisy = setting.slewing = true;
+  setting.noise = Ball(1e-4);
+  CHECK(contracts_with(setting));
+  SUBCASE("of noise") {
+    setting.noise_gain = Ball(2.0);
+  }
+  SUBCASE("of slew") {
+    setting.slew_gain = Ball(10.0);
+  }
+  CHECK_FALSE(contracts_with(setting));
+}
+
+TEST_CASE("a set with amplitude zero in it is not proved, however generous the rate") {
+  Setting setting = the_setting();
+  setting.rate = Ball(1e6);
+  CHECK(contracts_with(setting));
+  setting.largest_amplitude = Ball(1.25);
+  CHECK_FALSE(contracts_with(setting));
+}

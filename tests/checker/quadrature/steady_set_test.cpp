@@ -1,0 +1,195 @@
+// Sets around the steady state that break one hypothesis and no other: each guard of check_steady_set alone
+// stands between them and VERIFIED.
+#include "checker/quadrature/steady_set.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "checker/quadrature/steady_level.hpp"
+
+using namespace veritrack::checker;
+
+namespace {
+
+using Rows = std::array<std::array<std::string, 3>, 3>;
+
+struct WrittenSet {
+  Rows metric{{{"0x1.26f60fcf42f99p+3", "-0x1.4474904eb833fp-4", "0x1.314e15e4258c8p-2"},
+               {"0x0p+0", "0x1.72f8404d79878p+2", "-0x1.35c7f87585c5fp+1"},
+               {"0x0p+0", "0x0p+0", "0x1.fe07e5b01d99p+2"}}};
+  Rows below{{{"0x1.9e5f9a46e91c6p-11", "0x1.5934cff3bf5cp-16", "0x1.43903c3d3673dp-15"},
+              {"0x1.5934cff3bf5cp-16", "0x1.ae4bd437c40e4p-10", "0x1.b7eed69dfaae3p-11"},
+              {"0x1.43903c3d3673dp-15", "0x1.b7eed69dfaae3p-11", "0x1.568f2161610c5p-11"}}};
+  Rows above{{{"0x1.22704c0998bcbp-10", "-0x1.14551f14672a8p-17", "0x1.385cb246b75d6p-15"},
+              {"-0x1.14551f14672a8p-17", "0x1.832e438f0261cp-10", "0x1.f8e67a0592e88p-11"},
+              {"0x1.385cb246b75d6p-15", "0x1.f8e67a0592e88p-11", "0x1.d6dbdf05b0d92p-11"}}};
+  std::vector<std::string> levels{"0x1p+0", "0x1.d244f73243c0ap-1"};
+  std::string noise = "0x1.0624dd2f1a9fcp-10";
+  std::string slew = "0x0p+0";
+};
+
+std::string json_of(const Rows& rows) {
+  std::string text;
+  for (const auto& row : rows) {
+    text += (text.empty() ? "[\"" : ",[\"") + row[0] + "\",\"" + row[1] + "\",\"" + row[2] + "\"]";
+  }
+  return "[" + text + "]";
+}
+
+Design the_design() {
+  Design design;
+  design.amplitude = one;
+  design.q1 = design.q2 = Ball(0.0013);
+  design.r = Ball(0.01);
+  design.epsilon = Ball(0.01);
+  design.lowest_frequency = Ball(0.02);
+  design.highest_frequency = Ball(0.0201);
+  design.noise = Ball(0.001);
+  design.slew = zero;
+  return design;
+}
+
+const std::vector<SteadyCell>& the_branch() {
+  static const auto branch = steady_branch(the_design(), 0.3, 1e-4);
+  REQUIRE(branch.has_value());
+  return *branch;
+}
+
+/// Why the set is not verified; empty when it is.
+std::string refusal(const WrittenSet& set) {
+  std::string text = R"({"name": "a", "matrices": {"metric": )" + json_of(set.metric) +
+                     R"(, "covariance_below": )" + json_of(set.below) + R"(, "covariance_above": )" +
+                     json_of(set.above) + R"(}, "numbers": {"noise": ")" + set.noise + R"(", "slew": ")" +
+                     set.slew + "\"";
+  for (std::size_t j = 0; j < set.levels.size(); ++j) {
+    text += ", \"s_" + std::to_string(j) + "\": \"" + set.levels[j] + "\"";
+  }
+  std::int64_t cells = 0;
+  Objections objections;
+  const SteadySet checked =
+      check_steady_set(read_json(text + "}}"), the_design(), the_branch(), cells, objections);
+  CHECK(checked.verified == objections.empty());
+  return objections.empty() ? std::string() : objections.front();
+}
+
+bool mentions(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("the set around the steady state is verified as it stands, and for a little slew") {
+  CHECK(refusal({}).empty());
+  WrittenSet set;
+  set.slew = "0x1p-20";
+  CHECK(refusal(set).empty());
+  set.slew = "0x1p-4";
+  CHECK(!refusal(set).empty());
+}
+
+TEST_CASE("entries and signs that the form does not have are refused, however small") {
+  for (const auto& [i, j] : {std::pair{1U, 0U}, {2U, 0U}, {2U, 1U}}) {
+    CAPTURE(i);
+    CAPTURE(j);
+    WrittenSet set;
+    set.metric[i][j] = "0x1p-60";
+    CHECK(mentions(refusal(set), "required form"));
+    for (Rows WrittenSet::*bound : {&WrittenSet::below, &WrittenSet::above}) {
+      WrittenSet other;
+      (other.*bound)[i][j] = "0x1p-60";
+      CHECK(mentions(refusal(other), "required form"));
+    }
+  }
+  for (const std::size_t i : {0U, 1U, 2U}) {
+    CAPTURE(i);
+    WrittenSet set;
+    for (std::string& entry : set.metric[i]) {  // the rows of T may have either sign, as far as |T e| goes
+      entry = entry.front() == '-' ? entry.substr(1) : "-" + entry;
+    }
+    CHECK(mentions(refusal(set), "required form"));
+  }
+}
+
+TEST_CASE("levels begin at 1 and fall, noise and slew are not negative") {
+  WrittenSet set;
+  SUBCASE("a first level below 1") {
+    set.levels = {"0x1.ffp-1", "0x1.d244f73243c0ap-1"};
+  }
+  SUBCASE("a level that does not fall") {
+    set.levels = {"0x1p+0", "0x1p+0"};
+  }
+  SUBCASE("a second level that does not fall") {
+    set.levels = {"0x1p+0", "0x1.d244f73243c0ap-1", "0x1.d244f73243c0ap-1"};
+  }
+  SUBCASE("no level") {
+    set.levels.clear();
+  }
+  SUBCASE("noise") {
+    set.noise = "-0x1p-20";
+  }
+  SUBCASE("slew") {
+    set.slew = "-0x1p-4";
+  }
+  CHECK(mentions(refusal(set), "out of range"));
+}
+
+TEST_CASE("bounds on the covariance that are none") {
+  WrittenSet set;
+  SUBCASE("below") {
+    set.below[0][0] = "-0x1p-30";
+  }
+  SUBCASE("above") {
+    set.above[0][0] = "-0x1p-30";
+  }
+  SUBCASE("so far below that covariances of the set are not definite") {
+    set.below[0][0] = "0x1p-6";
+    set.below[1][1] = "0x1p-6";
+    set.below[2][2] = "0x1p-6";
+  }
+  SUBCASE("kept from below, not from above") {
+    set.above[2][2] = "0x1.8p-11";
+  }
+  SUBCASE("kept from above, not from below") {
+    set.below[2][2] = "0x1.2p-11";
+  }
+  CHECK(!refusal(set).empty());
+}
+
+namespace {
+
+/// Does a step from level 1 lead to so high a level that only the meaning of the step is in question?
+bool leads_anywhere(const Ball& noise, const Ball& motion = zero, const Ball& covariance_motion = zero) {
+  SteadySetting setting;
+  const Design design = the_design();
+  setting.q1 = design.q1;
+  setting.q2 = design.q2;
+  setting.r = design.r;
+  setting.retention = one - design.epsilon;
+  setting.metric = {Ball(16.0), zero, zero, Ball(16.0), zero, Ball(16.0)};
+  setting.below = setting.above = {Ball(1e-4), zero, zero, Ball(1e-4), zero, Ball(1e-4)};
+  setting.a11 = Ball(0x1.01p-4);
+  setting.a21 = zero;
+  setting.a22 = Ball(0x1.8p-4);
+  SteadyCover cover(setting, the_branch().back());
+  return cover.maps_into_next({one, Ball(1e6), noise, motion, covariance_motion});
+}
+
+}  // namespace
+
+TEST_CASE("what noise may carry through zero leads nowhere, nor what more noise may") {
+  CHECK(leads_anywhere(Ball(0.001)));
+  CHECK(!leads_anywhere(Ball(3.0)));
+  CHECK(!leads_anywhere(Ball(1e3)));
+}
+
+TEST_CASE("a steady state that moves farther than the next level leads nowhere") {
+  CHECK(leads_anywhere(Ball(0.001), Ball(1e3), Ball(1e3)));
+  CHECK(!leads_anywhere(Ball(0.001), Ball(1e9)));
+  CHECK(!leads_anywhere(Ball(0.001), zero, Ball(1e9)));
+}

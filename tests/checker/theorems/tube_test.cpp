@@ -1,0 +1,160 @@
+// Tubes of the repaired theorem that claim more than they may in one place: each guard of verified_tube alone
+// stands between them and VERIFIED.
+#include "checker/theorems/tube.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+
+using namespace veritrack::checker;
+
+namespace {
+
+using Rows = std::array<std::array<std::string, 3>, 3>;
+
+/// For La Scala's Figure 3.5 without its leak.
+struct WrittenTube {
+  std::map<std::string, std::string> numbers{{"window", "0x0p+0"},
+                                             {"plane_error", "0x1.46e2d35c182f2p-8"},
+                                             {"frequency_error", "0x1.6a2ca93ff07adp-9"},
+                                             {"one_minus_alpha", "0x1.39ab73862d9fdp-6"},
+                                             {"curvature", "0x1.85104abba9a95p-3"},
+                                             {"process_gain", "0x1.c300f1eb1aafbp+3"},
+                                             {"measurement_gain", "0x1.9e4880005914ep+1"},
+                                             {"s", "0x1.f0d5d276ca15dp-5"},
+                                             {"radius", "0x1.ef498e0a0fa9bp-6"}};
+  Rows upper{{{"0x1.703909e649cap-7", "0x0p+0", "0x0p+0"},
+              {"0x0p+0", "0x1.ba8525cf3716ap-6", "0x1.10ae74717165p-7"},
+              {"0x0p+0", "0x1.10ae74717165p-7", "0x1.11c5fa57b7c43p-7"}}};
+  Rows information{{{"0x1.e8aa2994bd472p+6", "0x0p+0", "0x0p+0"},
+                    {"0x0p+0", "0x1.f20ca156ca566p+5", "-0x1.ecd95cbbe6e26p+5"},
+                    {"0x0p+0", "-0x1.ecd95cbbe6e26p+5", "0x1.9bfe69f3607dp+7"}}};
+};
+
+std::string json_of(const Rows& rows) {
+  std::string text;
+  for (const auto& row : rows) {
+    text += (text.empty() ? "[\"" : ",[\"") + row[0] + "\",\"" + row[1] + "\",\"" + row[2] + "\"]";
+  }
+  return "[" + text + "]";
+}
+
+Design the_design() {
+  Design design;
+  design.q1 = design.q2 = Ball(0.0023);
+  design.r = Ball(0.05);
+  design.epsilon = zero;
+  return design;
+}
+
+bool is_verified(const WrittenTube& tube, const Design& design = the_design()) {
+  std::string text = R"({"evidence": [{"name": "a", "matrices": {"covariance_upper": )" +
+                     json_of(tube.upper) + R"(, "information_upper": )" + json_of(tube.information) +
+                     R"(}, "numbers": {"of": "0x0p+0")";
+  for (const auto& [name, number] : tube.numbers) {
+    text += ", \"" + name + "\": \"" + number + "\"";
+  }
+  Objections objections;
+  const bool verified = verified_tube(read_json(text + "}}]}"), "a", design, objections).has_value();
+  CHECK(verified == objections.empty());
+  return verified;
+}
+
+bool is_verified_with(const std::string& name, const std::string& number) {
+  WrittenTube tube;
+  tube.numbers.at(name) = number;
+  return is_verified(tube);
+}
+
+}  // namespace
+
+TEST_CASE("the tube is verified as it stands, and with constants that say less") {
+  CHECK(is_verified({}));
+  CHECK(is_verified_with("one_minus_alpha", "0x1p-7"));
+  CHECK(is_verified_with("curvature", "0x1p-2"));
+  CHECK(is_verified_with("process_gain", "0x1p+4"));
+  CHECK(is_verified_with("measurement_gain", "0x1p+2"));
+  CHECK(is_verified_with("s", "0x1p-3"));
+}
+
+TEST_CASE("each constant that says more by a few per cent is refused") {
+  CHECK(!is_verified_with("one_minus_alpha", "0x1.6p-6"));
+  CHECK(!is_verified_with("curvature", "0x1.6p-3"));
+  CHECK(!is_verified_with("process_gain", "0x1.ap+3"));
+  CHECK(!is_verified_with("measurement_gain", "0x1.8p+1"));
+  CHECK(!is_verified_with("s", "0x1.dp-5"));
+  CHECK(!is_verified_with("plane_error", "0x1p-3"));
+  CHECK(!is_verified_with("frequency_error", "0x1p-2"));
+}
+
+TEST_CASE("numbers of a tube have their sign, though the theorem knows only their squares") {
+  CHECK(!is_verified_with("plane_error", "-0x1.46e2d35c182f2p-8"));
+  CHECK(!is_verified_with("frequency_error", "-0x1.6a2ca93ff07adp-9"));
+  CHECK(!is_verified_with("one_minus_alpha", "0x1.fd8ca918f3a4cp+0"));  // alpha is minus what it was
+  CHECK(!is_verified_with("curvature", "-0x1.85104abba9a95p-3"));
+  CHECK(!is_verified_with("process_gain", "-0x1.c300f1eb1aafbp+3"));
+  CHECK(!is_verified_with("measurement_gain", "-0x1.9e4880005914ep+1"));
+  CHECK(!is_verified_with("window", "0x1p-1"));
+  CHECK(!is_verified_with("window", "-0x1p+0"));
+}
+
+TEST_CASE("matrices of a tube are symmetric, definite, and kept") {
+  WrittenTube tube;
+  SUBCASE("an upper bound that is not symmetric") {
+    tube.upper[2][0] = "0x1p-60";
+  }
+  SUBCASE("an information that is not symmetric") {
+    tube.information[1][2] = "-0x1.ecd95cbbe6e27p+5";
+  }
+  SUBCASE("a lower bound below zero") {
+    tube.information[0][0] = "-0x1p+40";
+    tube.numbers.at("curvature") = "0x1p+3";
+    tube.numbers.at("process_gain") = "0x1p+8";
+  }
+  SUBCASE("an upper bound that is not kept") {
+    tube.upper[0][0] = "0x1.2p-7";
+  }
+  SUBCASE("a lower bound that is not kept") {
+    tube.information[0][0] = "0x1.8p+6";
+  }
+  CHECK(!is_verified(tube));
+}
+
+TEST_CASE("designs that the repaired theorem is not about") {
+  Design design = the_design();
+  SUBCASE("a negative leak") {
+    design.epsilon = Ball(-0x1p-60);
+  }
+  SUBCASE("no process noise of the amplitude") {
+    design.q1 = zero;
+  }
+  CHECK(!is_verified({}, design));
+}
+
+TEST_CASE("a tube is invariant only while its radius is inside it, and tolerates the disturbance") {
+  Tube tube;
+  tube.plane = Ball(0.25);
+  tube.frequency = Ball(0.125);
+  tube.one_minus_alpha = Ball(0.5);
+  tube.curvature = Ball(1.0);
+  tube.radius = Ball(0.125);
+  tube.upper = diagonal(Ball(1.0), Ball(1.0), Ball(0.25));
+  tube.information = diagonal(Ball(2.0), Ball(2.0), Ball(8.0));
+  const Ball tolerated(0.046);  // 0.5/8 - 1/64 = 0.046875
+  CHECK(tube.invariant(tolerated));
+  CHECK(!tube.invariant(Ball(0.047)));
+  SUBCASE("a radius that leaves the plane") {
+    tube.plane = Ball(0.1);
+  }
+  SUBCASE("a radius that leaves the frequency") {
+    tube.frequency = Ball(0.06);
+  }
+  SUBCASE("no radius") {
+    tube.radius = Ball(-0.001);
+    CHECK(!tube.invariant(Ball(-1.0)));
+  }
+  CHECK(!tube.invariant(tolerated));
+}

@@ -21,6 +21,10 @@ struct ContractionQuestion {
   rigor::Interval initial_frequency_error = rigor::Interval(0.0);  ///< rad/sample
   /// P(0|0) in the frame of the estimated phase; none: the filter's steady state.
   std::optional<rigor::IntervalMatrix<3>> initial_covariance;
+  /// Of the signal, for what the rounding of the program depends on: its amplitude in signal units, and
+  /// |omega(k)| <= largest_frequency, rad/sample; by default pi, from above.
+  rigor::Interval amplitude = rigor::Interval(1.0);
+  double largest_frequency = 0x1.921fb54442d19p+1;
   int search_evaluations = 40;  ///< per set
   bool with_samples = true;     ///< also what a search finds, which proves nothing
 };

@@ -1,5 +1,7 @@
 #include "certificates/quadrature/guarantee.hpp"
 
+#include <algorithm>
+
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 #include "analysis/quadrature/leak/steady_certificate.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
@@ -28,7 +30,13 @@ trackers::ToneModel<double> nearest_at_unit_amplitude(const QuadratureEkfTables&
 
 sets::ContractionQuestion contraction_question(const Design& design) {
   const QuadratureEkfTables& tables = quadrature_tables(design);
-  return contraction_question(enclosed_at_unit_amplitude(tables), tables.assume);
+  sets::ContractionQuestion question =
+      contraction_question(enclosed_at_unit_amplitude(tables), tables.assume);
+  question.amplitude = tables.assume.amplitude.value;
+  for (const auto& end : tables.assume.frequency) {
+    question.largest_frequency = std::max(question.largest_frequency, rigor::magnitude(end.value));
+  }
+  return question;
 }
 
 void add_contraction(Certificate& certificate) {

@@ -133,8 +133,15 @@ Ball follow_all(const Cover& cover, const Followed& followed, bool symmetric, bo
 void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting& set,
                      const Design& disturbed, bool all_boxes, Captured& found, Objections& objections) {
   const Cover cover = read_cover(evidence);
-  const Loop loop{disturbed.q1, disturbed.q2,    disturbed.r,   disturbed.epsilon,
-                  zero,         disturbed.noise, disturbed.slew};
+  const Loop loop{disturbed.q1,
+                  disturbed.q2,
+                  disturbed.r,
+                  disturbed.epsilon,
+                  zero,
+                  disturbed.noise,
+                  disturbed.slew,
+                  disturbed.amplitude,
+                  max(disturbed.largest_frequency, pi())};
   const Matrix3 covariance = disturbed.covariance ? *disturbed.covariance : steady_covariance(set);
   const bool is_symmetric = !disturbed.covariance || (certainly_equal(covariance[0][1], zero) &&
                                                       certainly_equal(covariance[0][2], zero));
@@ -152,7 +159,7 @@ void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting
     objections.emplace_back("the boxes do not cover all assumed starts");
   }
   if (!captured && (cover.boxes.size() != 1 || !covers(cover.boxes[0], {inward(disturbed)}) ||
-                    !certainly_less(reach, off))) {
+                    !certainly_less(reach, off) || !certainly_at_most(abs(cover.turns), kMostTurns))) {
     objections.emplace_back(
         "the witness is not a single box of assumed starts, or its final frequency error is not proved");
   }

@@ -139,7 +139,8 @@ sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& 
   set(result.ultimate_frequency_error, "u\\,|e_3' T^{-1}|", ultimate, kNotAll);
   set(result.settling_samples,
       "k_c + \\min \\{k : \\kappa^{2k} |T e(k_c)|^2 + (1 - \\kappa^{2k}) u^2 \\le 4 u^2\\}", settling,
-      proved ? "Without noise and slew the ultimate bound is zero, which is approached but not reached."
+      proved ? "Without noise and slew only rounding is left of the ultimate bound, and no settling time is "
+               "computed."
              : kNotAll);
   if (const std::optional<Interval> wrong = wrong_lock(set_of_capture, region)) {
     result.wrong_lock_frequency_error = sets::quantities::wrong_lock_frequency_error();

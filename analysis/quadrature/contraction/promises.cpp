@@ -19,6 +19,7 @@ Interval better(const Interval& best, const Interval& other) {
 }  // namespace
 
 Promises::Promises(const sets::ContractionQuestion& question, const std::vector<CertifiedSet>& sets) {
+  disturbed_ = certainly_positive(question.noise) || certainly_positive(question.slew);
   std::vector<StartBounds> others;
   for (const CertifiedSet& set : sets) {
     const StartBounds bounds(question, set);
@@ -51,7 +52,7 @@ Interval Promises::frequency_error_bound() const {
 
 Interval Promises::settling_samples() const {
   Interval samples;
-  if (certainly_positive(ultimate_)) {
+  if (disturbed_) {
     for (const StartBounds& base : bases_) {
       samples = better(samples, base.samples_until(Interval(2.0) * ultimate_).value_or(Interval()));
     }

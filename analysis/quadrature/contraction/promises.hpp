@@ -22,12 +22,13 @@ class Promises {
   /// A bound on |frequency error| at every sample, rad/sample. Empty when there is none.
   [[nodiscard]] rigor::Interval frequency_error_bound() const;
   /// A number of samples after which |frequency error| is within twice the ultimate one. Empty when no set
-  /// gives one.
+  /// gives one, and without noise and slew.
   [[nodiscard]] rigor::Interval settling_samples() const;
 
  private:
   std::vector<StartBounds> bases_;  ///< of the sets that contain the starts
   bool starts_inside_ = false;
+  bool disturbed_ = false;  ///< by noise or slew: what rounding alone leaves, nobody waits for
   rigor::Interval ultimate_;
 };
 

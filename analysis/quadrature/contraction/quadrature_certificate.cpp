@@ -67,18 +67,19 @@ void set_size(const std::optional<Verification>& found, sets::ContractionResult&
 }
 
 /// The bounds of the sets for the assumed starts.
-void set_promises(const Promises& promises, sets::StartResult& starts) {
+void set_promises(const Promises& promises, bool disturbed, sets::StartResult& starts) {
   set(starts.ultimate_frequency_error,
-      "u\\,|e_3' T^{-1}|,\\ u^2 = \\tfrac{L_v^2 V^2 + L_w^2 W^2}{1 - \\kappa^2}",
+      "u\\,|e_3' T^{-1}|,\\ u = \\sqrt{\\kappa^2 u^2 + L_v^2 V^2 + L_w^2 W^2} + \\varrho",
       promises.ultimate_frequency_error());
   set(starts.frequency_error_bound, "\\max(|T e(0)|, u)\\,|e_3' T^{-1}|",
       promises.starts_inside() ? promises.frequency_error_bound() : Interval(),
       "The assumed starts are not in a certified set.");
-  const bool settles = certainly_positive(promises.ultimate_frequency_error());
+  const bool settles = disturbed;
   set(starts.settling_samples, "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
       promises.settling_samples(),
       settles ? "No certified set gives a settling time."
-              : "Without noise and slew the ultimate bound is zero, which is approached but not reached.");
+              : "Without noise and slew only rounding is left of the ultimate bound, and no settling time is "
+                "computed.");
 }
 
 Condition leak(const Interval& epsilon) {
@@ -181,7 +182,8 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& ques
   derivation.id = "contraction";
   derivation.title = "Contraction of the errors in an invariant set";
   derivation.notes = {
-      "Covers the tracker in exact arithmetic, at every frequency, for a signal of constant amplitude.",
+      "Covers the tracker in double precision (IEEE 754, round to nearest, sine and cosine within 1 ulp), at "
+      "every frequency up to pi rad/sample, for a signal of constant amplitude.",
       "Amplitude error and noise are relative to the true amplitude; the set is described in the frame of "
       "the "
       "estimated phase."};
@@ -197,7 +199,8 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& ques
   }
   sets::ContractionResult& result = certificate.result;
   set_size(certificate.set, result);
-  set_promises(promises, result.starts);
+  set_promises(promises, certainly_positive(question.noise) || certainly_positive(question.slew),
+               result.starts);
   const auto& noisy = certificate.noise_set;
   const auto& slewing = certificate.slew_set;
   set(result.largest_noise, "", noisy ? Interval(noisy->set.noise) : Interval());

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/rigor/definiteness.hpp"
+#include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::quadrature {
 
@@ -65,22 +66,23 @@ double share_of(const IntervalMatrix<3>& p, const PolarDifference& difference) {
   return kInfinity;
 }
 
-SetRounding set_rounding(const trackers::ToneModel<Interval>& design, const Interval& amplitude,
-                         double largest_frequency, const CertifiedSet& set) {
+SetRounding set_rounding(const trackers::ToneModel<Interval>& design, const TrackedSignal& signal,
+                         const CertifiedSet& set) {
   rigor::require_upward_rounding();
   const Interval one(1.0);
   const rigor::IntervalVector<3> reach = error_bounds(set, Interval(set.radius));
   const IntervalMatrix<3> lower = rigor::to_interval(set.covariance_lower);
   const IntervalMatrix<3> above = rigor::to_interval(set.covariance_upper);
-  HeldStates box{{}, Interval(0.0), lower, above};
-  box.z1 = one + rigor::symmetric(upper_or_infinite(reach[0]));
+  const double amplitude = upper_or_infinite(reach[0]);
+  const Interval largest_frequency =
+      Interval(signal.largest_frequency) + Interval(2 * kMostTurns) * rigor::pi() + reach[2];
   const StateDifference difference =
-      step_rounding({design, amplitude, upper_or_infinite(one + Interval(set.noise)),
-                     upper_or_infinite(Interval(largest_frequency) + reach[2])},
-                    box);
+      step_rounding({design, signal.amplitude, upper_or_infinite(one + Interval(set.noise)),
+                     upper_or_infinite(largest_frequency)},
+                    {one + rigor::symmetric(amplitude), Interval(0.0), lower, above});
   const Interval largest_zz = rigor::max(above(0, 0), above(1, 1));
-  const PolarDifference polar = polar_difference(difference, one - Interval(upper_or_infinite(reach[0])),
-                                                 largest_zz, rigor::sqrt(largest_zz * above(2, 2)));
+  const PolarDifference polar = polar_difference(difference, one - Interval(amplitude), largest_zz,
+                                                 rigor::sqrt(largest_zz * above(2, 2)));
   return {upper_or_infinite(metric_norm(set, polar.error)), share_of(lower, polar)};
 }
 

@@ -13,12 +13,13 @@ struct SetRounding {
   double covariance = 0.0;
 };
 
-/// From any state of the set, if the exact step stays in it, for a frequency of at most `largest_frequency`
-/// (rad/sample, of the signal) and noise of at most that of the set. Infinite when it cannot be bounded.
-/// Needs the upward mode.
+/// The set shifted by so many turns in the frequency error is covered, too: it is where starts are lost to.
+inline constexpr int kMostTurns = 3;
+
+/// From any state of the set, if the exact step stays in it, for noise of at most that of the set. Infinite
+/// when it cannot be bounded. Needs the upward mode.
 [[nodiscard]] SetRounding set_rounding(const trackers::ToneModel<rigor::Interval>& design,
-                                       const rigor::Interval& amplitude, double largest_frequency,
-                                       const CertifiedSet& set);
+                                       const TrackedSignal& signal, const CertifiedSet& set);
 
 /// The difference in polar coordinates, of a state with |z| >= least_z, |P_zz| <= largest_zz (spectral norm)
 /// and |P_z3| <= largest_z3 in the exact step: the covariance is then seen from another phase.

@@ -123,13 +123,12 @@ StateDifference difference_of(const Estimate& after) {
           upper_or_infinite(d_error * computed_u + d * u_error), upper_or_infinite(d_error)};
 }
 
-void include(StateDifference& all, const StateDifference& other) {
-  // Neither is NaN.
-  all = {std::max(all.z, other.z), std::max(all.frequency, other.frequency), std::max(all.p_zz, other.p_zz),
-         std::max(all.p_z3, other.p_z3), std::max(all.p_33, other.p_33)};
-}
-
 }  // namespace
+
+StateDifference larger(const StateDifference& a, const StateDifference& b) {
+  return {std::max(a.z, b.z), std::max(a.frequency, b.frequency), std::max(a.p_zz, b.p_zz),
+          std::max(a.p_z3, b.p_z3), std::max(a.p_33, b.p_33)};
+}
 
 bool is_finite(const StateDifference& difference) {
   return std::isfinite(difference.z) && std::isfinite(difference.frequency) &&
@@ -163,7 +162,7 @@ StateDifference step_rounding(const Program& program, const HeldStates& box, con
     for (int i = 0; i < pieces.angles; ++i) {
       const Estimate before =
           turned(states, f, piece(whole_turn, i, pieces.angles), program.largest_frequency);
-      include(all, difference_of(trackers::step(before, measurement, measurement, design).filtered));
+      all = larger(all, difference_of(trackers::step(before, measurement, measurement, design).filtered));
     }
   }
   return all;

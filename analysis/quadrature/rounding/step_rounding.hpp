@@ -18,6 +18,12 @@ namespace veritrack::quadrature {
   return rigor::is_finite(x) ? x.upper() : std::numeric_limits<double>::infinity();
 }
 
+/// What of the signal matters to rounding, besides its frequency error.
+struct TrackedSignal {
+  rigor::Interval amplitude = rigor::Interval(1.0);  ///< signal units
+  double largest_frequency = 0x1.921fb54442d19p+1;   ///< of |omega|, rad/sample; pi from above
+};
+
 /// What the program runs on, besides its state. Lengths are relative to the true amplitude.
 struct Program {
   trackers::ToneModel<rigor::Interval> design;
@@ -50,6 +56,9 @@ struct StateDifference {
   double p_z3 = 0.0;       ///< length
   double p_33 = 0.0;       ///< absolute value
 };
+
+/// The larger of each; neither may be NaN.
+[[nodiscard]] StateDifference larger(const StateDifference& a, const StateDifference& b);
 
 /// True only when all five are finite.
 [[nodiscard]] bool is_finite(const StateDifference& difference);

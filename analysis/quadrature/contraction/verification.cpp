@@ -112,20 +112,20 @@ Verification verify_certified_set(const Design& design, const CertifiedSet& prop
     result.reason = "the set contains amplitudes near zero, where the phase is undefined.";
     return result;
   }
-  // Room for an independent verification, whose own bounds may be cruder.
-  constexpr double kRoom = 8.0;
-  const SetRounding rounding = set_rounding(design, signal, proposal);
-  result.set.error_rounding = kRoom * rounding.error;
-  result.set.covariance_rounding = kRoom * rounding.covariance;
-  if (!std::isfinite(result.set.error_rounding) || !std::isfinite(result.set.covariance_rounding)) {
-    result.reason = "the rounding of a step in double precision could not be bounded.";
-    return result;
-  }
   const StepConstants<Interval> constants = constants_of(proposal);
   const ContractionOverSet contraction = prove_contraction(setting, constants);
   result.cells = contraction.cells;
   if (!contraction.proved) {
     result.reason = contraction.reason;
+    return result;
+  }
+  // Room for an independent verification, whose own bounds may be cruder.
+  constexpr double kRoom = 16.0;
+  const SetRounding rounding = set_rounding(design, signal, proposal);
+  result.set.error_rounding = kRoom * rounding.error;
+  result.set.covariance_rounding = kRoom * rounding.covariance;
+  if (!std::isfinite(result.set.error_rounding) || !std::isfinite(result.set.covariance_rounding)) {
+    result.reason = "the rounding of a step in double precision could not be bounded.";
     return result;
   }
   if (!certainly_keeps_covariance_between(setting.covariance_lower, setting.covariance_upper, design,

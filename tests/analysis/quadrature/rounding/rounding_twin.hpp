@@ -8,6 +8,7 @@
 #include "analysis/quadrature/rounding/step_rounding.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 namespace veritrack::test {
 
@@ -79,6 +80,22 @@ inline Eigen::Matrix3d between(Random& random, const Eigen::Matrix3d& low, const
   }
   const Eigen::Matrix3d root = Eigen::LLT<Eigen::Matrix3d>(high - low).matrixL();
   return low + root * axes * share.asDiagonal() * axes.transpose() * root.transpose();
+}
+
+using WidePolar = trackers::PolarFrameState<Wide>;
+
+/// |T (e - f)| of two states of the same signal, in long double.
+inline double distance(const Eigen::Matrix3d& metric, const WidePolar& a, const WidePolar& b) {
+  const Eigen::Matrix<Wide, 3, 1> e(a.error.amplitude - b.error.amplitude, a.error.phase - b.error.phase,
+                                    a.error.frequency - b.error.frequency);
+  return static_cast<double>((metric.cast<Wide>() * e).norm());
+}
+
+/// The least m with -m P <= A - B <= m P.
+inline double share_of_difference(const Eigen::Matrix3d& p, const WidePolar& a, const WidePolar& b) {
+  const Eigen::Matrix3d d = (a.covariance.matrix() - b.covariance.matrix()).cast<double>();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(0.5 * (d + d.transpose()), p);
+  return solver.eigenvalues().cwiseAbs().maxCoeff();
 }
 
 }  // namespace veritrack::test

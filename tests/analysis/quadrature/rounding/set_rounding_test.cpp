@@ -4,7 +4,6 @@
 
 #include "analysis/quadrature/contraction/verification.hpp"
 #include "tests/analysis/quadrature/rounding/rounding_twin.hpp"
-#include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 using namespace veritrack;
 using namespace veritrack::quadrature;
@@ -51,22 +50,6 @@ CertifiedSet small_set() {
   return s;
 }
 
-using WidePolar = trackers::PolarFrameState<Wide>;
-
-/// |T (e - f)| of two states of the same signal, in long double.
-double distance(const CertifiedSet& set, const WidePolar& a, const WidePolar& b) {
-  const Eigen::Matrix<Wide, 3, 1> e(a.error.amplitude - b.error.amplitude, a.error.phase - b.error.phase,
-                                    a.error.frequency - b.error.frequency);
-  return static_cast<double>((set.metric.cast<Wide>() * e).norm());
-}
-
-/// The least m with -m P <= A - B <= m P.
-double share_of_difference(const Eigen::Matrix3d& p, const WidePolar& a, const WidePolar& b) {
-  const Eigen::Matrix3d d = (a.covariance.matrix() - b.covariance.matrix()).cast<double>();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(0.5 * (d + d.transpose()), p);
-  return solver.eigenvalues().cwiseAbs().maxCoeff();
-}
-
 /// The largest shares of the bounds that steps from random states of the set reach.
 struct Shares {
   double error = 0.0, covariance = 0.0;
@@ -94,7 +77,7 @@ Shares shares_of(const CertifiedSet& set, const SetRounding& bound, std::uint64_
     const Wide next = static_cast<Wide>(phase) + static_cast<Wide>(omega);
     const WidePolar a = trackers::to_polar_frame<Wide>(estimate_as<Wide>(twins.computed), 1.0L, next, omega);
     const WidePolar b = trackers::to_polar_frame<Wide>(twins.exact, 1.0L, next, omega);
-    shares.error = std::max(shares.error, distance(set, a, b) / bound.error);
+    shares.error = std::max(shares.error, distance(set.metric, a, b) / bound.error);
     shares.covariance =
         std::max(shares.covariance, share_of_difference(set.covariance_lower, a, b) / bound.covariance);
   }

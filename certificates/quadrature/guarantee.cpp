@@ -1,5 +1,7 @@
 #include "certificates/quadrature/guarantee.hpp"
 
+#include <algorithm>
+
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 #include "analysis/quadrature/leak/steady_certificate.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
@@ -32,6 +34,10 @@ sets::ContractionQuestion contraction_question(const Design& design) {
   sets::ContractionQuestion question =
       contraction_question(enclosed_at_unit_amplitude(tables), tables.assume, tables.require);
   question.start_covariance = start_covariance(tables);
+  question.amplitude = tables.assume.amplitude.value;
+  for (const auto& end : tables.assume.frequency) {
+    question.largest_frequency = std::max(question.largest_frequency, rigor::magnitude(end.value));
+  }
   return question;
 }
 

@@ -138,8 +138,15 @@ void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting
                      const Design& disturbed, const StartCovariance& start, bool all_boxes, Captured& found,
                      Objections& objections) {
   const Cover cover = read_cover(evidence);
-  const Loop loop{disturbed.q1, disturbed.q2,    disturbed.r,   disturbed.epsilon,
-                  zero,         disturbed.noise, disturbed.slew};
+  const Loop loop{disturbed.q1,
+                  disturbed.q2,
+                  disturbed.r,
+                  disturbed.epsilon,
+                  zero,
+                  disturbed.noise,
+                  disturbed.slew,
+                  disturbed.amplitude,
+                  max(disturbed.largest_frequency, pi())};
   const Matrix3 covariance = start.enclosure();
   const bool is_symmetric =
       certainly_equal(start.matrix[0][1], zero) && certainly_equal(start.matrix[0][2], zero);
@@ -157,7 +164,7 @@ void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting
     objections.emplace_back("the boxes do not cover all assumed starts");
   }
   if (!captured && (cover.boxes.size() != 1 || !covers(cover.boxes[0], {inward(disturbed)}) ||
-                    !certainly_less(reach, off))) {
+                    !certainly_less(reach, off) || !certainly_at_most(abs(cover.turns), kMostTurns))) {
     objections.emplace_back(
         "the witness is not a single box of assumed starts, or its final frequency error is not proved");
   }

@@ -1,6 +1,7 @@
 #include "checker/quadrature/certified_set.hpp"
 
 #include "checker/document/evidence.hpp"
+#include "checker/quadrature/rounded_step.hpp"
 #include "checker/quadrature/set_inequality.hpp"
 
 namespace veritrack::checker {
@@ -49,6 +50,22 @@ std::pair<Setting, bool> read_setting(const Tree& tree, const Design& design) {
   return {s, has_form};
 }
 
+/// Fills in what the rounding of a step may add to the state, also where the set is shifted by whole turns of
+/// the frequency error.
+void bound_rounding(Setting& s, const Design& design) {
+  const std::array<Ball, 3> rows = inverse_rows(s.metric);
+  Held held;
+  held.z = one + s.radius * rows[0];
+  held.frequency = max(design.largest_frequency, pi()) + two * kMostTurns * pi() + s.radius * rows[2];
+  held.measurement = one + s.noise;
+  add_covariance(whole(s.lower), whole(s.upper), held);
+  const Rounding rounding = rounded_step({s.q1, s.q2, s.r, zero, design.amplitude}, held);
+  const PolarRounding polar =
+      polar_rounding(rounding, one - s.radius * rows[0], max(s.upper.p11, s.upper.p22), s.upper.p33);
+  s.error_rounding = largest_level(s.metric, polar.amplitude, polar.phase, polar.frequency).upper();
+  s.covariance_rounding = rounding_share(whole(s.lower), polar);
+}
+
 /// What of the theorem's hypotheses is not proved; nothing when all are.
 std::string refusal_of(const Setting& s, std::int64_t& cells) {
   if (!certainly_positive(s.radius) || !certainly_not_negative(s.noise) || !certainly_not_negative(s.slew) ||
@@ -60,10 +77,11 @@ std::string refusal_of(const Setting& s, std::int64_t& cells) {
   if (!positive_definite(s.lower) || !positive_definite(s.upper - s.lower)) {
     return "the covariance bounds are not positive definite and in order";
   }
-  const Ball reach =
-      square(s.rate * s.radius) + square(s.noise_gain * s.noise) + square(s.slew_gain * s.slew);
-  if (!certainly_at_most(reach, square(s.radius))) {
-    return "(c) noise and slew can push the errors out of the set";
+  if (!s.error_rounding.finite() || !s.covariance_rounding.finite()) {
+    return "the rounding of a step in double precision is not bounded";
+  }
+  if (!certainly_at_most(next_level(s, s.radius, s.noise, s.slew), s.radius)) {
+    return "(c) noise, slew and rounding can push the errors out of the set";
   }
   if (!keeps_covariance(s)) {
     return "(b) the covariance is not proved to stay between its bounds";
@@ -106,9 +124,16 @@ Ball largest_level(const Metric& t, const Ball& amplitude, const Ball& phase, co
               square(t.frequency * frequency));
 }
 
+Ball next_level(const Setting& s, const Ball& level, const Ball& noise, const Ball& slew) {
+  return sqrt(square(s.rate * level) + square(s.noise_gain * noise) + square(s.slew_gain * slew)) +
+         s.error_rounding;
+}
+
 Ball ultimate_level(const Setting& s, const Design& d) {
+  // (u - rounding)^2 = rate^2 u^2 + pushed.
   const Ball pushed = square(s.noise_gain * d.noise) + square(s.slew_gain * d.slew);
-  return sqrt(pushed / (one - square(s.rate)));
+  const Ball left = one - square(s.rate);
+  return (s.error_rounding + sqrt(square(s.rate * s.error_rounding) + left * pushed)) / left;
 }
 
 bool tolerates(const Setting& s, const Design& d) {
@@ -118,14 +143,16 @@ bool tolerates(const Setting& s, const Design& d) {
 bool settled(const Setting& s, const Design& d, const Ball& start, const Ball& frequency_error,
              const Ball& samples) {
   const Ball level = frequency_error * s.metric.frequency;
-  const Ball ultimate = square(ultimate_level(s, d));
+  const Ball limit = ultimate_level(s, d);
+  const Ball ultimate = square(limit);
   if (!certainly_less(ultimate, square(level))) {
     return false;
   }
   if (certainly_at_most(start, level)) {
     return true;
   }
-  const Ball log_shrunk = samples * log(square(s.rate));
+  // A step takes l^2 - u^2, l >= u, to at most rate^2 (l^2 - u^2) u/(u - rounding).
+  const Ball log_shrunk = samples * log(square(s.rate) * limit / (limit - s.error_rounding));
   return certainly_at_most(log_shrunk + log(square(start) - ultimate), log(square(level) - ultimate));
 }
 
@@ -143,10 +170,11 @@ CertifiedSet check_set(const Tree& tree, const Design& design, std::int64_t& cel
   set.purpose = tree.at("purpose").text();
   const auto [setting, has_form] = read_setting(tree, design);
   set.setting = setting;
+  bound_rounding(set.setting, design);
   const bool applies = design.without_leak() && certainly_positive(design.q2) && certainly_positive(design.r);
   const std::string refusal = !applies    ? "certified sets are for epsilon = 0, q2 > 0, r > 0"
                               : !has_form ? "the matrices do not have the required form"
-                                          : refusal_of(setting, cells);
+                                          : refusal_of(set.setting, cells);
   set.verified = refusal.empty();
   if (!set.verified) {
     objections.push_back(set.purpose + ": " + refusal);

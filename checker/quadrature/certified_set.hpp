@@ -33,10 +33,14 @@ bool tolerates(const Setting& set, const Design& design);
 std::array<Ball, 3> inverse_rows(const Metric& metric);
 /// sup |T e| over |e_i| <= bounds_i.
 Ball largest_level(const Metric& metric, const Ball& amplitude, const Ball& phase, const Ball& frequency);
-/// What |T e| tends to at most under the noise and slew of the design.
+/// The shifts by whole turns of the frequency error that a verified set may be asked for.
+inline const Ball kMostTurns(3.0);
+/// A bound on |T e| after a step from |T e| <= level under this noise and slew.
+Ball next_level(const Setting& set, const Ball& level, const Ball& noise, const Ball& slew);
+/// What |T e| tends to at most under the noise and slew of the design: the level that is its own next_level.
 Ball ultimate_level(const Setting& set, const Design& design);
 /// From |T e| <= start on: within `frequency_error` so many samples later, and at all later ones:
-/// rate^(2k) (l^2 - u^2) + u^2 <= level^2.
+/// rate'^(2k) (l^2 - u^2) + u^2 <= level^2 with rate'^2 = rate^2 u/(u - rounding).
 bool settled(const Setting& set, const Design& design, const Ball& start, const Ball& frequency_error,
              const Ball& samples);
 

@@ -25,14 +25,21 @@ Matrix3 difference(const Covariance<Ball>& p, const Covariance<Ball>& phi, const
   return d;
 }
 
+Covariance<Ball> scaled(const Covariance<Ball>& p, const Ball& factor) {
+  return {factor * p.p11, factor * p.p22, factor * p.p23, factor * p.p33};
+}
+
 bool keeps_order(const Setting& setting, double rho_low, double rho_high, double tan_low, double tan_high,
                  int depth) {
   const Ball rho = Ball::hull(Ball(rho_low), Ball(rho_high));
   const Ball tangent = Ball::hull(Ball(tan_low), Ball(tan_high));
   const Covariance<Ball> low = update(setting, setting.lower, rho).filtered;
   const Covariance<Ball> high = update(setting, setting.upper, rho).filtered;
-  if (definite(difference(setting.lower, low, tangent, Ball(-1.0))) &&
-      definite(difference(setting.upper, high, tangent, one))) {
+  // Rounding then moves P by no more than its share of the lower bound.
+  const auto least = scaled(setting.lower, one + setting.covariance_rounding);
+  const auto most = scaled(setting.upper, one - setting.covariance_rounding);
+  if (definite(difference(least, low, tangent, Ball(-1.0))) &&
+      definite(difference(most, high, tangent, one))) {
     return true;
   }
   if (depth == 0) {

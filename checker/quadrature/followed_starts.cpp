@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "checker/numbers/gradient.hpp"
+#include "checker/quadrature/rounded_step.hpp"
 
 namespace veritrack::checker {
 
@@ -131,6 +132,24 @@ void FollowedStarts::merge_smallest() {
   add_box(rest);
 }
 
+State<Ball> FollowedStarts::rounding() const {
+  const State<Ball> extent = radii();
+  State<Ball> now;
+  for (std::size_t i = 0; i < kStateSize; ++i) {
+    now[i] = middle_[i].range() + Ball::within(extent[i]);
+  }
+  const Matrix3 p{{{now[kP11], now[kP12], now[kP13]},
+                   {now[kP12], now[kP22], now[kP23]},
+                   {now[kP13], now[kP23], now[kP33]}}};
+  Held held;
+  held.z = root_of_non_negative(square(now[kZ1]) + square(now[kZ2])).upper();
+  held.frequency = (loop_.largest_frequency + abs(now[kNu])).upper();
+  held.measurement = one + loop_.noise;
+  add_covariance(p, p, held);
+  const Rounding r = rounded_step({loop_.q1, loop_.q2, loop_.r, loop_.epsilon, loop_.amplitude}, held);
+  return {r.z, r.z, r.frequency, r.p_zz, r.p_zz, r.p_z3, r.p_zz, r.p_z3, r.p_33};
+}
+
 void FollowedStarts::step() {
   const Ball wobble = Ball::within(loop_.noise);
   const Polynomial noise(wobble);
@@ -141,8 +160,8 @@ void FollowedStarts::step() {
   for (std::size_t v = 0; v < 2; ++v) {
     generators_.emplace_back();
   }
-  State<Ball> box;
-  box[kNu] = loop_.slew;
+  State<Ball> box = rounding();
+  box[kNu] += loop_.slew;
   std::vector<State<Ball>> images(generators_.size());
   std::array<std::array<Ball, kStateSize + 2>, kStateSize> matrix;
   for (std::size_t i = 0; i < kStateSize; ++i) {

@@ -11,8 +11,8 @@
 //     Rot^-1.
 //
 // The enclosure. {p(s) + e}: p polynomials in the start errors, e in a zonotope, which contains everything
-// else. A step G takes it into {G(p(s), 0) + G_x e + G_v v}, the derivatives over all that lies between (mean
-// value theorem).
+// else. A step G takes it into {G(p(s), 0) + G_x e + G_v v + what rounding adds}, the derivatives over all
+// that lies between (mean value theorem).
 #pragma once
 
 #include <array>
@@ -28,6 +28,8 @@ struct Loop {
   Ball q1, q2, r, epsilon;
   Ball frequency;    ///< contains every omega, rad/sample; without effect when epsilon = 0
   Ball noise, slew;  ///< |v| <= noise, |w| <= slew, rad/sample per sample
+  // For what rounding adds: the true amplitude, signal units, and a bound on |omega|, rad/sample.
+  Ball amplitude, largest_frequency;
 };
 
 /// All errors of the filtered estimate in these balls.
@@ -120,6 +122,8 @@ class FollowedStarts {
   /// What is not a polynomial with exact coefficients goes into the zonotope.
   void round();
   void add_box(const State<Ball>& radii);
+  /// What the rounding of the program adds to the exact step from here.
+  [[nodiscard]] State<Ball> rounding() const;
   void merge_smallest();
 
   Loop loop_;

@@ -14,7 +14,8 @@ namespace veritrack::checker {
 struct SteadyLevel {
   Ball level, next;
   Ball noise;  ///< |v| <= noise
-  /// Upper bounds on how far the slew carries e+ - e*, in the metric, and P+ - P*, as a share of its bounds.
+  /// Upper bounds on how far slew and rounding carry e+ - e*, in the metric, and P+ - P*, as a share of its
+  /// bounds.
   Ball motion, covariance_motion;
 };
 

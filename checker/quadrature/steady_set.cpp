@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "checker/document/evidence.hpp"
+#include "checker/quadrature/rounded_step.hpp"
 #include "checker/quadrature/steady_level.hpp"
 
 namespace veritrack::checker {
@@ -119,8 +120,51 @@ Motion motion_of(const SteadySet& set, const std::vector<SteadyCell>& branch) {
   return motion;
 }
 
+/// What rounding adds to a step from anywhere in the set.
+Motion rounding_of(const SteadySet& set, const std::vector<SteadyCell>& branch, const Design& design) {
+  const SteadySetting& s = set.setting;
+  const auto inverse = s.metric.inverse();
+  const auto reach = [&](std::size_t i) {
+    return sqrt(square(inverse[i][0]) + square(inverse[i][1]) + square(inverse[i][2]));
+  };
+  Rounding worst{zero, zero, zero, zero, zero};
+  Ball least_z = one;
+  Ball most_zz = zero;
+  Ball most_33 = zero;
+  for (const SteadyCell& cell : branch) {
+    const StateVector x = cell.at(cell.frequency);
+    const Symmetric<Ball> steady = covariance_part(x);
+    const Matrix3 lower = matrix_of(steady + scaled(Ball(-1.0), s.below));
+    const Matrix3 upper = matrix_of(steady + s.above);
+    Held held;
+    held.z = (one + x[0] + reach(0)).upper();
+    held.frequency = (max(design.largest_frequency, pi()) + abs(x[2]) + reach(2)).upper();
+    held.measurement = one + set.noise;
+    add_covariance(lower, upper, held);
+    const Rounding here = rounded_step({s.q1, s.q2, s.r, design.epsilon, design.amplitude}, held);
+    worst = {max(worst.z, here.z), max(worst.frequency, here.frequency), max(worst.p_zz, here.p_zz),
+             max(worst.p_z3, here.p_z3), max(worst.p_33, here.p_33)};
+    least_z = min(least_z, one + x[0] - reach(0)).lower();
+    most_zz = max(most_zz, upper[0][0] + upper[1][1]).upper();
+    most_33 = max(most_33, upper[2][2]).upper();
+  }
+  const PolarRounding polar = polar_rounding(worst, least_z, most_zz, most_33);
+  // |T e| over a box: every sign of its entries.
+  Ball largest = zero;
+  for (const double sign_of_phase : {-1.0, 1.0}) {
+    for (const double sign_of_frequency : {-1.0, 1.0}) {
+      const std::array<Ball, 3> image = s.metric.image<Ball>(
+          polar.amplitude, Ball(sign_of_phase) * polar.phase, Ball(sign_of_frequency) * polar.frequency);
+      largest = max(largest, sqrt(square(image[0]) + square(image[1]) + square(image[2])));
+    }
+  }
+  return {largest.upper(),
+          max(rounding_share(matrix_of(s.below), polar), rounding_share(matrix_of(s.above), polar))};
+}
+
 /// What of the set's promise is not proved; nothing when all of it is.
-std::string refusal_of(SteadySet& set, const std::vector<SteadyCell>& branch, std::int64_t& cells) {
+std::string refusal_of(SteadySet& set, const std::vector<SteadyCell>& branch, const Design& design,
+                       std::int64_t& cells) {
   SteadySetting& s = set.setting;
   if (!fall_from_one(set.levels) || !certainly_not_negative(set.noise) || !certainly_not_negative(set.slew)) {
     return "levels, noise or slew are out of range";
@@ -131,7 +175,13 @@ std::string refusal_of(SteadySet& set, const std::vector<SteadyCell>& branch, st
   if (!stays_definite(s, branch)) {
     return "P* - below is not proved positive definite";
   }
-  const Motion motion = motion_of(set, branch);
+  Motion motion = motion_of(set, branch);
+  const Motion rounding = rounding_of(set, branch, design);
+  if (!rounding.errors.finite() || !rounding.covariance.finite()) {
+    return "the rounding of a step in double precision is not bounded";
+  }
+  motion.errors += rounding.errors;
+  motion.covariance += rounding.covariance;
   const std::size_t steps = std::max<std::size_t>(set.levels.size(), 2) - 1;
   for (const SteadyCell& steady : branch) {
     SteadyCover cover(s, steady);
@@ -154,7 +204,7 @@ SteadySet check_steady_set(const Tree& evidence, const Design& design, const std
                            std::int64_t& cells, Objections& objections) {
   auto [set, has_form] = read_set(evidence, design);
   const std::string refusal =
-      has_form ? refusal_of(set, branch, cells) : "the matrices do not have the required form";
+      has_form ? refusal_of(set, branch, design, cells) : "the matrices do not have the required form";
   set.verified = refusal.empty();
   if (!set.verified) {
     objections.push_back("the set " + set.name + ": " + refusal);

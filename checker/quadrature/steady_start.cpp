@@ -63,11 +63,11 @@ class Part {
   /// The first of them that keeps the claim, or the last that is in the set: followed for up to `most`
   /// samples.
   [[nodiscard]] std::optional<SteadyStart> followed(int most, const SteadyStartClaim& claim) const {
-    FollowedStarts states(
-        {design_.q1, design_.q2, design_.r, design_.epsilon, frequency_, design_.noise, zero},
-        {Ball::within(design_.amplitude_error), Ball::within(design_.phase_error),
-         Ball::within(design_.frequency_error)},
-        covariance_);
+    FollowedStarts states({design_.q1, design_.q2, design_.r, design_.epsilon, frequency_, design_.noise,
+                           zero, design_.amplitude, max(design_.largest_frequency, pi())},
+                          {Ball::within(design_.amplitude_error), Ball::within(design_.phase_error),
+                           Ball::within(design_.frequency_error)},
+                          covariance_);
     const TriangularMetric& t = set_.setting.metric;
     const Matrix3 metric{{{t.t11, t.t12, t.t13}, {zero, t.t22, t.t23}, {zero, zero, t.t33}}};
     Ball way = design_.frequency_error;

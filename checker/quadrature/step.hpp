@@ -34,6 +34,8 @@ struct Setting {
   Ball radius, noise, slew;
   Ball rate, noise_gain, slew_gain;
   bool noisy = false, slewing = false;
+  /// What rounding may add to |T e| in a step, and to P as a share of `lower` (rounded_step.hpp).
+  Ball error_rounding, covariance_rounding;
 };
 
 /// The gains and the covariance after prediction with F(rho) and update.

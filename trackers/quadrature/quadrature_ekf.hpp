@@ -33,6 +33,12 @@
 // survives any number of steps and any size of P(0). Expanding the factors gives back (2.4), (2.6) and (2.7);
 // a test holds that against the textbook matrices.
 //
+// Rounding. What is certified of this tracker (docs/rounding.md) is certified of `step` in double precision,
+// under these conditions on the program that includes this file: + - * / round to nearest in IEEE 754 double
+// precision, so no -ffast-math and nothing that it contains, no flush-to-zero set at run time, and no excess
+// precision (x87); std::sin and std::cos are within one unit in the last place. Whether products and sums are
+// fused (-ffp-contract) does not matter.
+//
 // Assumed, not checked: r > 0, q1 >= 0, q2 > 0, 0 <= epsilon < 1, P(0) symmetric and positive semidefinite,
 // all finite.
 #pragma once
@@ -92,6 +98,7 @@ template <typename Scalar>
 [[nodiscard]] inline QuadratureEstimate<Scalar> measurement_update(
     const QuadratureEstimate<Scalar>& predicted, const Scalar& in_phase, const Scalar& quadrature,
     const ToneModel<Scalar>& design) {
+  using detail::not_negative;
   using detail::square;
   const FactoredCovariance<Scalar>& p = predicted.covariance;
   const Scalar& r = design.r;
@@ -102,7 +109,8 @@ template <typename Scalar>
   // terms.
   const Scalar w11 = p.conditional_11 + r;
   const Scalar w22 = p.conditional_22 + r;
-  const Scalar determinant_m = p.conditional_11 * p.conditional_22 - square(p.conditional_12);
+  const Scalar determinant_m =
+      not_negative(Scalar(p.conditional_11 * p.conditional_22 - square(p.conditional_12)));
   const Scalar determinant_w = determinant_m + r * (p.conditional_11 + w22);
   const Scalar inverse = Scalar(1.0) / determinant_w;
 
@@ -116,7 +124,7 @@ template <typename Scalar>
   // t = W^-1 u. The innovation informs the frequency with u'W^-1 u = u't.
   const Scalar t1 = (w22 * p.regression_1 - p.conditional_12 * p.regression_2) * inverse;
   const Scalar t2 = (w11 * p.regression_2 - p.conditional_12 * p.regression_1) * inverse;
-  const Scalar information = p.regression_1 * t1 + p.regression_2 * t2;
+  const Scalar information = not_negative(Scalar(p.regression_1 * t1 + p.regression_2 * t2));
   const Scalar variance = p.frequency_variance / (Scalar(1.0) + p.frequency_variance * information);
   const Scalar u1 = r * t1;
   const Scalar u2 = r * t2;

@@ -5,7 +5,7 @@
 // state on the start is followed to high order, and by a zonotope that holds everything else: rounding, the
 // terms beyond, intervals of the design, noise. One step of the closed loop X+ = G(X, d) takes the set
 // {p(s) + e} into
-//     {G(p(s), 0) + G_X e + G_d d},
+//     {G(p(s), 0) + G_X e + G_d d + what rounding does},
 // the first evaluated with Taylor models, the derivatives enclosed over a box that holds all states concerned
 // (mean value theorem: the segment from (p(s), 0) to (p(s) + e, d) lies in it).
 #pragma once
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "analysis/quadrature/capture/capture_target.hpp"
+#include "analysis/quadrature/rounding/step_rounding.hpp"
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/matrix.hpp"
 #include "trackers/tone_model.hpp"
@@ -37,6 +38,7 @@ struct CaptureProblem {
   double noise = 0.0;                                ///< |v(k)| <= noise, relative to the amplitude
   double slew = 0.0;                                 ///< |omega(k+1) - omega(k)| <= slew, rad/sample
   int most_samples = 400;                            ///< give up after so many
+  TrackedSignal signal = {};                         ///< for the rounding of the program
 };
 
 /// How the propagation of a box of starts ended.

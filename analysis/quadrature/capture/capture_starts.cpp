@@ -58,6 +58,7 @@ std::optional<CaptureProblem> capture_problem(const sets::ContractionQuestion& q
   problem.design = question.design;
   problem.noise = question.noise.upper();
   problem.slew = question.slew.upper();
+  problem.signal = {question.amplitude, question.largest_frequency};
   if (!question.start_covariance) {
     return std::nullopt;
   }

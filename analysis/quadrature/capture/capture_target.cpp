@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "analysis/quadrature/capture/capture_polar_image.hpp"
+#include "analysis/quadrature/rounding/set_rounding.hpp"
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
@@ -16,7 +17,7 @@ std::optional<Settled> CertifiedSetTarget::settled(const StateEnclosure& states)
   const double middle = states.center[trackers::kFrequencyError];
   const double turns = periodic_ ? std::round(middle / 6.283185307179586) : 0.0;
   const rigor::Vector<3> near(0.0, 0.0, 6.283185307179586 * turns);
-  if (!(std::fabs(turns) < 1e6) || !(metric_of_middle(set_.metric, near, states) < set_.radius)) {
+  if (!(std::fabs(turns) <= kMostTurns) || !(metric_of_middle(set_.metric, near, states) < set_.radius)) {
     return std::nullopt;
   }
   rigor::IntervalVector<3> origin;

@@ -6,8 +6,7 @@
 namespace veritrack::quadrature {
 
 /// An upper bound on |T e(k)|, sample by sample, of every start in the set with |T e(0)| <= level:
-/// |T e(k)|^2 <= kappa^(2k) level^2 + (1 - kappa^(2k)) u^2, u the ultimate level. Every function needs the
-/// upward mode.
+/// next_level of the one before, which tends to the ultimate level u. Every function needs the upward mode.
 class CertifiedLevel {
  public:
   /// For noise |v| <= `noise` (relative to the amplitude) and slew |w| <= `slew` (rad/sample per sample),
@@ -36,6 +35,7 @@ class CertifiedLevel {
   [[nodiscard]] double frequency_error_at(const rigor::Interval& level) const;
   CertifiedSet set_;
   rigor::Interval level_;
+  rigor::Interval noise_, slew_;
   rigor::Interval ultimate_;
 };
 

@@ -39,10 +39,28 @@ IntervalVector<3> error_bounds(const CertifiedSet& set, const Interval& level) {
   return bounds;
 }
 
+namespace {
+
+/// What noise and slew add to |T e|^2.
+Interval pushed(const CertifiedSet& set, const Interval& noise, const Interval& slew) {
+  return rigor::square(Interval(set.noise_gain) * noise) + rigor::square(Interval(set.slew_gain) * slew);
+}
+
+}  // namespace
+
+Interval next_level(const CertifiedSet& set, const Interval& level, const Interval& noise,
+                    const Interval& slew) {
+  return rigor::sqrt(rigor::square(Interval(set.rate) * level) + pushed(set, noise, slew)) +
+         Interval(set.error_rounding);
+}
+
 Interval ultimate_level(const CertifiedSet& set, const Interval& noise, const Interval& slew) {
-  const Interval pushed =
-      rigor::square(Interval(set.noise_gain) * noise) + rigor::square(Interval(set.slew_gain) * slew);
-  return rigor::sqrt(pushed / (Interval(1.0) - rigor::square(Interval(set.rate))));
+  // (u - rounding)^2 = rate^2 u^2 + pushed.
+  const Interval rounding(set.error_rounding);
+  const Interval rate_squared = rigor::square(Interval(set.rate));
+  const Interval left = Interval(1.0) - rate_squared;
+  return (rounding + rigor::sqrt(rate_squared * rigor::square(rounding) + left * pushed(set, noise, slew))) /
+         left;
 }
 
 }  // namespace veritrack::quadrature

@@ -12,8 +12,8 @@ namespace veritrack::quadrature {
 /// describe. Signals have amplitude 1.
 ///
 /// When verify_certified_set has certified it: starts in Omega stay in Omega for ever, for every noise |v| <=
-/// `noise` and slew |w| <= `slew`, and every step satisfies
-///     |T e+|^2 <= rate^2 |T e|^2 + noise_gain^2 |v|^2 + slew_gain^2 w^2.
+/// `noise` and slew |w| <= `slew`, and every step of the program in double precision satisfies
+///     |T e+| <= sqrt(rate^2 |T e|^2 + noise_gain^2 |v|^2 + slew_gain^2 w^2) + error_rounding.
 struct CertifiedSet {
   rigor::Matrix<3> metric;            ///< T = [[t_a, 0, 0], [0, t22, t23], [0, 0, t33]], invertible
   double radius = 0.0;                ///< R > 0
@@ -24,6 +24,10 @@ struct CertifiedSet {
   double rate = 1.0;                  ///< kappa, an upper bound
   double noise_gain = 0.0;            ///< L_v; without meaning when there is no noise
   double slew_gain = 0.0;             ///< L_w; without meaning when there is no slew
+  /// What the rounding of the program may add to |T e| in a step, and to P as a share of P_lo, up or down in
+  /// the Loewner order (docs/rounding.md).
+  double error_rounding = 0.0;
+  double covariance_rounding = 0.0;
 };
 
 /// |T e|_2 for every e in the box; empty when an operand is not finite. Needs the upward mode.
@@ -40,8 +44,13 @@ struct CertifiedSet {
 /// the upward mode.
 [[nodiscard]] rigor::IntervalVector<3> error_bounds(const CertifiedSet& set, const rigor::Interval& level);
 
-/// What |T e(k)| tends to at most, for |v| <= `noise` and |w| <= `slew`, which must not exceed those of the
-/// set: u with u^2 (1 - rate^2) = L_v^2 |v|^2 + L_w^2 w^2. Needs the upward mode.
+/// An upper bound on |T e| after a step from |T e| <= `level`, for |v| <= `noise` and |w| <= `slew`, which
+/// must not exceed those of the set. Needs the upward mode.
+[[nodiscard]] rigor::Interval next_level(const CertifiedSet& set, const rigor::Interval& level,
+                                         const rigor::Interval& noise, const rigor::Interval& slew);
+
+/// What |T e(k)| tends to at most, for such noise and slew: the u that is its own next_level. Needs the
+/// upward mode.
 [[nodiscard]] rigor::Interval ultimate_level(const CertifiedSet& set, const rigor::Interval& noise,
                                              const rigor::Interval& slew);
 

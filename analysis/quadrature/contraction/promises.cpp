@@ -20,6 +20,7 @@ Interval better(const Interval& best, const Interval& other) {
 
 Promises::Promises(const sets::ContractionQuestion& question, const std::vector<CertifiedSet>& sets)
     : settled_(question.settled_frequency_error) {
+  disturbed_ = certainly_positive(question.noise) || certainly_positive(question.slew);
   std::vector<StartBounds> others;
   for (const CertifiedSet& set : sets) {
     const StartBounds bounds(question, set);
@@ -67,7 +68,7 @@ std::optional<Promises::Settling> Promises::settling() const {
   if (settled_) {
     levels.emplace_back(*settled_);
   }
-  if (certainly_positive(ultimate_)) {
+  if (disturbed_ && certainly_positive(ultimate_)) {
     levels.emplace_back((Interval(2.0) * ultimate_).upper());
   }
   for (const Interval& level : levels) {

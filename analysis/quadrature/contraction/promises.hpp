@@ -39,6 +39,7 @@ class Promises {
 
   std::vector<StartBounds> bases_;  ///< of the sets that contain the starts
   bool starts_inside_ = false;
+  bool disturbed_ = false;  ///< by noise or slew: what rounding alone leaves, nobody waits for
   rigor::Interval ultimate_;
   std::optional<double> settled_;
   std::optional<rigor::Interval> multiples_;

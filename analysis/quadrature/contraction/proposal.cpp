@@ -84,7 +84,7 @@ std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Sh
                   is_about_a_start(objective) ? request.start_covariance : std::nullopt},
                  *steady);
   // What noise and slew leave for the contraction, with room for rounding.
-  constexpr double kRoom = 1.0 + 1e-9;
+  constexpr double kRoom = 1.0 + 1e-7;
   const double noise = set.noise_gain * set.noise / set.radius;
   const double slew = set.slew_gain * set.slew / set.radius;
   const double allowed = 1.0 - kRoom * (noise * noise + slew * slew);

@@ -71,7 +71,7 @@ void set_size(const std::optional<Verification>& found, sets::ContractionResult&
 void set_promises(const sets::ContractionQuestion& question, const Promises& promises,
                   sets::StartResult& starts) {
   set(starts.ultimate_frequency_error,
-      "u\\,|e_3' T^{-1}|,\\ u^2 = \\tfrac{L_v^2 V^2 + L_w^2 W^2}{1 - \\kappa^2}",
+      "u\\,|e_3' T^{-1}|,\\ u = \\sqrt{\\kappa^2 u^2 + L_v^2 V^2 + L_w^2 W^2} + \\varrho",
       promises.ultimate_frequency_error());
   set(starts.frequency_error_bound, "\\max(|T e(0)|, u)\\,|e_3' T^{-1}|",
       promises.starts_inside() ? promises.frequency_error_bound() : Interval(),
@@ -79,7 +79,7 @@ void set_promises(const sets::ContractionQuestion& question, const Promises& pro
   const bool undisturbed = question.noise == Interval(0.0) && question.slew == Interval(0.0);
   const std::optional<Promises::Settling> settling = promises.settling();
   const char* why_not =
-      undisturbed ? "Without noise and slew the bound in the long run is zero, which is approached but not reached."
+      undisturbed ? "Without noise and slew only rounding is left of the bound in the long run, and no settling time is computed."
                   : "No certified set gives a settling time.";
   set(starts.settling_samples, "|\\nu(k)| \\le \\nu_s \\text{ for } k \\ge k_s",
       settling ? settling->samples : Interval(), why_not);
@@ -188,7 +188,8 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& ques
   derivation.id = "contraction";
   derivation.title = "Contraction of the errors in an invariant set";
   derivation.notes = {
-      "Covers the tracker in exact arithmetic, at every frequency, for a signal of constant amplitude.",
+      "Covers the tracker in double precision (IEEE 754, round to nearest, sine and cosine within 1 ulp), at "
+      "every frequency up to pi rad/sample, for a signal of constant amplitude.",
       "Amplitude error and noise are relative to the true amplitude; the set is described in the frame of "
       "the "
       "estimated phase."};

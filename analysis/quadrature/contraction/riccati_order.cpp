@@ -30,16 +30,20 @@ rigor::LowerTriangle<3> difference(const Block& p, const Block& phi, const Inter
 
 class OrderCheck {
  public:
-  OrderCheck(const Block& lower, const Block& upper, const Design& design)
-      : lower_(lower), upper_(upper), design_(design) {}
+  OrderCheck(const Block& lower, const Block& upper, const Design& design, const Interval& room)
+      : lower_(lower),
+        upper_(upper),
+        least_(scaled(lower, Interval(1.0) + room)),
+        most_(scaled(upper, Interval(1.0) - room)),
+        design_(design) {}
 
   /// The turns by -angle mirror those by angle: with J = diag(1, -1, -1), J U(angle) J = U(-angle), and J
   /// leaves block covariances alone. So only non-negative tangents need to be looked at.
   bool keeps(const Interval& rho, const Interval& tangent, int depth) const {
     const Block low = riccati_update(lower_, rho, design_).filtered;
     const Block high = riccati_update(upper_, rho, design_).filtered;
-    if (rigor::certainly_positive_definite(difference(lower_, low, tangent, -1.0)) &&
-        rigor::certainly_positive_definite(difference(upper_, high, tangent, 1.0))) {
+    if (rigor::certainly_positive_definite(difference(least_, low, tangent, -1.0)) &&
+        rigor::certainly_positive_definite(difference(most_, high, tangent, 1.0))) {
       return true;
     }
     if (depth == 0) {
@@ -57,19 +61,24 @@ class OrderCheck {
   }
 
  private:
-  Block lower_;
-  Block upper_;
+  static Block scaled(const Block& p, const Interval& factor) {
+    return {factor * p.p11, factor * p.p22, factor * p.p23, factor * p.p33};
+  }
+
+  Block lower_, upper_;
+  Block least_, most_;  ///< between which the images must be
   Design design_;
 };
 
 }  // namespace
 
 bool certainly_keeps_covariance_between(const Block& lower, const Block& upper, const Design& design,
-                                        const std::vector<TurnBound>& turns VERITRACK_DECLARED_CALL_SITE) {
+                                        const std::vector<TurnBound>& turns,
+                                        double room VERITRACK_DECLARED_CALL_SITE) {
   VERITRACK_MUTANT_RETURNS(true)
   constexpr int kDepth = 12;
   rigor::require_upward_rounding();
-  const OrderCheck check(lower, upper, design);
+  const OrderCheck check(lower, upper, design, Interval(room));
   for (const TurnBound& turn : turns) {
     if (!check.keeps(turn.rho, Interval::from_bounds(0.0, turn.tangent), kDepth)) {
       return false;

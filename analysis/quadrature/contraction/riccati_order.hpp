@@ -62,12 +62,13 @@ struct TurnBound {
   double tangent = 0.0;
 };
 
-/// True only when P_lo <= U Phi(P_lo, rho) U' and U Phi(P_hi, rho) U' <= P_hi for every rho and every turn
-/// with |tan| <= tangent (and cosine > 0) of every element of `turns`, U = diag(Rot(angle), 1). Then, by
-/// monotonicity, P_lo <= P <= P_hi is kept by every step with such a rho and turn. Needs the upward mode.
-[[nodiscard]] bool certainly_keeps_covariance_between(
-    const BlockCovariance<rigor::Interval>& lower, const BlockCovariance<rigor::Interval>& upper,
-    const trackers::ToneModel<rigor::Interval>& design,
-    const std::vector<TurnBound>& turns VERITRACK_CALL_SITE);
+/// True only when (1 + room) P_lo <= U Phi(P_lo, rho) U' and U Phi(P_hi, rho) U' <= (1 - room) P_hi for every
+/// rho and every turn with |tan| <= tangent (and cosine > 0) of every element of `turns`, U =
+/// diag(Rot(angle), 1). Then, by monotonicity, P_lo <= P <= P_hi is kept by every step with such a rho and
+/// turn, even when something else then moves P by at most room * P_lo. Needs the upward mode.
+[[nodiscard]] bool certainly_keeps_covariance_between(const BlockCovariance<rigor::Interval>& lower,
+                                                      const BlockCovariance<rigor::Interval>& upper,
+                                                      const trackers::ToneModel<rigor::Interval>& design,
+                                                      const std::vector<TurnBound>& turns, double room = 0.0 VERITRACK_CALL_SITE);
 
 }  // namespace veritrack::quadrature

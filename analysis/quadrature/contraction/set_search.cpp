@@ -48,7 +48,8 @@ std::optional<Verification> first_that_verifies(const sets::ContractionQuestion&
     if (!proposal) {
       continue;
     }
-    Verification verification = verify_certified_set(question.design, *proposal);
+    Verification verification =
+        verify_certified_set(question.design, *proposal, {question.amplitude, question.largest_frequency});
     // A proposal is not trusted, not even to tolerate the noise and slew that it was searched for.
     const rigor::UpwardRounding upward;
     const bool tolerates_assumptions =

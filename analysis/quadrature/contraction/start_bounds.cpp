@@ -50,7 +50,7 @@ Interval StartBounds::ultimate_frequency_error() const {
 }
 
 Interval StartBounds::frequency_error_bound() const {
-  // |T e(k)|^2 <= rate^(2k) l^2 + (1 - rate^(2k)) u^2 <= max(l, u)^2.
+  // next_level does not exceed the larger of l and u, if l does not.
   const double start = contains_starts_ ? start_level_.upper() : set_.radius;
   return error_bounds(set_, Interval(std::max(start, ultimate_level_.upper())))[2];
 }
@@ -66,10 +66,15 @@ std::optional<Interval> StartBounds::samples_until(const Interval& frequency_err
   if (certainly_less_equal(start, level)) {
     return Interval(0.0);
   }
-  // rate^(2k) (l^2 - u^2) + u^2 <= level^2; l^2 - u^2 is positive, since l may exceed the level, which
-  // exceeds u.
+  // rate'^(2k) (l^2 - u^2) + u^2 <= level^2; l^2 - u^2 is positive, since l may exceed the level, which
+  // exceeds u. For l >= u a step takes l^2 - u^2 to at most rate'^2 (l^2 - u^2), where rate'^2 = rate^2 u/(u
+  // - rounding): docs/rounding.md.
   const Interval excess = rigor::square(start) - rigor::square(ultimate_level_);
-  const Interval samples = rigor::log(room / excess) / rigor::log(rigor::square(Interval(set_.rate)));
+  Interval shrinking = rigor::square(Interval(set_.rate));
+  if (set_.error_rounding > 0.0) {
+    shrinking *= ultimate_level_ / (ultimate_level_ - Interval(set_.error_rounding));
+  }
+  const Interval samples = rigor::log(room / excess) / rigor::log(shrinking);
   const double count = std::ceil(samples.upper());
   return std::isfinite(count) && certainly_positive(excess) ? std::optional(Interval(std::max(count, 0.0)))
                                                             : std::nullopt;

@@ -1,9 +1,11 @@
 #include "analysis/quadrature/contraction/verification.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "analysis/quadrature/contraction/error_contraction.hpp"
 #include "analysis/quadrature/contraction/turn_bounds.hpp"
+#include "analysis/quadrature/rounding/set_rounding.hpp"
 #include "analysis/rigor/small_definiteness.hpp"
 
 namespace veritrack::quadrature {
@@ -97,7 +99,8 @@ StepConstants<Interval> constants_of(const CertifiedSet& set) {
 
 }  // namespace
 
-Verification verify_certified_set(const Design& design, const CertifiedSet& proposal) {
+Verification verify_certified_set(const Design& design, const CertifiedSet& proposal,
+                                  const TrackedSignal& signal) {
   const rigor::UpwardRounding upward;
   Verification result;
   result.set = proposal;
@@ -117,15 +120,23 @@ Verification verify_certified_set(const Design& design, const CertifiedSet& prop
     result.reason = contraction.reason;
     return result;
   }
+  // Room for an independent verification, whose own bounds may be cruder.
+  constexpr double kRoom = 16.0;
+  const SetRounding rounding = set_rounding(design, signal, proposal);
+  result.set.error_rounding = kRoom * rounding.error;
+  result.set.covariance_rounding = kRoom * rounding.covariance;
+  if (!std::isfinite(result.set.error_rounding) || !std::isfinite(result.set.covariance_rounding)) {
+    result.reason = "the rounding of a step in double precision could not be bounded.";
+    return result;
+  }
   if (!certainly_keeps_covariance_between(setting.covariance_lower, setting.covariance_upper, design,
-                                          bound_turns(setting))) {
+                                          bound_turns(setting), result.set.covariance_rounding)) {
     result.reason = "the covariance could not be shown to stay between its bounds.";
     return result;
   }
-  const Interval reach_squared = constants.rate_squared * rigor::square(Interval(proposal.radius)) +
-                                 constants.noise_gain_squared * rigor::square(Interval(proposal.noise)) +
-                                 constants.slew_gain_squared * rigor::square(Interval(proposal.slew));
-  if (!certainly_less_equal(reach_squared, rigor::square(Interval(proposal.radius)))) {
+  const Interval radius(proposal.radius);
+  if (!certainly_less_equal(next_level(result.set, radius, Interval(proposal.noise), Interval(proposal.slew)),
+                            radius)) {
     result.reason = "noise and slew are too large for the rate of contraction.";
     return result;
   }

@@ -145,8 +145,8 @@ LeakCertificate certify_with_leak(const LeakQuestion& question) {
   derivation.id = "contraction";
   derivation.title = "Contraction in a set around the steady state of every frequency of the band";
   derivation.notes = {
-      "Covers the tracker in exact arithmetic, at every frequency of the band, for a signal of constant "
-      "amplitude.",
+      "Covers the tracker in double precision (IEEE 754, round to nearest, sine and cosine within 1 ulp), at "
+      "every frequency of the band, for a signal of constant amplitude.",
       "With a leak the tracker settles with a bias; radii are measured from that state, error bounds from "
       "the true signal. Amplitude error and noise are relative to the true amplitude."};
   const Search found = search(question, certificate);

@@ -19,7 +19,8 @@ struct SteadyContraction {
 /// What acts on the tracker.
 struct SteadyDisturbance {
   rigor::Interval noise;  ///< |v| <= noise
-  /// Upper bounds on how far the slew carries e+ - e*, in the metric, and P+ - P*, as a share of its bounds.
+  /// Upper bounds on how far slew and rounding carry e+ - e*, in the metric, and P+ - P*, as a share of its
+  /// bounds.
   rigor::Interval motion, covariance_motion;
 };
 

@@ -31,6 +31,10 @@ SteadyRequest request_of(const sets::ContractionQuestion& question, const sets::
   return request;
 }
 
+TrackedSignal signal_of(const sets::ContractionQuestion& question) {
+  return {question.amplitude, question.largest_frequency};
+}
+
 /// The largest set on a ladder of fractions that verifies; the last failure when none does.
 std::optional<SteadyVerification> largest_set(const sets::ContractionQuestion& question,
                                               const sets::LockBranch& branch, const SteadyRequest& request,
@@ -43,7 +47,7 @@ std::optional<SteadyVerification> largest_set(const sets::ContractionQuestion& q
     if (!proposal) {
       continue;
     }
-    last = verify_steady_set(question.design, branch.cells, *proposal);
+    last = verify_steady_set(question.design, branch.cells, *proposal, signal_of(question));
     // A proposal is not trusted, not even to tolerate the noise and slew that it was searched for.
     const bool tolerates_assumptions = certainly_less_equal(question.noise, Interval(last->set.noise)) &&
                                        certainly_less_equal(question.slew, Interval(last->set.slew));
@@ -89,7 +93,8 @@ std::optional<SteadySet> toughest_set(const sets::ContractionQuestion& question,
       if (!(request.*size > known)) {
         return std::nullopt;
       }
-      if (verify_steady_set(question.design, branch.cells, set).verdict == Verdict::proved) {
+      if (verify_steady_set(question.design, branch.cells, set, signal_of(question)).verdict ==
+          Verdict::proved) {
         return set;
       }
     }

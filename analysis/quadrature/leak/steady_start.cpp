@@ -60,7 +60,13 @@ SteadyStart follow_part(const sets::ContractionQuestion& question, const sets::Q
   // Beyond the boundary, which gives a smaller bound.
   constexpr double kLevel = 0.5;
   constexpr int kMostSamples = 100;
-  const CaptureProblem problem{question.design, covariance, part, set.noise, 0.0, kMostSamples};
+  const CaptureProblem problem{question.design,
+                               covariance,
+                               part,
+                               set.noise,
+                               0.0,
+                               kMostSamples,
+                               {question.amplitude, question.largest_frequency}};
   const CaptureResult found =
       follow_starts(problem, SteadySetTarget(set, cell.at(part), kLevel), assumed_starts(question));
   if (found.outcome == CaptureOutcome::locked) {

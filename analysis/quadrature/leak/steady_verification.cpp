@@ -10,6 +10,7 @@
 #include "analysis/quadrature/leak/steady_motion.hpp"
 #include "analysis/quadrature/leak/steady_rate.hpp"
 #include "analysis/quadrature/leak/steady_setting.hpp"
+#include "analysis/quadrature/rounding/steady_rounding.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/small_definiteness.hpp"
 
@@ -190,7 +191,7 @@ SteadyState<Interval> steady_state(const sets::QuadratureTube& cell, const Inter
 }
 
 SteadyVerification verify_steady_set(const Design& design, const std::vector<sets::QuadratureTube>& branch,
-                                     const SteadySet& proposal) {
+                                     const SteadySet& proposal, const TrackedSignal& signal) {
   const rigor::UpwardRounding upward;
   SteadyVerification result;
   result.set = proposal;
@@ -198,11 +199,18 @@ SteadyVerification verify_steady_set(const Design& design, const std::vector<set
   if (!result.reason.empty()) {
     return result;
   }
-  const auto motion = steady_motion(design, branch, proposal);
+  auto motion = steady_motion(design, branch, proposal);
   if (branch.empty() || !motion) {
     result.reason = "the change of the steady state with the frequency could not be enclosed.";
     return result;
   }
+  const SteadyRounding rounding = steady_rounding(design, signal, branch, proposal);
+  if (!rigor::is_finite(rounding.error) || !rigor::is_finite(rounding.covariance)) {
+    result.reason = "the rounding of a step in double precision could not be bounded.";
+    return result;
+  }
+  motion->errors += rounding.error;
+  motion->covariance += rounding.covariance;
   // In blocks, so that a failure is found early, and the same one whatever the number of threads; cells
   // spread over the band come first.
   const std::vector<std::size_t> order = spread_first(branch.size());

@@ -7,6 +7,7 @@
 
 #include "analysis/quadrature/leak/steady_gain.hpp"
 #include "analysis/quadrature/leak/steady_set.hpp"
+#include "analysis/quadrature/rounding/step_rounding.hpp"
 #include "analysis/sets/fixed_point_bias.hpp"
 
 namespace veritrack::quadrature {
@@ -29,11 +30,13 @@ struct SteadyVerification {
 ///   3. so does the covariance (steady_order.hpp), for every cell of frequencies. From the last but one level
 ///      a step maps into the last, and so it does from the last, which is a part of it.
 /// The first level that does not map into the next one and all later ones are dropped, as long as one step
-/// remains. Cells run in parallel; the result does not depend on how many threads there are. Opens its own
+/// remains. Both with what the rounding of the program in double precision may add (steady_rounding.hpp).
+/// Cells run in parallel; the result does not depend on how many threads there are. Opens its own
 /// UpwardRounding scope; never throws for odd numbers.
 [[nodiscard]] SteadyVerification verify_steady_set(const trackers::ToneModel<rigor::Interval>& design,
                                                    const std::vector<sets::QuadratureTube>& branch,
-                                                   const SteadySet& proposal);
+                                                   const SteadySet& proposal,
+                                                   const TrackedSignal& signal = {});
 
 /// The steady state over a part of a cell. Needs the upward mode.
 [[nodiscard]] SteadyState<rigor::Interval> steady_state(const sets::QuadratureTube& cell,

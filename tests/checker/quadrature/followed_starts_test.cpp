@@ -88,7 +88,9 @@ TEST_CASE("every run from a box of starts is in what is followed") {
                              Ball(c.design.epsilon),
                              between(c.frequency, c.frequency + kBand),
                              Ball(c.noise),
-                             Ball(c.slew)};
+                             Ball(c.slew),
+                             Ball(1.0),
+                             Ball(3.2)};
     checker::FollowedStarts starts(loop,
                                    {between(c.low.amplitude, c.low.amplitude + c.width.amplitude),
                                     between(c.low.phase, c.low.phase + c.width.phase),
@@ -123,7 +125,7 @@ TEST_CASE("every run from a box of starts is in what is followed") {
 
 TEST_CASE("an estimate that may be zero is not followed") {
   const Ball zero(0.0);
-  const checker::Loop loop{Ball(0.001), Ball(0.001), Ball(0.1), zero, zero, zero, zero};
+  const checker::Loop loop{Ball(0.001), Ball(0.001), Ball(0.1), zero, zero, zero, zero, Ball(1.0), Ball(3.2)};
   const checker::Matrix3 p = checker::diagonal(Ball(0.01), Ball(0.01), Ball(0.01));
   checker::FollowedStarts starts(loop, {between(-1.0, 0.0), zero, zero}, p);
   starts.step();

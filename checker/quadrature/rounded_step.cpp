@@ -1,0 +1,262 @@
+#include "checker/quadrature/rounded_step.hpp"
+
+#include <cmath>
+
+namespace veritrack::checker {
+
+namespace {
+
+/// Unit roundoff; underflow in a unit of length between 2^-60 and 2^60, of quantities that scale like its 8th
+/// power at most, which must not exceed this size in it.
+const Ball& unit_roundoff() {
+  static const Ball value(0x1p-53);
+  return value;
+}
+const Ball& underflow() {
+  static const Ball value(0x1p-595);
+  return value;
+}
+const Ball& largest_size() {
+  static const Ball value(0x1p540);
+  return value;
+}
+
+/// A bound on the size of an exact value, and on what the program's value differs from it.
+struct Value {
+  Ball size, error;
+
+  /// Its exact value is known to be at most this.
+  [[nodiscard]] Value within(const Ball& known) const { return {min(size, known).upper(), error}; }
+};
+
+/// Something that the program holds exactly.
+Value held(const Ball& size) {
+  return {size.upper(), zero};
+}
+
+/// An operation whose exact result, of exact operands, is within `size`, and of computed ones within `error`
+/// of that.
+Value rounded(const Ball& size, const Ball& error) {
+  const Ball largest = (size + error).upper();
+  if (!certainly_at_most(largest, largest_size())) {
+    return {Ball::everything(), Ball::everything()};
+  }
+  return {size.upper(), (error + unit_roundoff() * largest + underflow()).upper()};
+}
+
+/// Sums and differences.
+Value sum(const Value& x, const Value& y) {
+  return rounded(x.size + y.size, x.error + y.error);
+}
+Value product(const Value& x, const Value& y) {
+  return rounded(x.size * y.size, x.size * y.error + x.error * y.size + x.error * y.error);
+}
+/// x/y, of which |y| >= least and |x/y| <= size are known.
+Value quotient(const Value& x, const Value& y, const Ball& least, const Ball& size) {
+  const Ball divisor = (least - y.error).lower();
+  if (!certainly_positive(divisor)) {
+    return {Ball::everything(), Ball::everything()};
+  }
+  return rounded(size, (x.error + size * y.error) / divisor);
+}
+
+Ball length(const Ball& x, const Ball& y) {
+  return sqrt(square(x) + square(y));
+}
+
+/// What the program computes of a covariance: the entries of M on and beside the diagonal, a component of u,
+/// d.
+struct Factors {
+  Value diagonal, beside, u, d;
+};
+
+/// detail::predicted_in_own_frame, with bounds on the eigenvalues of M and on |u|.
+struct Predicted {
+  Factors p;
+  Ball least_m, most_m, u;
+  Value frequency;
+};
+
+Predicted predict(const Filter& f, const Held& before) {
+  const Ball kept = one - f.epsilon;
+  const Value retention = rounded(kept, zero);
+  const Value d = held(before.most_d);
+  const Ball h_size = before.u + before.z;
+  const Value h = rounded(h_size, zero);
+  const Value variance =
+      sum(product(product(retention, retention), d), held(f.q2)).within(square(kept) * before.most_d + f.q2);
+  // d / (kept^2 d + q2) grows with d.
+  const Value fraction = quotient(d, variance, square(kept) * before.least_d + f.q2,
+                                  before.most_d / (square(kept) * before.most_d + f.q2));
+  const Value regression = product(retention, fraction);
+  const Value remaining = product(held(f.q2), fraction);
+  const Ball most_m = (before.most_m + f.q1 + remaining.size * square(h_size)).upper();
+  Predicted result;
+  result.least_m = (before.least_m + f.q1).lower();
+  result.most_m = most_m;
+  result.u = (regression.size * h_size).upper();
+  result.p.diagonal =
+      sum(sum(held(before.most_m), held(f.q1)), product(remaining, product(h, h))).within(most_m);
+  result.p.beside = sum(held(half * before.most_m), product(product(remaining, h), h)).within(half * most_m);
+  result.p.u = product(regression, h).within(result.u);
+  result.p.d = variance;
+  result.frequency = product(retention, held(before.frequency));
+  return result;
+}
+
+/// measurement_update: a component of z, the frequency, and the factors.
+struct Updated {
+  Value z, frequency;
+  Factors p;
+};
+
+Updated update(const Filter& f, const Predicted& before, const Held& start, const Value& innovation) {
+  const auto& [diagonal, beside, u, d] = before.p;
+  const Value r = held(f.r);
+  const Ball least_w = before.least_m + f.r;
+  const Value w = sum(diagonal, r);
+  const Value determinant_m =
+      sum(product(diagonal, diagonal), product(beside, beside)).within(square(before.most_m));
+  const Value determinant_w =
+      sum(determinant_m, product(r, sum(diagonal, w))).within(square(before.most_m + f.r));
+  const Value inverse = quotient(held(one), determinant_w, square(least_w), one / square(least_w));
+  const Value scaled = product(r, inverse);
+  const Value isotropic = product(determinant_m, inverse).within(one);
+  // The gain is between 0 and I.
+  const Value gain = sum(isotropic, product(scaled, diagonal)).within(one);
+  const Value gain_beside = product(scaled, beside).within(half);
+  const Ball t_size = before.u / least_w;
+  const Value t =
+      product(sum(product(w, u), product(beside, u)).within((before.most_m + f.r) * before.u), inverse)
+          .within(t_size);
+  const Value information = sum(product(u, t), product(u, t)).within(before.u * t_size);
+  const Value variance = quotient(d, sum(held(one), product(d, information)), one, d.size);
+  const Value regression = product(r, t).within(before.u);
+  // d |u' W^-1 i| / (1 + d u' W^-1 u) <= sqrt(d / least W) |i| / 2.
+  const Value correction = product(variance, sum(product(t, innovation), product(t, innovation)))
+                               .within(half * sqrt(d.size / least_w) * innovation.size);
+  Updated result;
+  result.z = sum(sum(sum(held(start.z), product(gain, innovation)), product(gain_beside, innovation)),
+                 product(regression, correction));
+  result.frequency = sum(before.frequency, correction);
+  result.p = {product(r, gain), product(r, gain_beside), regression, variance};
+  return result;
+}
+
+/// turned: the sine and the cosine are within one unit in the last place, which is at most 2^-52.
+const Value& turn_factor() {
+  static const Value value{one, Ball(0x1p-52)};
+  return value;
+}
+Value turned_component(const Value& x) {
+  return sum(product(x, turn_factor()), product(x, turn_factor()));
+}
+
+/// The errors of the entries of M after the turn, on and beside the diagonal.
+std::pair<Ball, Ball> turned_block(const Value& diagonal, const Value& beside) {
+  const Value& s = turn_factor();
+  const Value sine_twice = product(sum(s, s), s).within(one);
+  const Value cosine_twice = sum(held(one), sum(product(s, s), product(s, s))).within(one);
+  const Value mean = product(held(half), sum(diagonal, diagonal)).within(diagonal.size);
+  const Value half_difference = product(held(half), sum(diagonal, diagonal)).within(half * diagonal.size);
+  const Value moved = sum(product(half_difference, cosine_twice), product(beside, sine_twice));
+  return {sum(mean, moved).error,
+          sum(product(half_difference, sine_twice), product(beside, cosine_twice)).error};
+}
+
+}  // namespace
+
+void add_covariance(const Matrix3& lower, const Matrix3& upper, Held& held) {
+  constexpr int kPieces = 8;
+  const auto room = [&](std::size_t i) { return root_of_non_negative(upper[i][i] - lower[i][i]).upper(); };
+  const auto complement = [](const Matrix3& p, std::size_t i, std::size_t j) {
+    return p[i][j] - p[i][2] * p[j][2] / p[2][2];
+  };
+  // P_zz - P_z3 P_z3' / P_33 is monotone in the Loewner order.
+  held.least_m = max(min(complement(lower, 0, 0), complement(lower, 1, 1)).lower() -
+                         abs(complement(lower, 0, 1)).upper(),
+                     zero)
+                     .lower();
+  held.most_m =
+      (max(complement(upper, 0, 0), complement(upper, 1, 1)) + abs(complement(upper, 0, 1))).upper();
+  held.least_d = lower[2][2].lower();
+  held.most_d = upper[2][2].upper();
+  // |(P - lower)_i3|^2 <= (P - lower)_ii (P - lower)_33, and so for upper - P, in pieces of the range of d.
+  held.u = certainly_positive(held.least_d) ? zero : Ball::everything();
+  for (int k = 0; k < kPieces; ++k) {
+    const Ball width = held.most_d - held.least_d;
+    const Ball from = (held.least_d + Ball(k) / Ball(kPieces) * width).lower();
+    const Ball to = (held.least_d + Ball(k + 1) / Ball(kPieces) * width).upper();
+    std::array<Ball, 2> most;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Ball by_lower = abs(lower[i][2]) + room(i) * root_of_non_negative(to - lower[2][2]);
+      const Ball by_upper = abs(upper[i][2]) + room(i) * root_of_non_negative(upper[2][2] - from);
+      most[i] = min(by_lower.upper(), by_upper.upper());
+    }
+    held.u = max(held.u, length(most[0], most[1]) / from).upper();
+  }
+}
+
+Rounding rounded_step(const Filter& filter, const Held& before) {
+  const Ball nothing = Ball::everything();
+  const bool in_range = certainly_at_most(Ball(0x1p-60), filter.amplitude) &&
+                        certainly_at_most(filter.amplitude, Ball(0x1p60)) && certainly_positive(filter.r) &&
+                        certainly_positive(filter.q2) && certainly_not_negative(filter.q1) &&
+                        certainly_not_negative(filter.epsilon) && certainly_less(filter.epsilon, one) &&
+                        certainly_positive(before.least_d) && before.most_m.finite() && before.u.finite();
+  if (!in_range) {
+    return {nothing, nothing, nothing, nothing, nothing};
+  }
+  const Value measured = turned_component(held(before.measurement)).within(before.measurement);
+  const Value innovation = sum(measured, held(before.z));
+  const Predicted predicted = predict(filter, before);
+  const Updated updated = update(filter, predicted, before, innovation);
+  const Value z = turned_component(updated.z);
+  const Value u = turned_component(updated.p.u);
+  const auto [on, beside] = turned_block(updated.p.diagonal, updated.p.beside);
+  const Ball u_error = length(u.error, u.error);
+  const Ball u_computed = predicted.u + u_error;
+  const Value& d = updated.p.d;
+  return {length(z.error, z.error).upper(), updated.frequency.error.upper(),
+          (two * length(on, beside) + d.error * square(u_computed) +
+           d.size * u_error * (predicted.u + u_computed))
+              .upper(),
+          (d.error * u_computed + d.size * u_error).upper(), d.error.upper()};
+}
+
+PolarRounding polar_rounding(const Rounding& rounding, const Ball& least_z, const Ball& most_zz,
+                             const Ball& most_33) {
+  // A turn by the angle a moves a 2x2 block by at most 2 a times its norm, a vector by a times its length.
+  const Ball turn = arcsine(rounding.z / least_z).upper();
+  const Ball most_z3 = sqrt(most_zz * most_33);
+  return {rounding.z,
+          turn,
+          rounding.frequency,
+          (rounding.p_zz + two * turn * (most_zz + rounding.p_zz)).upper(),
+          (rounding.p_z3 + turn * (most_z3 + rounding.p_z3)).upper(),
+          rounding.p_33};
+}
+
+Ball rounding_share(const Matrix3& p, const PolarRounding& rounding) {
+  // 2 |x_z| |x_3| <= s |x_z|^2 + |x_3|^2 / s for every s.
+  const Ball s(std::sqrt(std::fmax(p[0][0].near(), p[1][1].near()) / p[2][2].near()));
+  const Ball of_z = rounding.p_zz + s * rounding.p_z3;
+  const Ball of_d = rounding.p_33 + rounding.p_z3 / s;
+  constexpr int kLeast = -52;
+  constexpr int kMost = -8;
+  for (int k = kLeast; k <= kMost; ++k) {
+    const Ball share(std::ldexp(1.0, k));
+    Matrix3 rest = p;
+    for (auto& row : rest) {
+      for (Ball& entry : row) {
+        entry = share * entry;
+      }
+    }
+    if (definite(rest - diagonal(of_z, of_z, of_d))) {
+      return share;
+    }
+  }
+  return Ball::everything();
+}
+
+}  // namespace veritrack::checker

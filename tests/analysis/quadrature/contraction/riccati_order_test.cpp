@@ -92,6 +92,7 @@ TEST_CASE("covariance bounds are called invariant only when no sampled turn leav
     };
     const double radius = random.uniform(0.0, 0.2);
     const double tangent = random.uniform(0.0, 0.3);
+    const double room = random.below(2) == 0 ? 0.0 : random.uniform(0.0, 0.2);
     double worst = 1.0;
     for (int i = 0; i <= 10; ++i) {
       for (int j = 0; j <= 10; ++j) {
@@ -101,15 +102,15 @@ TEST_CASE("covariance bounds are called invariant only when no sampled turn leav
         u.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();
         const Eigen::Matrix3d low = u * textbook_update(matrix(scaled(down)), rho, design) * u.transpose();
         const Eigen::Matrix3d high = u * textbook_update(matrix(scaled(up)), rho, design) * u.transpose();
-        worst = std::min({worst, smallest_eigenvalue(low - matrix(scaled(down))),
-                          smallest_eigenvalue(matrix(scaled(up)) - high)});
+        worst = std::min({worst, smallest_eigenvalue(low - matrix(scaled((1.0 + room) * down))),
+                          smallest_eigenvalue(matrix(scaled((1.0 - room) * up)) - high)});
       }
     }
     const rigor::UpwardRounding upward;
     const bool kept = certainly_keeps_covariance_between(
         exact(scaled(down)), exact(scaled(up)),
         {Interval(design.q1), Interval(design.q2), Interval(design.r), Interval(0.0)},
-        {{Interval::from_bounds(1.0 - radius, 1.0 + radius), tangent}});
+        {{Interval::from_bounds(1.0 - radius, 1.0 + radius), tangent}}, room);
     if (worst < -1e-12) {
       ++refuted;
       CHECK_FALSE(kept);

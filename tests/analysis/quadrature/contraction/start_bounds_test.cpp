@@ -35,11 +35,13 @@ sets::ContractionQuestion some_question(double size) {
   return question;
 }
 
-TEST_CASE("bounds and settling are those of the recursion for |T e|^2") {
+TEST_CASE("bounds and settling are those of the recursion for |T e|, with and without rounding") {
   test::Random random(91);
   for (int k = 0; k < 300; ++k) {
     CertifiedSet set = some_set();
     set.rate = random.uniform(0.3, 0.99);
+    const bool rounds = k % 2 == 1;
+    set.error_rounding = rounds ? random.uniform(0.0, 1e-3) : 0.0;
     const sets::ContractionQuestion question = some_question(random.uniform(0.0, 0.15));
     const double factor = random.uniform(1.05, 3.0);
     const rigor::UpwardRounding upward;
@@ -56,10 +58,10 @@ TEST_CASE("bounds and settling are those of the recursion for |T e|^2") {
       if (step >= samples->upper()) {
         CHECK(level / 4.0 <= settled.upper() * (1.0 + 1e-9));
       }
-      if (step + 1 == static_cast<int>(samples->upper())) {
+      if (!rounds && step + 1 == static_cast<int>(samples->upper())) {
         CHECK(level / 4.0 >= settled.lower() * (1.0 - 1e-9));  // not a sample too many
       }
-      level = std::sqrt(set.rate * set.rate * level * level + pushed);
+      level = std::sqrt(set.rate * set.rate * level * level + pushed) + set.error_rounding;
       largest = std::max(largest, level);
     }
     CHECK(level / 4.0 == doctest::Approx(bounds.ultimate_frequency_error().upper()).epsilon(1e-6));
@@ -67,6 +69,17 @@ TEST_CASE("bounds and settling are those of the recursion for |T e|^2") {
     CHECK(largest / 4.0 >= bounds.frequency_error_bound().upper() * (1.0 - 1e-6));
     CHECK_FALSE(bounds.samples_until(Interval(0.99) * bounds.ultimate_frequency_error()).has_value());
   }
+}
+
+TEST_CASE("without noise and slew rounding alone is left, and the level after a step has room for it") {
+  const rigor::UpwardRounding upward;
+  CertifiedSet set = some_set();
+  set.error_rounding = 1e-12;
+  const Interval none(0.0);
+  CHECK(ultimate_level(set, none, none).lower() >= 0.999e-11);  // 1e-12 / (1 - 0.9)
+  CHECK(ultimate_level(set, none, none).upper() <= 1.001e-11);
+  CHECK(next_level(set, Interval(0.5), none, none).lower() > 0.45 + 0.99e-12);
+  CHECK(next_level(set, Interval(0.5), none, none).upper() < 0.45 + 1.01e-12);
 }
 
 TEST_CASE("starts outside are not inside, nor those with another covariance or without numbers") {

@@ -54,10 +54,11 @@ inline quadrature::StateDifference difference_of(const Twins& twins) {
       static_cast<double>(std::hypot(d(0, 2), d(1, 2))), static_cast<double>(std::fabs(d(2, 2)))};
 }
 
-/// The largest of the five ratios.
-inline double share(const quadrature::StateDifference& found, const quadrature::StateDifference& bound) {
-  return std::max({found.z / bound.z, found.frequency / bound.frequency, found.p_zz / bound.p_zz,
-                   found.p_z3 / bound.p_z3, found.p_33 / bound.p_33});
+/// The five ratios.
+inline quadrature::StateDifference shares(const quadrature::StateDifference& found,
+                                          const quadrature::StateDifference& bound) {
+  return {found.z / bound.z, found.frequency / bound.frequency, found.p_zz / bound.p_zz,
+          found.p_z3 / bound.p_z3, found.p_33 / bound.p_33};
 }
 
 /// diag(Rot(angle), 1).

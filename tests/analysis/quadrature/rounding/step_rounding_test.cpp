@@ -16,9 +16,10 @@ trackers::ToneModel<Interval> exact(const trackers::ToneModel<double>& d) {
   return {Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(d.epsilon)};
 }
 
-/// The largest share of the bound that random states of a random box reach, as (share, bound is finite).
+/// The largest shares of the bounds that random states of a random box reach, and whether the bounds are
+/// finite.
 struct Trial {
-  double share = 0.0;
+  StateDifference share;
   bool bounded = false;
 };
 Trial trial(Random& random, double spread, double amplitude) {
@@ -56,7 +57,7 @@ Trial trial(Random& random, double spread, double amplitude) {
     found.z /= amplitude;
     found.p_zz /= amplitude * amplitude;
     found.p_z3 /= amplitude;
-    result.share = std::max(result.share, share(found, bound));
+    result.share = larger(result.share, shares(found, bound));
   }
   return result;
 }
@@ -67,20 +68,23 @@ TEST_CASE("no step in double differs from its long double twin by more than the 
   Random random(7110);
   for (const double amplitude : {1.0, 0x1p-30, 3e7}) {
     for (const double spread : {1e-6, 0.1, 1.0}) {
-      double largest = 0.0;
+      StateDifference largest;
       std::int64_t bounded = 0;
       const std::int64_t trials = effort(12);
       for (std::int64_t i = 0; i < trials; ++i) {
         const Trial one = trial(random, spread, amplitude);
         bounded += one.bounded ? 1 : 0;
-        largest = std::max(largest, one.share);
+        largest = larger(largest, one.share);
       }
-      MESSAGE("spread " << spread << ", amplitude " << amplitude << ": share " << largest << ", bounded "
-                        << bounded);
-      CHECK(largest <= 1.0);
+      MESSAGE("spread " << spread << ", amplitude " << amplitude << ": shares z " << largest.z
+                        << ", frequency " << largest.frequency << ", P_zz " << largest.p_zz << ", P_z3 "
+                        << largest.p_z3 << ", P_33 " << largest.p_33);
       CHECK(bounded == trials);
-      // A bound that leaves out an operation would still have room if it were much larger than what happens.
-      CHECK(largest >= (spread < 0.01 ? 0.02 : 1e-5));
+      for (const double share : {largest.z, largest.frequency, largest.p_zz, largest.p_z3, largest.p_33}) {
+        CHECK(share <= 1.0);
+        // A bound much larger than what happens would hide that an operation has been left out.
+        CHECK(share >= (spread < 0.01 ? 0.01 : 1e-4));
+      }
     }
   }
 }

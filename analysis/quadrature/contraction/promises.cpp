@@ -51,6 +51,7 @@ Interval Promises::frequency_error_bound() const {
 
 Interval Promises::settling_samples() const {
   Interval samples;
+  // cannot bind (ultimate_): where it may be zero, samples_until finds no room above it.
   if (certainly_positive(ultimate_)) {
     for (const StartBounds& base : bases_) {
       samples = better(samples, base.samples_until(Interval(2.0) * ultimate_).value_or(Interval()));

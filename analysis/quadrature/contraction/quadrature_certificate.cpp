@@ -31,6 +31,7 @@ Condition start_in_set(const sets::ContractionQuestion& question, const Certifie
                       Interval(level.upper()),
                       radius,
                       {}};
+  // cannot bind (level): it chooses words, next to a verdict that was reached without it.
   condition.reason =
       starts_inside ? "every assumed start lies in a certified set."
       : certainly_less_equal(level, radius)
@@ -74,6 +75,7 @@ void set_promises(const Promises& promises, sets::StartResult& starts) {
   set(starts.frequency_error_bound, "\\max(|T e(0)|, u)\\,|e_3' T^{-1}|",
       promises.starts_inside() ? promises.frequency_error_bound() : Interval(),
       "The assumed starts are not in a certified set.");
+  // cannot bind (promises.ultimate_frequency_error()): it chooses words.
   const bool settles = certainly_positive(promises.ultimate_frequency_error());
   set(starts.settling_samples, "|\\nu(k)| \\le 2\\nu_\\infty \\text{ for } k \\ge k_s",
       promises.settling_samples(),
@@ -160,6 +162,8 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
     return;
   }
   certificate.bound_set = find_set(question, Objective::frequency_bound);
+  // cannot bind (question.noise, question.slew): without either the searches that follow find nothing to
+  // improve.
   const bool disturbed = certainly_positive(question.noise) || certainly_positive(question.slew);
   if (!disturbed) {
     return;
@@ -186,6 +190,7 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& ques
       "the "
       "estimated phase."};
   const bool without_leak = question.design.without_leak();
+  // cannot bind (question.design.q1): nothing is proposed for q1 = 0, where there is no steady covariance.
   if (without_leak && certainly_positive(question.design.q1) && sets::is_well_posed(question)) {
     find_sets(question, certificate);
   }

@@ -69,6 +69,7 @@ std::optional<Interval> StartBounds::samples_until(const Interval& frequency_err
   const Interval excess = rigor::square(start) - rigor::square(ultimate_level_);
   const Interval samples = rigor::log(room / excess) / rigor::log(rigor::square(Interval(set_.rate)));
   const double count = std::ceil(samples.upper());
+  // cannot bind (excess): the start is above the lower end of the level, and all of the level above u.
   return std::isfinite(count) && certainly_positive(excess) ? std::optional(Interval(std::max(count, 0.0)))
                                                             : std::nullopt;
 }

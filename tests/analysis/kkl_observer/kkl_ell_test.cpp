@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "analysis/kkl_observer/kkl_excitation_ratio.hpp"
 #include "tests/support/random.hpp"
@@ -99,6 +100,40 @@ TEST_CASE("the three values agree, and what lies outside is called a failure") {
   for (const auto& condition : derivation.conditions) {
     CAPTURE(condition.id);
     CHECK(condition.verdict == Verdict::proved);
+  }
+}
+
+TEST_CASE("an enclosure that is none decides nothing, and solvers are judged by the enclosure") {
+  const auto over = range({1.0, 2.0, 3.0, 4.0}, 1.0, 5.0);
+  auto minimum = enclose_ell(over);
+  const auto verdict_of = [&](const std::string& id) {
+    const auto derivation = derive_kkl_ell(over, minimum);
+    for (const auto& condition : derivation.conditions) {
+      if (condition.id == id) {
+        return condition.verdict;
+      }
+    }
+    FAIL("no condition " << id);
+    return Verdict::undecided;
+  };
+  SUBCASE("below zero: its width, relative to itself, is negative") {
+    minimum.lower = -2.0;
+    minimum.upper = -1.0;
+    CHECK(verdict_of("enclosed") == Verdict::undecided);
+    CHECK(verdict_of("positive") == Verdict::refuted);
+  }
+  SUBCASE("around zero") {
+    minimum.lower = -1e-12;
+    minimum.upper = 1e-3;
+    CHECK(verdict_of("enclosed") == Verdict::undecided);
+    CHECK(verdict_of("positive") == Verdict::undecided);
+  }
+  SUBCASE("elsewhere") {
+    minimum.lower *= 1.001;
+    minimum.upper *= 1.001;
+    for (const char* solver : {"ipopt", "nlopt", "nlopt-global"}) {
+      CHECK(verdict_of(solver) == Verdict::refuted);
+    }
   }
 }
 

@@ -19,7 +19,10 @@ struct Position {
 
 /// A number of a design file.
 struct Number {
-  rigor::Interval value;  ///< the tightest interval that holds the decimal and the double nearest to it
+  /// Holds the decimal and the double nearest to it, with a unit in the last place around `tight`, where that
+  /// is not a point, so that another arithmetic finds in every result what it needs.
+  rigor::Interval value;
+  rigor::Interval tight;  ///< the tightest interval that holds both
   double nearest = 0.0;   ///< the double nearest to the decimal: what the filter runs with
   std::string text;       ///< as written in the file
   Position position;

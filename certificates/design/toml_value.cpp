@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <system_error>
@@ -16,6 +17,15 @@ namespace veritrack::certificates {
 namespace {
 
 constexpr std::size_t kShownLimit = 60;  // bytes of a value that are worth showing
+
+/// A unit in the last place more on both sides, where it is not a point.
+rigor::Interval with_room(const rigor::Interval& tight) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double lower = std::nextafter(tight.lower(), -kInfinity);
+  const double upper = std::nextafter(tight.upper(), kInfinity);
+  const bool has_room = tight.lower() < tight.upper() && std::isfinite(lower) && std::isfinite(upper);
+  return has_room ? rigor::Interval::from_bounds(lower, upper) : tight;
+}
 
 /// The double nearest to a decimal that parse_decimal has accepted.
 double nearest_double(std::string_view decimal) {
@@ -92,7 +102,8 @@ Number TomlValue::real(RealPredicate is_allowed) const {
   std::erase(decimal, '_');
   const std::string shown = printable(number.text, kShownLimit);
   try {
-    number.value = rigor::parse_decimal(decimal);
+    number.tight = rigor::parse_decimal(decimal);
+    number.value = with_room(number.tight);
   } catch (const rigor::NumberFormatError&) {
     refuse(shown + ", not a decimal number in the range of double precision");
   }
@@ -100,12 +111,12 @@ Number TomlValue::real(RealPredicate is_allowed) const {
   // The text was cut out by position: it must be the number that the parser saw there.
   const double parsed = node_->is_integer() ? nearest_double(std::to_string(node_->as_integer()->get()))
                                             : node_->as_floating_point()->get();
-  if (parsed != number.nearest || !rigor::contains(number.value, number.nearest)) {
+  if (parsed != number.nearest || !rigor::contains(number.tight, number.nearest)) {
     refuse(shown + ", which two readers understand differently");
   }
-  if (!is_allowed(number.value)) {
-    const bool is_borderline = is_allowed(rigor::Interval(number.value.lower())) ||
-                               is_allowed(rigor::Interval(number.value.upper()));
+  if (!is_allowed(number.tight)) {
+    const bool is_borderline = is_allowed(rigor::Interval(number.tight.lower())) ||
+                               is_allowed(rigor::Interval(number.tight.upper()));
     refuse(is_borderline ? shown + ", too close to the limit to decide in double precision" : shown);
   }
   return number;

@@ -1,8 +1,6 @@
 #include "certificates/document/json.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/number_json.hpp"
@@ -16,18 +14,9 @@ namespace {
 using rigor::Verdict;
 using theorems::Sense;
 
-/// A unit in the last place outward, so that another arithmetic, whose intervals end elsewhere, agrees.
-rigor::Interval widened(const rigor::Interval& value) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return rigor::Interval::from_bounds(std::nextafter(value.lower(), -kInfinity),
-                                      std::nextafter(value.upper(), kInfinity));
-}
-
 /// What is said of a value: lo, hi, or both.
 Json value_json(const rigor::Interval& value, Sense sense) {
-  const bool is_exact = sense == Sense::equal || value.lower() == value.upper();
-  Json json = enclosure_json(
-      is_exact && sense != Sense::at_most && sense != Sense::at_least ? value : widened(value));
+  Json json = enclosure_json(value);
   if (sense == Sense::at_most) {
     json.erase("lo");
   } else if (sense == Sense::at_least) {

@@ -14,7 +14,7 @@ Json readable_enclosure_json(const rigor::Interval& value) {
 
 Json number_json(const Number& number) {
   Json json{{"text", number.text}};
-  json.update(enclosure_json(number.value));
+  json.update(enclosure_json(number.tight));
   return json;
 }
 

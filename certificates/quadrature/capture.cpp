@@ -11,6 +11,7 @@
 #include "certificates/quadrature/guarantee.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/quadrature/region.hpp"
+#include "certificates/sets/guarantee_sentence.hpp"
 
 namespace veritrack::certificates {
 
@@ -39,9 +40,8 @@ Claim claim_of(const StartCapture& capture, const StartCovarianceText& covarianc
   Claim claim;
   claim.id = std::move(id);
   claim.statement = fmt::format(
-      "In exact arithmetic, from every assumed start {}, {}, the tracker enters the certified set, which "
-      "it never leaves.",
-      covariance_words(covariance, capture.result.covariance_multiples), disturbance);
+      "{}, from every assumed start {}, {}, the tracker enters the certified set, which it never leaves.",
+      kDoublePrecision, covariance_words(covariance, capture.result.covariance_multiples), disturbance);
   claim.verdict = capture.result.verdict;
   for (const theorems::Condition& condition : capture.result.conditions) {
     if (condition.verdict == claim.verdict) {

@@ -120,8 +120,12 @@ void certify_quadrature(Certificate& certificate, const CertifyProgress& progres
   add_contraction(certificate);
   add_capture(certificate, progress);
   add_comparison(certificate);
-  const GuaranteeTerms terms{tables.assume, tables.require, !tables.design.without_leak(), true,
-                             start_covariance_words(certificate)};
+  const GuaranteeTerms terms{tables.assume,
+                             tables.require,
+                             !tables.design.without_leak(),
+                             true,
+                             start_covariance_words(certificate),
+                             kDoublePrecision};
   add_required_claims(certificate, terms);
   certificate.claims.push_back(guarantee_claim(certificate, terms));
   for (Claim& claim : set_claims(certificate, terms)) {

@@ -28,13 +28,13 @@ sets::ContractionQuestion contraction_question(const trackers::ToneModel<Interva
   const Interval& amplitude = assume.amplitude.value;
   sets::ContractionQuestion question;
   question.design = model;
-  // A little more than is assumed, so that another arithmetic finds it tolerated, too.
+  // A little more than is assumed, so that another arithmetic finds it covered, too.
   const Interval margin = Interval::from_bounds(1.0, 1.0 + 0x1p-48);
   question.noise = assume.noise.value / amplitude * margin;
   question.slew = assume.slew.value * margin;
-  question.initial_amplitude_error = assume.initial_amplitude_error.value / amplitude;
-  question.initial_phase_error = assume.initial_phase_error.value;
-  question.initial_frequency_error = assume.initial_frequency_error.value;
+  question.initial_amplitude_error = assume.initial_amplitude_error.value / amplitude * margin;
+  question.initial_phase_error = assume.initial_phase_error.value * margin;
+  question.initial_frequency_error = assume.initial_frequency_error.value * margin;
   if (const auto given = covariance_at_unit_amplitude(assume)) {
     question.start_covariance = sets::StartCovariance{*given, Interval(1.0), true};
   }

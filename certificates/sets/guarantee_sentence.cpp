@@ -58,7 +58,8 @@ std::string objection(const sets::StartResult& starts) {
 
 std::string tone(const GuaranteeTerms& terms, bool disturbed) {
   const Assumptions& assume = terms.assume;
-  std::string text = "In exact arithmetic, for a tone of constant amplitude " + assume.amplitude.text;
+  std::string text =
+      fmt::format("{}, for a tone of constant amplitude {}", terms.arithmetic, assume.amplitude.text);
   if (disturbed) {
     text += is_zero(assume.slew) ? " at a constant frequency"
                                  : fmt::format(" whose frequency changes by at most {} rad/sample per sample",

@@ -2,12 +2,18 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "certificates/document/certificate.hpp"
 #include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
+
+/// What a statement is about: the recursion over the reals, or the program (docs/rounding.md).
+inline constexpr std::string_view kExactArithmetic = "In exact arithmetic";
+inline constexpr std::string_view kDoublePrecision =
+    "In double precision (IEEE 754, rounding to nearest, sine and cosine within one unit in the last place)";
 
 /// What the guarantee of an extended Kalman filter is about.
 struct GuaranteeTerms {
@@ -16,6 +22,7 @@ struct GuaranteeTerms {
   bool in_band = false;      ///< only for frequencies of the assumed band
   bool two_channels = true;  ///< the noise is a vector in the plane
   std::string covariance;    ///< "and with P(0|0) ...": for which start covariances
+  std::string_view arithmetic = kExactArithmetic;
 };
 
 /// "In exact arithmetic, for a tone of constant amplitude 1 ...", with the assumed noise and slew if

@@ -126,7 +126,8 @@ Claim least_size_claim(const LeastSize& size, const GuaranteeTerms& terms, const
 }  // namespace
 
 void add_required_claims(Certificate& certificate, const GuaranteeTerms& terms) {
-  const auto& [assume, require, in_band, two_channels, covariance] = terms;
+  const Assumptions& assume = terms.assume;
+  const Requirements& require = terms.require;
   const sets::ContractionResult& found = certificate.contraction.value();
   const auto add_least_size = [&](const std::optional<Number>& required, const LeastSize& size) {
     if (required) {

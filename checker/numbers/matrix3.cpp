@@ -20,6 +20,7 @@ Matrix3 each(const Function& entry) {
 /// acos; of a ball that reaches beyond +-1, of what lies between.
 Ball angle_of(const Ball& cosine) {
   const Ball sine = root_of_non_negative(one - square(cosine));
+  // cannot bind (-cosine): both ways are right for every angle; each is sharp for half of them.
   const bool obtuse = certainly_positive(-cosine);
   Ball z;
   arb_atan2(z.raw(), sine.raw(), (obtuse ? -cosine : cosine).raw(), precision());

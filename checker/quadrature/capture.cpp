@@ -250,8 +250,8 @@ Claim check_capture_claim(const Tree& claimed, const std::map<std::string, Captu
                   " rad/sample per sample";
     verdict = found.verdict;
   }
-  Claim claim{"In exact arithmetic, from every assumed start " + found.covariance + ", " + disturbance +
-                  ", the tracker enters the certified set, which it never leaves.",
+  Claim claim{std::string(kDoublePrecision) + ", from every assumed start " + found.covariance + ", " +
+                  disturbance + ", the tracker enters the certified set, which it never leaves.",
               verdict, found.quantities};
   check_claim(claimed, claim, objections);
   return claim;

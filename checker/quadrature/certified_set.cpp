@@ -171,6 +171,8 @@ CertifiedSet check_set(const Tree& tree, const Design& design, std::int64_t& cel
   const auto [setting, has_form] = read_setting(tree, design);
   set.setting = setting;
   bound_rounding(set.setting, design);
+  // cannot bind (design.q2, design.r): (b) is false without them. The lower bound grows in p33 by less than
+  // q2, and for r <= 0 a variance p is not between the bounds after p r / (p + r).
   const bool applies = design.without_leak() && certainly_positive(design.q2) && certainly_positive(design.r);
   const std::string refusal = !applies    ? "certified sets are for epsilon = 0, q2 > 0, r > 0"
                               : !has_form ? "the matrices do not have the required form"

@@ -22,6 +22,7 @@ bool ends_in(const Setting& outer, const Setting& inner, const Design& d) {
   const Ball level = ultimate_level(outer, d);
   const std::array<Ball, 3> rows = inverse_rows(outer.metric);
   const Ball above = level * Ball(1.0 + 0x1p-20);
+  // cannot bind (level): at level zero the outer set has the least of all ultimate bounds already.
   return certainly_positive(level) &&
          certainly_at_most(largest_level(inner.metric, above * rows[0], above * rows[1], above * rows[2]),
                            inner.radius) &&

@@ -28,7 +28,7 @@ class QuadratureVerifier {
     const Tree& design = certificate_.at("design");
     leaks_ = !design_.without_leak();
     // Without a leak the frequency does not act on the errors.
-    const Guarantee guarantee(design, {.in_band = leaks_, .two_channels = true}, objections);
+    const Guarantee guarantee(design, {leaks_, true, kDoublePrecision}, objections);
     add("design", objections);
     if (!objections.empty()) {
       return;  // nothing is said of what is no design

@@ -163,6 +163,7 @@ class CellCover {
     const Ball angle = range[1].value - middle[1];
     const Ball tangent_squared = square(sin(angle) / cos(angle)).upper();
     const auto proposal = propose(at, tangent_squared);
+    // cannot bind (cos(angle)): no cell is wider than half a turn / 8.
     if (!proposal || !certainly_positive(cos(angle))) {
       return false;
     }

@@ -43,6 +43,10 @@ Added added(const SteadySetting& setting, const SteadyLevel& level, const Steady
   const Ball radius = level.level * root_of_non_negative(spread) * eta / setting.r + gain * level.noise;
   const Ball nearest = over(step.distance, way).lower() - radius;
   Added result;
+  // cannot bind (over(step.forward, way), over(step.along, way), abs(step.swing.range)): in the middle of a
+  // level the steady z is as near as `radius` to the mean one, which is longer, so that their product is
+  // positive; secants divide by both products, so that they are positive in all cells; and turns are then
+  // continuous, zero in the middle.
   result.meaningful = certainly_positive(nearest) && certainly_positive(over(step.forward, way)) &&
                       certainly_positive(over(step.along, way)) &&
                       certainly_less(abs(step.swing.range), Ball(1.5));
@@ -246,6 +250,7 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
   // What noise and slew leave of the level for the errors, and for the covariance.
   const Ball left = (level.next - more.noise_gain * level.noise - level.motion) / level.level;
   const Ball share = (level.next - level.covariance_motion) / level.level;
+  // cannot bind (share): below zero it would ask for a lower bound above the upper one.
   if (!certainly_positive(left) || !certainly_positive(share)) {
     return false;
   }

@@ -84,6 +84,7 @@ std::pair<SteadySet, bool> read_set(const Tree& evidence, const Design& design) 
 bool fall_from_one(const std::vector<Ball>& levels) {
   bool fall = !levels.empty() && certainly_equal(levels.front(), one);
   for (std::size_t j = 0; j < levels.size(); ++j) {
+    // cannot bind (levels[j]): no step leads to a level that is not positive, and the first one is 1.
     fall = fall && certainly_positive(levels[j]) && (j == 0 || certainly_less(levels[j], levels[j - 1]));
   }
   return fall;

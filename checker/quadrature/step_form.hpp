@@ -134,6 +134,9 @@ Form<S> form_of(const Setting& setting, const std::array<S, kVariables>& x, cons
   const Secant<S> left = secant(c.signal, c.mean);
   const Secant<S> moved = secant(c.mean, {c.mean[0] + x[2], c.mean[1] + x[3]});
   Form<S> form;
+  // cannot bind (value_of(left.dot), value_of(moved.dot), value_of(c.mean[0]) - c.reach[0]): secants divide
+  // by these dots, so that they are zero in no cell that is proved; at s = 0 they are positive, hence in all;
+  // and (b) asks for the last one, too.
   form.meaningful = certainly_positive(value_of(left.dot)) && certainly_positive(value_of(moved.dot)) &&
                     certainly_positive(value_of(c.mean[0]) - c.reach[0]) &&
                     certainly_positive(one + value_of(a));

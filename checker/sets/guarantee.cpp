@@ -106,8 +106,8 @@ bool Guarantee::is_guarantee(const std::string& id) {
 /// "In exact arithmetic, for a tone of constant amplitude 1 ...", with the assumed noise and slew.
 std::string Guarantee::tone(bool disturbed) const {
   const Tree& assume = design_.at("assume");
-  std::string text =
-      "In exact arithmetic, for a tone of constant amplitude " + text_of(assume.at("amplitude"));
+  std::string text = std::string(wording_.arithmetic) + ", for a tone of constant amplitude " +
+                     text_of(assume.at("amplitude"));
   if (disturbed) {
     const Tree& slew = assume.at("slew");
     text += is_zero(slew)

@@ -40,10 +40,16 @@ void add_bounds(const Promises& promises, Derivation& found);
 /// What a derivation says of settling, which is to be proved; nothing when it says nothing.
 std::optional<Settled> settling_claim(const Tree& quantities);
 
+/// What a statement is about: the recursion over the reals, or the program, whose rounding is bounded.
+inline constexpr const char* kExactArithmetic = "In exact arithmetic";
+inline constexpr const char* kDoublePrecision =
+    "In double precision (IEEE 754, rounding to nearest, sine and cosine within one unit in the last place)";
+
 /// How a kind of tracker words its hypotheses.
 struct Wording {
   bool in_band = true;       ///< true of the assumed frequencies; else of every one
   bool two_channels = true;  ///< the noise is a vector in the plane
+  const char* arithmetic = kExactArithmetic;
 };
 
 /// The claims of [require] and the guarantee of a design whose [assume] and [require] this reads.

@@ -32,6 +32,7 @@ Condition start_in_set(const sets::ContractionQuestion& question, const Certifie
                       radius,
                       {},
                       theorems::Sense::at_most};
+  // cannot bind (level): it chooses words, next to a verdict that was reached without it.
   condition.reason =
       starts_inside ? "every assumed start lies in a certified set."
       : certainly_less_equal(level, radius)
@@ -78,9 +79,9 @@ void set_promises(const sets::ContractionQuestion& question, const Promises& pro
       "The assumed starts are not in a certified set.");
   const bool undisturbed = question.noise == Interval(0.0) && question.slew == Interval(0.0);
   const std::optional<Promises::Settling> settling = promises.settling();
-  const char* why_not =
-      undisturbed ? "Without noise and slew only rounding is left of the bound in the long run, and no settling time is computed."
-                  : "No certified set gives a settling time.";
+  const char* why_not = undisturbed ? "Without noise and slew only rounding is left of the bound in the long "
+                                      "run, and no settling time is computed."
+                                    : "No certified set gives a settling time.";
   set(starts.settling_samples, "|\\nu(k)| \\le \\nu_s \\text{ for } k \\ge k_s",
       settling ? settling->samples : Interval(), why_not);
   set(starts.settled_frequency_error, "", settling ? settling->frequency_error : Interval(), why_not);
@@ -166,6 +167,8 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
     return;
   }
   certificate.bound_set = find_set(question, Objective::frequency_bound);
+  // cannot bind (question.noise, question.slew): without either the searches that follow find nothing to
+  // improve.
   const bool disturbed = certainly_positive(question.noise) || certainly_positive(question.slew);
   if (!disturbed) {
     return;
@@ -194,6 +197,7 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& ques
       "the "
       "estimated phase."};
   const bool without_leak = question.design.without_leak();
+  // cannot bind (question.design.q1): nothing is proposed for q1 = 0, where there is no steady covariance.
   if (without_leak && certainly_positive(question.design.q1) && sets::is_well_posed(question)) {
     find_sets(question, certificate);
   }

@@ -76,6 +76,7 @@ std::optional<Interval> StartBounds::samples_until(const Interval& frequency_err
   }
   const Interval samples = rigor::log(room / excess) / rigor::log(shrinking);
   const double count = std::ceil(samples.upper());
+  // cannot bind (excess): the start is above the lower end of the level, and all of the level above u.
   return std::isfinite(count) && certainly_positive(excess) ? std::optional(Interval(std::max(count, 0.0)))
                                                             : std::nullopt;
 }

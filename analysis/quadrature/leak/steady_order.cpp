@@ -60,6 +60,7 @@ SteadyOrder keeps_covariance(const SteadySettings& settings, const std::vector<S
   }
   SteadyOffset middle;
   middle.fill(Interval(0.0));
+  // cannot bind (share): below zero it would ask for a lower bound above the upper one.
   result.hopeless = !certainly_positive(share) || !is_within(band, moved_by(image, middle), share);
   // Positive definite matrices are a convex set: what is affine in the variables needs to be looked at in the
   // corners only, with whichever slopes there are.

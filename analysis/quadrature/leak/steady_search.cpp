@@ -49,6 +49,7 @@ std::optional<SteadyVerification> largest_set(const sets::ContractionQuestion& q
     }
     last = verify_steady_set(question.design, branch.cells, *proposal, signal_of(question));
     // A proposal is not trusted, not even to tolerate the noise and slew that it was searched for.
+    // cannot bind (question.noise, question.slew): it copies them from the request as they are.
     const bool tolerates_assumptions = certainly_less_equal(question.noise, Interval(last->set.noise)) &&
                                        certainly_less_equal(question.slew, Interval(last->set.slew));
     const bool settles = last->set.levels.back() <= kLastLevel * proposal->levels.back();

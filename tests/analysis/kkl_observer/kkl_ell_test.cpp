@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "analysis/kkl_observer/kkl_excitation_ratio.hpp"
 #include "tests/support/random.hpp"
@@ -130,6 +131,40 @@ TEST_CASE("a solver's value outside the enclosure is told by how much, and refut
       CHECK(std::any_of(derivation.notes.begin(), derivation.notes.end(), [](const std::string& note) {
         return note.starts_with("Ipopt's value differs from the verified minimum by a relative");
       }));
+    }
+  }
+}
+
+TEST_CASE("an enclosure that is none decides nothing, and solvers are judged by the enclosure") {
+  const auto over = range({1.0, 2.0, 3.0, 4.0}, 1.0, 5.0);
+  auto minimum = enclose_ell(over);
+  const auto verdict_of = [&](const std::string& id) {
+    const auto derivation = derive_kkl_ell(over, minimum);
+    for (const auto& condition : derivation.conditions) {
+      if (condition.id == id) {
+        return condition.verdict;
+      }
+    }
+    FAIL("no condition " << id);
+    return Verdict::undecided;
+  };
+  SUBCASE("below zero: its width, relative to itself, is negative") {
+    minimum.lower = -2.0;
+    minimum.upper = -1.0;
+    CHECK(verdict_of("enclosed") == Verdict::undecided);
+    CHECK(verdict_of("positive") == Verdict::refuted);
+  }
+  SUBCASE("around zero") {
+    minimum.lower = -1e-12;
+    minimum.upper = 1e-3;
+    CHECK(verdict_of("enclosed") == Verdict::undecided);
+    CHECK(verdict_of("positive") == Verdict::undecided);
+  }
+  SUBCASE("elsewhere") {
+    minimum.lower *= 1.001;
+    minimum.upper *= 1.001;
+    for (const char* solver : {"ipopt", "nlopt", "nlopt-global"}) {
+      CHECK(verdict_of(solver) == Verdict::refuted);
     }
   }
 }

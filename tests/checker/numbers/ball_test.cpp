@@ -39,6 +39,21 @@ TEST_CASE("what is certainly not negative") {
   CHECK(!certainly_not_negative(Ball::within(one)));
 }
 
+TEST_CASE("a matrix is symmetric only when each entry equals its mirror image") {
+  Matrix3 p = diagonal(one, two, one);
+  p[1][0] = p[0][1] = p[2][0] = p[0][2] = p[2][1] = p[1][2] = Ball(0.5);
+  CHECK(symmetric(p));
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      Matrix3 other = p;
+      other[i][j] = Ball(0.5 + 0x1p-50);
+      CHECK(!symmetric(other));
+      other[i][j] = p[i][j] + Ball::within(Ball(0x1p-50));  // not one number
+      CHECK(!symmetric(other));
+    }
+  }
+}
+
 TEST_CASE("a ball has its middle and its radius") {
   const Ball ball = Ball::hull(one, Ball(3.0));
   CHECK(certainly_equal(ball.middle(), two));

@@ -114,6 +114,14 @@ TEST_CASE("noise that pushes the errors out of the set is refused") {
   CHECK(mentions(refusal(set), "(c)"));
 }
 
+TEST_CASE("gains that noise and slew exceed are refused, and are not left unread") {
+  CHECK(mentions(refusal_with("noise_gain", "0x1p+1"), "(a)"));
+  WrittenSet set;
+  set.numbers.at("slew") = "0x1p-30";
+  set.numbers.at("slew_gain") = "0x1p+1";
+  CHECK(mentions(refusal(set), "(a)"));
+}
+
 TEST_CASE("a covariance bound below zero is refused") {
   WrittenSet set;
   set.numbers.at("noise") = "0x0p+0";
@@ -124,6 +132,10 @@ TEST_CASE("a covariance bound below zero is refused") {
   }
   SUBCASE("in the phase and the frequency") {
     set.lower[1][2] = set.lower[2][1] = "0x1.c8p-7";
+  }
+  SUBCASE("in the phase and in the frequency") {
+    set.lower[1] = {"0x0p+0", "-0x1p-10", "0x0p+0"};
+    set.lower[2] = {"0x0p+0", "0x0p+0", "-0x1p-12"};
   }
   CHECK(mentions(refusal(set), "positive definite"));
 }

@@ -4,8 +4,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+
+#include "tests/support/random.hpp"
+#include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 using namespace veritrack::checker;
 
@@ -75,6 +80,45 @@ TEST_CASE("errors contract at the rate of the tracker, and no faster") {
   Setting setting = the_setting();
   CHECK(contracts_with(setting));
   setting.rate = Ball(0.9);
+  CHECK_FALSE(contracts_with(setting));
+}
+
+TEST_CASE("a rate that states on the rim exceed is not proved, though the middles of cells keep it") {
+  Setting setting = the_setting();
+  setting.radius = Ball(0x1.efdab44e59523p-4);
+  setting.largest_amplitude = (setting.radius / setting.metric.amplitude).upper();
+  setting.largest_chi =
+      (setting.radius *
+       sqrt(square(one / setting.metric.phase) +
+            square((one - setting.metric.coupling / setting.metric.phase) / setting.metric.frequency)))
+          .upper();
+  // The tracker's own code, from the rim.
+  const double t1 = setting.metric.amplitude.near();
+  const double t2 = setting.metric.phase.near();
+  const double t3 = setting.metric.coupling.near();
+  const double t4 = setting.metric.frequency.near();
+  const double radius = setting.radius.near();
+  veritrack::test::Random random(77);
+  double needed = 0.0;
+  for (int k = 0; k < 20000; ++k) {
+    std::array<double, 3> u{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+    const double length = std::hypot(u[0], u[1], u[2]);
+    const double frequency = radius * u[2] / length / t4;
+    const double phase = (radius * u[1] / length - t3 * frequency) / t2;
+    const Covariance<Ball>& p = k % 2 == 0 ? setting.lower : setting.upper;
+    const veritrack::trackers::PolarFrameState<double> state{
+        {radius * u[0] / length / t1, phase, frequency},
+        {p.p11.near(), 0.0, 0.0, p.p22.near(), p.p23.near(), p.p33.near()}};
+    const auto next =
+        veritrack::trackers::polar_frame_map(state, {0.0, 0.0, 0.0, 0.7}, {0.0023, 0.0023, 0.05, 0.0}).error;
+    needed = std::max(
+        needed,
+        std::hypot(t1 * next.amplitude, t2 * next.phase + t3 * next.frequency, t4 * next.frequency) / radius);
+  }
+  setting.rate = Ball(0x1.fb4e515d8926ep-1);
+  CHECK(contracts_with(setting));
+  CHECK(needed < 0x1.fb4e515d8926ep-1);
+  setting.rate = Ball(0.999 * needed);
   CHECK_FALSE(contracts_with(setting));
 }
 

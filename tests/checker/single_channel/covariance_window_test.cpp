@@ -103,6 +103,16 @@ TEST_CASE("what is true of the tracker that runs is accepted, what is not is ref
   CHECK(refused(&WindowStatement::radius, -1e-3));
   CHECK(refused(&WindowStatement::loosening, 1.0));
   CHECK(refused(&WindowStatement::slew, 0.1));
+  CHECK(refused(&WindowStatement::least_p11, 1e3));
+  CHECK(refused(&WindowStatement::least_p22, 1e3));
+  // Of these the proof uses squares, or what they leave of 1.
+  CHECK(refused(&WindowStatement::slew, -1e-9));
+  CHECK(refused(&WindowStatement::start_level, -2.0 * 1e-3 * std::sqrt(seen.most_inverse)));
+  CHECK(refused(&WindowStatement::start_weight, -0.5));
+  CHECK(refused(&WindowStatement::start_weight, 1.5));
+  WindowStatement negative_share = statement;
+  negative_share.shares[2] = Ball(-0.05);
+  CHECK(!is_proved(negative_share, design));
   WindowStatement all_forgotten = statement;
   all_forgotten.shares = {Ball(0.9)};
   CHECK(!is_proved(all_forgotten, design));

@@ -101,6 +101,22 @@ TEST_CASE("a leak: the frequency matters, and an interval of frequencies holds f
   check_members(problem, set, box, result, random, 100, kQuiet);
 }
 
+TEST_CASE("covariances must come between both bounds of the set") {
+  const auto& example = test::capture_examples()[1];
+  const auto problem = test::capture_problem(example);
+  const StartBox box{Interval(0.0), test::around(0.5, 0.01), test::around(0.3, 0.01)};
+  const auto outcome = [&](double lower, double upper) {
+    auto set = test::target_set(example);
+    set.covariance_lower *= lower;
+    set.covariance_upper *= upper;
+    return follow_starts(problem, CertifiedSetTarget(set, true), box).outcome;
+  };
+  CHECK(outcome(1.0, 1.0) == CaptureOutcome::locked);
+  // The steady covariance of the design is below twice the lower bound, and above a quarter of the upper one.
+  CHECK(outcome(2.5, 4.0) != CaptureOutcome::locked);
+  CHECK(outcome(0.1, 0.2) != CaptureOutcome::locked);
+}
+
 TEST_CASE("the phase is an angle: whole turns of it change nothing") {
   const auto& example = test::capture_examples()[1];
   const auto problem = test::capture_problem(example);

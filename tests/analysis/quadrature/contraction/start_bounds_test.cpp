@@ -122,6 +122,10 @@ TEST_CASE("one set leads into another only when it ends within it") {
   inner.covariance_lower = 0.11 * rigor::Matrix<3>::Identity();
   CHECK_FALSE(certainly_maps_into(outer, inner, noise, slew));
   CHECK_FALSE(certainly_maps_into(outer, outer, Interval::empty(), slew));
+  // Without noise errors shrink for ever; but they are never zero, and no level above zero is its own double.
+  inner.covariance_lower = 0.09 * rigor::Matrix<3>::Identity();
+  CHECK(certainly_maps_into(outer, inner, noise, slew));
+  CHECK_FALSE(certainly_maps_into(outer, inner, Interval(0.0), slew));
 }
 
 }  // namespace

@@ -11,17 +11,21 @@ constexpr std::int64_t kMostCells = 600;
 
 /// A tracker without bias and with such a gain, r = 1, whose covariance moves little. The set reaches to
 /// amplitude errors of `amplitude` and predicted phase errors of `chi` (rad) at level 1.
-SteadySettings settings_of(double gain, double amplitude, double chi) {
-  const double variance = gain / (1.0 - gain);
+SteadySettings settings_of(double gain, double amplitude, double chi, double epsilon = 0.01) {
+  // The filtered variance that the gain belongs to, and the process noise that keeps it.
+  const double q1 = gain / (1.0 - gain) - gain;
+  const double p33 = 1e-6;
+  const double q2 = p33 * (1.0 - (1.0 - epsilon) * (1.0 - epsilon));
   const Interval none(0.0);
   const Interval one(1.0);
   const Interval little(1e-4);
+  const Interval less(1e-7);
   SteadySettings settings;
   SteadySetting<Interval>& s = settings.over_cell;
-  s.design = {Interval(1e-6), Interval(1e-6), one, Interval(0.01)};
-  s.steady = {one, none, none, {Interval(variance), none, none, Interval(variance), none, Interval(0.01)}};
+  s.design = {Interval(q1), Interval(q2), one, Interval(epsilon)};
+  s.steady = {one, none, none, {Interval(gain), none, none, Interval(gain), none, Interval(p33)}};
   s.metric = {one / Interval(amplitude), none, none, one / Interval(chi), none, one / Interval(chi)};
-  s.band = {{little, none, none, little, none, little}, {little, none, none, little, none, little}};
+  s.band = {{little, none, none, little, none, less}, {little, none, none, little, none, less}};
   s.a11 = Interval(amplitude);
   s.a21 = none;
   s.a22 = Interval(chi);
@@ -33,17 +37,18 @@ SteadySettings settings_of(double gain, double amplitude, double chi) {
 }
 
 /// Does a step from level 1 lead to so high a level that only the meaning of the step is in question?
-bool leads_anywhere(const SteadySettings& settings, double noise = 0.0) {
+bool leads_anywhere(const SteadySettings& settings, double noise = 0.0, double motion = 0.0) {
   constexpr double kAnywhere = 1e9;
-  return prove_contraction(settings, 1.0, kAnywhere, {Interval(noise), Interval(0.0), Interval(0.0)},
+  return prove_contraction(settings, 1.0, kAnywhere, {Interval(noise), Interval(motion), Interval(0.0)},
                            kMostCells)
       .proved;
 }
 
 TEST_CASE("a swing beyond a quarter turn is not proved, though the step is smooth there") {
   const rigor::UpwardRounding upward;
-  CHECK(leads_anywhere(settings_of(0.5, 0.05, 1.2)));
-  CHECK_FALSE(leads_anywhere(settings_of(0.5, 0.05, 1.6)));
+  CHECK(leads_anywhere(settings_of(0.9, 0.05, 1.2)));
+  CHECK_FALSE(leads_anywhere(settings_of(0.9, 0.05, 1.6)));
+  CHECK_FALSE(leads_anywhere(settings_of(0.9, 0.05, 2.5)));
 }
 
 TEST_CASE("noise that may carry the estimate through zero is not proved, nor much more noise") {
@@ -52,6 +57,28 @@ TEST_CASE("noise that may carry the estimate through zero is not proved, nor muc
   CHECK(leads_anywhere(settings, 0.1));
   CHECK_FALSE(leads_anywhere(settings, 3.0));
   CHECK_FALSE(leads_anywhere(settings, 1e3));
+}
+
+TEST_CASE("a steady state that moves farther than the next level leads nowhere") {
+  const rigor::UpwardRounding upward;
+  const SteadySettings settings = settings_of(0.5, 0.05, 0.3);
+  CHECK(leads_anywhere(settings, 0.0, 1e3));
+  CHECK_FALSE(leads_anywhere(settings, 0.0, 1e10));
+}
+
+TEST_CASE("errors must shrink by themselves, however fast the covariance does") {
+  const rigor::UpwardRounding upward;
+  // Amplitude and phase errors are halved in a step, their covariances quartered, and what belongs to the
+  // frequency is nearly forgotten.
+  const SteadySettings settings = settings_of(0.5, 0.05, 0.05, 0.9);
+  const auto proves = [&](double rate) {
+    constexpr double kLevel = 1e-3;
+    return prove_contraction(settings, kLevel, rate * kLevel, {Interval(0.0), Interval(0.0), Interval(0.0)},
+                             kMostCells)
+        .proved;
+  };
+  CHECK(proves(0.9));
+  CHECK_FALSE(proves(0.45));
 }
 
 }  // namespace

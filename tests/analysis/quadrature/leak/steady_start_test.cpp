@@ -61,6 +61,26 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a covariance has a level only when it is between both bounds of that level") {
+  const rigor::UpwardRounding upward;
+  SteadySet set;
+  set.below = rigor::Matrix<3>::Identity();
+  set.above = 2.0 * rigor::Matrix<3>::Identity();
+  const auto level_of = [&](double first, double last) {
+    rigor::Matrix<3> deviation = rigor::Matrix<3>::Zero();
+    deviation(0, 0) = first;
+    deviation(2, 2) = last;
+    return covariance_level(rigor::to_interval(deviation), set);
+  };
+  REQUIRE(level_of(0.5, -0.25).has_value());
+  CHECK(*level_of(0.5, -0.25) >= 0.25);
+  CHECK(*level_of(0.5, -0.25) <= 0.3);
+  CHECK(*level_of(1.8, 0.0) >= 0.9);
+  CHECK(*level_of(0.0, -0.9) >= 0.9);
+  CHECK_FALSE(level_of(0.0, -1.1).has_value());
+  CHECK_FALSE(level_of(2.1, 0.0).has_value());
+}
+
 TEST_CASE("no frequencies, no starts") {
   CHECK_THROWS_AS(static_cast<void>(joined({})), std::invalid_argument);
 }

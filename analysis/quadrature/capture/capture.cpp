@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/quadrature/capture/capture_rounding.hpp"
 #include "analysis/rigor/derivatives.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/taylor_model.hpp"
@@ -136,7 +137,7 @@ class FollowedStarts {
       rest_.add_image(slopes.template rightCols<kInputSize>(),
                       rigor::Vector<kInputSize>(problem.noise, problem.noise, problem.slew));
     }
-    rest_.add_box(rounding(problem));
+    rest_.add_box(followed_rounding(problem, hull()));
     const trackers::RotatingFrameInput<Model> quiet{Model(0.0), Model(0.0), Model(0.0),
                                                     Model(problem.frequency)};
     state_ = trackers::rotating_frame_map<Model>(state_, quiet, design);
@@ -158,27 +159,6 @@ class FollowedStarts {
   }
 
  private:
-  /// Bounds on what the rounding of the program adds to the exact step from here.
-  [[nodiscard]] StateVector rounding(const CaptureProblem& problem) const {
-    constexpr Pieces kPieces{1, 2, 1, 16};
-    const StateBox now = hull();
-    rigor::IntervalMatrix<3> p;
-    p << now[trackers::kP11], now[trackers::kP12], now[trackers::kP13],  //
-        now[trackers::kP12], now[trackers::kP22], now[trackers::kP23],   //
-        now[trackers::kP13], now[trackers::kP23], now[trackers::kP33];
-    const Interval measurement = Interval(1.0) + Interval(problem.noise);
-    const Interval frequency =
-        Interval(problem.signal.largest_frequency) + Interval(magnitude(now[trackers::kFrequencyError]));
-    const StateDifference added = step_rounding(
-        {problem.design, problem.signal.amplitude, upper_or_infinite(measurement),
-         upper_or_infinite(frequency)},
-        {Interval(1.0) + now[trackers::kDeltaInPhase], now[trackers::kDeltaQuadrature], p, p}, kPieces);
-    StateVector radii;
-    radii << added.z, added.z, added.frequency, added.p_zz, added.p_zz, added.p_z3, added.p_zz, added.p_z3,
-        added.p_33;
-    return radii;
-  }
-
   /// What the Taylor models do not know goes into the zonotope, where it is followed linearly.
   void move_remainders() {
     StateVector remainders;

@@ -102,12 +102,18 @@ TEST_CASE("below the normal range a product errs by less than the underflow term
   CHECK(tiny.error() >= 0x1p-595);
 }
 
+TEST_CASE("what is rounded is the result of the computed operands, also where the exact ones are zero") {
+  const Rounded zero(Interval(0.0), 1.0);
+  CHECK(upward([&] { return zero + zero; }).error() >= 2.0 + 0x1p-52);
+}
+
 TEST_CASE("where the error is unbounded, it is infinite, and stays so") {
   const auto [by_zero, too_large, unknown, later] = upward([] {
     const Rounded near_zero(Interval::from_bounds(0.5, 1.0), 0.5);
     const Rounded large(0x1p300);
+    const Rounded smaller(0x1p245);  // the error of the product, 2^492, would be small enough
     const Rounded nothing(Interval::empty());
-    return std::array<Rounded, 4>{Rounded(1.0) / near_zero, large * large, nothing + Rounded(1.0),
+    return std::array<Rounded, 4>{Rounded(1.0) / near_zero, large * smaller, nothing + Rounded(1.0),
                                   Rounded(0.0) * (Rounded(1.0) / near_zero)};
   });
   CHECK(by_zero.error() == kInfinity);

@@ -6,7 +6,7 @@
 MAKEFLAGS += --no-print-directory
 
 BUILD_PACKAGES := g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev coinor-libipopt-dev libnlopt-cxx-dev \
-  libmpfr-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox \
+  libmpfr-dev nettle-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox \
   libflint-arb-dev libflint-dev
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
 TEST_PACKAGES  := doctest-dev python3-jsonschema clang git

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "analysis/quadrature/start_covariance.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/quadrature/guarantee.hpp"
-#include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 namespace veritrack::certificates {
 
@@ -17,23 +16,6 @@ using rigor::Interval;
 
 /// The matrix in the documents and the one in a program's memory differ by their rounding: both are covered.
 constexpr double kLeastMargin = 1e-6;
-
-/// P of the exact estimate of a noise-free tone, by following it until it stands still.
-rigor::Matrix<3> steady_state(const trackers::ToneModel<double>& design, double frequency) {
-  constexpr int kMostSamples = 1'000'000;
-  constexpr double kStill = 1e-13;
-  trackers::PolarFrameState<double> state{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 1.0, 0.0, 1.0}};
-  for (int k = 0; k < kMostSamples; ++k) {
-    const auto before = state.covariance;
-    state = trackers::polar_frame_map(state, {0.0, 0.0, 0.0, frequency}, design);
-    const auto& now = state.covariance;
-    const auto stands = [](double a, double b) { return std::abs(a - b) <= kStill * std::abs(a); };
-    if (stands(now.p11, before.p11) && stands(now.p22, before.p22) && stands(now.p33, before.p33)) {
-      break;
-    }
-  }
-  return state.covariance.matrix();
-}
 
 struct Multiples {
   std::string from, to;
@@ -64,7 +46,7 @@ StartCovarianceText start_covariance_text(const QuadratureEkfTables& tables) {
   }
   const double amplitude = tables.assume.amplitude.nearest;
   const double middle = 0.5 * (tables.assume.frequency[0].nearest + tables.assume.frequency[1].nearest);
-  const rigor::Matrix<3> p = steady_state(nearest_at_unit_amplitude(tables), middle);
+  const rigor::Matrix<3> p = quadrature::near_steady_covariance(nearest_at_unit_amplitude(tables), middle);
   const std::array<double, 3> unit{amplitude, amplitude, 1.0};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {

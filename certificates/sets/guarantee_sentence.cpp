@@ -58,15 +58,15 @@ std::string objection(const sets::StartResult& starts) {
 
 std::string tone(const GuaranteeTerms& terms, bool disturbed) {
   const Assumptions& assume = terms.assume;
-  std::string text =
-      fmt::format("{}, for a tone of constant amplitude {}", terms.arithmetic, assume.amplitude.text);
+  std::string text = fmt::format("{}, for a tone of constant amplitude {} whose frequency ", terms.arithmetic,
+                                 assume.amplitude.text);
+  text += terms.in_band ? fmt::format("lies between {} and {} rad/sample", assume.frequency[0].text,
+                                      assume.frequency[1].text)
+                        : "is at most pi rad/sample";
   if (disturbed) {
-    text += is_zero(assume.slew) ? " at a constant frequency"
-                                 : fmt::format(" whose frequency changes by at most {} rad/sample per sample",
-                                               assume.slew.text);
-  }
-  if (terms.in_band) {
-    text += fmt::format(" between {} and {} rad/sample", assume.frequency[0].text, assume.frequency[1].text);
+    text += is_zero(assume.slew)
+                ? " and is constant"
+                : fmt::format(" and changes by at most {} rad/sample per sample", assume.slew.text);
   }
   if (disturbed && is_zero(assume.noise)) {
     text += ", without measurement noise";

@@ -107,16 +107,17 @@ bool Guarantee::is_guarantee(const std::string& id) {
 std::string Guarantee::tone(bool disturbed) const {
   const Tree& assume = design_.at("assume");
   std::string text = std::string(wording_.arithmetic) + ", for a tone of constant amplitude " +
-                     text_of(assume.at("amplitude"));
-  if (disturbed) {
-    const Tree& slew = assume.at("slew");
-    text += is_zero(slew)
-                ? " at a constant frequency"
-                : " whose frequency changes by at most " + text_of(slew) + kPerSample + " per sample";
-  }
+                     text_of(assume.at("amplitude")) + " whose frequency ";
   if (wording_.in_band) {
     const Tree& band = assume.at("frequency");
-    text += " between " + text_of(band.at(0)) + " and " + text_of(band.at(1)) + kPerSample;
+    text += "lies between " + text_of(band.at(0)) + " and " + text_of(band.at(1)) + kPerSample;
+  } else {
+    text += "is at most pi" + kPerSample;
+  }
+  if (disturbed) {
+    const Tree& slew = assume.at("slew");
+    text += is_zero(slew) ? " and is constant"
+                          : " and changes by at most " + text_of(slew) + kPerSample + " per sample";
   }
   if (disturbed && is_zero(assume.at("noise"))) {
     text += ", without measurement noise";
@@ -161,7 +162,8 @@ std::string Guarantee::short_text(const std::string& id) const {
 /// That the error stays below the limit. A start with that much error is allowed, and is not below.
 Claim Guarantee::frequency_error(const Promises& promises) const {
   const Ball& limit = frequency_error_below_->value;
-  const bool exceeded = certainly_at_most(limit, start_error_) ||
+  const bool same = frequency_error_below_->text == text_of(design_.at("assume").at("initial_frequency_error"));
+  const bool exceeded = same || certainly_at_most(limit, start_error_) ||
                         (promises.wrong_lock && certainly_at_most(limit, *promises.wrong_lock));
   Claim found;
   found.statement = hypotheses(promises) + short_text(kBound) + ".";

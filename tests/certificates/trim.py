@@ -1,26 +1,28 @@
 #!/usr/bin/env python3
-"""Makes the certificates of accepted/ from a whole one: a certificate that states less is a certificate.
+"""Makes the certificates of accepted/ from whole ones: a certificate that states less is a certificate.
 
-usage: trim.py CERTIFICATE.json theorem-2.9|published|repaired|contraction|one-set|capture|
-               kkl-observer|kkl-paper|steady-state|frozen-filter|phases|steady-set > accepted/NAME.json
+usage: trim.py CERTIFICATE.json NAME > accepted/NAME.json
 
-theorem-2.9   the two readings of Theorem 2.9 and their claims; no certified set
-published     the published results and the places of the proof of Theorem 2.9; no certified set
-repaired      the repaired theorem
-contraction   all certified sets, the derivation "contraction" and the claims that rest on it
-one-set       the same from the set that is checked fastest, for tests that check it hundreds of times
-capture       farther starts, followed into the set of one-set: one box, of which little is said
-kkl-observer  a KKL observer at one frequency with a sinusoidal disturbance, and an easier bound on the amplitude error
-kkl-paper     its ell and the paper's claims
-steady-state  of the single-channel tracker with a leak at one frequency (tests/certificates/steady-state.toml) and
-              Proposition 1
-frozen-filter that tracker's, alone
-phases        the single-channel tracker's sets over all phases at one frequency
-              (tests/certificates/phases.toml), and the claims that rest on them
-steady-set    of the quadrature tracker with a leak in a narrow band (tests/certificates/steady-set.toml): the
-              contraction with two levels, and the set for the largest noise
+From designs/la-scala-1994-figure-3.5-without-leak.toml:
+theorem-2.9       the two readings of Theorem 2.9 and their claims; no certified set
+published         the published results and the places of the proof of Theorem 2.9; no certified set
+repaired          the repaired theorem
+contraction       all certified sets, the derivation "contraction" and the claims that rest on it
+one-set           the same from the set that is checked fastest, for tests that check it hundreds of times
+given-covariance  one-set with a P(0|0) that the design gives
+capture           farther starts, followed into the set of one-set: one box, of which little is said
+From tests/certificates/kkl-observer.toml, a KKL observer at one frequency with a sinusoidal disturbance:
+kkl-observer      its bounds, with an easier one on the amplitude error
+kkl-paper         its ell and the paper's claims
+From tests/certificates/steady-state.toml, the single-channel tracker with a leak at one frequency:
+steady-state      its bias and Proposition 1
+frozen-filter     its frozen filter, alone
+From tests/certificates/phases.toml, the single-channel tracker at one frequency:
+phases            its sets over all phases, and the claims that rest on them
+From tests/certificates/steady-set.toml, the quadrature tracker with a leak in a narrow band:
+steady-set        the contraction with two levels, and the set for the largest noise
 """
-import decimal
+import fractions
 import json
 import math
 import sys
@@ -28,159 +30,176 @@ import sys
 
 def keep(certificate, derivations, claims):
     certificate["derivations"] = [d for d in certificate["derivations"] if d["id"] in derivations]
-    certificate["comparison"] = [row for row in certificate["comparison"] if row["result"] in derivations]
     certificate["claims"] = [claim for claim in certificate["claims"] if claim["id"] in claims]
-    certificate["audits"] = []
 
 
-def steady_set(certificate):
-    """Fewer levels: what rests on the last ones is larger."""
-    derivation = certificate["derivations"][0]
-    drop_unproved(derivation)
-    derivation["evidence"] = [e for e in derivation["evidence"] if e["name"] != "largest-slew"]
-    numbers = derivation["evidence"][0]["numbers"]
-    for name in [name for name in numbers if name.startswith("s_") and name not in ("s_0", "s_1")]:
-        del numbers[name]
-    quantities = derivation["quantities"]
-    del quantities["largest_slew"]
-    reach = float.fromhex(quantities["frequency_error_radius"]["hi"])
-    level = float.fromhex(numbers["s_1"])
-    bias = -float.fromhex(quantities["bias_frequency"]["lo"])
-    def say(enclosure, value):
-        value *= 1.0 + 1e-12
-        enclosure["lo"] = enclosure["hi"] = value.hex()
-        enclosure["decimal"] = f"[{value - 1e-8:.9f}, {value + 1e-8:.9f}]"
-    say(quantities["ultimate_frequency_error"], bias + level * reach)
-    say(quantities["frequency_error_bound"], bias + level * reach)
-    say(quantities["contraction_rate"], level)
-    say(derivation["conditions"][1]["lhs"], level)
-    for claim in certificate["claims"]:
-        claim["evidence"] = {"frequency_error_bound": quantities["frequency_error_bound"]}
-    certificate["comparison"] = []
+def drop_requirements(certificate, *names):
+    """Those of these names, or all."""
+    require = certificate["design"]["require"]
+    for name in names or list(require):
+        del require[name]
+    if not require:
+        certificate["verdict"] = "nothing-required"
 
 
-def main():
-    certificate = json.load(open(sys.argv[1], encoding="utf-8"))
-    kind = sys.argv[2]
-    without_sets = {
-        "theorem-2.9": lambda id: id in ("theorem-2.9/printed", "theorem-2.9/errata"),
-        "published": lambda id: not id.startswith(("theorem-2.9/", "contraction")),
-        "repaired": lambda id: id == "theorem-2.9/repaired",
-    }
-    if kind.startswith("kkl"):
-        kkl(certificate, kind)
-    elif kind == "steady-state":
-        keep(certificate, ["single-channel-bias"], ["proposition-1/if", "proposition-1/only-if"])
-        del certificate["derivations"][0]["quantities"]["quadrature_bias"]
-    elif kind == "steady-set":
-        keep(certificate, ["contraction"], ["ekf/frequency-error-bound"])
-        steady_set(certificate)
-    elif kind == "frozen-filter":
-        keep(certificate, ["single-channel/transfer-function"], [])
-    elif kind == "phases":
-        keep(certificate, ["contraction"], [c["id"] for c in certificate["claims"] if c["id"].startswith("ekf/")])
-        derivation = certificate["derivations"][0]
-        derivation["evidence"] = [e for e in derivation["evidence"] if not e["name"].startswith("largest-")]
-        for name in ("largest_noise", "largest_slew"):
-            del derivation["quantities"][name]
-    elif kind in without_sets:
-        kept = [d["id"] for d in certificate["derivations"] if without_sets[kind](d["id"])]
-        gaps = [claim["id"] for claim in certificate["claims"]
-                if kind == "published" and claim["id"].startswith("theorem-2.9/")
-                and not claim["id"].endswith("/conditions")]
-        keep(certificate, kept, gaps + [id + "/conditions" for id in kept])
+def up(value):
+    return math.nextafter(value, math.inf)
+
+
+def at_most(value):
+    return {"hi": float(value).hex()}
+
+
+def exactly(value):
+    return {"lo": float(value).hex(), "hi": float(value).hex()}
+
+
+def number(text):
+    """A number of the design: its text, and the tightest doubles around it."""
+    value = float(text)
+    exact = fractions.Fraction(text)
+    low = math.nextafter(value, -math.inf) if fractions.Fraction(value) > exact else value
+    high = up(value) if fractions.Fraction(value) < exact else value
+    return {"text": text, "lo": low.hex(), "hi": high.hex()}
+
+
+def without_sets(is_kept):
+    def trim(certificate):
+        keep(certificate, [d["id"] for d in certificate["derivations"] if is_kept(d["id"])],
+             [c["id"] for c in certificate["claims"] if is_kept(c["id"].removesuffix("/conditions"))])
         certificate["certified_sets"] = []
-        certificate["design"]["require"] = {}
-        certificate["verdict"] = "nothing-required"
-    else:
-        keep(certificate, ["contraction"],
-             ["ekf/frequency-error-bound", "ekf/settling-time", "ekf/guarantee"])
-        derivation = certificate["derivations"][0]
-        drop_unproved(derivation)
-        if kind in ("one-set", "capture"):
-            one_set(certificate, derivation)
-        if kind == "capture":
-            capture(certificate)
-    json.dump(certificate, sys.stdout, indent=2, ensure_ascii=False)
-    sys.stdout.write("\n")
+        drop_requirements(certificate)
+    return trim
 
 
-def drop_unproved(derivation):
-    derivation["quantities"] = {name: quantity for name, quantity in derivation["quantities"].items()
-                                if quantity.get("proved", True)}
+def is_published(name):
+    return not name.startswith(("ekf/", "contraction")) and name not in (
+        "theorem-2.9/printed", "theorem-2.9/errata", "theorem-2.9/repaired")
 
 
-def kkl(certificate, kind):
-    claims = []
-    if kind == "kkl-observer":
-        claims = [claim["id"] for claim in certificate["claims"]]
-        easier = {"lo": "0x1.dp-6", "hi": "0x1.dp-6", "decimal": "[0.0283203125, 0.0283203125]"}
-        owners = [next(d for d in certificate["derivations"] if d["id"] == "kkl-robustness")["quantities"]]
-        owners += [claim["evidence"] for claim in certificate["claims"]]
-        for owner in owners:
-            if "amplitude_error_bound" in owner:
-                owner["amplitude_error_bound"].update(easier)
-    else:
-        certificate["design"]["require"] = {}
-        certificate["verdict"] = "nothing-required"
-    keep(certificate, ["kkl-ell", "kkl-robustness" if kind == "kkl-observer" else "kkl-paper"], claims)
-    for derivation in certificate["derivations"]:
-        drop_unproved(derivation)
+def contraction(certificate):
+    keep(certificate, ["contraction"], [c["id"] for c in certificate["claims"] if c["id"].startswith("ekf/")])
 
 
-def one_set(certificate, derivation):
+def one_set(certificate):
     """The set that bounds the frequency error, and nothing that rests on another."""
-    sets = {found["purpose"]: found for found in certificate["certified_sets"]}
-    certificate["certified_sets"] = [sets["frequency-error-bound"]]
-    quantities = derivation["quantities"]
-    derivation["quantities"] = {"frequency_error_bound": quantities["frequency_error_bound"]}
-    derivation["conditions"] = derivation["conditions"][:3]
-    invariant = derivation["conditions"][2]
-    invariant["verdict"] = "undecided"
-    del invariant["lhs"], invariant["rhs"]
-    derivation["verdict"] = "undecided"
-    certificate["claims"] = [claim for claim in certificate["claims"] if claim["id"] != "ekf/settling-time"]
-    del certificate["design"]["require"]["settles_within"]
-    certificate["comparison"] = []
+    keep(certificate, ["contraction"], ["ekf/frequency-error-bound", "ekf/guarantee"])
+    certificate["certified_sets"] = [found for found in certificate["certified_sets"]
+                                     if found["purpose"] == "frequency-error-bound"]
+    derivation = certificate["derivations"][0]
+    bound = {"frequency_error_bound": derivation["quantities"]["frequency_error_bound"]}
+    derivation["quantities"] = bound
+    derivation["conditions"] = derivation["conditions"][:2]
+    del derivation["verdict"]
+    for claim in certificate["claims"]:
+        claim["evidence"] = bound
+    drop_requirements(certificate, "settles_within", "settled_below")
+
+
+def given_covariance(certificate):
+    one_set(certificate)
+    rows = [["0.00965", "0", "0"], ["0", "0.025", "0.00759"], ["0", "0.00759", "0.00761"]]
+    certificate["design"]["assume"]["initial_covariance"] = [[number(text) for text in row] for row in rows]
+    del certificate["derivations"][0]["evidence"]
 
 
 def capture(certificate):
     """From 0.012 rad/sample off, after six samples."""
+    one_set(certificate)
     assume = certificate["design"]["assume"]
-    assume["initial_frequency_error"] |= enclosure(math.nextafter(0.012, 0), math.nextafter(0.012, 1)) | {"text": "0.012"}
+    assume["initial_frequency_error"] = number("0.012")
     the_set = certificate["certified_sets"][0]
     the_set["purpose"] = "start-error"
-    rate, gain, frequency = (float.fromhex(number) for number in
+    rate, gain, frequency = (float.fromhex(value) for value in
                              (the_set["rate"], the_set["noise_gain"], the_set["metric"][2][2]))
     ultimate = gain * 0.001 / math.sqrt(1 - rate**2) / frequency
-    box = [-0.00501, 0.00501, -0.00501, 0.00501, -0.01201, 0.01201, 6.0, 0.0443]
-    quantities = {"capture_samples": enclosure(6), "frequency_error_bound": enclosure(0.012011),
-                  "ultimate_frequency_error": enclosure(ultimate * 1.000001), "cells": enclosure(1), "cells_captured": enclosure(1)}
-    for quantity in quantities.values():
-        quantity |= {"symbol": "", "formula": "", "source": "docs/contraction.md"}
-    reason = "every assumed start, in 1 boxes, enters the certified set within 6 samples."
+    box = [-0.00501, 0.00501, -0.00501, 0.00501, -0.01201, 0.01201, 6.0, 0.05]
+    bound = {"frequency_error_bound": at_most(0.012011)}
+    quantities = {"capture_samples": at_most(6), **bound, "ultimate_frequency_error": at_most(ultimate * 1.000001),
+                  "cells": exactly(1), "cells_captured": exactly(1)}
+    start = certificate["derivations"][0]["evidence"][0]
+    start["decimals"].update({"from": "0.999", "to": "1.001"})
+    followed = {"name": "cover", "numbers": {"noise": the_set["noise"], "slew": "0x0p+0"},
+                "matrices": {"boxes": [[side.hex() for side in box]]}}
     certificate["derivations"] = [{
-        "id": "capture", "title": "Capture of every assumed start by the certified set", "quantities": quantities,
-        "conditions": [{"id": "certified-set", "statement": "V \\le V_\\Omega,\\ W \\le W_\\Omega",
-                        "verdict": "proved", "reason": "the set is invariant under this noise and slew."},
-                       {"id": "starts-captured", "statement": "X(k_c) \\in \\Omega \\text{ from every assumed start}",
-                        "verdict": "proved", "reason": reason}],
-        "verdict": "proved",
-        "evidence": [{"name": "cover", "numbers": {"noise": assume["noise"]["hi"], "slew": "0x0p+0"},
-                      "matrices": {"boxes": [[number.hex() for number in box]]}}],
-        "notes": []}]
-    certificate["claims"] = [{
-        "id": "ekf/capture", "verdict": "proved", "required": False, "reason": reason, "evidence": quantities,
-        "statement": "From every assumed start, with the assumed noise and slew, the tracker comes into the certified "
-                     "set, which it never leaves."}] + certificate["claims"]
-    for claim in certificate["claims"][1:]:
-        claim["evidence"] = {"frequency_error_bound": quantities["frequency_error_bound"]}
-        claim["statement"] = claim["statement"].replace("0.005 rad/sample", "0.012 rad/sample").replace("0.00556", "0.0121")
+        "id": "capture", "quantities": quantities,
+        "conditions": [{"id": "certified-set", "verdict": "proved"}, {"id": "starts-captured", "verdict": "proved"}],
+        "verdict": "proved", "evidence": [start, followed]}]
+    for claim in certificate["claims"]:
+        claim["evidence"] = bound
+    certificate["claims"].insert(0, {"id": "ekf/capture", "verdict": "proved", "required": False,
+                                     "evidence": quantities})
 
 
-def enclosure(low, high=None):
-    high = low if high is None else high
-    return {"lo": float(low).hex(), "hi": float(high).hex(), "decimal": f"[{decimal.Decimal(low)}, {decimal.Decimal(high)}]"}
+def kkl_observer(certificate):
+    keep(certificate, ["kkl-ell", "kkl-robustness"],
+         [c["id"] for c in certificate["claims"] if c["id"].startswith("kkl/")])
+    robustness = next(d for d in certificate["derivations"] if d["id"] == "kkl-robustness")
+    for owner in [robustness["quantities"]] + [claim["evidence"] for claim in certificate["claims"]]:
+        if "amplitude_error_bound" in owner:
+            owner["amplitude_error_bound"] = {"hi": "0x1.dp-6"}
 
 
-main()
+def kkl_paper(certificate):
+    keep(certificate, ["kkl-ell", "kkl-paper"], [])
+    drop_requirements(certificate)
+
+
+def steady_state(certificate):
+    keep(certificate, ["single-channel-bias"], ["proposition-1/if", "proposition-1/only-if"])
+    del certificate["derivations"][0]["quantities"]["quadrature_bias"]
+
+
+def phases(certificate):
+    contraction(certificate)
+    certificate["claims"] = [claim for claim in certificate["claims"] if claim["id"] != "ekf/limits"]
+    derivation = certificate["derivations"][0]
+    derivation["evidence"] = [e for e in derivation["evidence"] if not e["name"].startswith("largest-")]
+    for name in ("largest_noise", "largest_slew"):
+        del derivation["quantities"][name]
+
+
+def steady_set(certificate):
+    """Fewer levels: what rests on the last ones is larger."""
+    keep(certificate, ["contraction"], ["ekf/frequency-error-bound", "ekf/guarantee", "ekf/invariant-set"])
+    derivation = certificate["derivations"][0]
+    derivation["evidence"] = [e for e in derivation["evidence"] if e["name"] != "largest-slew"]
+    numbers = next(e for e in derivation["evidence"] if e["name"] == "start-error")["numbers"]
+    for name in [name for name in numbers if name.startswith("s_") and name not in ("s_0", "s_1")]:
+        del numbers[name]
+    quantities = derivation["quantities"]
+    del quantities["largest_slew"]
+    level = float.fromhex(numbers["s_1"])
+    bias = -float.fromhex(quantities["bias_frequency"]["lo"])
+    # The radius is stated rounded down.
+    ultimate = (bias + level * float.fromhex(quantities["frequency_error_radius"]["lo"])) * (1.0 + 1e-12)
+    quantities["contraction_rate"] = at_most(level)
+    derivation["conditions"][1]["lhs"] = at_most(level)
+    quantities["settling_samples"] = at_most(0)
+    for name in ("ultimate_frequency_error", "settled_frequency_error", "frequency_error_bound"):
+        quantities[name] = at_most(ultimate)
+    for claim in certificate["claims"]:
+        claim["evidence"] = {name: quantities[name] for name in claim["evidence"]}
+
+
+KINDS = {
+    "theorem-2.9": without_sets(lambda name: name in ("theorem-2.9/printed", "theorem-2.9/errata")),
+    "published": without_sets(is_published),
+    "repaired": without_sets(lambda name: name == "theorem-2.9/repaired"),
+    "contraction": contraction,
+    "one-set": one_set,
+    "given-covariance": given_covariance,
+    "capture": capture,
+    "kkl-observer": kkl_observer,
+    "kkl-paper": kkl_paper,
+    "steady-state": steady_state,
+    "frozen-filter": lambda certificate: keep(certificate, ["single-channel/transfer-function"], []),
+    "phases": phases,
+    "steady-set": steady_set,
+}
+
+with open(sys.argv[1], encoding="utf-8") as file:
+    trimmed = json.load(file)
+KINDS[sys.argv[2]](trimmed)
+json.dump(trimmed, sys.stdout, indent=2, ensure_ascii=False)
+sys.stdout.write("\n")

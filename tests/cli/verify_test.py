@@ -17,24 +17,27 @@ def verify(*arguments):
 
 class Verify(CliTestCase):
     def certified_and_checked(self, name):
-        """The checker's last line for a shipped design, and the verified parts."""
+        """The run of the checker for a shipped design and its document, and the verified parts."""
         design = ROOT / "designs" / (name + ".toml")
         self.run_here("certify", design, "--out", name)
-        result = verify(self.folder / name / "certificate.json")
-        self.assertIn(result.returncode, (0, 1), result.stderr)
+        folder = self.folder / name
+        result = verify("--design", design, "--markdown", folder / "certificate.md", folder / "certificate.json")
         self.assertNotIn("ALARM", result.stdout)
         lines = result.stdout.splitlines()
-        return lines[-1], {line.split(maxsplit=1)[1] for line in lines if line.startswith("verified")}
+        return result, {line.split(maxsplit=1)[1] for line in lines if line.startswith("verified")}
 
     def test_a_whole_certificate(self):
-        last, verified = self.certified_and_checked("la-scala-1994-figure-3.5-without-leak")
-        self.assertTrue(last.startswith("VERIFIED"), last)
+        result, verified = self.certified_and_checked("la-scala-1994-figure-3.5-without-leak")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("\n- required, PROVED: the frequency error stays below 0.05 rad/sample for ever\n", result.stdout)
+        self.assertRegex(result.stdout, r"\n- PROVED: In double precision .* the frequency error never exceeds 0\.0")
         for part in ("theorem-2.9/printed", "theorem-2.9/errata", "contraction", "claim ekf/frequency-error-bound",
                      "claim ekf/settling-time", "claim ekf/guarantee", "verdict proved"):
             self.assertIn(part, verified)
 
     def test_theorem_with_a_leak(self):
-        _, verified = self.certified_and_checked("frequency-noise-only")
+        result, verified = self.certified_and_checked("frequency-noise-only")
+        self.assertEqual(result.returncode, 1, result.stdout)  # nothing is required of it
         for part in ("theorem-2.9/printed", "theorem-2.9/errata", "claim theorem-2.9/past-errors"):
             self.assertIn(part, verified)
 
@@ -42,25 +45,45 @@ class Verify(CliTestCase):
         text = (ROOT / "designs/la-scala-1994-figure-3.4.toml").read_text()
         design = self.write(text.replace("[require]", "[require]\nfrequency_error_radius_at_least = 0.05"))
         self.run_here("certify", design, "--out", "leak")
-        path = self.folder / "leak/certificate.json"
-        self.assertEqual(verify(path).returncode, 0)
-        honest = path.read_text()
-        forged = honest.replace(", measured from the steady state", "")
-        self.assertNotEqual(forged, honest)
-        self.assertEqual(verify(self.write(forged, "forged.json")).returncode, 1)
+        result = verify("--json", self.folder / "leak/certificate.json")
+        self.assertEqual(result.returncode, 0)
+        sentences = {one["claim"]: one["sentence"] for one in json.loads(result.stdout)["sentences"]}
+        self.assertIn(", measured from the steady state", sentences["ekf/frequency-error-radius"])
+
+    def test_another_design_and_another_document(self):
+        name = "la-scala-1994-figure-3.5-without-leak"
+        text = (ROOT / "designs" / (name + ".toml")).read_text()
+        design = self.write(text)
+        self.run_here("certify", design, "--out", "out")
+        certificate = self.folder / "out/certificate.json"
+        self.assertEqual(verify("--design", design, certificate).returncode, 0)
+        self.write(text.replace("noise = 0.001", "noise = 0.0010"), "same.toml")
+        self.assertEqual(verify("--design", self.folder / "same.toml", certificate).returncode, 3)
+        document = (self.folder / "out/certificate.md").read_text()
+        flattering = document.replace("never exceeds 0.0", "never exceeds 0.00", 1)
+        self.assertNotEqual(document, flattering)
+        self.write(flattering, "flattering.md")
+        self.assertEqual(verify("--markdown", self.folder / "flattering.md", certificate).returncode, 3)
 
     def test_exit_status(self):
         certificates = ROOT / "tests" / "certificates"
         accepted = str(certificates / "accepted" / "one-set.json")
-        self.assertEqual(verify(accepted).returncode, 0)
-        self.assertEqual(verify("--precision", "64", accepted).returncode, 0)
-        with_a_claim = json.loads(pathlib.Path(accepted).read_text())
-        description = json.loads((certificates / "rejected" / "unknown-claim.json").read_text())
-        with_a_claim["claims"].append(description["patch"][0]["value"])
-        self.assertEqual(verify(self.write(json.dumps(with_a_claim), "claim.json")).returncode, 1)
+        self.assertIn(verify(accepted).returncode, (0, 1))
+        self.assertIn(verify("--precision", "64", accepted).returncode, (0, 1))
+        with_more = json.loads(pathlib.Path(accepted).read_text())
+        with_more["design"]["colour"] = "green"
+        result = verify(self.write(json.dumps(with_more), "more.json"))
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("design.colour is not read by any check", result.stdout)
+        self.assertIn("NOT VERIFIED budget", verify("--budget", "1000", accepted).stdout)
+        self.assertEqual(verify("--budget", "1000", accepted).returncode, 3)
         malformed = self.write('{"schema": 1, "schema": 1}', "doubled.json")
-        for arguments in ([malformed], ["no-such-file.json"], [], ["--precision", "3", accepted], [accepted, accepted]):
+        for arguments in ([malformed], ["no-such-file.json"], [], ["--precision", "3", accepted], [accepted, accepted],
+                          ["--budget", "0", accepted], ["--design", "no-such-file.toml", accepted]):
             self.assertEqual(verify(*arguments).returncode, 2, arguments)
+        self.assertEqual(verify("--version").returncode, 0)
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            self.assertEqual(subprocess.run([CHECKER, accepted], stdout=full, check=False).returncode, 2)
 
 
 if __name__ == "__main__":

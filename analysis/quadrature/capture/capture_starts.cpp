@@ -6,7 +6,7 @@
 #include "analysis/quadrature/capture/capture_basin.hpp"
 #include "analysis/quadrature/capture/capture_derivation.hpp"
 #include "analysis/quadrature/capture/capture_target.hpp"
-#include "analysis/sets/fixed_point_bias.hpp"
+#include "analysis/quadrature/start_covariance.hpp"
 
 namespace veritrack::quadrature {
 
@@ -53,7 +53,8 @@ StartBox assumed_starts(const sets::ContractionQuestion& question) {
           rigor::symmetric(question.initial_frequency_error.upper())};
 }
 
-std::optional<CaptureProblem> capture_problem(const sets::ContractionQuestion& question) {
+std::optional<CaptureProblem> capture_problem(const sets::ContractionQuestion& asked) {
+  const sets::ContractionQuestion question = with_start_covariance(asked, 0.0);
   CaptureProblem problem;
   problem.design = question.design;
   problem.noise = question.noise.upper();

@@ -17,10 +17,9 @@ namespace veritrack::quadrature {
 /// All start errors that the question allows. Needs the upward mode.
 [[nodiscard]] StartBox assumed_starts(const sets::ContractionQuestion& question);
 
-/// The closed loop of the question, to be followed with its noise and slew from its initial covariance: for
-/// the steady state from an enclosure of P*, which without a leak is that of every frequency. Nothing when
-/// P* could not be verified. Needs the upward mode.
-[[nodiscard]] std::optional<CaptureProblem> capture_problem(const sets::ContractionQuestion& question);
+/// The closed loop of the question, to be followed with its noise and slew from its start covariances
+/// (with_start_covariance). Nothing when there are none. Needs the upward mode.
+[[nodiscard]] std::optional<CaptureProblem> capture_problem(const sets::ContractionQuestion& asked);
 
 /// What is proved of the starts.
 struct StartCapture {

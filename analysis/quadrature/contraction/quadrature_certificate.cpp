@@ -6,6 +6,7 @@
 
 #include "analysis/quadrature/contraction/promises.hpp"
 #include "analysis/quadrature/contraction/set_search.hpp"
+#include "analysis/quadrature/start_covariance.hpp"
 #include "analysis/quadrature/falsifier/sampled_quantities.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
@@ -184,7 +185,8 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
 
 }  // namespace
 
-ContractionCertificate certify_contraction(const sets::ContractionQuestion& question) {
+ContractionCertificate certify_contraction(const sets::ContractionQuestion& asked) {
+  const sets::ContractionQuestion question = with_start_covariance(asked, 0.0);
   const rigor::UpwardRounding upward;
   ContractionCertificate certificate;
   theorems::Derivation& derivation = certificate.derivation;

@@ -32,6 +32,6 @@ struct ContractionCertificate {
 
 /// Proposes, verifies and reports. Never throws for odd numbers: what is not finite proves nothing. Opens its
 /// own UpwardRounding scope.
-[[nodiscard]] ContractionCertificate certify_contraction(const sets::ContractionQuestion& question);
+[[nodiscard]] ContractionCertificate certify_contraction(const sets::ContractionQuestion& asked);
 
 }  // namespace veritrack::quadrature

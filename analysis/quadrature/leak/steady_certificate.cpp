@@ -5,6 +5,7 @@
 #include "analysis/quadrature/falsifier/steady_sampled_quantities.hpp"
 #include "analysis/quadrature/leak/steady_report.hpp"
 #include "analysis/quadrature/leak/steady_search.hpp"
+#include "analysis/quadrature/start_covariance.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 
@@ -138,7 +139,9 @@ sets::ContractionResult result_of(const Search& search, const std::optional<Stea
 
 }  // namespace
 
-LeakCertificate certify_with_leak(const LeakQuestion& question) {
+LeakCertificate certify_with_leak(const LeakQuestion& asked) {
+  LeakQuestion question = asked;
+  question.tracker = with_start_covariance(asked.tracker, midpoint(asked.band));
   const rigor::UpwardRounding upward;
   LeakCertificate certificate;
   theorems::Derivation& derivation = certificate.derivation;

@@ -12,7 +12,7 @@ namespace veritrack::quadrature {
 /// What is asked, at amplitude 1.
 struct LeakQuestion {
   sets::ContractionQuestion
-      tracker;           ///< design, noise, slew and start; "steady state" is that of the frequency
+      tracker;           ///< design, noise, slew and start, by default from near the steady state at the middle
   rigor::Interval band;  ///< true frequencies, rad/sample
 };
 
@@ -26,6 +26,6 @@ struct LeakCertificate {
 
 /// Proposes, verifies and reports. Never throws for odd numbers: what is not finite proves nothing. Opens its
 /// own UpwardRounding scope.
-[[nodiscard]] LeakCertificate certify_with_leak(const LeakQuestion& question);
+[[nodiscard]] LeakCertificate certify_with_leak(const LeakQuestion& asked);
 
 }  // namespace veritrack::quadrature

@@ -171,7 +171,8 @@ TEST_CASE("what is not covered is undecided, and says why") {
   question.band = Interval::entire();
   check(question);
   question = question_of(usual);
-  question.tracker.initial_covariance = rigor::to_interval(rigor::Matrix<3>(rigor::Matrix<3>::Identity()));
+  question.tracker.start_covariance = sets::StartCovariance{
+      rigor::to_interval(rigor::Matrix<3>(rigor::Matrix<3>::Identity())), Interval(1.0), true};
   check(question);
 }
 

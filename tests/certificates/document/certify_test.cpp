@@ -34,7 +34,7 @@ TEST_CASE("nothing required is no verdict") {
 
 TEST_CASE("contraction proves what is required where it can") {
   const auto certificate =
-      test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05\nsettles_within = 20"}});
+      test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05\nsettles_within = 20\nsettled_below = 0.01"}});
   CHECK(certificate.verdict == Verdict::proved);
   CHECK(certificates::proved_frequency_bound(certificate)->upper() < 0.05);
   for (const char* id : {"ekf/frequency-error-bound", "ekf/settling-time"}) {
@@ -55,7 +55,7 @@ TEST_CASE("a proved bound is not broken by the simulated run") {
 
 TEST_CASE("what contraction does not cover is undecided, with the reason") {
   const std::pair<std::string, std::string> require{
-      "[require]", "[require]\nfrequency_error_below = 0.05\nsettles_within = 20"};
+      "[require]", "[require]\nfrequency_error_below = 0.05\nsettles_within = 20\nsettled_below = 0.01"};
   for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
            {"noise = 0.001", "noise = 0.5"},
            {"slew = 0.0", "slew = 0.5"},
@@ -107,7 +107,7 @@ TEST_CASE("the sizes of certified sets can be required, with the largest certifi
 
 TEST_CASE("starts beyond the certified set are followed into it") {
   const auto certificate =
-      test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.5\nsettles_within = 200"},
+      test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.5\nsettles_within = 200\nsettled_below = 0.1"},
                          {"initial_frequency_error = 0.005", "initial_frequency_error = 0.3"},
                          {"initial_phase_error = 0.005", "initial_phase_error = 0.4"}});
   CHECK(certificate.verdict == Verdict::proved);

@@ -11,7 +11,7 @@ namespace {
 
 using namespace veritrack;
 
-const certificates::MarkdownOptions kOptions{{{"figures/error.svg", "a caption"}}, "a program 1.0"};
+const certificates::MarkdownOptions kOptions{{{"figures/error.svg", "a caption"}}, "0123", "a program 1.0"};
 
 /// Versions of software are as they are; and what is approximate may differ in its last digit between
 /// machines.
@@ -32,11 +32,7 @@ TEST_CASE("the first line is the answer") {
     const std::string document = certificates::to_markdown(certificate, kOptions);
     return document.substr(0, document.find('\n'));
   };
-  // A leak so strong that the tracker has no steady state at the upper frequencies.
-  CHECK(first_line(test::certificate({{"epsilon = 0.0", "epsilon = 0.5"}})) ==
-        "# Nothing is required of this design, nothing is certified for the assumed start, and Theorem 2.9 "
-        "guarantees nothing for it: its conditions are REFUTED");
-  CHECK(first_line(test::certificate()).starts_with("# Nothing is required of this design; PROVED: "));
+  CHECK(first_line(test::certificate()) == "# Nothing is required of this design");
   CHECK(first_line(test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.0051"}})) ==
         "# NOT PROVED. UNDECIDED: the frequency error stays below 0.0051 rad/sample for ever");
   CHECK(first_line(test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05"}})) ==
@@ -54,7 +50,7 @@ TEST_CASE("the name of a design cannot forge a verdict") {
 
 TEST_CASE("every table is rectangular") {
   for (const auto& certificate : {test::certificate(), test::certificate({{"q1 = 0.0023", "q1 = 0"}}),
-                                  test::certificate({{"[require]", "[require]\nsettles_within = 9"}})}) {
+                                  test::certificate({{"[require]", "[require]\nsettles_within = 9\nsettled_below = 0.01"}})}) {
     const std::string document = certificates::to_markdown(certificate, kOptions);
     std::size_t columns = 0;
     std::size_t start = 0;

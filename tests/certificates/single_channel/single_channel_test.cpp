@@ -138,7 +138,7 @@ TEST_CASE("frequency-only process noise without a leak has no exponentially stab
 
 TEST_CASE("what is required is undecided, never a silent success") {
   const Certificate certificate = certificate_of(
-      kExample1, "", "frequency_error_below = 0.5\nsettles_within = 100\nlargest_noise_at_least = 1e-9");
+      kExample1, "", "frequency_error_below = 0.5\nsettles_within = 100\nsettled_below = 0.1\nlargest_noise_at_least = 1e-9");
   CHECK(certificate.verdict == Verdict::undecided);
   CHECK(verdict_of(certificate, "ekf/frequency-error-bound") == Verdict::undecided);
   CHECK(verdict_of(certificate, "ekf/settling-time") == Verdict::undecided);

@@ -134,7 +134,7 @@ TEST_CASE("an estimate that may be zero is not followed") {
 
 TEST_CASE("phases that differ by half a turn have no polar enclosure") {
   const Ball zero(0.0);
-  const checker::Loop loop{Ball(0.001), Ball(0.001), Ball(0.1), zero, zero, zero, zero};
+  const checker::Loop loop{Ball(0.001), Ball(0.001), Ball(0.1), zero, zero, zero, zero, Ball(1.0), Ball(3.2)};
   const checker::Matrix3 p = checker::diagonal(Ball(0.01), Ball(0.01), Ball(0.01));
   const checker::Matrix3 unit = checker::diagonal(Ball(1.0), Ball(1.0), Ball(1.0));
   const auto phase_of = [&](double phase) {

@@ -9,7 +9,7 @@ using namespace veritrack::checker;
 namespace {
 
 std::string number(const std::string& text, const std::string& lo, const std::string& hi) {
-  return R"({"text": ")" + text + R"(", "lo": ")" + lo + R"(", "hi": ")" + hi + R"(", "decimal": "[-9, 9]"})";
+  return R"({"text": ")" + text + R"(", "lo": ")" + lo + R"(", "hi": ")" + hi + R"("})";
 }
 std::string exactly(const std::string& text, const std::string& value) {
   return number(text, value, value);
@@ -25,25 +25,40 @@ std::string design(const std::string& require) {
          R"(}, "require": )" + require + "}";
 }
 
-const std::string start =
-    "started within 0.5 rad/sample of the true frequency, 0.25 rad of the phase and 0.25 of the amplitude "
-    "(2.0), ";
 const std::string below = R"({"frequency_error_below": )" + exactly("0.75", "0x1.8p-1") + "}";
 
-bool is_verified(const std::string& id, const std::string& statement, const std::string& verdict,
-                 const std::string& tables, const Promises& promises,
-                 Frequencies frequencies = Frequencies::every) {
-  const Tree certificate = read_json(R"({"design": )" + tables + "}");
-  const Tree claim = read_json(R"({"id": ")" + id + R"(", "statement": ")" + statement +
-                               R"(", "verdict": ")" + verdict + R"(", "evidence": {}})");
+/// What is found of a claim with this evidence: its sentence and what is objected to.
+struct Answer {
+  Claim claim;
   Objections objections;
-  check_guarantee(claim, certificate, promises, frequencies, objections);
-  return objections.empty();
+  [[nodiscard]] bool says(const std::string& words) const {
+    return claim.statement.find(words) != std::string::npos;
+  }
+};
+Answer answer(const std::string& id, const std::string& verdict, const std::string& tables, const Promises& promises,
+              const std::string& evidence = "{}", const Wording& wording = {false, true, kExactArithmetic}) {
+  const Tree design = read_json(tables);
+  Answer found;
+  const Guarantee guarantee(design, wording, found.objections);
+  const Tree claim =
+      read_json(R"({"id": ")" + id + R"(", "verdict": ")" + verdict + R"(", "evidence": )" + evidence + "}");
+  found.claim = guarantee.check(claim, promises, found.objections);
+  return found;
+}
+
+bool is_verified(const std::string& id, const std::string& verdict, const std::string& tables,
+                 const Promises& promises, const std::string& evidence = "{}") {
+  return answer(id, verdict, tables, promises, evidence).objections.empty();
+}
+
+std::string at_most(const std::string& name, const std::string& value) {
+  return "\"" + name + R"(": {"hi": ")" + value + R"("})";
 }
 
 Promises bound(double value) {
   Promises promises;
   promises.bound = Ball(value);
+  promises.covariance = "and with P(0|0) = M";
   return promises;
 }
 
@@ -51,66 +66,106 @@ Promises bound(double value) {
 
 TEST_CASE("the frequency error stays below what is asked") {
   const std::string tables = design(below);
-  const std::string statement = "the frequency error stays below 0.75 rad/sample for ever";
   const char* id = "ekf/frequency-error-bound";
-  CHECK(requirements(read_json(tables)) == std::vector<std::string>{id});
-  CHECK(is_verified(id, statement, "proved", tables, bound(0.7)));
-  CHECK(!is_verified(id, statement, "proved", tables, bound(0.75)));
-  CHECK(!is_verified(id, statement, "proved", tables, Promises{}));
-  CHECK(!is_verified(id, statement, "refuted", tables, Promises{}));
-  CHECK(!is_verified(id, "the frequency error stays below 0.7 rad/sample for ever", "proved", tables,
-                     bound(0.6)));
+  CHECK(is_verified(id, "proved", tables, bound(0.7)));
+  CHECK(!is_verified(id, "proved", tables, bound(0.75)));
+  CHECK(!is_verified(id, "proved", tables, Promises{}));
+  CHECK(!is_verified(id, "refuted", tables, Promises{}));
   // A start that is off by as much as the limit refutes it.
   const std::string less = design(R"({"frequency_error_below": )" + exactly("0.5", "0x1p-1") + "}");
-  CHECK(is_verified(id, "the frequency error stays below 0.5 rad/sample for ever", "refuted", less,
-                    Promises{}));
+  CHECK(is_verified(id, "refuted", less, Promises{}));
+  // Nobody has asked for it.
+  CHECK(!is_verified(id, "proved", design("{}"), bound(0.7)));
 }
 
-TEST_CASE("the sentence is the one that the assumptions make") {
-  const std::string assumed = "With measurement noise of at most 0.125 and at a constant frequency, ";
-  const std::string stays = "the frequency error stays below 0.75 rad/sample for ever: it never exceeds ";
-  const std::string tables = design(below);
-  const auto sentence = [&](const std::string& number) {
-    return assumed + start + stays + number + " rad/sample.";
-  };
-  CHECK(is_verified("ekf/guarantee", sentence("0.7"), "proved", tables, bound(0.7)));
-  CHECK(!is_verified("ekf/guarantee", sentence("0.69"), "proved", tables, bound(0.7)));
-  CHECK(!is_verified("ekf/guarantee", sentence("0.8"), "proved", tables, bound(0.8)));
-  CHECK(!is_verified("ekf/guarantee", sentence("0.7"), "proved", tables, Promises{}));
-  const std::string quieter = "With measurement noise of at most 0.25 and at a constant frequency, ";
-  CHECK(!is_verified("ekf/guarantee", quieter + start + stays + "0.7 rad/sample.", "proved", tables,
-                     bound(0.7)));
+TEST_CASE("the sentence names every hypothesis") {
+  const Answer found = answer("ekf/guarantee", "proved", design(below), bound(0.7));
+  CHECK(found.objections.empty());
+  for (const char* words :
+       {"In exact arithmetic", "constant amplitude 2.0", "is at most pi rad/sample", "is constant",
+        "noise of at most 0.125", "0.0883 in each is enough", "within 0.5 rad/sample of the true frequency",
+        "0.25 rad of the phase", "0.25 of the amplitude", "and with P(0|0) = M",
+        "the frequency error stays below 0.75 rad/sample for ever"}) {
+    CAPTURE(words);
+    CHECK(found.says(words));
+  }
+  const Answer banded = answer("ekf/guarantee", "proved", design(below), bound(0.7), "{}", {true, false, "X"});
+  CHECK(banded.says("X, for a tone"));
+  CHECK(banded.says("lies between 0.25 and 3.0 rad/sample"));
+  CHECK_FALSE(banded.says("in each"));
 }
 
-TEST_CASE("a guarantee for the assumed band says so, and no other") {
-  const std::string banded =
-      "With measurement noise of at most 0.125 and at a constant frequency between 0.25 and 3.0 rad/sample, ";
-  const std::string unbanded = "With measurement noise of at most 0.125 and at a constant frequency, ";
-  const std::string ends = "the frequency error never exceeds 0.7 rad/sample.";
-  const auto is_proved = [&](const std::string& assumed, Frequencies frequencies) {
-    return is_verified("ekf/guarantee", assumed + start + ends, "proved", design("{}"), bound(0.7),
-                       frequencies);
+TEST_CASE("the sentence says no number that its evidence does not have, and evidence is established") {
+  Promises promises = bound(0.7);
+  promises.ultimate = Ball(0.1);
+  promises.settled = Settled{Ball(14.0), Ball(0.2)};
+  const auto with = [&](const std::string& evidence) {
+    return answer("ekf/guarantee", "proved", design(below), promises, "{" + evidence + "}");
   };
-  CHECK(is_proved(banded, Frequencies::assumed_band));
-  CHECK(!is_proved(unbanded, Frequencies::assumed_band));
-  CHECK(is_proved(unbanded, Frequencies::every));
-  CHECK(!is_proved(banded, Frequencies::every));
+  CHECK_FALSE(with("").says("never exceeds"));
+  CHECK(with(at_most("frequency_error_bound", "0x1.7p-1")).says("never exceeds 0.719 rad/sample"));
+  CHECK(with(at_most("frequency_error_bound", "0x1.7p-1")).objections.empty());
+  CHECK(!with(at_most("frequency_error_bound", "0x1.6p-1")).objections.empty());
+  const auto settled = [&](const std::string& samples, const std::string& error) {
+    return with(at_most("settling_samples", samples) + "," + at_most("settled_frequency_error", error));
+  };
+  CHECK(settled("0x1.cp+3", "0x1.ap-3").says("from sample 14 on it stays at or below 0.204 rad/sample"));
+  CHECK(settled("0x1.cp+3", "0x1.ap-3").objections.empty());
+  CHECK(!settled("0x1.ap+3", "0x1.ap-3").objections.empty());
+  CHECK(!settled("0x1.cp+3", "0x1.8p-3").objections.empty());
+  CHECK(with(at_most("ultimate_frequency_error", "0x1.ap-4")).says("in the long run it is at most 0.102 rad/sample"));
+  CHECK(!with(at_most("ultimate_frequency_error", "0x1.8p-4")).objections.empty());
+}
+
+TEST_CASE("settling takes two numbers, and both are met") {
+  const std::string tables = design(R"({"settles_within": )" + exactly("16", "0x1p+4") + R"(, "settled_below": )" +
+                                    exactly("0.25", "0x1p-2") + "}");
+  Promises promises = bound(0.7);
+  const auto settles = [&](double samples, double error) {
+    promises.settled = Settled{Ball(samples), Ball(error)};
+    return is_verified("ekf/settling-time", "proved", tables, promises);
+  };
+  CHECK(settles(16.0, 0.24));
+  CHECK_FALSE(settles(17.0, 0.24));
+  CHECK_FALSE(settles(16.0, 0.25));
+  const std::string half = design(R"({"settles_within": )" + exactly("16", "0x1p+4") + "}");
+  CHECK_FALSE(is_verified("ekf/settling-time", "proved", half, promises));
 }
 
 TEST_CASE("sizes of sets: noise is certified relative to the amplitude") {
   const std::string tables = design(R"({"largest_noise_at_least": )" + exactly("0.5", "0x1p-1") + "}");
-  const std::string statement =
-      "at a constant frequency, the tracker tolerates noise up to 0.5: a certified invariant set exists";
   Promises promises;
   promises.noise = Ball(0.25);
-  CHECK(is_verified("ekf/largest-noise", statement, "proved", tables, promises));
+  CHECK(is_verified("ekf/largest-noise", "proved", tables, promises));
   promises.noise = Ball(0.24);
-  CHECK(!is_verified("ekf/largest-noise", statement, "proved", tables, promises));
-  CHECK(!is_verified("ekf/largest-noise", statement, "proved", tables, Promises{}));
+  CHECK(!is_verified("ekf/largest-noise", "proved", tables, promises));
+  CHECK(!is_verified("ekf/largest-noise", "proved", tables, Promises{}));
 }
 
-TEST_CASE("a requirement that is not known has no claim") {
-  const Tree tables = read_json(design(R"({"moon": {}})"));
-  CHECK(requirements(tables) == std::vector<std::string>{"moon"});
-  CHECK(!is_guarantee("moon"));
+TEST_CASE("the size of the set and the limits are sentences of their own") {
+  Promises promises;
+  promises.reach = Ball(0.25);
+  promises.rate = Ball(0.9);
+  const std::string set = R"({"frequency_error_radius": {"lo": "0x1p-2"}, "contraction_rate": {"hi": "0x1.dp-1"}})";
+  const Answer found = answer("ekf/invariant-set", "proved", design("{}"), promises, set);
+  CHECK(found.objections.empty());
+  CHECK(found.says("contains frequency errors up to 0.25 rad/sample; in it, each sample multiplies the error by at "
+                   "most 0.907"));
+  promises.reach = Ball(0.24);
+  CHECK(!is_verified("ekf/invariant-set", "proved", design("{}"), promises, set));
+  const std::string limits = R"({"largest_noise": {"lo": "0x1p-2"}, "largest_slew": {"lo": "0x1p-3"}})";
+  promises.noise = Ball(0.25);
+  promises.slew = Ball(0.125);
+  CHECK(is_verified("ekf/limits", "proved", design("{}"), promises, limits));
+  promises.slew = Ball(0.12);
+  CHECK(!is_verified("ekf/limits", "proved", design("{}"), promises, limits));
+}
+
+TEST_CASE("a requirement that is not known is no requirement of a design") {
+  Objections objections;
+  const Tree tables = read_json(design(R"({"moon": )" + exactly("1", "0x1p+0") + "}"));
+  const Guarantee guarantee(tables, {}, objections);
+  CHECK(objections.size() == 1);
+  CHECK(guarantee.required().empty());
+  CHECK_FALSE(Guarantee::is_guarantee("moon"));
 }

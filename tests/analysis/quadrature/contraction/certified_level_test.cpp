@@ -23,25 +23,22 @@ TEST_CASE("a level falls by the recursion, and has settled within twice what noi
   const rigor::UpwardRounding upward;
   const double ultimate = 2.0 / std::sqrt(0.75);
   CertifiedLevel level(halving_set(), Interval(64.0), Interval(1.0), Interval(0.0));
-  CHECK(level.can_settle());
   CHECK(level.ultimate_frequency_error() == doctest::Approx(ultimate));
   double expected = 64.0;
   while (expected > 2.0 * ultimate) {
-    CHECK_FALSE(level.settled());
+    CHECK_FALSE(level.settled(2.0 * ultimate));
     CHECK(level.frequency_error() == doctest::Approx(expected));
     level.step();
     expected = std::sqrt(0.25 * expected * expected + 4.0);
   }
-  CHECK(level.settled());
+  CHECK(level.settled(2.0 * ultimate));
 }
 
-TEST_CASE("without noise a level never settles") {
+TEST_CASE("no level has settled below what it tends to, whatever it is now") {
   const rigor::UpwardRounding upward;
-  CertifiedLevel level(halving_set(), Interval(1.0), Interval(0.0), Interval(0.0));
-  CHECK_FALSE(level.can_settle());
-  CHECK_FALSE(level.settled());
-  const CertifiedLevel at_zero(halving_set(), Interval(0.0), Interval(0.0), Interval(0.0));
-  CHECK_FALSE(at_zero.settled());
+  const CertifiedLevel at_zero(halving_set(), Interval(0.0), Interval(1.0), Interval(0.0));
+  CHECK_FALSE(at_zero.settled(0.999 * at_zero.ultimate_frequency_error()));
+  CHECK(at_zero.settled(1.001 * at_zero.ultimate_frequency_error()));
 }
 
 TEST_CASE("one level is above another only when it certainly is") {

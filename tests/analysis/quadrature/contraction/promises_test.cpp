@@ -35,7 +35,8 @@ sets::ContractionQuestion the_question(double noise) {
   question.slew = Interval(0.0);
   question.initial_amplitude_error = question.initial_phase_error = question.initial_frequency_error =
       Interval(0.2);
-  question.initial_covariance = rigor::to_interval(rigor::Matrix<3>(0.3 * rigor::Matrix<3>::Identity()));
+  question.start_covariance = sets::StartCovariance{
+      rigor::to_interval(rigor::Matrix<3>(0.3 * rigor::Matrix<3>::Identity())), Interval(1.0), true};
   return question;
 }
 
@@ -65,8 +66,31 @@ TEST_CASE("without noise nothing settles within twice the ultimate bound") {
   const rigor::UpwardRounding upward;
   const Promises promises(the_question(0.0), {outer_set()});
   CHECK(promises.starts_inside());
-  CHECK_FALSE(rigor::is_finite(promises.settling_samples()));
-  CHECK(rigor::is_finite(Promises(the_question(0.05), {outer_set()}).settling_samples()));
+  CHECK_FALSE(promises.settling().has_value());
+  CHECK(Promises(the_question(0.05), {outer_set()}).settling().has_value());
+}
+
+TEST_CASE("what counts as settled is what is asked for, where a set gives it, and else twice the ultimate bound") {
+  const rigor::UpwardRounding upward;
+  sets::ContractionQuestion question = the_question(0.05);
+  const auto settling = [&] { return Promises(question, {outer_set()}).settling().value(); };
+  const double ultimate = Promises(question, {outer_set()}).ultimate_frequency_error().upper();
+  CHECK(settling().frequency_error.upper() == doctest::Approx(2.0 * ultimate));
+  question.settled_frequency_error = 1.5 * ultimate;
+  CHECK(settling().frequency_error.upper() == 1.5 * ultimate);
+  question.settled_frequency_error = 0.5 * ultimate;
+  CHECK(settling().frequency_error.upper() == doctest::Approx(2.0 * ultimate));
+}
+
+TEST_CASE("the multiples of the start covariance are those that all sets which give bounds allow") {
+  const rigor::UpwardRounding upward;
+  CertifiedSet narrow = outer_set();
+  narrow.covariance_lower = 0.25 * rigor::Matrix<3>::Identity();
+  const auto wide = Promises(the_question(0.05), {outer_set()}).covariance_multiples().value();
+  const auto both = Promises(the_question(0.05), {outer_set(), narrow}).covariance_multiples().value();
+  CHECK(both.lower() == doctest::Approx(0.25 / 0.3));
+  CHECK(wide.lower() < both.lower());
+  CHECK(both.upper() == wide.upper());
 }
 
 }  // namespace

@@ -25,6 +25,10 @@ CertifiedSet some_set() {
   return set;
 }
 
+sets::StartCovariance multiple_of_identity(double multiple) {
+  return {rigor::to_interval(rigor::Matrix<3>(multiple * rigor::Matrix<3>::Identity())), Interval(1.0), true};
+}
+
 sets::ContractionQuestion some_question(double size) {
   sets::ContractionQuestion question;
   question.noise = Interval(0.02);
@@ -32,6 +36,7 @@ sets::ContractionQuestion some_question(double size) {
   question.initial_amplitude_error = Interval(size);
   question.initial_phase_error = Interval(size);
   question.initial_frequency_error = Interval(size);
+  question.start_covariance = multiple_of_identity(0.3);
   return question;
 }
 
@@ -86,9 +91,11 @@ TEST_CASE("starts outside are not inside, nor those with another covariance or w
   const rigor::UpwardRounding upward;
   CHECK_FALSE(StartBounds(some_question(0.5), some_set()).contains_starts());
   sets::ContractionQuestion question = some_question(0.01);
-  question.initial_covariance = rigor::to_interval(rigor::Matrix<3>(0.3 * rigor::Matrix<3>::Identity()));
+  question.start_covariance = multiple_of_identity(0.3);
   CHECK(StartBounds(question, some_set()).contains_starts());
-  question.initial_covariance = rigor::to_interval(rigor::Matrix<3>(0.6 * rigor::Matrix<3>::Identity()));
+  question.start_covariance = multiple_of_identity(0.6);
+  CHECK_FALSE(StartBounds(question, some_set()).contains_starts());
+  question.start_covariance.reset();
   CHECK_FALSE(StartBounds(question, some_set()).contains_starts());
   for (const Interval& bad : {Interval::empty(), Interval::entire()}) {
     question = some_question(0.01);

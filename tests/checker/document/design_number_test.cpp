@@ -1,0 +1,81 @@
+#include "checker/document/design_number.hpp"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "checker/numbers/ball.hpp"
+
+using namespace veritrack::checker;
+
+namespace {
+
+Tree number(const std::string& text, const std::string& low, const std::string& high) {
+  return read_json(R"({"text": ")" + text + R"(", "lo": ")" + low + R"(", "hi": ")" + high + R"("})");
+}
+
+bool accepted(const std::string& text, const std::string& low, const std::string& high) {
+  Objections objections;
+  read_number(number(text, low, high), objections);
+  return objections.empty();
+}
+
+bool band_is_accepted(const std::string& low, const std::string& high) {
+  Objections objections;
+  read_band(read_json("[" + low + "," + high + "]"), objections);
+  return objections.empty();
+}
+
+const std::string kQuarter = R"({"text": "0.25", "lo": "0x1p-2", "hi": "0x1p-2"})";
+const std::string kThree = R"({"text": "3", "lo": "0x1.8p+1", "hi": "0x1.8p+1"})";
+const std::string kFour = R"({"text": "4", "lo": "0x1p+2", "hi": "0x1p+2"})";
+const std::string kMinus = R"({"text": "-1", "lo": "-0x1p+0", "hi": "-0x1p+0"})";
+
+}  // namespace
+
+TEST_CASE("[lo, hi] is the tightest enclosure of the decimal, and no other") {
+  CHECK(accepted("0.001", "0x1.0624dd2f1a9fbp-10", "0x1.0624dd2f1a9fcp-10"));
+  CHECK(accepted("1.0", "0x1p+0", "0x1p+0"));
+  CHECK(accepted("0.0", "0x0p+0", "0x0p+0"));
+  CHECK_FALSE(accepted("0.001", "0x1.0624dd2f1a9fap-10", "0x1.0624dd2f1a9fcp-10"));
+  CHECK_FALSE(accepted("0.001", "0x1.0624dd2f1a9fbp-10", "0x1.0624dd2f1a9fdp-10"));
+  CHECK_FALSE(accepted("0.001", "0x1.0624dd2f1a9fcp-10", "0x1.0624dd2f1a9fcp-10"));
+  CHECK_FALSE(accepted("1.0", "0x0p+0", "0x1p+10"));
+  CHECK_FALSE(accepted("1.0", "0x1p+0", "0x1.0000000000001p+0"));
+}
+
+TEST_CASE("a number stands for the decimal and for the double nearest to it, and for nothing beyond them") {
+  Objections objections;
+  const Ball value = read_number(number("0.001", "0x1.0624dd2f1a9fbp-10", "0x1.0624dd2f1a9fcp-10"), objections);
+  CHECK(certainly_at_most(value.lower(), from_decimal("0.001").lower()));
+  CHECK(certainly_at_most(Ball(0.001), value.upper()));
+  CHECK(certainly_at_most(value.upper(), Ball(0x1.0624dd2f1a9fcp-10)));  // 0.001 in double precision is the upper end
+  CHECK(certainly_less(Ball(0x1.0624dd2f1a9fbp-10), value.lower()));
+}
+
+TEST_CASE("what is no decimal is malformed") {
+  for (const char* text : {"", "nan", "inf", "1e400", "0x1p3", "1,5", " 1"}) {
+    CAPTURE(text);
+    CHECK_THROWS_AS(accepted(text, "0x1p+0", "0x1p+0"), std::invalid_argument);
+  }
+  CHECK_THROWS_AS(accepted(std::string(201, '1'), "0x1p+0", "0x1p+0"), std::invalid_argument);
+}
+
+TEST_CASE("a band goes from low to high, from 0 to pi, and is never empty") {
+  CHECK(band_is_accepted(kQuarter, kThree));
+  CHECK(band_is_accepted(kThree, kThree));
+  CHECK_FALSE(band_is_accepted(kThree, kQuarter));
+  CHECK_FALSE(band_is_accepted(kQuarter, kFour));
+  CHECK_FALSE(band_is_accepted(kMinus, kThree));
+}
+
+TEST_CASE("signs are demanded") {
+  Objections objections;
+  read_positive(read_json(kQuarter), "a", objections);
+  read_not_negative(number("0", "0x0p+0", "0x0p+0"), "b", objections);
+  CHECK(objections.empty());
+  read_positive(number("0", "0x0p+0", "0x0p+0"), "c", objections);
+  read_not_negative(read_json(kMinus), "d", objections);
+  CHECK(objections.size() == 2);
+}

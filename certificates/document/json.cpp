@@ -1,6 +1,7 @@
 #include "certificates/document/json.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/number_json.hpp"
@@ -17,9 +18,10 @@ using theorems::Sense;
 /// What is said of a value: lo, hi, or both.
 Json value_json(const rigor::Interval& value, Sense sense) {
   Json json = enclosure_json(value);
-  if (sense == Sense::at_most) {
+  if (sense == Sense::at_most || !std::isfinite(value.lower())) {
     json.erase("lo");
-  } else if (sense == Sense::at_least) {
+  }
+  if (sense == Sense::at_least || !std::isfinite(value.upper())) {
     json.erase("hi");
   }
   return json;
@@ -28,8 +30,9 @@ Json value_json(const rigor::Interval& value, Sense sense) {
 Json quantities_json(const std::vector<theorems::Quantity>& quantities) {
   Json json = Json::object();
   for (const theorems::Quantity& quantity : quantities) {
-    if (quantity.applies() && quantity.is_proved()) {
-      json[quantity.name] = value_json(quantity.value, quantity.sense);
+    const Json value = value_json(quantity.value, quantity.sense);
+    if (quantity.applies() && quantity.is_proved() && !value.empty()) {
+      json[quantity.name] = value;
     }
   }
   return json;

@@ -34,11 +34,11 @@ bool is_zero(const Number& number) {
 /// Why the bound is true, and its value in the long run.
 std::string ground(const sets::StartResult& starts) {
   const std::optional<theorems::Quantity>& captured = starts.capture_samples;
-  std::string text = "All these starts lie in a certified invariant set. ";
+  std::string text = "All these starts lie in a certified invariant set.";
   if (captured && captured->applies() && captured->value.upper() > 0.0) {
     text = fmt::format(
         "Verified propagation shows that every such start enters a certified invariant set within {} "
-        "samples. ",
+        "samples.",
         rigor::upper_decimal(captured->value, kDigits));
   }
   return text;

@@ -151,7 +151,12 @@ bool settled(const Setting& s, const Design& d, const Ball& start, const Ball& f
   if (certainly_at_most(start, level)) {
     return true;
   }
-  // A step takes l^2 - u^2, l >= u, to at most rate^2 (l^2 - u^2) u/(u - rounding).
+  // A step takes l - u, l >= u, to at most rate (l - u): the next level has a slope of at most rate.
+  if (certainly_at_most(samples * log(s.rate) + log(start - limit), log(level - limit))) {
+    return true;
+  }
+  // And l^2 - u^2 to at most rate^2 (l^2 - u^2) u/(u - rounding), which is sharper where noise outweighs
+  // rounding.
   const Ball log_shrunk = samples * log(square(s.rate) * limit / (limit - s.error_rounding));
   return certainly_at_most(log_shrunk + log(square(start) - ultimate), log(square(level) - ultimate));
 }

@@ -81,6 +81,8 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
   }
   if (settles_within_.has_value() != settled_below_.has_value()) {
     objections.emplace_back("settles_within and settled_below need each other");
+    settles_within_.reset();
+    settled_below_.reset();
   }
   const auto require = [&](bool asked, const std::string& id) {
     if (asked) {
@@ -162,7 +164,8 @@ std::string Guarantee::short_text(const std::string& id) const {
 /// That the error stays below the limit. A start with that much error is allowed, and is not below.
 Claim Guarantee::frequency_error(const Promises& promises) const {
   const Ball& limit = frequency_error_below_->value;
-  const bool same = frequency_error_below_->text == text_of(design_.at("assume").at("initial_frequency_error"));
+  const bool same =
+      frequency_error_below_->text == text_of(design_.at("assume").at("initial_frequency_error"));
   const bool exceeded = same || certainly_at_most(limit, start_error_) ||
                         (promises.wrong_lock && certainly_at_most(limit, *promises.wrong_lock));
   Claim found;

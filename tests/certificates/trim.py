@@ -8,6 +8,7 @@ theorem-2.9       the two readings of Theorem 2.9 and their claims; no certified
 published         the published results and the places of the proof of Theorem 2.9; no certified set
 repaired          the repaired theorem
 contraction       all certified sets, the derivation "contraction" and the claims that rest on it
+settling          the same from the sets that bound the frequency error, in the long run too: checked fast
 one-set           the same from the set that is checked fastest, for tests that check it hundreds of times
 given-covariance  one-set with a P(0|0) that the design gives
 capture           farther starts, followed into the set of one-set: one box, of which little is said
@@ -79,6 +80,17 @@ def is_published(name):
 
 def contraction(certificate):
     keep(certificate, ["contraction"], [c["id"] for c in certificate["claims"] if c["id"].startswith("ekf/")])
+
+
+def settling(certificate):
+    """The sets that say how large the frequency error is, and when."""
+    keep(certificate, ["contraction"], ["ekf/frequency-error-bound", "ekf/settling-time", "ekf/guarantee"])
+    certificate["certified_sets"] = [found for found in certificate["certified_sets"] if found["purpose"] in
+                                     ("frequency-error-bound", "ultimate-error", "settling")]
+    derivation = certificate["derivations"][0]
+    derivation["quantities"] = certificate["claims"][2]["evidence"]
+    derivation["conditions"] = derivation["conditions"][:2]
+    del derivation["verdict"]
 
 
 def one_set(certificate):
@@ -187,6 +199,7 @@ KINDS = {
     "published": without_sets(is_published),
     "repaired": without_sets(lambda name: name == "theorem-2.9/repaired"),
     "contraction": contraction,
+    "settling": settling,
     "one-set": one_set,
     "given-covariance": given_covariance,
     "capture": capture,

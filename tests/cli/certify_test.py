@@ -166,8 +166,8 @@ class Certify(CliTestCase):
         claim = self.guarantee(report)
         self.assertEqual(claim["verdict"], "proved")
         self.assertRegex(claim["statement"], re.compile(
-            r"^In double precision \(IEEE 754, .*\), for a tone of constant amplitude 1\.0 at a constant frequency, with "
-            r"measurement noise of at most 0\.001 \(the length of the error in both channels; 0\.000707 in each is "
+            r"^In double precision \(IEEE 754, .*\), for a tone of constant amplitude 1\.0 whose frequency is at most pi "
+            r"rad/sample and is constant, with measurement noise of at most 0\.001 \(the length of the error in both channels; 0\.000707 in each is "
             r"enough\), started within 0\.005 rad/sample of the true frequency, 0\.005 rad of the phase and 0\.005 of the "
             r"amplitude and with P\(0\|0\) from 0\.\d+ M to 1\.\d+ M, M = \[[-0-9., ]+; [-0-9., ]+; [-0-9., ]+\] in the "
             r"frame of the estimated phase, the frequency error stays below 0\.05 rad/sample for ever: the frequency "
@@ -198,7 +198,8 @@ class Certify(CliTestCase):
         claim = self.guarantee(report)
         self.assertEqual(claim["verdict"], "undecided")
         self.assertRegex(claim["reason"], r"[0-9]+ of [0-9]+ cells of assumed starts could not be followed")
-        self.assertRegex(claim["reason"], r" What is PROVED: In double precision \(.*\), from every assumed start and with P\(0\|0\) ")
+        self.assertRegex(claim["reason"],
+                         r" What is PROVED: In double precision \(.*\), from every assumed start and with P\(0\|0\) ")
         self.assertEqual(verdicts.get("ekf/capture-at-reduced-noise"), "proved")
         capture = next(one for one in report["derivations"] if one["id"] == "capture")
         self.assertTrue(all("frequency error in [" in note for note in capture["notes"]), capture["notes"])

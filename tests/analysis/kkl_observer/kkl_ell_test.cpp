@@ -135,7 +135,7 @@ TEST_CASE("a solver's value outside the enclosure is told by how much, and refut
   }
 }
 
-TEST_CASE("an enclosure that is none decides nothing, and solvers are judged by the enclosure") {
+TEST_CASE("an enclosure that is none decides nothing") {
   const auto over = range({1.0, 2.0, 3.0, 4.0}, 1.0, 5.0);
   auto minimum = enclose_ell(over);
   const auto verdict_of = [&](const std::string& id) {
@@ -159,13 +159,6 @@ TEST_CASE("an enclosure that is none decides nothing, and solvers are judged by 
     minimum.upper = 1e-3;
     CHECK(verdict_of("enclosed") == Verdict::undecided);
     CHECK(verdict_of("positive") == Verdict::undecided);
-  }
-  SUBCASE("elsewhere") {
-    minimum.lower *= 1.001;
-    minimum.upper *= 1.001;
-    for (const char* solver : {"ipopt", "nlopt", "nlopt-global"}) {
-      CHECK(verdict_of(solver) == Verdict::refuted);
-    }
   }
 }
 

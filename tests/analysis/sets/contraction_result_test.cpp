@@ -80,8 +80,8 @@ TEST_CASE("the quantities of a result come in the order of the certificates, bef
   CHECK(names_of(derivation.quantities) ==
         std::vector<std::string>{"contraction_rate", "radius", "frequency_error_radius", "phase_error_radius",
                                  "amplitude_error_radius", "ultimate_frequency_error",
-                                 "frequency_error_bound", "settling_samples", "largest_noise", "largest_slew",
-                                 "sampled"});
+                                 "frequency_error_bound", "settling_samples", "settled_frequency_error",
+                                 "largest_noise", "largest_slew", "sampled"});
   CHECK(result.starts.verdict == Verdict::proved);
   CHECK(result.starts.conditions.size() == 1);
   result.starts.capture_samples = quantities::capture_samples();

@@ -131,7 +131,15 @@ void check_number(const Number& number) {
   CHECK(number.value.lower() <= expected);
   CHECK(expected <= number.value.upper());
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  CHECK(std::nextafter(number.value.lower(), kInfinity) >= number.value.upper());
+  CHECK(std::nextafter(number.tight.lower(), kInfinity) >= number.tight.upper());
+  CHECK(number.tight.lower() <= expected);
+  CHECK(expected <= number.tight.upper());
+  // A unit in the last place around it, and no room where the number is a double.
+  const bool is_point = number.tight.lower() == number.tight.upper();
+  CHECK(number.value.lower() ==
+        (is_point ? number.tight.lower() : std::nextafter(number.tight.lower(), -kInfinity)));
+  CHECK(number.value.upper() ==
+        (is_point ? number.tight.upper() : std::nextafter(number.tight.upper(), kInfinity)));
 }
 
 /// Each number stands in the file where it is said to stand. ASCII lines only: there columns are bytes.
@@ -240,6 +248,8 @@ TEST_CASE("everything is read to its place") {
   CHECK(quadrature_tables(design).require.settles_within->nearest == 200.0);
   REQUIRE(quadrature_tables(design).require.largest_noise_at_least);
   CHECK(quadrature_tables(design).require.largest_noise_at_least->nearest == 0.01);
+  REQUIRE(quadrature_tables(design).require.settled_below);
+  CHECK(quadrature_tables(design).require.settled_below->nearest == 0.01);
   REQUIRE(quadrature_tables(design).require.largest_slew_at_least);
   CHECK(quadrature_tables(design).require.largest_slew_at_least->nearest == 0.002);
   REQUIRE(quadrature_tables(design).require.frequency_error_radius_at_least);
@@ -256,7 +266,7 @@ TEST_CASE("everything is read to its place") {
   CHECK(design.positions.at("design.q1").line == 5);
   CHECK(design.positions.at("design.q1").column == 6);
   CHECK(design.positions.at("assume.initial_covariance").line == 18);
-  CHECK(design.positions.at("simulate.seed").line == 27);
+  CHECK(design.positions.at("simulate.seed").line == 28);
   CHECK_FALSE(design.positions.contains("source"));
 }
 

@@ -33,14 +33,14 @@ TEST_CASE("nothing required is no verdict") {
 }
 
 TEST_CASE("contraction proves what is required where it can") {
-  const auto certificate =
-      test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05\nsettles_within = 20\nsettled_below = 0.01"}});
+  const auto certificate = test::certificate(
+      {{"[require]", "[require]\nfrequency_error_below = 0.05\nsettles_within = 20\nsettled_below = 0.01"}});
   CHECK(certificate.verdict == Verdict::proved);
   CHECK(certificates::proved_frequency_bound(certificate)->upper() < 0.05);
   for (const char* id : {"ekf/frequency-error-bound", "ekf/settling-time"}) {
     const certificates::Claim& claim = find_claim(certificate, id);
     CHECK(claim.verdict == Verdict::proved);
-    CHECK(claim.evidence.size() == 1);
+    CHECK_FALSE(claim.evidence.empty());
   }
 }
 
@@ -106,10 +106,10 @@ TEST_CASE("the sizes of certified sets can be required, with the largest certifi
 }
 
 TEST_CASE("starts beyond the certified set are followed into it") {
-  const auto certificate =
-      test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.5\nsettles_within = 200\nsettled_below = 0.1"},
-                         {"initial_frequency_error = 0.005", "initial_frequency_error = 0.3"},
-                         {"initial_phase_error = 0.005", "initial_phase_error = 0.4"}});
+  const auto certificate = test::certificate(
+      {{"[require]", "[require]\nfrequency_error_below = 0.5\nsettles_within = 200\nsettled_below = 0.1"},
+       {"initial_frequency_error = 0.005", "initial_frequency_error = 0.3"},
+       {"initial_phase_error = 0.005", "initial_phase_error = 0.4"}});
   CHECK(certificate.verdict == Verdict::proved);
   CHECK(certificate.derivations.back().id == "capture");
   CHECK(find_claim(certificate, "ekf/capture").verdict == Verdict::proved);

@@ -14,8 +14,8 @@
 #include "analysis/theorems/theorem_2_9.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/document/coq_parts.hpp"
-#include "certificates/document/json.hpp"
 #include "certificates/document/markdown_formal_proofs.hpp"
+#include "certificates/document/report_json.hpp"
 #include "certificates/kkl_observer/kkl_observer.hpp"
 #include "certificates/kkl_observer/kkl_observer_design.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
@@ -151,12 +151,12 @@ TEST_CASE("what is listed stands in the text, and what is proved of the design i
 TEST_CASE("a certificate says what a proof assistant can check only when it was asked") {
   Certificate certificate = single_channel();
   CHECK(formal_proofs_section(certificate).empty());
-  CHECK_FALSE(nlohmann::json::parse(to_json(certificate)).contains("formal_proofs"));
+  CHECK_FALSE(nlohmann::json::parse(to_report_json(certificate)).contains("formal_proofs"));
   certificate.formal_proofs = coq_proofs(certificate);
   const std::string section = formal_proofs_section(certificate);
   CHECK(section.find("`certificate.v`") != std::string::npos);
   CHECK(section.find("| `poles` |") != std::string::npos);
-  const auto json = nlohmann::json::parse(to_json(certificate)).at("formal_proofs");
+  const auto json = nlohmann::json::parse(to_report_json(certificate)).at("formal_proofs");
   CHECK(json.at("file") == "certificate.v");
   CHECK(json.at("proofs").size() == certificate.formal_proofs->proofs.size());
 }

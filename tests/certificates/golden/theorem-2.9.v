@@ -23,7 +23,7 @@ evaluate here.
 Qed.
 
 Lemma printed_b_1_enclosed :
-  (1999998999999998 / 100000000000000000000) <= b_1 printed here <= (19999990000000012 / 1000000000000000000000).
+  (19999989999999967 / 1000000000000000000000) <= b_1 printed here <= (19999990000000025 / 1000000000000000000000).
 Proof.
 evaluate here.
 Qed.
@@ -35,7 +35,7 @@ evaluate here.
 Qed.
 
 Lemma printed_p_enclosed :
-  (50000027300012457 / 1000000000000) <= p printed here <= (50000027300012553 / 1000000000000).
+  (50000027300012428 / 1000000000000) <= p printed here <= (50000027300012589 / 1000000000000).
 Proof.
 evaluate here.
 Qed.
@@ -53,79 +53,79 @@ evaluate here.
 Qed.
 
 Lemma printed_gamma_enclosed :
-  (19239793304635992 / 10 ^ 31) <= gamma printed here <= (19239793304636099 / 10 ^ 31).
+  (19239793304635964 / 10 ^ 31) <= gamma printed here <= (19239793304636119 / 10 ^ 31).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_beta_enclosed :
-  (58070805302100889 / 10000000000000) <= beta printed here <= (58070805302100971 / 10000000000000).
+  (5807080530210087 / 1000000000000) <= beta printed here <= (5807080530210099 / 1000000000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_one_minus_alpha_enclosed :
-  (1426346203387813 / 10 ^ 33) <= one_minus_alpha printed here <= (14263462033878221 / 10 ^ 34).
+  (14263462033878111 / 10 ^ 34) <= one_minus_alpha printed here <= (14263462033878237 / 10 ^ 34).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_epsilon_z_enclosed :
-  (13032266539726067 / 100000000000000000000000000) <= epsilon_z printed here <= (13032266539726128 / 100000000000000000000000000).
+  (13032266539726057 / 100000000000000000000000000) <= epsilon_z printed here <= (13032266539726133 / 100000000000000000000000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_delta_p_enclosed :
-  (1679636392317558 / 100000000) <= delta_p printed here <= (1679636392317563 / 100000000).
+  (16796363923175569 / 1000000000) <= delta_p printed here <= (16796363923175641 / 1000000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_delta_k_enclosed :
-  (69840058651647825 / 100) <= delta_k printed here <= (69840058651648175 / 100).
+  (69840058651647775 / 100) <= delta_k printed here <= (69840058651648225 / 100).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_delta_k2_enclosed :
-  (46922361780384571 * 10000000) <= delta_k2 printed here <= (46922361780385022 * 10000000).
+  (46922361780384504 * 10000000) <= delta_k2 printed here <= (46922361780385089 * 10000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_zeta_z_enclosed :
-  (14027800066363755 / 10000000000) <= zeta_z printed here <= (14027800066363898 / 10000000000).
+  (14027800066363734 / 10000000000) <= zeta_z printed here <= (14027800066363914 / 10000000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_eta_enclosed :
-  2466413090359088 <= eta printed here <= (24664130903591045 / 10).
+  2466413090359086 <= eta printed here <= 2466413090359106.
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_zeta_enclosed :
-  (5106405110909233 * 1000000000) <= zeta printed here <= (51064051109092878 * 100000000).
+  (51064051109092265 * 100000000) <= zeta printed here <= (51064051109092953 * 100000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_lhs_2_43_enclosed :
-  (29653305713248951 * 1000000000000) <= lhs_2_43 printed here <= (2965330571324933 * 10000000000000).
+  (29653305713248907 * 1000000000000) <= lhs_2_43 printed here <= (29653305713249383 * 1000000000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_lhs_2_44_enclosed :
-  (81460564657060747 / 10000000) <= lhs_2_44 printed here <= (81460564657061701 / 10000000).
+  (81460564657060594 / 10000000) <= lhs_2_44 printed here <= (81460564657061825 / 10000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma printed_initial_error_bound_enclosed :
-  (22442028265198805 / 1000000000000000000000000000000) <= initial_error_bound printed here <= (22442028265198945 / 1000000000000000000000000000000).
+  (2244202826519878 / 100000000000000000000000000000) <= initial_error_bound printed here <= (22442028265198961 / 1000000000000000000000000000000).
 Proof.
 evaluate here.
 Qed.
@@ -170,7 +170,7 @@ evaluate here.
 Qed.
 
 Lemma errata_b_1_enclosed :
-  (99999999999999967 / 10000000000000000000) <= b_1 errata here <= (10000000000000002 / 1000000000000000000).
+  (9999999999999995 / 1000000000000000000) <= b_1 errata here <= (10000000000000004 / 1000000000000000000).
 Proof.
 evaluate here.
 Qed.
@@ -182,7 +182,7 @@ evaluate here.
 Qed.
 
 Lemma errata_p_enclosed :
-  (10000229999999996 / 100000000000000) <= p errata here <= (10000230000000005 / 100000000000000).
+  (10000229999999994 / 100000000000000) <= p errata here <= (10000230000000007 / 100000000000000).
 Proof.
 evaluate here.
 Qed.
@@ -200,19 +200,19 @@ evaluate here.
 Qed.
 
 Lemma errata_gamma_enclosed :
-  (44716139922794468 / 100000000000000000000000000) <= gamma errata here <= (44716139922794609 / 100000000000000000000000000).
+  (44716139922794458 / 100000000000000000000000000) <= gamma errata here <= (44716139922794614 / 100000000000000000000000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma errata_beta_enclosed :
-  (23125633152319346 / 100000000000000) <= beta errata here <= (23125633152319367 / 100000000000000).
+  (23125633152319346 / 100000000000000) <= beta errata here <= (2312563315231937 / 10000000000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma errata_one_minus_alpha_enclosed :
-  (418077730985564 / 1000000000000000000000000000) <= one_minus_alpha errata here <= (41807773098556568 / 100000000000000000000000000000).
+  (4180777309855639 / 10000000000000000000000000000) <= one_minus_alpha errata here <= (41807773098556573 / 100000000000000000000000000000).
 Proof.
 evaluate here.
 Qed.
@@ -224,55 +224,55 @@ evaluate here.
 Qed.
 
 Lemma errata_delta_p_enclosed :
-  (3619564927642374 / 100000000000) <= delta_p errata here <= (36195649276423807 / 1000000000000).
+  (3619564927642374 / 100000000000) <= delta_p errata here <= (36195649276423814 / 1000000000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma errata_delta_k_enclosed :
-  (16188338520179206 / 10000) <= delta_k errata here <= (16188338520179266 / 10000).
+  (16188338520179206 / 10000) <= delta_k errata here <= (16188338520179268 / 10000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma errata_delta_k2_enclosed :
-  (23437924572999521 * 100) <= delta_k2 errata here <= (23437924572999691 * 100).
+  (23437924572999521 * 100) <= delta_k2 errata here <= (23437924572999706 * 100).
 Proof.
 evaluate here.
 Qed.
 
 Lemma errata_zeta_z_enclosed :
-  (1760367297068709 / 1000000000) <= zeta_z errata here <= (17603672970687221 / 10000000000).
+  (1760367297068709 / 1000000000) <= zeta_z errata here <= (17603672970687224 / 10000000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma errata_eta_enclosed :
-  (10456917002946708 / 1000) <= eta errata here <= (1045691700294676 / 100).
+  (10456917002946708 / 1000) <= eta errata here <= (10456917002946762 / 1000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma errata_zeta_enclosed :
-  (37458547536360669 * 1000) <= zeta errata here <= (37458547536360965 * 1000).
+  (37458547536360669 * 1000) <= zeta errata here <= (37458547536360989 * 1000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma errata_lhs_2_43_enclosed :
-  (86625287056741892 * 100000) <= lhs_2_43 errata here <= (8662528705674269 * 1000000).
+  (86625287056741892 * 100000) <= lhs_2_43 errata here <= (86625287056742752 * 100000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma errata_lhs_2_44_enclosed :
-  (40709608425350928 / 100000000) <= lhs_2_44 errata here <= (4070960842535128 / 10000000).
+  (40709608425350928 / 100000000) <= lhs_2_44 errata here <= (40709608425351286 / 100000000).
 Proof.
 evaluate here.
 Qed.
 
 Lemma errata_initial_error_bound_enclosed :
-  (29392849431908916 / 100000000000000000000000000) <= initial_error_bound errata here <= (29392849431909047 / 100000000000000000000000000).
+  (29392849431908911 / 100000000000000000000000000) <= initial_error_bound errata here <= (29392849431909047 / 100000000000000000000000000).
 Proof.
 evaluate here.
 Qed.

@@ -109,7 +109,7 @@ TEST_CASE("with a leak the bias is a number, and Proposition 1 holds in both dir
   CHECK(verdict_of(certificate, "proposition-1/if") == Verdict::proved);
   CHECK(verdict_of(certificate, "proposition-1/only-if") == Verdict::proved);
   CHECK(verdict_of(certificate, "proposition-2/scaled-start") == Verdict::proved);
-  CHECK(certificates::headline(certificate).find("0.9 rad/sample") != std::string::npos);
+  CHECK(certificates::headline(certificate) == "Nothing is required of this design");
 }
 
 TEST_CASE("without a leak there is none; a band has its bias at nine frequencies") {
@@ -137,8 +137,9 @@ TEST_CASE("frequency-only process noise without a leak has no exponentially stab
 }
 
 TEST_CASE("what is required is undecided, never a silent success") {
-  const Certificate certificate = certificate_of(
-      kExample1, "", "frequency_error_below = 0.5\nsettles_within = 100\nsettled_below = 0.1\nlargest_noise_at_least = 1e-9");
+  const Certificate certificate = certificate_of(kExample1, "",
+                                                 "frequency_error_below = 0.5\nsettles_within = "
+                                                 "100\nsettled_below = 0.1\nlargest_noise_at_least = 1e-9");
   CHECK(certificate.verdict == Verdict::undecided);
   CHECK(verdict_of(certificate, "ekf/frequency-error-bound") == Verdict::undecided);
   CHECK(verdict_of(certificate, "ekf/settling-time") == Verdict::undecided);

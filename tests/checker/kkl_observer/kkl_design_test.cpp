@@ -50,10 +50,10 @@ TEST_CASE("designs that can be, and that cannot") {
   CHECK(objections("", {1, 2, 3, 4, 5}) == 0);
   for (const std::string& members :
        {std::string(), amplitude, frequency, bound + ", " + amplitude,
-        amplitude + R"(, "phase": )" + number(1), bound + ", " + amplitude + ", " + frequency,
-        R"("bound": )" + number(-0.5)}) {
+        bound + ", " + amplitude + ", " + frequency, R"("bound": )" + number(-0.5)}) {
     CHECK_MESSAGE(objections(disturbance(members)) > 0, members);
   }
+  CHECK_THROWS_AS(objections(disturbance(amplitude + R"(, "phase": )" + number(1))), Malformed);
   CHECK(objections("", {1, 2, 3}) > 0);
   CHECK(objections("", {0, 1, 2, 3}) > 0);
   CHECK(objections("", {1, 2, 3, 4}, {4, 2}) > 0);

@@ -39,11 +39,11 @@ std::string objections_to(const std::string& low, const std::string& high, const
   design.frequency_low = Ball(2.0);
   design.frequency_high = Ball(4.0);
   const auto enclosure = [](const std::string& lo, const std::string& hi) {
-    return R"({"lo": ")" + lo + R"(", "hi": ")" + hi + R"(", "decimal": "[-1e9, 1e9]"})";
+    return R"({"lo": ")" + lo + R"(", "hi": ")" + hi + R"("})";
   };
   const checker::Tree derivation =
-      checker::read_json(R"({"title": "", "verdict": "undecided", "conditions": [], "quantities": {"ell": )" +
-                         enclosure(low, high) + R"(, "argmin_omega": )" + enclosure(first, last) + "}}");
+      checker::read_json(R"({"conditions": [], "quantities": {"ell": )" + enclosure(low, high) +
+                         R"(, "argmin_omega": )" + enclosure(first, last) + "}}");
   checker::Objections objections;
   checker::check_kkl_ell(derivation, design, objections);
   std::string text;

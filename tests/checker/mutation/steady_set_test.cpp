@@ -24,16 +24,16 @@ TEST_CASE("with a leak: better numbers, flipped verdicts and dropped evidence ar
   // In the direction that says more.
   const std::vector<std::pair<std::string, double>> quantities{
       {"contraction_rate", 0.999},       {"radius", 1.001},
-      {"frequency_error_radius", 1.001}, {"phase_error_radius", 0.999},
-      {"amplitude_error_radius", 0.999}, {"ultimate_frequency_error", 0.999},
+      {"frequency_error_radius", 1.001}, {"phase_error_radius", 1.001},
+      {"amplitude_error_radius", 1.001}, {"ultimate_frequency_error", 0.999},
       {"frequency_error_bound", 0.999},  {"largest_noise", 1.001}};
   Count count;
   for (const auto& [name, factor] : quantities) {
     Json changed = certificate;
     Json& quantity = changed[Pointer(derivation) / "quantities" / name];
-    multiply(quantity["lo"], factor);
-    multiply(quantity["hi"], factor);
-    quantity["decimal"] = "[-1e300, 1e300]";
+    for (auto& end : quantity) {
+      multiply(end, factor);
+    }
     expect_refused(changed, name, count);
   }
   for (const char* end : {"lo", "hi"}) {
@@ -44,9 +44,9 @@ TEST_CASE("with a leak: better numbers, flipped verdicts and dropped evidence ar
   }
   for (const char* side : {"/conditions/1/lhs", "/conditions/2/lhs", "/conditions/1/rhs"}) {
     Json changed = certificate;
-    multiply(changed[Pointer(derivation + side + "/lo")], 0.9);
-    multiply(changed[Pointer(derivation + side + "/hi")], 0.9);
-    changed[Pointer(derivation + side + "/decimal")] = "[-1e300, 1e300]";
+    for (auto& end : changed[Pointer(derivation + side)]) {
+      multiply(end, 0.9);
+    }
     expect_refused(changed, side, count);
   }
   for (const char* verdict : {"/conditions/0/verdict", "/conditions/1/verdict", "/conditions/2/verdict"}) {

@@ -19,8 +19,8 @@ TEST_CASE("decimals in sentences are rounded in the direction in which they are 
   CHECK(upper_decimal(Ball(1e-5)) == "0.0000101");  // the double is above the decimal
   CHECK(upper_decimal(Ball(0x1p-20)) == "9.54e-7");
   CHECK(lower_decimal(Ball(1e10)) == "1e10");
-  CHECK(upper_decimal(Ball::hull(Ball(1.0), Ball(2.0001))) == "2.01");
-  CHECK(lower_decimal(Ball::hull(Ball(1.0), Ball(2.0001))) == "1");
+  CHECK(upper_decimal(Ball::hull(Ball(1.1), Ball(2.0001))) == "2.01");
+  CHECK(lower_decimal(Ball::hull(Ball(1.105), Ball(2.0001))) == "1.1");
   CHECK(upper_decimal(Ball::everything()) == "inf");
   CHECK(lower_decimal(Ball::everything()) == "-inf");
 }

@@ -191,8 +191,7 @@ Setting nested_setting() {
 /// The ultimate frequency error that two verified sets promise, of which the smaller one is reached only if
 /// it contains where the larger one leads. A set around them that starts are in, and the one to be reached.
 double ultimate_error(const Setting& outer, const Setting& inner, const Design& design) {
-  const Tree nothing =
-      read_json(R"({"title": "", "verdict": "undecided", "conditions": [], "quantities": {}})");
+  const Tree nothing = read_json(R"({"conditions": [], "quantities": {}})");
   Objections objections;
   const Promises promises =
       check_contraction(nothing, design, {{"outer", outer, true}, {"inner", inner, true}}, objections);

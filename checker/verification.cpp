@@ -32,6 +32,11 @@ Verification verify(const Tree& certificate, bool all_boxes) {
       result.quoted.push_back(certificate.at("design").at(quoted).text());
     }
     result.design_sha256 = certificate.at("design_sha256").text();
+    constexpr std::size_t kDigits = 64;
+    if (result.design_sha256.size() != kDigits ||
+        result.design_sha256.find_first_not_of("0123456789abcdef") != std::string::npos) {
+      throw Malformed("design_sha256 is not 64 hexadecimal digits");
+    }
     verify_tracker(certificate, all_boxes, result);
   } catch (const std::invalid_argument& error) {
     throw Malformed(error.what());

@@ -84,9 +84,9 @@ std::string hypotheses(const GuaranteeTerms& terms) {
   const Assumptions& assume = terms.assume;
   return fmt::format(
       "{}, started within {} rad/sample of the true frequency, {} rad of the phase and {} of the "
-      "amplitude {}, ",
+      "amplitude{}{}, ",
       tone(terms, true), assume.initial_frequency_error.text, assume.initial_phase_error.text,
-      assume.initial_amplitude_error.text, terms.covariance);
+      assume.initial_amplitude_error.text, terms.covariance.empty() ? "" : " ", terms.covariance);
 }
 
 Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& terms) {

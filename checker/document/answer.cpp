@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "checker/numbers/ball.hpp"
 #include "checker/numbers/budget.hpp"
@@ -14,14 +15,33 @@ const char* word(Verdict verdict) {
   return verdict == Verdict::proved ? "PROVED" : verdict == Verdict::refuted ? "REFUTED" : "UNDECIDED";
 }
 
-/// A text of the certificate, on one line and in quotation marks: it is not ours, and may try to look as if
-/// it were.
-std::string quoted(const std::string& text) {
-  constexpr std::size_t kLongest = 200;
+/// Unicode that controls a terminal or turns the direction of writing: U+0080 to 9F, U+200E and F, U+2028 to
+/// 2E, U+2066 to 69, as UTF-8.
+bool is_control(std::string_view rest) {
+  const auto byte = [&](std::size_t i) { return i < rest.size() ? static_cast<unsigned char>(rest[i]) : 0U; };
+  const unsigned second = byte(1);
+  const unsigned third = byte(2);
+  return byte(0) < 0x20U || byte(0) == 0x7fU || (byte(0) == 0xc2U && second >= 0x80U && second <= 0x9fU) ||
+         (byte(0) == 0xe2U && second == 0x80U &&
+          (third == 0x8eU || third == 0x8fU || (third >= 0xa8U && third <= 0xaeU))) ||
+         (byte(0) == 0xe2U && second == 0x81U && third >= 0xa6U && third <= 0xa9U);
+}
+
+/// On one line. Names and objections may hold texts of the certificate, which may try to look as if they were
+/// ours.
+std::string one_line(const std::string& text) {
+  constexpr std::size_t kLongest = 400;
   std::string shown = text.substr(0, kLongest);
-  for (char& c : shown) {
-    c = static_cast<unsigned char>(c) < 0x20 || c == '"' || c == 0x7f ? ' ' : c;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    shown[i] = is_control(std::string_view(shown).substr(i)) ? ' ' : shown[i];
   }
+  return shown;
+}
+
+/// A text of the certificate in quotation marks.
+std::string quoted(const std::string& text) {
+  std::string shown = one_line(text);
+  std::replace(shown.begin(), shown.end(), '"', ' ');
   return '"' + shown + '"';
 }
 
@@ -35,9 +55,9 @@ std::size_t refused_parts(const Verification& found) {
 std::string to_text(const Verification& found) {
   std::string text;
   for (const Part& part : found.parts) {
-    text += (part.objections.empty() ? "verified     " : "NOT VERIFIED ") + part.name + "\n";
+    text += (part.objections.empty() ? "verified     " : "NOT VERIFIED ") + one_line(part.name) + "\n";
     for (const std::string& objection : part.objections) {
-      text += "             - " + objection + "\n";
+      text += "             - " + one_line(objection) + "\n";
     }
   }
   const std::string parts = std::to_string(found.parts.size());

@@ -10,8 +10,8 @@ const Tree* find_evidence(const Tree& derivation, const std::string& name) {
     return nullptr;
   }
   const auto& items = evidence->elements();
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const Tree& item) { return item.at("name").text() == name; });
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const Tree& item) { return item.at("name").is(name); });
   return found == items.end() ? nullptr : &*found;
 }
 

@@ -129,6 +129,11 @@ const std::string& Tree::text() const {
   read_ = true;
   return text_;
 }
+bool Tree::is(std::string_view text) const {
+  require(Kind::text, "a string");
+  read_ = read_ || text_ == text;
+  return text_ == text;
+}
 bool Tree::truth() const {
   require(Kind::truth, "true or false");
   read_ = true;

@@ -38,6 +38,8 @@ class Tree {
   [[nodiscard]] const std::vector<std::pair<std::string, Tree>>& members() const;
   [[nodiscard]] const std::vector<Tree>& elements() const;
   [[nodiscard]] const std::string& text() const;
+  /// Whether it is this text, which is then read; another is left unread.
+  [[nodiscard]] bool is(std::string_view text) const;
   [[nodiscard]] bool truth() const;
   [[nodiscard]] Kind kind() const { return kind_; }
   /// The paths, as "claims[3].verdict", of the values that nothing has read, at most so many. A text or a

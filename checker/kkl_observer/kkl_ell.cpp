@@ -137,7 +137,10 @@ std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& 
        proved_if(enclosed && certainly_at_most(width, nine_digits)), width, nine_digits},
       {"positive", R"(\ell > 0)", proved_if(certainly_positive(value)), Range(low, high), zero}};
   check_derivation(claimed, found, objections);
-  return enclosed ? std::optional(EllEnclosure{low, high, attained}) : std::nullopt;
+  // A wide enclosure would let its lower end, which is the ell of a design that names none, be chosen at
+  // will.
+  const bool narrow = enclosed && certainly_at_most(width, nine_digits);
+  return narrow ? std::optional(EllEnclosure{low, high, attained}) : std::nullopt;
 }
 
 }  // namespace veritrack::checker

@@ -238,7 +238,10 @@ Claim check_capture_claim(const Tree& claimed, const std::map<std::string, Captu
   Verdict verdict = found.verdict;
   if (id == "ekf/capture") {
     // No noise is allowed noise.
-    verdict = found_of("capture/noise-free").verdict == Verdict::refuted ? Verdict::refuted : verdict;
+    if (const Captured without = found_of("capture/noise-free"); without.verdict == Verdict::refuted) {
+      verdict = Verdict::refuted;
+      found = without;
+    }
   } else if (id == "ekf/capture-noise-free") {
     disturbance = "without noise and slew";
     found = found_of("capture/noise-free");

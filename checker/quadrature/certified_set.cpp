@@ -1,5 +1,7 @@
 #include "checker/quadrature/certified_set.hpp"
 
+#include <set>
+
 #include "checker/document/evidence.hpp"
 #include "checker/quadrature/rounded_step.hpp"
 #include "checker/quadrature/set_inequality.hpp"
@@ -145,7 +147,7 @@ bool settled(const Setting& s, const Design& d, const Ball& start, const Ball& f
   const Ball level = frequency_error * s.metric.frequency;
   const Ball limit = ultimate_level(s, d);
   const Ball ultimate = square(limit);
-  if (!certainly_less(ultimate, square(level))) {
+  if (!certainly_positive(level) || !certainly_less(ultimate, square(level))) {
     return false;
   }
   if (certainly_at_most(start, level)) {
@@ -173,6 +175,12 @@ const Setting* first_of(const std::vector<CertifiedSet>& sets, const std::string
 CertifiedSet check_set(const Tree& tree, const Design& design, std::int64_t& cells, Objections& objections) {
   CertifiedSet set;
   set.purpose = tree.at("purpose").text();
+  static const std::set<std::string> purposes{"start-error",           "largest-noise",  "largest-slew",
+                                              "frequency-error-bound", "ultimate-error", "settling"};
+  if (purposes.count(set.purpose) == 0) {
+    objections.emplace_back("no set is for this purpose");
+    return set;
+  }
   const auto [setting, has_form] = read_setting(tree, design);
   set.setting = setting;
   bound_rounding(set.setting, design);

@@ -90,7 +90,7 @@ class QuadratureVerifier {
   /// "... satisfy all conditions of ...": as the derivation says, whose conditions were checked.
   Claim check_conditions_claim(const Tree& claim, const std::string& id, Objections& objections) {
     const auto known = derivations_.find(id.substr(0, id.rfind("/conditions")));
-    if (known == derivations_.end() || !known->second.verified) {
+    if (known == derivations_.end() || !known->second.verified || known->second.title.empty()) {
       objections.emplace_back(kUnverified);
       return {};
     }

@@ -102,7 +102,12 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
   promises.about_steady_state = true;
   if (fine && evidence != nullptr) {
     for (const Tree& item : evidence->elements()) {
-      if (item.at("name").text() == "start-covariance") {
+      const Tree& name = item.at("name");
+      if (name.is("start-covariance")) {
+        continue;
+      }
+      if (!name.is("start-error") && !name.is("largest-noise") && !name.is("largest-slew")) {
+        objections.emplace_back("no set is for this purpose");
         continue;
       }
       const SteadySet& set = sets.emplace_back(check_steady_set(item, design, *branch, cells, objections));

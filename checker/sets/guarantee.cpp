@@ -54,7 +54,9 @@ std::optional<Settled> settling_claim(const Tree& quantities) {
   if (samples == nullptr || error == nullptr) {
     return std::nullopt;
   }
-  return Settled{high_of(*samples), high_of(*error)};
+  Settled claim{high_of(*samples), high_of(*error)};
+  const bool sensible = certainly_not_negative(claim.samples) && certainly_positive(claim.frequency_error);
+  return sensible ? std::optional(std::move(claim)) : std::nullopt;
 }
 
 Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections)
@@ -137,7 +139,8 @@ std::string Guarantee::hypotheses(const Promises& promises) const {
   const auto words = [&](const char* name) { return text_of(assume.at(name)); };
   return tone(true) + ", started within " + words("initial_frequency_error") + kPerSample +
          " of the true frequency, " + words("initial_phase_error") + " rad of the phase and " +
-         words("initial_amplitude_error") + " of the amplitude " + promises.covariance + ", ";
+         words("initial_amplitude_error") + " of the amplitude" +
+         (promises.covariance.empty() ? "" : " " + promises.covariance) + ", ";
 }
 
 /// What [require] asks.
@@ -217,7 +220,7 @@ Claim Guarantee::invariant_set(const Tree& claim, const Promises& promises) cons
   found.is_summary = true;
   found.evidence = {{"frequency_error_radius", of(promises.reach), Sense::bounds_below},
                     {"contraction_rate", of(promises.rate), Sense::bounds_above}};
-  found.verdict = proved_if(promises.reach && promises.rate);
+  found.verdict = proved_if(promises.reach && promises.rate && certainly_positive(reach));
   found.statement =
       tone(true) + ", a certified invariant set contains frequency errors up to " + lower_decimal(reach) +
       kPerSample +
@@ -263,6 +266,10 @@ Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
                       {"wrong_lock_frequency_error", of(promises.wrong_lock), Sense::bounds_below}};
   }
   found.is_summary = true;
+  if (found.verdict != Verdict::proved) {
+    found.statement += ".";
+    return found;
+  }
   const std::vector<Quantity> settling = settling_evidence(promises);
   found.evidence.insert(found.evidence.end(), settling.begin(), settling.end());
   found.evidence.push_back({"ultimate_frequency_error", of(promises.ultimate), Sense::bounds_above});

@@ -37,7 +37,7 @@ struct Promises {
 /// them.
 void add_bounds(const Promises& promises, Derivation& found);
 
-/// What a derivation says of settling, which is to be proved; nothing when it says nothing.
+/// What a derivation says of settling, which is to be proved; nothing when it says nothing sensible.
 std::optional<Settled> settling_claim(const Tree& quantities);
 
 /// What a statement is about: the recursion over the reals, or the program, whose rounding is bounded.

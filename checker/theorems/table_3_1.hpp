@@ -9,6 +9,7 @@ namespace veritrack::checker {
 /// signs of the derivatives are those of s p^2 q (alpha) and p q (beta), for q1, q2 and r from half to twice
 /// the design's. Nothing is established unless sigma is in its range and q1 <= q2: the thesis's footnote
 /// gives the opposite signs for q1 > q2.
-std::string check_table_3_1(const Tree& derivation, const Design& design, bool printed, Objections& objections);
+std::string check_table_3_1(const Tree& derivation, const Design& design, bool printed,
+                            Objections& objections);
 
 }  // namespace veritrack::checker

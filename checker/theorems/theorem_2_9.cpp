@@ -215,11 +215,12 @@ std::string check_theorem_2_9(const Tree& claimed, const Design& design, Reading
                               Objections& objections) {
   const Constants29 c = constants_2_9(design, reading);
   const bool printed = reading == Reading::printed;
-  const std::string title = check_derivation(claimed,
-                   {printed ? "Theorem 2.9 (EKF stability) as printed in the 1994 thesis"
-                            : "Theorem 2.9 (EKF stability) with the errata sheet of the 1994 thesis",
-                    quantities_of(c, design), conditions_of(claimed, c, design, reading)},
-                   objections);
+  const std::string title =
+      check_derivation(claimed,
+                       {printed ? "Theorem 2.9 (EKF stability) as printed in the 1994 thesis"
+                                : "Theorem 2.9 (EKF stability) with the errata sheet of the 1994 thesis",
+                        quantities_of(c, design), conditions_of(claimed, c, design, reading)},
+                       objections);
   if (const Tree* feasibility = claimed.find("feasibility")) {
     check_feasibility(*feasibility, design, reading, objections);
   }

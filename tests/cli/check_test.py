@@ -7,8 +7,8 @@ import xml.etree.ElementTree
 from support import DESIGN, CliTestCase
 
 # The assumed start exceeds the first bound; settling within one sample is not certified.
-HARD = DESIGN + "\n[require]\nfrequency_error_below = 0.001\nsettles_within = 1\n"
-HARD_LINES = [HARD.splitlines().index(line) + 1 for line in HARD.splitlines()[-2:]]
+HARD = DESIGN + "\n[require]\nfrequency_error_below = 0.001\nsettled_below = 0.002\nsettles_within = 1\n"
+HARD_LINES = [HARD.splitlines().index(line) + 1 for line in (HARD.splitlines()[-3], HARD.splitlines()[-1])]
 
 
 class Check(CliTestCase):
@@ -29,7 +29,7 @@ class Check(CliTestCase):
         self.assertTrue(lines[1].startswith(f"design.toml:{HARD_LINES[1]}: undecided: "), lines[1])
 
     def test_a_requirement_that_is_proved(self):
-        self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.05\nsettles_within = 200\n")
+        self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.05\nsettles_within = 200\nsettled_below = 0.01\n")
         result = self.run_here("check", "design.toml", "--sarif", "report.sarif")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertEqual([line.split(": ")[1] for line in result.stdout.splitlines()], ["proved", "proved"])

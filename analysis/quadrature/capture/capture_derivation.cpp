@@ -150,8 +150,14 @@ sets::StartResult capture_result(Verdict verdict_on_starts, const CertifiedSet& 
   set(result.settling_samples,
       "k_c + \\min \\{k : \\kappa^{2k} |T e(k_c)|^2 + (1 - \\kappa^{2k}) u^2 \\le (\\nu_s / |e_3' "
       "T^{-1}|)^2\\}",
-      settling, !proved ? kNotAll : undisturbed ? kApproached : kNotSettled);
-  set(result.settled_frequency_error, "", settled, !proved ? kNotAll : undisturbed ? kApproached : kNotSettled);
+      settling,
+      !proved       ? kNotAll
+      : undisturbed ? kApproached
+                    : kNotSettled);
+  set(result.settled_frequency_error, "", settled,
+      !proved       ? kNotAll
+      : undisturbed ? kApproached
+                    : kNotSettled);
   if (const std::optional<Interval> wrong = wrong_lock(set_of_capture, region)) {
     result.wrong_lock_frequency_error = sets::quantities::wrong_lock_frequency_error();
     set(*result.wrong_lock_frequency_error, "2 \\pi |n| - R\\,|e_3' T^{-1}|", wrong, "");

@@ -6,8 +6,8 @@
 
 #include "analysis/quadrature/contraction/promises.hpp"
 #include "analysis/quadrature/contraction/set_search.hpp"
-#include "analysis/quadrature/start_covariance.hpp"
 #include "analysis/quadrature/falsifier/sampled_quantities.hpp"
+#include "analysis/quadrature/start_covariance.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 

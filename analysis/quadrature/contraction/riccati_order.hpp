@@ -69,6 +69,7 @@ struct TurnBound {
 [[nodiscard]] bool certainly_keeps_covariance_between(const BlockCovariance<rigor::Interval>& lower,
                                                       const BlockCovariance<rigor::Interval>& upper,
                                                       const trackers::ToneModel<rigor::Interval>& design,
-                                                      const std::vector<TurnBound>& turns, double room = 0.0 VERITRACK_CALL_SITE);
+                                                      const std::vector<TurnBound>& turns,
+                                                      double room = 0.0 VERITRACK_CALL_SITE);
 
 }  // namespace veritrack::quadrature

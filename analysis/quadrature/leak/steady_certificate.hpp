@@ -12,7 +12,7 @@ namespace veritrack::quadrature {
 /// What is asked, at amplitude 1.
 struct LeakQuestion {
   sets::ContractionQuestion
-      tracker;           ///< design, noise, slew and start, by default from near the steady state at the middle
+      tracker;  ///< design, noise, slew and start, by default from near the steady state at the middle
   rigor::Interval band;  ///< true frequencies, rad/sample
 };
 

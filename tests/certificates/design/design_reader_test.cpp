@@ -135,7 +135,8 @@ void check_number(const Number& number) {
   CHECK(number.tight.lower() <= expected);
   CHECK(expected <= number.tight.upper());
   // A unit in the last place around it, and no room where the number is a double.
-  const bool is_point = number.tight.lower() == number.tight.upper();
+  const bool is_point = number.tight.lower() == number.tight.upper() ||
+                        !std::isfinite(std::nextafter(number.tight.upper(), kInfinity));
   CHECK(number.value.lower() ==
         (is_point ? number.tight.lower() : std::nextafter(number.tight.lower(), -kInfinity)));
   CHECK(number.value.upper() ==

@@ -49,8 +49,9 @@ TEST_CASE("the name of a design cannot forge a verdict") {
 }
 
 TEST_CASE("every table is rectangular") {
-  for (const auto& certificate : {test::certificate(), test::certificate({{"q1 = 0.0023", "q1 = 0"}}),
-                                  test::certificate({{"[require]", "[require]\nsettles_within = 9\nsettled_below = 0.01"}})}) {
+  for (const auto& certificate :
+       {test::certificate(), test::certificate({{"q1 = 0.0023", "q1 = 0"}}),
+        test::certificate({{"[require]", "[require]\nsettles_within = 9\nsettled_below = 0.01"}})}) {
     const std::string document = certificates::to_markdown(certificate, kOptions);
     std::size_t columns = 0;
     std::size_t start = 0;

@@ -26,10 +26,11 @@ std::string number(const std::string& text) {
 }
 
 std::string certificate(const std::string& q, const std::string& more = "") {
-  return R"({"design_sha256": ")" + sha256(kFile) + R"(", "design": {"name": "a design", "tracker": "a-kind",)" +
-         R"( "source": "", "design": {"q": )" + number(q) + R"(, "rates": [)" + number("1") + "," + number("2.50") +
-         R"(], "epsilon": )" + number("0") + "}, \"assume\": {\"frequency\": [" + number("0.5") + "," +
-         number("0.5") + "]" + more + "}}}";
+  return R"({"design_sha256": ")" + sha256(kFile) +
+         R"(", "design": {"name": "a design", "tracker": "a-kind",)" + R"( "source": "", "design": {"q": )" +
+         number(q) + R"(, "rates": [)" + number("1") + "," + number("2.50") + R"(], "epsilon": )" +
+         number("0") + "}, \"assume\": {\"frequency\": [" + number("0.5") + "," + number("0.5") + "]" + more +
+         "}}}";
 }
 
 Objections compared(const std::string& text, const std::string& file = kFile) {
@@ -40,7 +41,8 @@ Objections compared(const std::string& text, const std::string& file = kFile) {
 
 }  // namespace
 
-TEST_CASE("every decimal is compared as it is written, defaults are known, and the simulation is left aside") {
+TEST_CASE(
+    "every decimal is compared as it is written, defaults are known, and the simulation is left aside") {
   CHECK(compared(certificate("0.001")).empty());
   CHECK(compared(certificate("0.0010")).size() == 1);
   CHECK(compared(certificate("1e-3")).size() == 1);

@@ -47,10 +47,12 @@ TEST_CASE("[lo, hi] is the tightest enclosure of the decimal, and no other") {
 
 TEST_CASE("a number stands for the decimal and for the double nearest to it, and for nothing beyond them") {
   Objections objections;
-  const Ball value = read_number(number("0.001", "0x1.0624dd2f1a9fbp-10", "0x1.0624dd2f1a9fcp-10"), objections);
+  const Ball value =
+      read_number(number("0.001", "0x1.0624dd2f1a9fbp-10", "0x1.0624dd2f1a9fcp-10"), objections);
   CHECK(certainly_at_most(value.lower(), from_decimal("0.001").lower()));
   CHECK(certainly_at_most(Ball(0.001), value.upper()));
-  CHECK(certainly_at_most(value.upper(), Ball(0x1.0624dd2f1a9fcp-10)));  // 0.001 in double precision is the upper end
+  CHECK(certainly_at_most(value.upper(),
+                          Ball(0x1.0624dd2f1a9fcp-10)));  // 0.001 in double precision is the upper end
   CHECK(certainly_less(Ball(0x1.0624dd2f1a9fbp-10), value.lower()));
 }
 

@@ -11,8 +11,10 @@ namespace {
 Verification verified_document() {
   Verification found;
   found.parts = {{"design", {}}, {"a", {}}, {"verdict", {}}, {"read", {}}};
-  found.sentences = {{"a/b", Verdict::proved, "It is so.", true}, {"c/d", Verdict::refuted, "It is not so.", false}};
-  found.requirements = {{"a/b", "it must be so", Verdict::proved}, {"e/f", "it must be more", Verdict::undecided}};
+  found.sentences = {{"a/b", Verdict::proved, "It is so.", true},
+                     {"c/d", Verdict::refuted, "It is not so.", false}};
+  found.requirements = {{"a/b", "it must be so", Verdict::proved},
+                        {"e/f", "it must be more", Verdict::undecided}};
   return found;
 }
 
@@ -65,7 +67,8 @@ TEST_CASE("every verdict of the document is compared") {
   CHECK(objections_to(changed("**PROVED**: It is so.", "**PROVED**: It is much so.")) == 1);
   CHECK(objections_to(changed("**UNDECIDED**: It might", "**PROVED**: It might")) == 1);
   CHECK(objections_to(changed("**PROVED**: It is so.\n", "")) == 1);
-  CHECK(objections_to(changed("| it must be more | **UNDECIDED** |", "| it must be more | **PROVED** |")) == 1);
+  CHECK(objections_to(changed("| it must be more | **UNDECIDED** |", "| it must be more | **PROVED** |")) ==
+        1);
   CHECK(objections_to(changed("| it must be so | **PROVED** | by this |\n", "")) == 1);
   CHECK(objections_to(changed("- **REFUTED** `c/d`", "- **PROVED** `c/d`")) == 1);
   CHECK(objections_to(changed("- **REFUTED** `c/d`: It is not so.\n", "")) == 1);

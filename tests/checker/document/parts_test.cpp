@@ -16,7 +16,8 @@ std::string claim(const std::string& id, const std::string& verdict, bool requir
 }
 
 /// The claims as the certificate has them; those whose id is "wrong" are objected to.
-Verification checked(const std::string& claims, const std::string& verdict, const std::vector<std::string>& asked) {
+Verification checked(const std::string& claims, const std::string& verdict,
+                     const std::vector<std::string>& asked) {
   const Tree certificate = read_json(R"({"claims": [)" + claims + R"(], "verdict": ")" + verdict + R"("})");
   Verification result;
   std::vector<Requirement> requirements;
@@ -35,7 +36,8 @@ Verification checked(const std::string& claims, const std::string& verdict, cons
 }
 
 /// Nothing is objected to.
-bool all_is_well(const std::string& claims, const std::string& verdict, const std::vector<std::string>& asked) {
+bool all_is_well(const std::string& claims, const std::string& verdict,
+                 const std::vector<std::string>& asked) {
   const Verification result = checked(claims, verdict, asked);
   return std::all_of(result.parts.begin(), result.parts.end(),
                      [](const Part& part) { return part.objections.empty(); });

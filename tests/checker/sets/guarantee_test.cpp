@@ -35,8 +35,9 @@ struct Answer {
     return claim.statement.find(words) != std::string::npos;
   }
 };
-Answer answer(const std::string& id, const std::string& verdict, const std::string& tables, const Promises& promises,
-              const std::string& evidence = "{}", const Wording& wording = {false, true, kExactArithmetic}) {
+Answer answer(const std::string& id, const std::string& verdict, const std::string& tables,
+              const Promises& promises, const std::string& evidence = "{}",
+              const Wording& wording = {false, true, kExactArithmetic}) {
   const Tree design = read_json(tables);
   Answer found;
   const Guarantee guarantee(design, wording, found.objections);
@@ -89,7 +90,8 @@ TEST_CASE("the sentence names every hypothesis") {
     CAPTURE(words);
     CHECK(found.says(words));
   }
-  const Answer banded = answer("ekf/guarantee", "proved", design(below), bound(0.7), "{}", {true, false, "X"});
+  const Answer banded =
+      answer("ekf/guarantee", "proved", design(below), bound(0.7), "{}", {true, false, "X"});
   CHECK(banded.says("X, for a tone"));
   CHECK(banded.says("lies between 0.25 and 3.0 rad/sample"));
   CHECK_FALSE(banded.says("in each"));
@@ -113,13 +115,14 @@ TEST_CASE("the sentence says no number that its evidence does not have, and evid
   CHECK(settled("0x1.cp+3", "0x1.ap-3").objections.empty());
   CHECK(!settled("0x1.ap+3", "0x1.ap-3").objections.empty());
   CHECK(!settled("0x1.cp+3", "0x1.8p-3").objections.empty());
-  CHECK(with(at_most("ultimate_frequency_error", "0x1.ap-4")).says("in the long run it is at most 0.102 rad/sample"));
+  CHECK(with(at_most("ultimate_frequency_error", "0x1.ap-4"))
+            .says("in the long run it is at most 0.102 rad/sample"));
   CHECK(!with(at_most("ultimate_frequency_error", "0x1.8p-4")).objections.empty());
 }
 
 TEST_CASE("settling takes two numbers, and both are met") {
-  const std::string tables = design(R"({"settles_within": )" + exactly("16", "0x1p+4") + R"(, "settled_below": )" +
-                                    exactly("0.25", "0x1p-2") + "}");
+  const std::string tables = design(R"({"settles_within": )" + exactly("16", "0x1p+4") +
+                                    R"(, "settled_below": )" + exactly("0.25", "0x1p-2") + "}");
   Promises promises = bound(0.7);
   const auto settles = [&](double samples, double error) {
     promises.settled = Settled{Ball(samples), Ball(error)};
@@ -146,11 +149,13 @@ TEST_CASE("the size of the set and the limits are sentences of their own") {
   Promises promises;
   promises.reach = Ball(0.25);
   promises.rate = Ball(0.9);
-  const std::string set = R"({"frequency_error_radius": {"lo": "0x1p-2"}, "contraction_rate": {"hi": "0x1.dp-1"}})";
+  const std::string set =
+      R"({"frequency_error_radius": {"lo": "0x1p-2"}, "contraction_rate": {"hi": "0x1.dp-1"}})";
   const Answer found = answer("ekf/invariant-set", "proved", design("{}"), promises, set);
   CHECK(found.objections.empty());
-  CHECK(found.says("contains frequency errors up to 0.25 rad/sample; in it, each sample multiplies the error by at "
-                   "most 0.907"));
+  CHECK(found.says(
+      "contains frequency errors up to 0.25 rad/sample; in it, each sample multiplies the error by at "
+      "most 0.907"));
   promises.reach = Ball(0.24);
   CHECK(!is_verified("ekf/invariant-set", "proved", design("{}"), promises, set));
   const std::string limits = R"({"largest_noise": {"lo": "0x1p-2"}, "largest_slew": {"lo": "0x1p-3"}})";

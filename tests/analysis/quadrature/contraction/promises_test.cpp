@@ -70,7 +70,8 @@ TEST_CASE("without noise nothing settles within twice the ultimate bound") {
   CHECK(Promises(the_question(0.05), {outer_set()}).settling().has_value());
 }
 
-TEST_CASE("what counts as settled is what is asked for, where a set gives it, and else twice the ultimate bound") {
+TEST_CASE(
+    "what counts as settled is what is asked for, where a set gives it, and else twice the ultimate bound") {
   const rigor::UpwardRounding upward;
   sets::ContractionQuestion question = the_question(0.05);
   const auto settling = [&] { return Promises(question, {outer_set()}).settling().value(); };

@@ -101,8 +101,8 @@ TEST_CASE("starts beyond the set and noise beyond the limit are undecided, with 
 
   sets::ContractionQuestion wide = question(0.0023, 0.05);
   wide.search_evaluations = 10;
-  wide.start_covariance =
-      sets::StartCovariance{rigor::to_interval(Eigen::Matrix3d(Eigen::Matrix3d::Identity())), Interval(1.0), true};
+  wide.start_covariance = sets::StartCovariance{
+      rigor::to_interval(Eigen::Matrix3d(Eigen::Matrix3d::Identity())), Interval(1.0), true};
   CHECK(condition(certify_contraction(wide), "start-in-set").verdict == Verdict::undecided);
 }
 

@@ -86,7 +86,11 @@ class Rounded {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   static double checked(const Interval& exact, double error) {
-    return is_finite(exact) && error >= 0.0 && error <= kLargest ? error : kInfinity;
+    const bool is_known = is_finite(exact) && error >= 0.0 && error <= kLargest;
+    if (is_known) {
+      return error;
+    }
+    return kInfinity;
   }
   static double error_of_product(const Rounded& a, const Rounded& b) {
     return add_up(add_up(mul_up(magnitude(a.exact_), b.error_), mul_up(a.error_, magnitude(b.exact_))),

@@ -149,10 +149,14 @@ std::vector<std::string> Tree::unread(std::size_t most) const {
 void Tree::add_unread(const std::string& path, std::size_t most, std::vector<std::string>& paths) const {
   // As deep as the file is nested, which the reader limits.
   for (const auto& [name, value] : members_) {
-    value.add_unread(path.empty() ? name : path + "." + name, most, paths);
+    std::string longer = path;
+    longer.append(path.empty() ? "" : ".").append(name);
+    value.add_unread(longer, most, paths);
   }
   for (std::size_t i = 0; i < elements_.size(); ++i) {
-    elements_[i].add_unread(path + "[" + std::to_string(i) + "]", most, paths);
+    std::string longer = path;
+    longer.append("[").append(std::to_string(i)).append("]");
+    elements_[i].add_unread(longer, most, paths);
   }
   if (members_.empty() && elements_.empty() && !read_ && paths.size() < most) {
     paths.push_back(path);

@@ -68,7 +68,9 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
        {"largest_noise_at_least", &noise_},
        {"largest_slew_at_least", &slew_},
        {"frequency_error_radius_at_least", &reach_}}};
-  for (const auto& [name, value] : design.at("require").members()) {
+  for (const auto& member : design.at("require").members()) {
+    const std::string& name = member.first;
+    const Tree& value = member.second;
     const auto* key =
         std::find_if(keys.begin(), keys.end(), [&](const auto& known) { return known.first == name; });
     if (key == keys.end()) {

@@ -122,7 +122,7 @@ std::string check_repaired_theorem(const Tree& claimed, const Design& d, Objecti
     found.quantities.push_back(
         {"ultimate_frequency_error", assured ? gain * ultimate : nothing, Sense::bounds_above});
   }
-  const std::string title = check_derivation(claimed, found, objections);
+  std::string title = check_derivation(claimed, found, objections);
   if (const Tree* feasibility = claimed.find("feasibility")) {
     check_feasibility(*feasibility, noise, d, objections);
   }

@@ -60,6 +60,7 @@ bool encloses(const Tree* side, const Range& value) {
 Condition of_parts(const Tree& claimed, const std::string& id, const std::string& statement,
                    const std::vector<Part>& parts) {
   std::vector<Verdict> verdicts;
+  verdicts.reserve(parts.size());
   for (const Part& part : parts) {
     verdicts.push_back(part.verdict);
   }
@@ -215,7 +216,7 @@ std::string check_theorem_2_9(const Tree& claimed, const Design& design, Reading
                               Objections& objections) {
   const Constants29 c = constants_2_9(design, reading);
   const bool printed = reading == Reading::printed;
-  const std::string title =
+  std::string title =
       check_derivation(claimed,
                        {printed ? "Theorem 2.9 (EKF stability) as printed in the 1994 thesis"
                                 : "Theorem 2.9 (EKF stability) with the errata sheet of the 1994 thesis",

@@ -56,8 +56,9 @@ Design the_design() {
 
 /// Why the set is not verified; empty when it is.
 std::string refusal(const WrittenSet& set, const Design& design = the_design()) {
-  std::string text = R"({"purpose": "settling", "metric": )" + json_of(set.metric) + R"(, "covariance_lower": )" +
-                     json_of(set.lower) + R"(, "covariance_upper": )" + json_of(set.upper);
+  std::string text = R"({"purpose": "settling", "metric": )" + json_of(set.metric) +
+                     R"(, "covariance_lower": )" + json_of(set.lower) + R"(, "covariance_upper": )" +
+                     json_of(set.upper);
   for (const auto& [name, number] : set.numbers) {
     text += ", \"" + name + "\": \"" + number + "\"";
   }

@@ -97,7 +97,7 @@ class Proofs(CliTestCase):
 
     def test_kkl_observer(self):
         text = self.design_part(self.certify(KKL, "observer"), "kkl_observer")
-        listed = json.loads((self.folder / "observer/certificate.json").read_text())["formal_proofs"]["proofs"]
+        listed = json.loads((self.folder / "observer/report.json").read_text())["formal_proofs"]["proofs"]
         self.assertIn("ell_is_at_least", [proof["lemma"] for proof in listed])
         bound = re.search(r"ell_lower : R := \((\d+) /", text).group(1)
         in_use = re.search(r"ell_in_use : R := (.*)\.\n", text).group(1)

@@ -17,16 +17,16 @@ std::string linearization_section() {
   constexpr int kSeeds = 20;
   std::vector<std::vector<std::string>> rows;
   int printed_total = 0;
-  for (const auto& [words, reading] : {std::pair{"q diag(0, 0, 1)", ProcessNoiseReading::frequency_only},
-                                       std::pair{"q diag(1, 1, 1)", ProcessNoiseReading::identity}}) {
-    for (const auto& [epsilon_words, epsilon] : {std::pair{"0.05", 0.05}, std::pair{"0", 0.0}}) {
+  for (const auto& reading : {std::pair{"q diag(0, 0, 1)", ProcessNoiseReading::frequency_only},
+                              std::pair{"q diag(1, 1, 1)", ProcessNoiseReading::identity}}) {
+    for (const auto& epsilon : {std::pair{"0.05", 0.05}, std::pair{"0", 0.0}}) {
       for (const auto& start : single_channel::example_starts()) {
         const auto locked = [&](LinearizationPoint point) {
-          return single_channel::locked_runs(reading, epsilon, start, point, kSeeds);
+          return single_channel::locked_runs(reading.second, epsilon.second, start, point, kSeeds);
         };
         const int printed = locked(LinearizationPoint::as_printed);
         printed_total += printed;
-        rows.push_back({words, epsilon_words, start.words, fmt::format("{} of {}", printed, kSeeds),
+        rows.push_back({reading.first, epsilon.first, start.words, fmt::format("{} of {}", printed, kSeeds),
                         fmt::format("{} of {}", locked(LinearizationPoint::latest_estimate), kSeeds)});
       }
     }

@@ -29,6 +29,12 @@ const std::string* default_of(const std::string& path) {
   return found == defaults.end() ? nullptr : &found->second;
 }
 
+/// "table.key"
+std::string inside(const std::string& path, const std::string& name) {
+  std::string longer = path;
+  return longer.append(path.empty() ? "" : ".").append(name);
+}
+
 /// Walks through the certificate's design and the file together.
 class Comparison {
  public:
@@ -41,7 +47,7 @@ class Comparison {
 
   void table(const std::string& path, const Tree& claimed, const toml::table* file) {
     for (const auto& [name, value] : claimed.members()) {
-      node(path.empty() ? name : path + "." + name, value, file != nullptr ? file->get(name) : nullptr);
+      node(inside(path, name), value, file != nullptr ? file->get(name) : nullptr);
     }
     if (file == nullptr) {
       return;
@@ -50,7 +56,7 @@ class Comparison {
       const std::string name(key.str());
       const bool left_aside = path.empty() && name == "simulate";
       if (!left_aside && claimed.find(name) == nullptr) {
-        objections_.push_back(path + "." + name + " is in the design file and not in the certificate");
+        objections_.push_back(inside(path, name).append(" is in the design file and not in the certificate"));
       }
     }
   }

@@ -26,7 +26,7 @@ Ball read_number(const Tree& number, Objections& objections) {
     throw std::invalid_argument("a decimal of more than 200 characters");
   }
   const Ball decimal = from_decimal(text, kBits);
-  const Ball low(outward(decimal.lower(kBits), ARF_RND_FLOOR));
+  Ball low(outward(decimal.lower(kBits), ARF_RND_FLOOR));
   const Ball high(outward(decimal.upper(kBits), ARF_RND_CEIL));
   if (!low.finite() || !high.finite()) {
     throw std::invalid_argument("larger than the largest double: " + text);
@@ -64,8 +64,8 @@ Band read_band(const Tree& band, Objections& objections) {
   if (band.elements().size() != 2) {
     objections.emplace_back("a band has two ends");
   }
-  const Band ends{read_not_negative(band.at(0), "frequency", objections),
-                  read_not_negative(band.at(1), "frequency", objections)};
+  Band ends{read_not_negative(band.at(0), "frequency", objections),
+            read_not_negative(band.at(1), "frequency", objections)};
   const bool in_order =
       text_of(band.at(0)) == text_of(band.at(1)) || certainly_at_most(ends.lowest, ends.highest);
   if (!in_order || !certainly_less(ends.highest, pi())) {

@@ -11,6 +11,7 @@ namespace {
 /// "proved", "refuted", "undecided", or "nothing-required".
 std::string verdict_together(const std::vector<Requirement>& requirements) {
   std::vector<Verdict> verdicts;
+  verdicts.reserve(requirements.size());
   for (const Requirement& requirement : requirements) {
     verdicts.push_back(requirement.verdict);
   }

@@ -27,7 +27,7 @@ Ball rounding_share(const Matrix3& p, const PolarRounding& rounding) {
   constexpr int kLeast = -52;
   constexpr int kMost = -8;
   for (int k = kLeast; k <= kMost; ++k) {
-    const Ball share(std::ldexp(1.0, k));
+    Ball share(std::ldexp(1.0, k));
     Matrix3 rest = p;
     for (auto& row : rest) {
       for (Ball& entry : row) {

@@ -130,13 +130,7 @@ Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& term
 std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTerms& terms) {
   const sets::ContractionResult& found = certificate.contraction.value();
   std::vector<Claim> claims;
-  const bool invariant =
-      std::any_of(found.starts.conditions.begin(), found.starts.conditions.end(),
-                  [](const theorems::Condition& condition) {
-                    return condition.id == "invariant-set" && condition.verdict == Verdict::proved;
-                  }) ||
-      certificate.contraction->frequency_error_radius.applies();
-  if (invariant && found.frequency_error_radius.applies() && found.contraction_rate.applies()) {
+  if (found.frequency_error_radius.applies() && found.contraction_rate.applies()) {
     Claim claim;
     claim.id = "ekf/invariant-set";
     claim.verdict = Verdict::proved;

@@ -15,6 +15,71 @@ rigor::Matrix<3> matrix(const BlockCovariance<double>& p) {
   return m;
 }
 
+/// The best point of the search space that is found from `seed`, or from the space's own start.
+search::BestPoint best_point(const ProposalRequest& request, const BlockCovariance<double>& steady,
+                             const std::optional<Eigen::VectorXd>& seed) {
+  const ShapeSearch proposer(request, steady);
+  search::SearchSpace space = proposer.space();
+  if (seed) {
+    space.start = *seed;
+  }
+  const auto search = [&](const auto& value) {
+    return search::maximize([&](const Eigen::VectorXd& x) { return value(proposer.shape(x)); }, space);
+  };
+  if (request.objective == Objective::start_error) {
+    return search(
+        [&](const Shape& shape) { return proposer.largest_radius(shape) / shape.metric.frequency; });
+  }
+  space.evaluations *= 6;  // one sample instead of a bisection each time
+  if (is_about_a_start(request.objective)) {
+    return search([&](const Shape& shape) { return proposer.worth(shape); });
+  }
+  const double start = proposer.largest_radius(proposer.shape(space.start));
+  if (start > 0.0) {
+    space.start[space.start.size() - 1] = std::log(0.5 * start);
+  }
+  return search([&](const Shape& shape) { return proposer.largest_disturbance(shape); });
+}
+
+/// The point with one more variable, the last, at the best of its values.
+Eigen::VectorXd with_one_more(const Eigen::VectorXd& point, const ShapeSearch& proposer,
+                              Objective objective) {
+  constexpr double kFirst = -6.0;
+  constexpr double kLast = 45.0;
+  constexpr double kStep = 1.0;
+  Eigen::VectorXd candidate(point.size() + 1);
+  candidate << point, kFirst;
+  Eigen::VectorXd best = candidate;
+  double most = kWorthless;
+  for (double last = kFirst; last <= kLast; last += kStep) {
+    candidate[point.size()] = last;
+    const Shape shape = proposer.shape(candidate);
+    const double value = is_about_a_start(objective)
+                             ? proposer.worth(shape)
+                             : proposer.largest_radius(shape) / shape.metric.frequency;
+    if (value > most) {
+      most = value;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+/// The best point from the start of the space and, when there is noise or slew, from the best one without it:
+/// a little slew then needs no other set than none.
+search::BestPoint best_of_several(const ProposalRequest& request, const BlockCovariance<double>& steady) {
+  search::BestPoint best = best_point(request, steady, std::nullopt);
+  if (sets_a_disturbance(request.objective) || !(request.noise > 0.0 || request.slew > 0.0)) {
+    return best;
+  }
+  ProposalRequest quieter = request;
+  (request.slew > 0.0 ? quieter.slew : quieter.noise) = 0.0;
+  const search::BestPoint without = best_of_several(quieter, steady);
+  const search::BestPoint other = best_point(
+      request, steady, with_one_more(without.point, ShapeSearch(request, steady), request.objective));
+  return other.value > best.value ? other : best;
+}
+
 }  // namespace
 
 std::optional<Shape> propose_shape(const ProposalRequest& request) {
@@ -22,30 +87,12 @@ std::optional<Shape> propose_shape(const ProposalRequest& request) {
   if (!steady) {
     return std::nullopt;
   }
-  const ShapeSearch proposer(request, *steady);
-  search::SearchSpace space = proposer.space();
-  const auto search = [&](const auto& value) {
-    return search::maximize([&](const Eigen::VectorXd& x) { return value(proposer.shape(x)); }, space);
-  };
+  const search::BestPoint best = best_of_several(request, *steady);
   const bool about_start = is_about_a_start(request.objective);
-  search::BestPoint best;
-  if (request.objective == Objective::start_error) {
-    best =
-        search([&](const Shape& shape) { return proposer.largest_radius(shape) / shape.metric.frequency; });
-  } else if (about_start) {
-    space.evaluations *= 6;  // one sample instead of a bisection each time
-    best = search([&](const Shape& shape) { return proposer.worth(shape); });
-  } else {
-    space.evaluations *= 6;
-    const double start = proposer.largest_radius(proposer.shape(space.start));
-    if (start > 0.0) {
-      space.start[space.start.size() - 1] = std::log(0.5 * start);
-    }
-    best = search([&](const Shape& shape) { return proposer.largest_disturbance(shape); });
-  }
   if (about_start ? !(best.value > kWorthless) : !(best.value > 0.0)) {
     return std::nullopt;
   }
+  const ShapeSearch proposer(request, *steady);
   Shape shape = proposer.shape(best.point);
   shape.objective = best.value;
   if (request.objective == Objective::start_error) {

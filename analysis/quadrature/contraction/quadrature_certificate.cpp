@@ -164,6 +164,9 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
       certificate.set = *found;
     }
   }
+  if (!certificate.set && certificate.noise_set) {
+    certificate.set = with_slew(question, certificate.noise_set->set);
+  }
   if (!certificate.set) {
     return;
   }

@@ -1,6 +1,7 @@
 #include "analysis/quadrature/contraction/set_search.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "analysis/quadrature/contraction/start_bounds.hpp"
 
@@ -71,6 +72,22 @@ std::optional<Verification> find_set(const sets::ContractionQuestion& question, 
   ProposalRequest request = request_for(question, objective);
   request.settled_error = settled_error;
   return first_that_verifies(question, request);
+}
+
+std::optional<Verification> with_slew(const sets::ContractionQuestion& question, const CertifiedSet& noisy) {
+  constexpr double kShare = 0.999;  // of what the noise leaves
+  CertifiedSet proposal = noisy;
+  proposal.noise = question.noise.upper();
+  proposal.slew = question.slew.upper();
+  const double left = (1.0 - noisy.rate * noisy.rate) * noisy.radius * noisy.radius -
+                      noisy.noise_gain * noisy.noise_gain * proposal.noise * proposal.noise;
+  if (!(left > 0.0) || !(proposal.slew > 0.0)) {
+    return std::nullopt;
+  }
+  proposal.slew_gain = kShare * std::sqrt(left) / proposal.slew;
+  Verification verification =
+      verify_certified_set(question.design, proposal, {question.amplitude, question.largest_frequency});
+  return verification.verdict == rigor::Verdict::proved ? std::optional(verification) : std::nullopt;
 }
 
 std::optional<Verification> find_inner_set(const sets::ContractionQuestion& question,

@@ -16,6 +16,11 @@ namespace veritrack::quadrature {
 [[nodiscard]] std::optional<Verification> find_set(const sets::ContractionQuestion& question,
                                                    Objective objective, double settled_error = 0.0);
 
+/// `noisy`, which tolerates the assumed noise without slew, as a set for the assumed noise and slew: what the
+/// noise leaves is given to the slew. Nothing when it does not verify.
+[[nodiscard]] std::optional<Verification> with_slew(const sets::ContractionQuestion& question,
+                                                    const CertifiedSet& noisy);
+
 /// A set with a small ultimate frequency error into which `outer` is mapped (certainly_maps_into): the
 /// second part of a guarantee for starts that are far from zero. Nothing when none is found.
 [[nodiscard]] std::optional<Verification> find_inner_set(const sets::ContractionQuestion& question,

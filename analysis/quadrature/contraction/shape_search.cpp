@@ -47,7 +47,7 @@ search::SearchSpace ShapeSearch::space() const {
   for (const bool there : {noisy_, slewing_}) {
     if (there) {
       // A large set has room for large gains.
-      variables.push_back({request_.objective == Objective::start_error ? 5.0 : 2.0, 0.5, -6.0, 9.0});
+      variables.push_back({request_.objective == Objective::start_error ? 5.0 : 2.0, 0.5, -6.0, 45.0});
     }
   }
   if (about_radius_) {

@@ -62,6 +62,53 @@ TEST_CASE("the four designs: radius, noise and slew, and evidence that verifies 
   }
 }
 
+TEST_CASE("a trace of slew costs nothing that the noise leaves") {
+  struct Case {
+    double q1, q2, r, noise, slew;
+  };
+  constexpr std::array<Case, 4> kCases{{{0.0023, 0.0023, 0.05, 0.04, 1e-12},
+                                        {3e-4, 1e-5, 0.01, 0.09, 1e-12},
+                                        {3e-4, 1e-5, 0.01, 0.03, 1e-7},
+                                        {0.01, 0.01, 1e-4, 0.01, 1e-4}}};
+  for (const Case& one : kCases) {
+    CAPTURE(one.q1);
+    CAPTURE(one.noise);
+    sets::ContractionQuestion asked;
+    asked.design = {Interval(one.q1), Interval(one.q2), Interval(one.r), Interval(0.0)};
+    asked.noise = Interval(one.noise);
+    asked.slew = Interval(one.slew);
+    asked.with_samples = false;
+    const ContractionCertificate found = certify_contraction(asked);
+    CHECK(found.derivation.verdict == Verdict::proved);
+    REQUIRE(found.set.has_value());
+    CHECK(verify_certified_set(asked.design, found.set->set).verdict == Verdict::proved);
+  }
+}
+
+TEST_CASE("what is certified under more noise and slew is, up to a tenth, under less") {
+  constexpr std::array<double, 3> kNoises{0.002, 0.02, 0.05};
+  constexpr std::array<double, 3> kSlews{0.0, 1e-9, 1e-3};
+  constexpr double kTolerance = 1.1;
+  std::array<std::array<double, 3>, 3> bounds{};
+  for (std::size_t i = 0; i < kNoises.size(); ++i) {
+    for (std::size_t j = 0; j < kSlews.size(); ++j) {
+      sets::ContractionQuestion asked = question(0.0023, 0.05);
+      asked.noise = Interval(kNoises[i]);
+      asked.slew = Interval(kSlews[j]);
+      asked.initial_frequency_error = Interval(0.005);
+      asked.with_samples = false;
+      const ContractionCertificate found = certify_contraction(asked);
+      CHECK(found.derivation.verdict == Verdict::proved);
+      bounds[i][j] = find_quantity(found.derivation, "frequency_error_bound").value.upper();
+      for (std::size_t k = 0; k <= i; ++k) {
+        for (std::size_t l = 0; l <= j; ++l) {
+          CHECK(bounds[k][l] <= kTolerance * bounds[i][j]);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("q1 = 0 is refuted with a witness, a leak is left undecided") {
   sets::ContractionQuestion without_q1 = question(0.001, 0.01);
   without_q1.design.q1 = Interval(0.0);

@@ -1,0 +1,50 @@
+#include "analysis/quadrature/gaussian/level_proposal.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <limits>
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using Matrix = Eigen::Matrix3d;
+
+Matrix whole(const Symmetric<double>& x) {
+  Matrix m;
+  m << x[0][0], x[1][0], x[2][0], x[1][0], x[1][1], x[2][1], x[2][0], x[2][1], x[2][2];
+  return m;
+}
+
+/// The largest t with det(x - t y) = 0 for y > 0, and its vector v, v'y v = 1.
+std::pair<double, Eigen::Vector3d> largest(const Matrix& x, const Matrix& y) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(x, y);
+  if (solver.info() != Eigen::Success) {
+    return {std::numeric_limits<double>::quiet_NaN(), Eigen::Vector3d::Zero()};
+  }
+  return {solver.eigenvalues()[2], solver.eigenvectors().col(2)};
+}
+
+}  // namespace
+
+LevelSlope propose_level(const LockSetting<double>& setting, const LevelStep<double>& step,
+                         const std::array<LevelStep<double>, 3>& derivatives) {
+  const auto [above, v] = largest(whole(step.upper.covariance) - whole(symmetric_of(setting.centre)),
+                                  whole(symmetric_of(setting.spread_above)));
+  const Matrix inverse = whole(step.lower.covariance).inverse();
+  const auto [below, w] = largest(inverse - whole(symmetric_of(setting.centre_inverse)),
+                                  whole(symmetric_of(setting.spread_below)));
+  LevelSlope result;
+  const bool up = above > below;
+  result.level = up ? above : below;
+  const Eigen::Vector3d pulled = inverse * w;
+  const auto slope = [&](const Symmetric<double>& upper, const Symmetric<double>& lower) {
+    return up ? v.dot(whole(upper) * v) : -pulled.dot(whole(lower) * pulled);
+  };
+  for (std::size_t i = 0; i < result.along.size(); ++i) {
+    result.along[i] = slope(derivatives[i].upper.covariance, derivatives[i].lower.covariance);
+  }
+  result.with_level = slope(step.upper.slope, step.lower.slope);
+  return result;
+}
+
+}  // namespace veritrack::quadrature

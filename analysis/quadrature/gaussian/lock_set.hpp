@@ -1,0 +1,35 @@
+// LockSet: a set of errors and covariances of the quadrature tracker that it leaves with a small probability
+// only when the noise is Gaussian.
+#pragma once
+
+#include "analysis/quadrature/contraction/correction.hpp"
+#include "analysis/quadrature/contraction/gain_spread.hpp"
+#include "analysis/rigor/interval.hpp"
+
+namespace veritrack::quadrature {
+
+/// In the frame of the true phase (trackers/rotating_frame.hpp): e = (Re delta, Im delta, nu), P the
+/// covariance, signals of amplitude 1. The level of P is the least s >= 0 with lo(s) <= P <= hi(s) in the
+/// Loewner order,
+///     hi(s) = P_0 + s D_h,   lo(s) = (P_0^-1 + s D_l)^-1,
+/// and the level of (e, P) is (|T e|^2 + gamma s^2)/2. The set is where that is at most `level`. All numbers
+/// are exact doubles: what is certified is the set that they describe.
+///
+/// When verify_lock_set has certified it, W = exp(level of (e, P)) satisfies E[W(k+1) | k] <= W(k) + drift
+/// wherever the level of (e(k), P(k)) is at most `level`: docs/gaussian.md, condition (4).
+struct LockSet {
+  BlockMetric<double> metric;            ///< T, invertible
+  BlockCovariance<double> centre;        ///< P_0 > 0
+  BlockCovariance<double> spread_above;  ///< D_h > 0
+  BlockCovariance<double> spread_below;  ///< D_l > 0
+  double weight = 0.0;                   ///< gamma > 0
+  double level = 0.0;                    ///< L > 0
+  double drift = 0.0;                    ///< c_0 >= 0
+  double noise_deviation = 0.0;  ///< sigma of each channel, relative to the amplitude, > 0: an upper bound
+  double frequency_walk = 0.0;   ///< deviation of the frequency's step, rad/sample, >= 0: an upper bound
+};
+
+/// An upper bound on |nu| in the set, rad/sample: sqrt(2 L)/t33. Needs the upward mode.
+[[nodiscard]] rigor::Interval largest_frequency_error(const LockSet& set);
+
+}  // namespace veritrack::quadrature

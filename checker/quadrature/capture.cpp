@@ -149,7 +149,8 @@ void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting
                   max(disturbed.largest_frequency, pi())};
   const Matrix3 covariance = start.enclosure();
   const bool is_symmetric =
-      certainly_equal(start.matrix[0][1], zero) && certainly_equal(start.matrix[0][2], zero);
+      certainly_equal(start.lowest[0][1], zero) && certainly_equal(start.lowest[0][2], zero) &&
+      certainly_equal(start.highest[0][1], zero) && certainly_equal(start.highest[0][2], zero);
   const bool captured = certainly_equal(cover.turns, zero);
   // The least frequency error in the shifted set, which is invariant, too: for the frequency error acts
   // through its sine and cosine alone.

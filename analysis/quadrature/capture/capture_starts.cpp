@@ -93,6 +93,9 @@ StartCapture capture_starts(const sets::ContractionQuestion& question, const Cer
       capture.region = prove_region(*problem, target, starts, options, progress);
     }
     derivation.conditions.push_back(starts_captured(capture.region, derivation.notes));
+    if (question.start_covariance && !question.start_covariance->range.empty()) {
+      derivation.conditions.back().reason += " The starts have " + question.start_covariance->range + ".";
+    }
   } else {
     derivation.conditions.push_back(
         {"starts-captured", "X(k_c) \\in \\Omega \\text{ from every assumed start}", Verdict::undecided,

@@ -63,6 +63,9 @@ class Window {
     constexpr int kMore = 2;  // samples
     for (int sample = window + 1; s_.has_least && sample <= window + kMore; ++sample) {
       lower = without_remainder(updated(beneath(lower, turn_into(sample)), d_.r), -one);
+      if (!definite(lower)) {
+        return false;  // the next prediction bounds nothing from below, as (F + E) X (F + E)' needs X >= 0
+      }
     }
     return !s_.has_least || is_above_least(lower, turn_into(window + kMore).here);
   }

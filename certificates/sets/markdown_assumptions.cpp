@@ -35,7 +35,7 @@ std::string covariance_text(const Assumptions& assume) {
         (*multiples)[0].text, (*multiples)[1].text);
   }
   return assume.initial_covariance ? rows + rows_text(*assume.initial_covariance)
-                                   : "the filter's steady state, in the frame of the estimated phase";
+                                   : "that of the guarantee, next to or below the filter's steady state";
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include "analysis/sets/start_covariance.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/elementary.hpp"
 
@@ -32,22 +35,35 @@ double farthest(double inside, double outside, const IsTrue& is_true) {
 
 }  // namespace
 
+IntervalMatrix<3> StartCovariance::lower_end() const {
+  return matrix * Interval(multiples.lower());
+}
+
+IntervalMatrix<3> StartCovariance::upper_end() const {
+  return highest.value_or(matrix) * Interval(multiples.upper());
+}
+
 IntervalMatrix<3> StartCovariance::enclosure() const {
-  IntervalMatrix<3> p;
-  const Interval from(multiples.lower());
-  const Interval spread = Interval(multiples.upper()) - from;
+  IntervalMatrix<3> p = lower_end();
+  std::array<Interval, 3> spread;
+  for (int i = 0; i < 3; ++i) {
+    // The same entry of M in both ends: their difference has no more than the error of one product.
+    const Interval difference =
+        highest ? upper_end()(i, i) - p(i, i)
+                : matrix(i, i) * (Interval(multiples.upper()) - Interval(multiples.lower()));
+    spread[static_cast<std::size_t>(i)] = Interval(std::max(difference.upper(), 0.0));
+  }
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      const Interval reach = spread * sqrt(matrix(i, i) * matrix(j, j));
-      p(i, j) = from * matrix(i, j) + rigor::symmetric(reach.upper());
+      const Interval reach = sqrt(spread[static_cast<std::size_t>(i)] * spread[static_cast<std::size_t>(j)]);
+      p(i, j) += rigor::symmetric(reach.upper());
     }
   }
   return p;
 }
 
 bool certainly_between(const StartCovariance& start, const Matrix<3>& lower, const Matrix<3>& upper) {
-  return is_below(lower, IntervalMatrix<3>(start.matrix * Interval(start.multiples.lower()))) &&
-         is_above(upper, IntervalMatrix<3>(start.matrix * Interval(start.multiples.upper())));
+  return is_below(lower, start.lower_end()) && is_above(upper, start.upper_end());
 }
 
 std::optional<Interval> multiples_between(const StartCovariance& start, const Matrix<3>& lower,
@@ -55,6 +71,9 @@ std::optional<Interval> multiples_between(const StartCovariance& start, const Ma
   constexpr double kLargest = 1e6;
   if (!certainly_between(start, lower, upper)) {
     return std::nullopt;
+  }
+  if (start.is_given) {
+    return start.multiples;
   }
   const double from = farthest(start.multiples.lower(), 0.0, [&](double multiple) {
     return is_below(lower, IntervalMatrix<3>(start.matrix * Interval(multiple)));

@@ -80,7 +80,8 @@ Condition start_in_set(const PhaseQuestion& question, const PhaseCertificate& ce
                       certificate.bound_set ? Verdict::proved : Verdict::undecided,
                       {},
                       Interval(certificate.set->start_level),
-                      {}};
+                      {},
+                      theorems::Sense::at_most};
   if (certificate.bound_set) {
     condition.lhs = Interval(*certificate.bound_set->assumed_level);
     condition.rhs = Interval(certificate.bound_set->start_level);
@@ -221,10 +222,6 @@ theorems::Evidence evidence_of(const char* name, const PhaseSet& set) {
                                {"signal_uncertainty", claim.signal_uncertainty},
                                {"start_level", set.start_level}},
                               {}};
-  if (set.assumed_level) {
-    evidence.numbers.emplace_back("assumed_level", *set.assumed_level);
-    evidence.numbers.emplace_back("start_weight", set.start_weight);
-  }
   for (std::size_t m = 1; m <= claim.shares.size(); ++m) {
     evidence.numbers.emplace_back("share_" + std::to_string(m), claim.shares[m - 1]);
   }
@@ -269,6 +266,14 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
     if (*set) {
       derivation.evidence.push_back(evidence_of(name, **set));
     }
+  }
+  if (certificate.bound_set) {
+    const DiagonalStart& start = certificate.bound_set->start.value();
+    theorems::Evidence evidence{"start-covariance", {}, {}, {}};
+    evidence.decimals = {{"p11", start.signal}, {"p12", "0"},    {"p13", "0"},
+                         {"p22", start.signal}, {"p23", "0"},    {"p33", start.frequency},
+                         {"from", start.from},  {"to", start.to}};
+    derivation.evidence.push_back(std::move(evidence));
   }
   if (certificate.set) {
     auto& numbers = derivation.evidence.front().numbers;

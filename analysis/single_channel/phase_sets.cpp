@@ -138,17 +138,19 @@ std::optional<PhaseSet> PhaseSearch::largest_set() const {
 std::optional<PhaseSet> PhaseSearch::least_bound() const {
   const rigor::UpwardRounding upward;
   const sets::ContractionQuestion& tracker = question_.tracker;
-  // Sets the level that contains the assumed starts, up to the resolution of the grid.
+  // A matrix below all covariances, up to the resolution of the grid, in which the level of the assumed
+  // starts is small; and that level.
   const auto within = [&](PhaseSet& set, double margin) {
-    const StartProposal start = propose_start(request_, set.claim, box_);
-    set.assumed_level = margin * start.level;
-    set.start_weight = start.weight;
-    // The steady state of a start that is turned by the phase error: the error in z never exceeds this value.
-    const Interval reach =
-        Interval(set.claim.assumption.radius) * sqrt(Interval(set.claim.assumption.signal_variance));
-    const bool turns_little = certainly_less_equal(tracker.initial_phase_error, reach);
-    const bool inside = errors_of(question_, set).levels(*set.assumed_level, kFollowed).has_value();
-    return turns_little && inside;
+    set.start = propose_diagonal_start(request_, set.claim, box_, margin, midpoint(tracker.amplitude));
+    set.assumed_level = level_of(*set.start, box_, tracker.amplitude);
+    return set.assumed_level && errors_of(question_, set).levels(*set.assumed_level, kFollowed).has_value();
+  };
+  // Every predicted covariance is above Q, those of a start from any covariance too.
+  const auto from_any = [&](std::vector<WindowClaim> proposals) {
+    for (WindowClaim& claim : proposals) {
+      claim.signal_uncertainty = std::min(claim.signal_uncertainty, tracker.design.q1.lower());
+    }
+    return proposals;
   };
   const auto promise = [&](const WindowClaim& claim) {
     PhaseSet set{claim, {}, tracker.noise, tracker.slew, 0.0, std::nullopt};
@@ -157,9 +159,10 @@ std::optional<PhaseSet> PhaseSearch::least_bound() const {
     }
     return 1.0 / frequency_error_bound(question_, set, *set.assumed_level).upper();
   };
-  std::vector<WindowClaim> candidates = best_first(proposals_, promise);
+  const std::vector<WindowClaim> proposals = from_any(proposals_);
+  std::vector<WindowClaim> candidates = best_first(proposals, promise);
   // Small sets promise more, but large ones are easier to verify.
-  std::vector<WindowClaim> large(proposals_.rbegin(), proposals_.rend());
+  std::vector<WindowClaim> large(proposals.rbegin(), proposals.rend());
   large.resize(std::min(large.size(), kTries));
   candidates.insert(candidates.end(), large.begin(), large.end());
   for (const WindowClaim& proposal : candidates) {
@@ -168,10 +171,10 @@ std::optional<PhaseSet> PhaseSearch::least_bound() const {
       continue;
     }
     for (const double margin : {1.02, 1.1, 1.3}) {
-      const bool inside = within(*set, margin);
-      const bool at_rest = box_.signal == 0.0 && box_.frequency == 0.0;
-      if (inside && (at_rest || certainly_holds_start(tracker.design, question_.band, set->claim, box_,
-                                                      *set->assumed_level, set->start_weight))) {
+      if (within(*set, margin) &&
+          certainly_less_equal(Interval(set->claim.signal_uncertainty), tracker.design.q1) &&
+          certainly_below_covariances(tracker.design, question_.band, set->claim,
+                                      set->start->times(set->start->to, tracker.amplitude))) {
         return set;
       }
     }

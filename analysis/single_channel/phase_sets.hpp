@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/sets/contraction_question.hpp"
+#include "analysis/single_channel/diagonal_start.hpp"
 #include "analysis/single_channel/window_errors.hpp"
 #include "analysis/single_channel/window_proposal.hpp"
 
@@ -24,10 +25,9 @@ struct PhaseSet {
   rigor::Interval slew;   ///< rad/sample per sample
   /// A start with e' P^-1 e <= start_level^2 keeps e' P^-1 e <= R^2 for ever.
   double start_level = 0.0;
-  /// The level of the assumed starts, and the weight that proves it (certainly_holds_start); only
-  /// when they are certainly in the set.
+  /// The level of the assumed starts, and their P(0|0); only when they are certainly in the set.
   std::optional<double> assumed_level;
-  double start_weight = 0.5;
+  std::optional<DiagonalStart> start = std::nullopt;
 };
 
 /// The recursion of the errors in the set. Needs the upward mode.

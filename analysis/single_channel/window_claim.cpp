@@ -196,19 +196,14 @@ std::optional<WindowFloor> verify_window(const ToneModel<Interval>& design, cons
   return floor;
 }
 
-bool certainly_holds_start(const ToneModel<Interval>& design, const Interval& band, const WindowClaim& claim,
-                           const StartBox& box, double level, double weight VERITRACK_DECLARED_CALL_SITE) {
+bool certainly_below_covariances(const ToneModel<Interval>& design, const Interval& band,
+                                 const WindowClaim& claim,
+                                 const StartVariances& start VERITRACK_DECLARED_CALL_SITE) {
   VERITRACK_MUTANT_RETURNS(true)
   const rigor::UpwardRounding outer;
-  const bool free_parameters_are_sensible = level > 0.0 && weight > 0.0 && weight < 1.0;
-  if (!is_sensible(design, band, claim) || !free_parameters_are_sensible) {
+  if (!is_sensible(design, band, claim) || !is_finite(start.signal) || !is_finite(start.frequency)) {
     return false;
   }
-  // e e'' <= diag(|delta|^2 / weight, |delta|^2 / weight, nu^2 / (1 - weight)), by Cauchy and Schwarz.
-  const Interval squared = rigor::square(Interval(level));
-  const Interval signal = rigor::square(Interval(box.signal)) / (squared * Interval(weight));
-  const Interval frequency =
-      rigor::square(Interval(box.frequency)) / (squared * (Interval(1.0) - Interval(weight)));
   const std::vector<Cell> cells = cells_of(band);
   return holds_for_all(cells, [&](std::size_t i) {
     bool holds = false;
@@ -216,7 +211,7 @@ bool certainly_holds_start(const ToneModel<Interval>& design, const Interval& ba
            [&](int m, const Bound& /*upper*/, const Bound& lower, const Bound& /*predicted_lower*/) {
              if (m == static_cast<int>(claim.shares.size())) {
                holds = certainly_positive(
-                   combined(lower, Model(-1.0), diagonal(Model(signal), Model(frequency))));
+                   combined(lower, Model(-1.0), diagonal(Model(start.signal), Model(start.frequency))));
              }
              return true;
            });

@@ -37,6 +37,12 @@ struct StartBox {
   double frequency = 0.0;  ///< rad/sample
 };
 
+/// diag(signal, signal, frequency), the same in every frame of the phase; for a signal of amplitude 1.
+struct StartVariances {
+  rigor::Interval signal;
+  rigor::Interval frequency;  ///< (rad/sample)^2
+};
+
 /// The floor when the claim holds for every design in `design` (amplitude 1, epsilon = 0), every phase and
 /// every frequency of `band` (rad/sample), nothing otherwise:
 ///   (a) every covariance that satisfies the assumption for a window stays below its two variances
@@ -46,11 +52,10 @@ struct StartBox {
 [[nodiscard]] std::optional<WindowFloor> verify_window(const trackers::ToneModel<rigor::Interval>& design,
                                                        const rigor::Interval& band, const WindowClaim& claim);
 
-/// True only when every e in `box` has e' P^-1 e <= level^2 for every lower bound on P that the window gives,
-/// at every phase and frequency; `weight` in (0, 1) is a free parameter. Needs the same claim to be verified.
-[[nodiscard]] bool certainly_holds_start(const trackers::ToneModel<rigor::Interval>& design,
-                                         const rigor::Interval& band, const WindowClaim& claim,
-                                         const StartBox& box, double level,
-                                         double weight VERITRACK_CALL_SITE);
+/// True only when the matrix is below every lower bound on P that the window gives, at every phase and
+/// frequency. Needs the same claim to be verified.
+[[nodiscard]] bool certainly_below_covariances(const trackers::ToneModel<rigor::Interval>& design,
+                                               const rigor::Interval& band, const WindowClaim& claim,
+                                               const StartVariances& start VERITRACK_CALL_SITE);
 
 }  // namespace veritrack::single_channel

@@ -23,7 +23,8 @@ struct WindowRequest {
 /// The same claim with values that are easier to verify; `slack` is a relative margin.
 [[nodiscard]] WindowClaim with_slack(WindowClaim claim, double slack);
 
-/// A level and a weight for certainly_holds_start.
+/// diag(signal^2 / weight, signal^2 / weight, frequency^2 / (1 - weight)) / level^2 of the box lies below the
+/// covariances of the window.
 struct StartProposal {
   double level = 0.0;
   double weight = 0.5;

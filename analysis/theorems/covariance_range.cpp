@@ -34,7 +34,8 @@ CovarianceRange covariance_range(const TrackerInput& input, const Interval& radi
   CovarianceRange range{one / largest_information(design), largest_covariance(design, one - radius)};
   if (input.initial_covariance) {
     const SmallMatrix start = *input.initial_covariance;
-    const Interval largest_start = largest_eigenvalue(start);
+    const SmallMatrix largest = input.largest_initial_covariance.value_or(*input.initial_covariance);
+    const Interval largest_start = largest_eigenvalue(largest);
     const Interval first = square(first_derivative_norm(one + radius, design.epsilon)) * largest_start +
                            largest_process_noise(design);
     range.smallest = min(range.smallest, smallest_eigenvalue(start));

@@ -99,6 +99,8 @@ Condition start_covariance(const TrackerInput& input, const ErrorEquation& equat
   if (known && input.initial_covariance) {
     condition.verdict = Verdict::proved;
     condition.reason = "The range was widened to include the given P(0|0).";
+  } else if (known && input.starts_from_multiples) {
+    condition.reason = "A range of multiples of the steady state is not proved to satisfy the bounds.";
   } else if (known && epsilon == Interval(0.0)) {
     condition.verdict = Verdict::proved;
     condition.reason =

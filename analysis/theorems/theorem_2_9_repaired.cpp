@@ -62,8 +62,7 @@ Condition not_found(const char* id, const char* statement, const char* reason) {
 }
 
 /// P(0|0) lies in the range of the Riccati bounds, and so does P(k|k) before the window is full.
-Condition start_covariance(const Repaired& found,
-                           const std::optional<rigor::IntervalMatrix<3>>& initial_covariance) {
+Condition start_covariance(const Repaired& found, const TrackerInput& input) {
   Condition condition =
       not_found("P(0|0)", R"(q^{-1} I \le P(k|k) \le p I \text{ from } k = 0)",
                 "It is not proved that the bounds on P(k|k) are valid before the window is full.");
@@ -72,13 +71,21 @@ Condition start_covariance(const Repaired& found,
     return condition;
   }
   const ErrorRecursion& recursion = *found.assumed;
-  if (initial_covariance) {
-    condition.verdict =
-        decide_start(*initial_covariance, recursion.range, found.design, recursion.tube, recursion.window);
+  if (input.initial_covariance) {
+    // A step preserves the Loewner order: what lies between two ends that stay in the range stays there.
+    const auto decide = [&](const rigor::IntervalMatrix<3>& start) {
+      return decide_start(start, recursion.range, found.design, recursion.tube, recursion.window);
+    };
+    condition.verdict = decide(*input.initial_covariance);
+    if (input.largest_initial_covariance) {
+      condition.verdict = rigor::conjunction({condition.verdict, decide(*input.largest_initial_covariance)});
+    }
     if (condition.verdict == Verdict::proved) {
       condition.reason =
           "The covariances up to the end of the window were enclosed and lie within the bounds.";
     }
+  } else if (input.starts_from_multiples) {
+    condition.reason = "Nothing is shown of a range of multiples of the steady state.";
   } else if (found.design.without_leak()) {
     condition.verdict = Verdict::proved;
     condition.reason =
@@ -93,7 +100,7 @@ Condition start_covariance(const Repaired& found,
 }
 
 void add_conditions(Derivation& derivation, const Repaired& found, const Theorem29Input& input,
-                    const std::optional<rigor::IntervalMatrix<3>>& initial_covariance) {
+                    const TrackerInput& question) {
   const Interval smallest = min(input.q1, input.q2);
   derivation.conditions.push_back(compare("Q", "0 < Q", zero(), {"min(q_1, q_2)", smallest}));
   Condition leak = compare("epsilon", R"(0 \le \epsilon < 1)", {"the leak epsilon", input.epsilon}, one());
@@ -110,7 +117,7 @@ void add_conditions(Derivation& derivation, const Repaired& found, const Theorem
          r.alpha * radius + r.curvature * square(radius) + found.disturbance, radius,
          "Decided without the cancellation: c R^2 + noise <= (1 - alpha) R.", Sense::at_most});
   }
-  derivation.conditions.push_back(start_covariance(found, initial_covariance));
+  derivation.conditions.push_back(start_covariance(found, question));
   constexpr const char* kStart = R"(\lvert e_0 \rvert \le q^{-1/2} R)";
   if (found.assumed && input.initial_error) {
     derivation.conditions.push_back(
@@ -151,7 +158,7 @@ Derivation derive_repaired_theorem(const TrackerInput& question) {
   derivation.id = "theorem-2.9/repaired";
   derivation.title = "Theorem 2.9 repaired: error and noise bounds with every gap of the proof closed";
   add_quantities(derivation, found);
-  add_conditions(derivation, found, input, question.initial_covariance);
+  add_conditions(derivation, found, input, question);
   conclude(derivation);
   add_assured(derivation, found);
   derivation.feasibility = repaired_feasibility(found);

@@ -37,6 +37,7 @@ class TomlValue {
   /// One line of text of 1 to `limit` bytes. Throws InputError otherwise.
   [[nodiscard]] std::string line_of_text(std::size_t limit) const;
   [[nodiscard]] bool is_string() const noexcept { return node_->is_string(); }
+  [[nodiscard]] bool is_table() const noexcept { return node_->is_table(); }
   [[nodiscard]] bool is_number() const noexcept { return node_->is_number(); }
   /// The values of a table that has exactly these keys, in the order of `names`. Throws InputError otherwise.
   [[nodiscard]] std::vector<TomlValue> entries(std::span<const std::string_view> names) const;

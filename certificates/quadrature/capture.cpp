@@ -34,14 +34,22 @@ bool starts_are_outside(const sets::ContractionResult& contraction) {
   });
 }
 
-/// The claim that starts are captured with this noise and slew, whose evidence is the derivation.
-Claim claim_of(const StartCapture& capture, const StartCovarianceText& covariance, std::string id,
-               const std::string& disturbance) {
+/// The claim that starts are captured with this noise and slew (the assumed ones when nothing is said), whose
+/// evidence is the derivation.
+Claim claim_of(const Certificate& certificate, const StartCapture& capture, std::string id,
+               const std::optional<std::string>& disturbance) {
+  const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
+  const GuaranteeTerms terms{tables.assume,
+                             tables.require,
+                             !tables.design.without_leak(),
+                             true,
+                             covariance_words(quadrature_particulars(certificate).start_covariance,
+                                              capture.result.covariance_multiples),
+                             kDoublePrecision};
   Claim claim;
   claim.id = std::move(id);
-  claim.statement = fmt::format(
-      "{}, from every assumed start {}, {}, the tracker enters the certified set, which it never leaves.",
-      kDoublePrecision, covariance_words(covariance, capture.result.covariance_multiples), disturbance);
+  claim.statement = hypotheses(terms, disturbance.value_or(assumed_disturbance(terms))) +
+                    "the tracker enters the certified set, which it never leaves.";
   claim.verdict = capture.result.verdict;
   for (const theorems::Condition& condition : capture.result.conditions) {
     if (condition.verdict == claim.verdict) {
@@ -70,12 +78,11 @@ void add_capture_at_reduced_noise(Certificate& certificate, const quadrature::Ce
         quadrature::capture_starts(reduced, set, "capture/reduced-noise", kMostCellsAtReducedNoise, progress);
     if (capture.result.verdict == Verdict::proved) {
       constexpr int kDigits = 3;
-      certificate.claims.push_back(claim_of(
-          capture, covariance, "ekf/capture-at-reduced-noise",
-          fmt::format(
-              "with noise of at most {} of the amplitude and slew of at most {} rad/sample per sample",
-              rigor::lower_decimal(Interval(reduced.noise.upper()), kDigits),
-              rigor::lower_decimal(Interval(reduced.slew.upper()), kDigits))));
+      const auto text = [](const Interval& x) {
+        return x.upper() > 0.0 ? rigor::lower_decimal(Interval(x.upper()), kDigits) : std::string();
+      };
+      certificate.claims.push_back(claim_of(certificate, capture, "ekf/capture-at-reduced-noise",
+                                            disturbance_of(text(reduced.noise), text(reduced.slew))));
       certificate.contraction->starts.proved_instead = certificate.claims.back().statement;
       add_start_covariance(covariance, capture.result.covariance_multiples, capture.derivation);
       certificate.derivations.push_back(std::move(capture.derivation));
@@ -113,7 +120,7 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
     }
     certificate.derivations.push_back(std::move(derivation));
   };
-  Claim claim = claim_of(capture, covariance, "ekf/capture", "with the assumed noise and slew");
+  Claim claim = claim_of(certificate, capture, "ekf/capture", std::nullopt);
   const bool is_disturbed = !(question.noise == Interval(0.0) && question.slew == Interval(0.0));
   std::optional<StartCapture> noise_free;
   if (claim.verdict == Verdict::undecided && is_disturbed) {
@@ -123,8 +130,8 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
         quadrature::capture_starts(question, set->set, "capture/noise-free", kMostCellsWithoutNoise, report);
     if (noise_free->result.verdict == Verdict::refuted) {
       claim.verdict = Verdict::refuted;
-      claim.reason =
-          "Without noise and slew, which is allowed: " + claim_of(*noise_free, covariance, "", "").reason;
+      claim.reason = "Without noise and slew, which is allowed: " +
+                     claim_of(certificate, *noise_free, "", std::nullopt).reason;
     }
   }
   sets::StartResult& starts = certificate.contraction->starts;
@@ -134,7 +141,7 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
   add(std::move(capture.derivation));
   if (noise_free) {
     certificate.claims.push_back(
-        claim_of(*noise_free, covariance, "ekf/capture-noise-free", "without noise and slew"));
+        claim_of(certificate, *noise_free, "ekf/capture-noise-free", disturbance_of("", "")));
     const bool captured = noise_free->result.verdict == Verdict::proved;
     add(std::move(noise_free->derivation));
     if (captured) {

@@ -34,7 +34,6 @@ sets::ContractionQuestion contraction_question(const Design& design) {
   sets::ContractionQuestion question =
       contraction_question(enclosed_at_unit_amplitude(tables), tables.assume, tables.require);
   question.start_covariance = start_covariance(tables);
-  question.amplitude = tables.assume.amplitude.value;
   for (const auto& end : tables.assume.frequency) {
     question.largest_frequency = std::max(question.largest_frequency, rigor::magnitude(end.value));
   }

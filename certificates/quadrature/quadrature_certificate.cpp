@@ -61,7 +61,14 @@ theorems::Theorem29Input theorem_input(const QuadratureEkfTables& tables) {
 /// What the other results are evaluated for, also at unit amplitude.
 theorems::TrackerInput tracker_input(const QuadratureEkfTables& tables,
                                      const theorems::Theorem29Input& theorem) {
-  return {theorem, covariance_at_unit_amplitude(tables.assume)};
+  const Assumptions& assume = tables.assume;
+  theorems::TrackerInput input{theorem, covariance_at_unit_amplitude(assume)};
+  if (const auto& range = assume.covariance_range) {
+    input.initial_covariance = covariance_at_unit_amplitude((*range)[0], assume.amplitude);
+    input.largest_initial_covariance = covariance_at_unit_amplitude((*range)[1], assume.amplitude);
+  }
+  input.starts_from_multiples = assume.covariance_multiples.has_value();
+  return input;
 }
 
 /// "Theorem 2.9 applies", one claim a reading: the conditions, not what the theorem concludes from them.

@@ -105,9 +105,12 @@ Simulation simulate_quadrature(const Design& design) {
   Eigen::Matrix3d start_covariance;
   if (assume.initial_covariance) {
     start_covariance = given_covariance(*assume.initial_covariance);
+  } else if (assume.covariance_range) {
+    start_covariance = given_covariance((*assume.covariance_range)[1]);
   } else {
     const SteadyState steady = find_steady_state(design, first.frequency);
-    start_covariance = steady.covariance;
+    start_covariance =
+        (assume.covariance_multiples ? (*assume.covariance_multiples)[1].nearest : 1.0) * steady.covariance;
     if (!steady.settled) {
       simulation.notes.push_back(fmt::format(
           "Iteration found no steady state of the tracker at the frequency of the start, {:.6g} rad/sample: "

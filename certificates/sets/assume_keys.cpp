@@ -58,29 +58,31 @@ bool is_symmetric(const CovarianceArray& covariance) {
   return true;
 }
 
-void initial_covariance(const TomlValue& value, Assumptions& assume) {
-  if (value.is_string()) {
-    if (value.line_of_text(100) != "steady-state") {
-      value.refuse_kind();
-    }
-    assume.initial_covariance.reset();
-    return;
-  }
-  CovarianceArray covariance;
+rigor::IntervalMatrix<3> matrix_of(const CovarianceArray& covariance) {
   rigor::IntervalMatrix<3> matrix;
+  for (std::size_t row = 0; row < covariance.size(); ++row) {
+    for (std::size_t column = 0; column < covariance.size(); ++column) {
+      matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
+          covariance[row][column].value;
+    }
+  }
+  return matrix;
+}
+
+/// A symmetric positive definite matrix.
+CovarianceArray covariance_array(const TomlValue& value) {
+  CovarianceArray covariance;
   const std::vector<TomlValue> rows = value.elements(covariance.size());
   for (std::size_t row = 0; row < covariance.size(); ++row) {
     const std::vector<TomlValue> entries = rows[row].elements(covariance.size());
     for (std::size_t column = 0; column < covariance.size(); ++column) {
-      const Number number = entries[column].real(any_number);
-      covariance[row][column] = number;
-      matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = number.value;
+      covariance[row][column] = entries[column].real(any_number);
     }
   }
   if (!is_symmetric(covariance)) {
     value.refuse("not symmetric");
   }
-  switch (rigor::is_positive_definite(matrix)) {
+  switch (rigor::is_positive_definite(matrix_of(covariance))) {
     case rigor::Verdict::proved:
       break;
     case rigor::Verdict::refuted:
@@ -88,7 +90,63 @@ void initial_covariance(const TomlValue& value, Assumptions& assume) {
     case rigor::Verdict::undecided:
       value.refuse("too close to a singular matrix to be proved positive definite");
   }
-  assume.initial_covariance = covariance;
+  return covariance;
+}
+
+/// "steady-state" or one matrix.
+void one_covariance(const TomlValue& value, Assumptions& assume) {
+  assume.initial_covariance.reset();
+  assume.covariance_range.reset();
+  assume.covariance_multiples.reset();
+  if (!value.is_string()) {
+    assume.initial_covariance = covariance_array(value);
+  } else if (value.line_of_text(100) != "steady-state") {
+    value.refuse_kind();
+  }
+}
+
+/// From one multiple of the printed matrix to another, of which there is certainly one.
+void covariance_multiples(const TomlValue& value, const TomlValue& from, const TomlValue& to,
+                          Assumptions& assume) {
+  const Number least = from.real(positive);
+  const Number most = to.real(positive);
+  if (!same_number(least, most) && !rigor::certainly_less(least.value, most.value)) {
+    value.refuse(
+        fmt::format("{{ from = {}, to = {} }}", printable(least.text, 40), printable(most.text, 40)));
+  }
+  assume.covariance_multiples = {least, most};
+}
+
+/// From one matrix to another that is certainly above it: no range without a matrix in it.
+void covariance_range(const TomlValue& value, const TomlValue& from, const TomlValue& to,
+                      Assumptions& assume) {
+  const CovarianceArray least = covariance_array(from);
+  const CovarianceArray most = covariance_array(to);
+  switch (rigor::is_positive_definite(rigor::IntervalMatrix<3>(matrix_of(most) - matrix_of(least)))) {
+    case rigor::Verdict::proved:
+      break;
+    case rigor::Verdict::refuted:
+      value.refuse("not in order (to - from is not positive definite)");
+    case rigor::Verdict::undecided:
+      value.refuse("too narrow for to - from to be proved positive definite");
+  }
+  assume.covariance_range = {least, most};
+}
+
+void initial_covariance(const TomlValue& value, Assumptions& assume) {
+  if (!value.is_table()) {
+    one_covariance(value, assume);
+    return;
+  }
+  assume.initial_covariance.reset();
+  assume.covariance_range.reset();
+  assume.covariance_multiples.reset();
+  constexpr std::array<std::string_view, 2> kEnds{"from", "to"};
+  const std::vector<TomlValue> ends = value.entries(kEnds);
+  if (ends[0].is_number() != ends[1].is_number()) {
+    value.refuse("a range between a matrix and a number");
+  }
+  (ends[0].is_number() ? covariance_multiples : covariance_range)(value, ends[0], ends[1], assume);
 }
 
 using Assume = Assumptions;
@@ -107,12 +165,15 @@ constexpr std::array kAssumeKeys{
                 kRequired},
     Key<Assume>{"initial_amplitude_error", kNotNegative, real<&Assume::initial_amplitude_error, not_negative>,
                 kRequired},
-    Key<Assume>{"initial_covariance",
-                "\"steady-state\" or a symmetric positive definite 3x3 array of numbers", initial_covariance,
-                defaults_to("\"steady-state\"")},
+    Key<Assume>{
+        "initial_covariance",
+        "\"steady-state\", a symmetric positive definite 3x3 array of numbers, or { from = ..., to = "
+        "... } with two such arrays, the first below the second, or with two numbers above 0, multiples "
+        "of the steady state, the first not above the second",
+        initial_covariance, defaults_to("\"steady-state\"")},
 };
 
-/// kAssumeKeys with a frequency that may be one number.
+/// kAssumeKeys with a frequency that may be one number, and without ranges of covariances.
 constexpr std::array<Key<Assume>, kAssumeKeys.size()> with_one_frequency() {
   std::array<Key<Assume>, kAssumeKeys.size()> keys = kAssumeKeys;
   for (Key<Assume>& key : keys) {
@@ -121,6 +182,9 @@ constexpr std::array<Key<Assume>, kAssumeKeys.size()> with_one_frequency() {
           "a number or [lowest, highest] in rad/sample, 0 <= lowest <= highest <= 3.141592653589793 (beyond "
           "pi a sampled frequency is the same as a lower one)";
       key.read = one_frequency_or_band;
+    } else if (key.name == "initial_covariance") {
+      key.allowed = "\"steady-state\" or a symmetric positive definite 3x3 array of numbers";
+      key.read = one_covariance;
     }
   }
   return keys;

@@ -23,7 +23,11 @@ struct Assumptions {
   Number initial_frequency_error;   ///< rad/sample
   Number initial_phase_error;       ///< rad
   Number initial_amplitude_error;   ///< signal units
-  std::optional<CovarianceArray> initial_covariance;  ///< none: "steady-state"
+  /// At most one of the three; none: "steady-state". Every P(0|0) from the first to the second matrix in the
+  /// Loewner order, or from the first to the second multiple of the matrix that the certificate prints.
+  std::optional<CovarianceArray> initial_covariance;
+  std::optional<std::array<CovarianceArray, 2>> covariance_range;
+  std::optional<std::array<Number, 2>> covariance_multiples;
 };
 
 /// [require]: what CI must find PROVED.

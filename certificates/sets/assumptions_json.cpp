@@ -5,12 +5,9 @@ namespace veritrack::certificates {
 
 namespace {
 
-Json initial_covariance(const std::optional<CovarianceArray>& covariance) {
-  if (!covariance) {
-    return "steady-state";
-  }
+Json rows_json(const CovarianceArray& covariance) {
   Json rows = Json::array();
-  for (const auto& row : *covariance) {
+  for (const auto& row : covariance) {
     Json entries = Json::array();
     for (const Number& entry : row) {
       entries.push_back(number_json(entry));
@@ -18,6 +15,16 @@ Json initial_covariance(const std::optional<CovarianceArray>& covariance) {
     rows.push_back(entries);
   }
   return rows;
+}
+
+Json initial_covariance(const Assumptions& assume) {
+  if (const auto& range = assume.covariance_range) {
+    return {{"from", rows_json((*range)[0])}, {"to", rows_json((*range)[1])}};
+  }
+  if (const auto& multiples = assume.covariance_multiples) {
+    return {{"from", number_json((*multiples)[0])}, {"to", number_json((*multiples)[1])}};
+  }
+  return assume.initial_covariance ? rows_json(*assume.initial_covariance) : Json("steady-state");
 }
 
 }  // namespace
@@ -41,7 +48,7 @@ Json assume_json(const Assumptions& assume) {
           {"initial_frequency_error", number_json(assume.initial_frequency_error)},
           {"initial_phase_error", number_json(assume.initial_phase_error)},
           {"initial_amplitude_error", number_json(assume.initial_amplitude_error)},
-          {"initial_covariance", initial_covariance(assume.initial_covariance)}};
+          {"initial_covariance", initial_covariance(assume)}};
 }
 
 Json simulate_json(const SimulationSettings& simulate) {

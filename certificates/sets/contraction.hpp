@@ -12,6 +12,8 @@ namespace veritrack::certificates {
 /// P(0|0) as given, scaled to amplitude 1; none where the start is the filter's steady state. Needs the
 /// upward mode.
 [[nodiscard]] std::optional<rigor::IntervalMatrix<3>> covariance_at_unit_amplitude(const Assumptions& assume);
+[[nodiscard]] rigor::IntervalMatrix<3> covariance_at_unit_amplitude(const CovarianceArray& covariance,
+                                                                    const Number& amplitude);
 
 /// What is asked for a model at amplitude 1 under what is assumed, with the start covariance that is given.
 /// Needs the upward mode.

@@ -56,6 +56,31 @@ std::string objection(const sets::StartResult& starts) {
 
 }  // namespace
 
+std::string assumed_disturbance(const GuaranteeTerms& terms) {
+  const Assumptions& assume = terms.assume;
+  std::string text = is_zero(assume.slew)
+                         ? " and is constant"
+                         : fmt::format(" and changes by at most {} rad/sample per sample", assume.slew.text);
+  if (is_zero(assume.noise)) {
+    return text + ", without measurement noise";
+  }
+  text += ", with measurement noise of at most " + assume.noise.text;
+  return text + (terms.two_channels
+                     ? fmt::format(" (the length of the error in both channels; {} in each is enough)",
+                                   rigor::lower_decimal(assume.noise.value / sqrt(Interval(2.0)), kDigits))
+                     : "");
+}
+
+std::string disturbance_of(const std::string& noise, const std::string& slew) {
+  return (slew.empty() ? " and is constant"
+                       : fmt::format(" and changes by at most {} rad/sample per sample", slew)) +
+         (noise.empty()
+              ? ", without measurement noise"
+              : fmt::format(", with measurement noise of at most {} of the amplitude (the length of "
+                            "the error in both channels)",
+                            noise));
+}
+
 std::string tone(const GuaranteeTerms& terms, bool disturbed) {
   const Assumptions& assume = terms.assume;
   std::string text = fmt::format("{}, for a tone of constant amplitude {} whose frequency ", terms.arithmetic,
@@ -63,29 +88,19 @@ std::string tone(const GuaranteeTerms& terms, bool disturbed) {
   text += terms.in_band ? fmt::format("lies between {} and {} rad/sample", assume.frequency[0].text,
                                       assume.frequency[1].text)
                         : "is at most pi rad/sample";
-  if (disturbed) {
-    text += is_zero(assume.slew)
-                ? " and is constant"
-                : fmt::format(" and changes by at most {} rad/sample per sample", assume.slew.text);
-  }
-  if (disturbed && is_zero(assume.noise)) {
-    text += ", without measurement noise";
-  } else if (disturbed) {
-    text += ", with measurement noise of at most " + assume.noise.text;
-    text += terms.two_channels
-                ? fmt::format(" (the length of the error in both channels; {} in each is enough)",
-                              rigor::lower_decimal(assume.noise.value / sqrt(Interval(2.0)), kDigits))
-                : "";
-  }
-  return text;
+  return text + (disturbed ? assumed_disturbance(terms) : "");
 }
 
 std::string hypotheses(const GuaranteeTerms& terms) {
+  return hypotheses(terms, assumed_disturbance(terms));
+}
+
+std::string hypotheses(const GuaranteeTerms& terms, const std::string& disturbance) {
   const Assumptions& assume = terms.assume;
   return fmt::format(
-      "{}, started within {} rad/sample of the true frequency, {} rad of the phase and {} of the "
+      "{}{}, started within {} rad/sample of the true frequency, {} rad of the phase and {} of the "
       "amplitude{}{}, ",
-      tone(terms, true), assume.initial_frequency_error.text, assume.initial_phase_error.text,
+      tone(terms, false), disturbance, assume.initial_frequency_error.text, assume.initial_phase_error.text,
       assume.initial_amplitude_error.text, terms.covariance.empty() ? "" : " ", terms.covariance);
 }
 

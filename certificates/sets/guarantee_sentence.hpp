@@ -29,7 +29,14 @@ struct GuaranteeTerms {
 /// `disturbed`.
 [[nodiscard]] std::string tone(const GuaranteeTerms& terms, bool disturbed);
 
-/// The same, "..., started within ..., ": every hypothesis of a guarantee.
+/// " and is constant, with measurement noise of at most ...": the assumed noise and slew, or those relative
+/// to the amplitude and in rad/sample per sample, as decimals; none where they are empty.
+[[nodiscard]] std::string assumed_disturbance(const GuaranteeTerms& terms);
+[[nodiscard]] std::string disturbance_of(const std::string& noise, const std::string& slew);
+
+/// The tone, with such words on noise and slew, "..., started within ..., ": every hypothesis of a guarantee.
+[[nodiscard]] std::string hypotheses(const GuaranteeTerms& terms, const std::string& disturbance);
+/// With the assumed ones.
 [[nodiscard]] std::string hypotheses(const GuaranteeTerms& terms);
 
 /// The claim "ekf/guarantee": with this noise and slew, started within these errors, the frequency error

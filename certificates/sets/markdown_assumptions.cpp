@@ -15,15 +15,27 @@ namespace {
 using markdown::escaped;
 using markdown::math;
 
-std::string covariance_text(const std::optional<CovarianceArray>& covariance) {
-  if (!covariance) {
-    return "the filter's steady state, in the frame of the estimated phase";
-  }
-  std::string text = "in the frame of the estimated phase, row by row:";
-  for (const auto& row : *covariance) {
+std::string rows_text(const CovarianceArray& covariance) {
+  std::string text;
+  for (const auto& row : covariance) {
     text += fmt::format(" `[{}, {}, {}]`", row[0].text, row[1].text, row[2].text);
   }
   return text;
+}
+
+std::string covariance_text(const Assumptions& assume) {
+  const std::string rows = "in the frame of the estimated phase, row by row:";
+  if (const auto& range = assume.covariance_range) {
+    return fmt::format("every one {} from{} to{}", rows, rows_text((*range)[0]), rows_text((*range)[1]));
+  }
+  if (const auto& multiples = assume.covariance_multiples) {
+    return fmt::format(
+        "every one from `{}` to `{}` times the matrix M of the guarantee, in the frame of the estimated "
+        "phase",
+        (*multiples)[0].text, (*multiples)[1].text);
+  }
+  return assume.initial_covariance ? rows + rows_text(*assume.initial_covariance)
+                                   : "that of the guarantee, next to or below the filter's steady state";
 }
 
 }  // namespace
@@ -47,7 +59,7 @@ std::string assumptions_section(const Assumptions& assume) {
            code(assume.initial_frequency_error), "rad/sample"),
        row("error of phase at the start", "\\le", code(assume.initial_phase_error), "rad"),
        row("error of amplitude at the start", "\\le", code(assume.initial_amplitude_error), "signal units"),
-       row("covariance at the start", "P(0|0):", covariance_text(assume.initial_covariance), "")});
+       row("covariance at the start", "P(0|0):", covariance_text(assume), "")});
   return text +
          "\nThe decimals in these tables are exact: every computation covers both the decimal and the double "
          "nearest to it, with which the filter runs.\n\n";

@@ -99,6 +99,16 @@ theorems::Derivation bias_derivation(const SteadyStateBias& bias, const SteadySt
   return derivation;
 }
 
+/// For which P(0|0) the sentences are true. A sentence that is not proved is about none in particular.
+std::string start_covariance_words(const std::optional<single_channel::PhaseSet>& set) {
+  if (!set) {
+    return "";
+  }
+  const single_channel::DiagonalStart& start = set->start.value();
+  return fmt::format("and with P(0|0) from {} M to {} M, M = [{}, 0, 0; 0, {}, 0; 0, 0, {}]", start.from,
+                     start.to, start.signal, start.signal, start.frequency);
+}
+
 /// Frequency-only process noise without a leak: no exponentially stable steady state, with the witness.
 Claim stability_claim(const Interval& r) {
   Claim claim;
@@ -190,6 +200,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
       {contraction_question(design, tables.assume, tables.require), band});
   certificate.derivations.push_back(std::move(contraction.derivation));
   certificate.contraction = std::move(contraction.result);
+  const std::string covariance = start_covariance_words(contraction.bound_set);
   certificate.derivations.push_back(single_channel::transfer_function(single_channel::mean_gain(
       trackers::at_unit_amplitude(nearest_values(tables.design), tables.assume.amplitude.nearest),
       midpoint(frequencies[middle].value))));
@@ -207,9 +218,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
   add_all(
       single_channel::proposition_1_conclusion(at_middle, exact, design.epsilon, frequencies[middle].text));
   add_all(single_channel::proposition_2());
-  const GuaranteeTerms terms{
-      tables.assume, tables.require, true, false,
-      "and with P(0|0) = the filter's steady state at that frequency and at the estimated phase"};
+  const GuaranteeTerms terms{tables.assume, tables.require, true, false, covariance};
   add_required_claims(certificate, terms);
   certificate.claims.push_back(guarantee_claim(certificate, terms));
   for (Claim& claim : set_claims(certificate, terms)) {

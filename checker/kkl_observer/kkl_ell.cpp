@@ -1,57 +1,87 @@
 #include "checker/kkl_observer/kkl_ell.hpp"
 
+#include <algorithm>
+
 #include "checker/document/evidence.hpp"
+#include "checker/kkl_observer/moves.hpp"
 #include "checker/numbers/slope.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
-/// inf |M T(x)|^2 / |T(x)|^2 over the signals of one frequency: T is linear in (x1, x2), so that this is the
-/// smaller eigenvalue of a pencil of 2x2 matrices. |M xi|^2 is the sum over triples of filters of det(lambda,
-/// 1, xi)^2.
-template <typename S>
-S ratio_at(const std::vector<Ball>& lambda, const S& frequency) {
-  const S s = square(frequency);
-  std::vector<std::array<S, 2>> t;
-  t.reserve(lambda.size());
-  for (const Ball& rate : lambda) {
-    const S over = reciprocal(square(rate) + s);
-    t.push_back({over * rate, over});
-  }
-  std::array<S, 3> seen;    // T'M'M T, by (1,1), (1,2), (2,2)
-  std::array<S, 3> length;  // T'T
-  const auto add = [](std::array<S, 3>& sum, const std::array<S, 2>& row) {
-    sum[0] = sum[0] + square(row[0]);
-    sum[1] = sum[1] + row[0] * row[1];
-    sum[2] = sum[2] + square(row[1]);
-  };
-  for (std::size_t i = 0; i < lambda.size(); ++i) {
-    add(length, t[i]);
-    for (std::size_t j = i + 1; j < lambda.size(); ++j) {
-      for (std::size_t k = j + 1; k < lambda.size(); ++k) {
-        const auto minor = [&](std::size_t c) {
-          return (lambda[j] - lambda[k]) * t[i][c] - (lambda[i] - lambda[k]) * t[j][c] +
-                 (lambda[i] - lambda[j]) * t[k][c];
-        };
-        add(seen, {minor(0), minor(1)});
-      }
+/// Four filters, and what of three of them does not depend on the frequency. |M xi|^2 is the sum over triples
+/// of filters of det(xi, lambda, 1)^2.
+class Excitation {
+ public:
+  explicit Excitation(const std::vector<Ball>& lambda) {
+    std::copy_n(lambda.begin(), kFilters, lambda_.begin());
+    for (std::size_t left_out = 0; left_out < kFilters; ++left_out) {
+      Filters three;
+      std::copy_if(lambda_.begin(), lambda_.end(), three.begin(),
+                   [&](const Ball& rate) { return &rate != &lambda_[left_out]; });
+      const auto& [a, b, c, unused] = three;
+      Triple& triple = triples_[left_out];
+      triple.vandermonde = (a - b) * (b - c) * (a - c);
+      triple.sum = a + b + c;
+      triple.constant = a * b * c - lambda_[left_out] * (a * b + b * c + c * a);
     }
   }
-  const S over = reciprocal(length[0] * length[2] - square(length[1]));
-  const S sum = (seen[0] * length[2] + seen[2] * length[0] - two * (seen[1] * length[1])) * over;
-  const S product = (seen[0] * seen[2] - square(seen[1])) * over;
-  return two * product / (sum + sqrt(square(sum) - four * product));
-}
+
+  /// inf |M T(x)|^2 / |T(x)|^2 over the signals of one frequency: T is linear in (x1, x2), so that this is
+  /// the smaller eigenvalue of a pencil (seen, length) of 2x2 matrices, each a sum of squares of rows. Of
+  /// such matrices det(seen) + z det(mixed) + z^2 det(length) has sums of squares of 2x2 determinants of the
+  /// rows. T is (1, lambda) / (lambda^2 + s), and the row of a triple a, b, c is V (Re z, Im z / w) / |z|^2
+  /// with V its Vandermonde determinant and z = (a + jw)(b + jw)(c + jw): so the determinants are these
+  /// products, in which nothing cancels that is large.
+  template <typename S>
+  [[nodiscard]] S at(const S& frequency) const {
+    const S s = square(frequency);
+    std::array<S, kFilters> over;
+    S all(one);
+    for (std::size_t i = 0; i < kFilters; ++i) {
+      over[i] = reciprocal(square(lambda_[i]) + s);
+      all = all * over[i];
+    }
+    S seen(zero);
+    S length(zero);
+    S mixed(zero);
+    for (std::size_t i = 0; i < kFilters; ++i) {
+      const Triple& triple = triples_[i];
+      // The row of the triple with that of the filter left out, and with those of its own three.
+      mixed = mixed + square(triple.vandermonde * (triple.constant + (lambda_[i] - triple.sum) * s) * all);
+      for (std::size_t j = 0; j < kFilters; ++j) {
+        if (j == i) {
+          continue;
+        }
+        const Ball others = triple.sum - lambda_[j];
+        mixed = mixed + square(triple.vandermonde * others * all * (square(lambda_[i]) + s));
+        if (j > i) {
+          const Ball apart = lambda_[i] - lambda_[j];
+          length = length + square(apart * over[i] * over[j]);
+          seen = seen + square(triple.vandermonde * triples_[j].vandermonde * apart * all);
+        }
+      }
+    }
+    return two * seen / (mixed + sqrt(square(mixed) - four * seen * length));
+  }
+
+ private:
+  struct Triple {
+    Ball vandermonde, sum, constant;
+  };
+  Filters lambda_;
+  std::array<Triple, kFilters> triples_;  ///< by the filter that is left out
+};
 
 /// Walks the frequencies.
 class Infimum {
  public:
-  Infimum(const KklDesign& design, Ball bound) : design_(design), bound_(std::move(bound)) {}
+  Infimum(const Excitation& ratio, Ball bound) : ratio_(ratio), bound_(std::move(bound)) {}
 
   /// True only when the ratio is at least the bound from `low` to `high`.
   [[nodiscard]] bool is_bound(const Ball& low, const Ball& high, int depth) const {
-    const Slope ratio = ratio_at(design_.lambda, Slope::variable(Ball::hull(low, high), 0));
+    const Slope ratio = ratio_.at(Slope::variable(Ball::hull(low, high), 0));
     const bool falls = certainly_less(ratio.along[0], zero);
     const bool at_end = (falls && at_least(high)) || (certainly_positive(ratio.along[0]) && at_least(low));
     if (certainly_at_most(bound_, ratio.value) || at_end) {
@@ -63,27 +93,27 @@ class Infimum {
 
  private:
   [[nodiscard]] bool at_least(const Ball& frequency) const {
-    return certainly_at_most(bound_, ratio_at(design_.lambda, frequency));
+    return certainly_at_most(bound_, ratio_.at(frequency));
   }
 
-  const KklDesign& design_;
+  const Excitation& ratio_;
   Ball bound_;
 };
 
 /// True only when no frequency of [low, high) is a minimizer: the ratio is above `least`, or falls there.
 /// With `rises`, none of (low, high]: it is above, or rises.
-bool no_minimizer(const KklDesign& design, const Ball& low, const Ball& high, const Ball& least, bool rises,
-                  int depth) {
+bool no_minimizer(const Excitation& ratio_of, const Ball& low, const Ball& high, const Ball& least,
+                  bool rises, int depth) {
   if (certainly_at_most(high, low)) {
     return true;  // an empty stretch
   }
-  const Slope ratio = ratio_at(design.lambda, Slope::variable(Ball::hull(low, high), 0));
+  const Slope ratio = ratio_of.at(Slope::variable(Ball::hull(low, high), 0));
   if (certainly_less(least, ratio.value) || certainly_positive(rises ? ratio.along[0] : -ratio.along[0])) {
     return true;
   }
   const Ball middle = (half * (low + high)).lower();
-  return depth > 0 && no_minimizer(design, low, middle, least, rises, depth - 1) &&
-         no_minimizer(design, middle, high, least, rises, depth - 1);
+  return depth > 0 && no_minimizer(ratio_of, low, middle, least, rises, depth - 1) &&
+         no_minimizer(ratio_of, middle, high, least, rises, depth - 1);
 }
 
 constexpr int kDepth = 60;
@@ -91,7 +121,7 @@ constexpr int kDepth = 60;
 }  // namespace
 
 Ball excitation_ratio(const std::vector<Ball>& lambda, const Ball& frequency) {
-  return ratio_at(lambda, frequency);
+  return Excitation(lambda).at(frequency);
 }
 
 // The minimum is at least `low` if every cell says so, and at most `high` if one frequency does.
@@ -99,8 +129,9 @@ bool is_true(const EllEnclosure& enclosure, const KklDesign& design) {
   const auto& [low, high, attained] = enclosure;
   const bool inside =
       certainly_at_most(design.frequency_low, attained) && certainly_at_most(attained, design.frequency_high);
-  return inside && certainly_at_most(ratio_at(design.lambda, attained), high) &&
-         Infimum(design, low).is_bound(design.frequency_low, design.frequency_high, kDepth);
+  const Excitation ratio(design.lambda);
+  return inside && certainly_at_most(ratio.at(attained), high) &&
+         Infimum(ratio, low).is_bound(design.frequency_low, design.frequency_high, kDepth);
 }
 
 std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& design,
@@ -123,9 +154,9 @@ std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& 
   const Ball attained = low_of(*minimizer);
   const bool enclosed = is_true({low, high, attained}, design);
   const Ball last = high_of(*minimizer);
-  const bool located = enclosed &&
-                       no_minimizer(design, design.frequency_low, attained, high, false, kDepth) &&
-                       no_minimizer(design, last, design.frequency_high, high, true, kDepth);
+  const Excitation ratio(design.lambda);
+  const bool located = enclosed && no_minimizer(ratio, design.frequency_low, attained, high, false, kDepth) &&
+                       no_minimizer(ratio, last, design.frequency_high, high, true, kDepth);
   const Ball nothing = Ball::everything();
   const Ball value = enclosed ? low : nothing;
   found.quantities = {{"ell", enclosed ? Range(low, high) : Range(nothing)},

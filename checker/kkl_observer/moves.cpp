@@ -10,7 +10,12 @@ namespace veritrack::checker {
 namespace {
 
 constexpr int kPeriods = 8;
+constexpr double kMostPeriods = 1000.0;
 constexpr int kTimes = 120;
+
+bool nearer(const Ball& x, const Ball& y) {
+  return x.near() < y.near();
+}
 
 /// 1 / (lambda r + j) for the period r = 1/W: the response 1 / (lambda + j W) is r times this.
 template <typename S>
@@ -57,9 +62,14 @@ Moves::Moves(const KklDesign& design, const Ball& settling_time) {
 
 void Moves::cut_periods(const KklDesign& design) {
   const Ball longest = one / *design.disturbance_frequency;
-  for (int k = 0; k < kPeriods; ++k) {
-    const Ball begin = longest * Ball(k) / Ball(kPeriods);
-    const Ball end = longest * Ball(k + 1) / Ball(kPeriods);
+  // Dense at first, where the responses of fast filters still change: a proposal, as every partition is
+  // valid.
+  const double bend = 1.0 / std::max_element(lambda_.begin(), lambda_.end(), nearer)->near();
+  const double growth = std::log1p(longest.near() / bend);
+  const int periods = kPeriods + static_cast<int>(std::min(kPeriods * growth, kMostPeriods));
+  Ball begin(0.0);
+  for (int k = 0; k < periods; ++k) {
+    const Ball end = k + 1 == periods ? longest : Ball(bend * std::expm1(growth * (k + 1) / periods));
     const Ball middle = half * (begin + end);
     Cell cell{end, end - middle, {}, {}, {}};
     for (std::size_t i = 0; i < kFilters; ++i) {
@@ -71,11 +81,11 @@ void Moves::cut_periods(const KklDesign& design) {
       }
     }
     cells_.push_back(std::move(cell));
+    begin = end;
   }
 }
 
 void Moves::cut_time() {
-  const auto nearer = [](const Ball& x, const Ball& y) { return x.near() < y.near(); };
   const auto [slowest, fastest] = std::minmax_element(lambda_.begin(), lambda_.end(), nearer);
   // Dense at first, where fast filters still move: a proposal, as every partition is valid.
   const double bend = 1.0 / fastest->near();

@@ -118,16 +118,17 @@ Range smallest_eigenvalue(const std::vector<Ball>& lambda) {
 Ball continuity_modulus(const KklDesign& design, const Ball& ell) {
   const auto& l = design.lambda;
   Ball squares(0.0);
-  Ball sum(0.0);
+  Ball gram(0.0);  // |lambda|^2 |1|^2 - (lambda'1)^2, without its cancellation
   Ball largest(0.0);
   Ball gains(0.0);
   for (const Ball& rate : l) {
-    sum += rate;
+    for (const Ball& other : l) {
+      gram += half * square(rate - other);
+    }
     squares += square(rate);
     largest = max(largest, square(rate));
     gains += one / (square(rate) + square(design.frequency_low));
   }
-  const Ball gram = four * squares - square(sum);
   // |T_i| <= A / sqrt(lambda_i^2 + w^2), and the first and last filter give (x1, x2) back.
   const Ball upper = design.amplitude_high * sqrt(gains);
   const Ball first = square(l[0]) + square(design.frequency_high);

@@ -61,7 +61,12 @@ void SignalCells::find_rows() {
   const auto& [a, b, c, d] = lambda_;
   const Ball sum = a + b + c + d;
   const Ball squares = dot(lambda_, lambda_);
-  gram_ = four * squares - square(sum);
+  gram_ = zero;  // 4 squares - sum^2, without its cancellation
+  for (const Ball& rate : lambda_) {
+    for (const Ball& other : lambda_) {
+      gram_ += half * square(rate - other);
+    }
+  }
   for (std::size_t i = 0; i < kFilters; ++i) {
     rows_[kFirst][i] = (four * lambda_[i] - sum) / gram_;
     rows_[kSecond][i] = (squares - sum * lambda_[i]) / gram_;

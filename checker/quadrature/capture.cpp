@@ -149,7 +149,8 @@ void follow_evidence(const Tree& evidence, const Tree& quantities, const Setting
                   max(disturbed.largest_frequency, pi())};
   const Matrix3 covariance = start.enclosure();
   const bool is_symmetric =
-      certainly_equal(start.matrix[0][1], zero) && certainly_equal(start.matrix[0][2], zero);
+      certainly_equal(start.lowest[0][1], zero) && certainly_equal(start.lowest[0][2], zero) &&
+      certainly_equal(start.highest[0][1], zero) && certainly_equal(start.highest[0][2], zero);
   const bool captured = certainly_equal(cover.turns, zero);
   // The least frequency error in the shifted set, which is invariant, too: for the frequency error acts
   // through its sine and cosine alone.
@@ -227,13 +228,13 @@ bool is_capture_claim(const std::string& id) {
 }
 
 Claim check_capture_claim(const Tree& claimed, const std::map<std::string, Captured>& captured,
-                          Objections& objections) {
+                          const Guarantee& guarantee, Objections& objections) {
   const std::string& id = claimed.at("id").text();
   const auto found_of = [&](const char* derivation) {
     const auto found = captured.find(derivation);
     return found != captured.end() ? found->second : Captured();
   };
-  std::string disturbance = "with the assumed noise and slew";
+  std::string disturbance = guarantee.assumed_disturbance();
   Captured found = found_of("capture");
   Verdict verdict = found.verdict;
   if (id == "ekf/capture") {
@@ -243,18 +244,16 @@ Claim check_capture_claim(const Tree& claimed, const std::map<std::string, Captu
       found = without;
     }
   } else if (id == "ekf/capture-noise-free") {
-    disturbance = "without noise and slew";
+    disturbance = Guarantee::disturbance_of(zero, zero);
     found = found_of("capture/noise-free");
     verdict = found.verdict;
   } else {
     found = found_of("capture/reduced-noise");
-    disturbance = "with noise of at most " + lower_decimal(found.noise) +
-                  " of the amplitude and slew of at most " + lower_decimal(found.slew) +
-                  " rad/sample per sample";
+    disturbance = Guarantee::disturbance_of(found.noise, found.slew);
     verdict = found.verdict;
   }
-  Claim claim{std::string(kDoublePrecision) + ", from every assumed start " + found.covariance + ", " +
-                  disturbance + ", the tracker enters the certified set, which it never leaves.",
+  Claim claim{guarantee.hypotheses(disturbance, found.covariance) +
+                  "the tracker enters the certified set, which it never leaves.",
               verdict, found.quantities};
   check_claim(claimed, claim, objections);
   return claim;

@@ -31,6 +31,6 @@ Captured check_capture(const Tree& derivation, const Design& design, const std::
 /// The claims "ekf/capture...", from what was found of the derivations that were verified, by their ids.
 bool is_capture_claim(const std::string& id);
 Claim check_capture_claim(const Tree& claim, const std::map<std::string, Captured>& captured,
-                          Objections& objections);
+                          const Guarantee& guarantee, Objections& objections);
 
 }  // namespace veritrack::checker

@@ -121,7 +121,7 @@ class QuadratureVerifier {
         return guarantee.check(claim, promises_, objections);
       }
       if (is_capture_claim(id)) {
-        return check_capture_claim(claim, captured_, objections);
+        return check_capture_claim(claim, captured_, guarantee, objections);
       }
       if (const auto gap = gaps.find(id); gap != gaps.end()) {
         check_claim(claim, gap->second, objections);

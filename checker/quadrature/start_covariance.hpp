@@ -10,21 +10,22 @@
 
 namespace veritrack::checker {
 
-/// All symmetric P with from M <= P <= to M in the Loewner order.
+/// All symmetric P between two matrices in the Loewner order.
 struct StartCovariance {
-  Matrix3 matrix;  ///< M, for a signal of amplitude 1
-  Ball from, to;
-  std::string words;  ///< for sentences, in signal units: "and with P(0|0) ..."
+  Matrix3 lowest, highest;  ///< for a signal of amplitude 1
+  std::string words;        ///< for sentences, in signal units: "and with P(0|0) ..."
 
   /// All of them lie strictly between two bounds.
   [[nodiscard]] bool between(const Covariance<Ball>& lower, const Covariance<Ball>& upper) const;
-  /// A ball, entry by entry, that contains all of them: |P_ij - from M_ij| <= (to - from) sqrt(M_ii M_jj).
+  /// A ball, entry by entry, that contains all of them: with D the highest less the lowest, P_ij is within
+  /// sqrt(D_ii D_jj) of that of the lowest.
   [[nodiscard]] Matrix3 enclosure() const;
 };
 
-/// The one that the design gives, or, where it says "steady-state", the matrix and the multiples in the
-/// evidence "start-covariance" of the derivation, which must contain that matrix itself; nothing when there
-/// is neither. Objects to a matrix that is not positive definite.
+/// The one or the range that the design gives, or, where it says "steady-state" or gives multiples of it, the
+/// matrix and the multiples in the evidence "start-covariance" of the derivation: these are those of the
+/// design, or contain that matrix itself. Nothing when there is neither. Objects to a matrix that is not
+/// positive definite.
 std::optional<StartCovariance> read_start_covariance(const Tree& derivation, const Design& design,
                                                      Objections& objections);
 

@@ -131,8 +131,7 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
   }
   if (whole != nullptr) {
     const auto start =
-        covariance ? steady_start(design, *whole, *fine, covariance->enclosure(), start_claim(claimed))
-                   : std::nullopt;
+        covariance ? steady_start(design, *whole, *fine, *covariance, start_claim(claimed)) : std::nullopt;
     promises.starts_inside = start.has_value();
     promises.reach = error_radii(*whole)[2];
     promises.rate = slowest(*whole);

@@ -17,7 +17,7 @@ bool keeps(const SteadyStart& start, const SteadyStartClaim& claim) {
 /// The starts at some frequencies of a cell.
 class Part {
  public:
-  Part(const Design& design, const SteadySet& set, const Matrix3& covariance, const SteadyCell& cell,
+  Part(const Design& design, const SteadySet& set, const StartCovariance& covariance, const SteadyCell& cell,
        const Ball& frequency)
       : design_(design),
         set_(set),
@@ -25,14 +25,17 @@ class Part {
         frequency_(frequency),
         steady_(cell.at(frequency)) {}
 
-  /// A level of the set that contains errors and covariances: balls of e and of P. Everything when none does.
-  [[nodiscard]] Ball level_of(const std::array<Ball, 3>& image, const Matrix3& covariance) const {
+  /// A level of the set that contains errors and covariances: balls of e, and all P from the lowest to the
+  /// highest in the Loewner order. Everything when none does.
+  [[nodiscard]] Ball level_of(const std::array<Ball, 3>& image, const Matrix3& lowest,
+                              const Matrix3& highest) const {
     constexpr int kSteps = 40;
-    const Matrix3 deviation = covariance - steady_covariance();
+    const Matrix3 least = lowest - steady_covariance();
+    const Matrix3 most = highest - steady_covariance();
     for (int i = 1; i <= kSteps; ++i) {
       const Ball share = Ball(i) / Ball(kSteps);
-      if (definite(deviation + matrix_of(scaled(share, set_.setting.below))) &&
-          definite(matrix_of(scaled(share, set_.setting.above)) - deviation)) {
+      if (definite(least + matrix_of(scaled(share, set_.setting.below))) &&
+          definite(matrix_of(scaled(share, set_.setting.above)) - most)) {
         return max(share, norm(image));
       }
     }
@@ -44,7 +47,7 @@ class Part {
     const std::array<Ball, 3> image = set_.setting.metric.image<Ball>(
         Ball::within(design_.amplitude_error) - steady_[0], Ball::within(design_.phase_error) - steady_[1],
         Ball::within(design_.frequency_error) - steady_[2]);
-    return level_of(image, covariance_).upper();
+    return level_of(image, covariance_.lowest, covariance_.highest).upper();
   }
 
   /// What comes of a start at this level after so many samples, with errors up to `way` until then.
@@ -67,7 +70,7 @@ class Part {
                            zero, design_.amplitude, max(design_.largest_frequency, pi())},
                           {Ball::within(design_.amplitude_error), Ball::within(design_.phase_error),
                            Ball::within(design_.frequency_error)},
-                          covariance_);
+                          covariance_.enclosure());
     const TriangularMetric& t = set_.setting.metric;
     const Matrix3 metric{{{t.t11, t.t12, t.t13}, {zero, t.t22, t.t23}, {zero, zero, t.t33}}};
     Ball way = design_.frequency_error;
@@ -83,7 +86,7 @@ class Part {
       states.step();
       way = max(way, abs(states.frequency_error()));
       const PolarEnclosure now = states.polar(metric, {steady_[0], steady_[1], steady_[2]});
-      level = level_of(now.error, now.covariance).upper();
+      level = level_of(now.error, now.covariance, now.covariance).upper();
     }
     return found;
   }
@@ -99,7 +102,7 @@ class Part {
 
   const Design& design_;
   const SteadySet& set_;
-  const Matrix3& covariance_;
+  const StartCovariance& covariance_;
   Ball frequency_;
   StateVector steady_;
 };
@@ -121,8 +124,8 @@ std::array<Ball, 3> error_radii(const SteadySet& set) {
 }
 
 std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& set,
-                                        const std::vector<SteadyCell>& branch, const Matrix3& covariance,
-                                        const SteadyStartClaim& claim) {
+                                        const std::vector<SteadyCell>& branch,
+                                        const StartCovariance& covariance, const SteadyStartClaim& claim) {
   constexpr int kHalvings = 3;
   constexpr int kMostSamples = 100;
   const bool still = certainly_equal(design.slew, zero);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "checker/quadrature/start_covariance.hpp"
 #include "checker/quadrature/steady_set.hpp"
 
 namespace veritrack::checker {
@@ -24,10 +25,10 @@ struct SteadyStartClaim {
 };
 
 /// Nothing when the branch has no cell, or some start does not certainly enter the set. Starts outside are
-/// followed, with the design's noise, when there is no slew. `covariance` contains every P(0|0).
+/// followed, with the design's noise, when there is no slew. `covariance`: every P(0|0).
 std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& set,
-                                        const std::vector<SteadyCell>& branch, const Matrix3& covariance,
-                                        const SteadyStartClaim& claim);
+                                        const std::vector<SteadyCell>& branch,
+                                        const StartCovariance& covariance, const SteadyStartClaim& claim);
 
 /// At least |e_i - e*_i| over level 1: amplitude, phase (rad), frequency (rad/sample).
 std::array<Ball, 3> error_radii(const SteadySet& set);

@@ -109,6 +109,30 @@ bool Guarantee::is_guarantee(const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
+std::string Guarantee::assumed_disturbance() const {
+  const Tree& assume = design_.at("assume");
+  const Tree& slew = assume.at("slew");
+  std::string text = is_zero(slew) ? " and is constant"
+                                   : " and changes by at most " + text_of(slew) + kPerSample + " per sample";
+  if (is_zero(assume.at("noise"))) {
+    return text + ", without measurement noise";
+  }
+  text += ", with measurement noise of at most " + text_of(assume.at("noise"));
+  return text + (wording_.two_channels ? " (the length of the error in both channels; " +
+                                             lower_decimal(assumed_noise_ / sqrt(two)) + " in each is enough)"
+                                       : "");
+}
+
+std::string Guarantee::disturbance_of(const Ball& noise, const Ball& slew) {
+  std::string text = certainly_equal(slew, zero)
+                         ? " and is constant"
+                         : " and changes by at most " + lower_decimal(slew) + kPerSample + " per sample";
+  return text.append(certainly_equal(noise, zero)
+                         ? ", without measurement noise"
+                         : ", with measurement noise of at most " + lower_decimal(noise) +
+                               " of the amplitude (the length of the error in both channels)");
+}
+
 /// "In exact arithmetic, for a tone of constant amplitude 1 ...", with the assumed noise and slew.
 std::string Guarantee::tone(bool disturbed) const {
   const Tree& assume = design_.at("assume");
@@ -120,29 +144,20 @@ std::string Guarantee::tone(bool disturbed) const {
   } else {
     text += "is at most pi" + kPerSample;
   }
-  if (disturbed) {
-    const Tree& slew = assume.at("slew");
-    text += is_zero(slew) ? " and is constant"
-                          : " and changes by at most " + text_of(slew) + kPerSample + " per sample";
-  }
-  if (disturbed && is_zero(assume.at("noise"))) {
-    text += ", without measurement noise";
-  } else if (disturbed) {
-    text += ", with measurement noise of at most " + text_of(assume.at("noise"));
-    text += wording_.two_channels ? " (the length of the error in both channels; " +
-                                        lower_decimal(assumed_noise_ / sqrt(two)) + " in each is enough)"
-                                  : "";
-  }
-  return text;
+  return text + (disturbed ? assumed_disturbance() : "");
 }
 
 std::string Guarantee::hypotheses(const Promises& promises) const {
+  return hypotheses(assumed_disturbance(), promises.covariance);
+}
+
+std::string Guarantee::hypotheses(const std::string& disturbance, const std::string& covariance) const {
   const Tree& assume = design_.at("assume");
   const auto words = [&](const char* name) { return text_of(assume.at(name)); };
-  return tone(true) + ", started within " + words("initial_frequency_error") + kPerSample +
+  return tone(false) + disturbance + ", started within " + words("initial_frequency_error") + kPerSample +
          " of the true frequency, " + words("initial_phase_error") + " rad of the phase and " +
          words("initial_amplitude_error") + " of the amplitude" +
-         (promises.covariance.empty() ? "" : " " + promises.covariance) + ", ";
+         (covariance.empty() ? "" : " " + covariance) + ", ";
 }
 
 /// What [require] asks.

@@ -59,6 +59,12 @@ class Guarantee {
   Guarantee(const Tree& design, Wording wording, Objections& objections);
 
   static bool is_guarantee(const std::string& id);
+  /// Every hypothesis of a sentence, "In ..., started within ... and with P(0|0) ..., ": with such words on
+  /// noise and slew.
+  [[nodiscard]] std::string hypotheses(const std::string& disturbance, const std::string& covariance) const;
+  /// Such words: of the assumed ones, and of others, relative to the amplitude and in rad/sample per sample.
+  [[nodiscard]] std::string assumed_disturbance() const;
+  static std::string disturbance_of(const Ball& noise, const Ball& slew);
   /// What [require] asks.
   [[nodiscard]] const std::vector<Requirement>& required() const { return required_; }
   /// Objects to a claim of these that the promises do not prove. The claim with its sentence.

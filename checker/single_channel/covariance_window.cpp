@@ -63,6 +63,9 @@ class Window {
     constexpr int kMore = 2;  // samples
     for (int sample = window + 1; s_.has_least && sample <= window + kMore; ++sample) {
       lower = without_remainder(updated(beneath(lower, turn_into(sample)), d_.r), -one);
+      if (!definite(lower)) {
+        return false;  // the next prediction bounds nothing from below, as (F + E) X (F + E)' needs X >= 0
+      }
     }
     return !s_.has_least || is_above_least(lower, turn_into(window + kMore).here);
   }
@@ -120,13 +123,8 @@ class Window {
                          {s_.curvature_weight * p.p33, p31, over * (p.p11 + g1 * (p.p31 + p31)), p32,
                           over * (p.p21 + g2 * p.p31 + g1 * p32), over * (p.p22 + g2 * (p.p32 + p32))}));
   }
-  /// P - e e' / level^2 > 0, e e' <= diag(|delta|^2/weight, |delta|^2/weight, nu^2/(1 - weight)).
   [[nodiscard]] bool holds_starts(const CellCovariance& lower) const {
-    const Ball level = square(s_.start_level);
-    return !s_.has_starts ||
-           definite(less(lower, one,
-                         diagonal(square(s_.start_signal) / (level * s_.start_weight),
-                                  square(s_.start_frequency) / (level * (one - s_.start_weight)))));
+    return !s_.has_starts || definite(less(lower, one, diagonal(s_.start_signal, s_.start_frequency)));
   }
 
   const WindowStatement& s_;
@@ -198,8 +196,7 @@ bool is_sensible(const WindowStatement& s, const SingleChannelDesign& d) {
     sensible = sensible && certainly_not_negative(share) && certainly_less(share, one);
   }
   return sensible &&
-         (!s.has_starts || (certainly_positive(s.start_level) && certainly_positive(s.start_weight) &&
-                            certainly_less(s.start_weight, one)));
+         (!s.has_starts || (certainly_positive(s.start_signal) && certainly_positive(s.start_frequency)));
 }
 
 }  // namespace

@@ -27,10 +27,9 @@ struct WindowStatement {
   /// when the window has them, the diagonal of every covariance is above these;
   bool has_least = false;
   Ball least_p11, least_p22, least_p33;
-  /// and, when it has starts, e' P^-1 e <= start_level^2 for |delta| <= start_signal and |nu| <=
-  /// start_frequency, by a free weight between 0 and 1.
+  /// and, when it has starts, diag(start_signal, start_signal, start_frequency) is below every covariance.
   bool has_starts = false;
-  Ball start_level, start_weight, start_signal, start_frequency;
+  Ball start_signal, start_frequency;
 };
 
 /// True only when all of it is proved at every phase, for every frequency of the design's band. Counts the

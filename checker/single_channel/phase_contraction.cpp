@@ -4,6 +4,7 @@
 
 #include "checker/document/evidence.hpp"
 #include "checker/single_channel/covariance_window.hpp"
+#include "checker/single_channel/diagonal_start.hpp"
 
 namespace veritrack::checker {
 
@@ -99,7 +100,8 @@ class ErrorSet {
 /// The set of this name, verified; none when the evidence has none, or not all that it says is proved.
 std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& name,
                                      const SingleChannelDesign& design, std::int64_t& cells,
-                                     Objections& objections) {
+                                     Objections& objections,
+                                     const std::optional<DiagonalStart>& start = std::nullopt) {
   const Tree* item = find_evidence(derivation, name);
   if (item == nullptr) {
     return std::nullopt;
@@ -124,12 +126,10 @@ std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& 
   for (int m = 1; numbers.find("share_" + std::to_string(m)) != nullptr; ++m) {
     window.shares.push_back(number("share_" + std::to_string(m)));
   }
-  window.has_starts = numbers.find("assumed_level") != nullptr;
-  if (window.has_starts) {
-    window.start_level = number("assumed_level");
-    window.start_weight = number("start_weight");
-    window.start_signal = design.amplitude_error + design.phase_error;
-    window.start_frequency = design.frequency_error;
+  window.has_starts = start.has_value();
+  if (start) {
+    window.start_signal = start->to * start->signal;
+    window.start_frequency = start->to * start->frequency;
   }
   const ErrorSet set(window, design, number("noise"), number("start_level"));
   if (certainly_not_negative(set.noise()) && certainly_positive(set.start()) && set.keeps(set.start()) &&
@@ -144,12 +144,12 @@ bool tolerates(const ErrorSet& set, const SingleChannelDesign& design) {
   return certainly_at_most(design.noise, set.noise()) && certainly_at_most(design.slew, set.window().slew);
 }
 
-/// The assumed starts are in the set: their errors, and the steady state of a start that is turned by the
-/// phase error, along which |delta| is at most that.
-bool holds_starts(const ErrorSet& set, const SingleChannelDesign& design) {
-  const WindowStatement& window = set.window();
-  return window.has_starts && design.starts_in_steady_state && set.keeps(window.start_level) &&
-         certainly_at_most(design.phase_error, window.radius * sqrt(window.signal_variance));
+/// The assumed starts are in the set: their errors, and their covariances, which are below those of a tracker
+/// that has followed the tone without errors, and stay below. Of the predicted ones no more is known at first
+/// than that they are above Q.
+bool holds_starts(const ErrorSet& set, const SingleChannelDesign& design, const DiagonalStart& start) {
+  return set.window().has_starts && !design.has_given_covariance && set.keeps(level_of(start, design)) &&
+         certainly_at_most(set.window().signal_uncertainty, design.q1);
 }
 
 /// How far the starts of the set reach, whatever phase and frequency, and what they never exceed.
@@ -172,6 +172,7 @@ void add_size(const ErrorSet& set, Derivation& found) {
 /// The verified sets of the evidence, by what they are for.
 struct ErrorSets {
   std::optional<ErrorSet> whole, bound, noisy, slewing;
+  Ball start_level;  ///< of the assumed starts in `bound`
 };
 
 /// A set, and the level of the starts in it of which something is said.
@@ -184,7 +185,7 @@ struct StartSet {
 /// "start-error".
 std::optional<StartSet> starts_of(const ErrorSets& sets, bool starts_inside, bool invariant) {
   if (starts_inside) {
-    return StartSet{*sets.bound, sets.bound->window().start_level};
+    return StartSet{*sets.bound, sets.start_level};
   }
   return invariant ? std::optional(StartSet{*sets.whole, sets.whole->start()}) : std::nullopt;
 }
@@ -206,8 +207,8 @@ std::vector<Condition> conditions_of(const ErrorSets& sets, const SingleChannelD
     conditions.back().lhs = sets.whole->after(sets.whole->window().radius);
     conditions.back().rhs = sets.whole->window().radius;
     conditions.push_back({"start-in-set", R"(e(0)' P(0)^{-1} e(0) \le R_0^2)", proved_if(inside),
-                          inside ? sets.bound->window().start_level : Ball::everything(),
-                          inside ? sets.bound->start() : sets.whole->start()});
+                          inside ? sets.start_level : Ball::everything(),
+                          inside ? sets.bound->start() : sets.whole->start(), Sense::bounds_above});
   }
   return conditions;
 }
@@ -216,14 +217,16 @@ std::vector<Condition> conditions_of(const ErrorSets& sets, const SingleChannelD
 
 Promises check_phase_contraction(const Tree& claimed, const SingleChannelDesign& design, std::int64_t& cells,
                                  Objections& objections) {
+  const std::optional<DiagonalStart> start = read_diagonal_start(claimed, design, objections);
   const ErrorSets sets{verified_set(claimed, "start-error", design, cells, objections),
-                       verified_set(claimed, "frequency-error-bound", design, cells, objections),
+                       verified_set(claimed, "frequency-error-bound", design, cells, objections, start),
                        verified_set(claimed, "largest-noise", design, cells, objections),
-                       verified_set(claimed, "largest-slew", design, cells, objections)};
+                       verified_set(claimed, "largest-slew", design, cells, objections),
+                       start ? level_of(*start, design) : Ball::everything()};
   Promises promises;
-  promises.covariance =
-      "and with P(0|0) = the filter's steady state at that frequency and at the estimated phase";
-  promises.starts_inside = sets.bound && tolerates(*sets.bound, design) && holds_starts(*sets.bound, design);
+  promises.covariance = start ? start->words : "";
+  promises.starts_inside =
+      start && sets.bound && tolerates(*sets.bound, design) && holds_starts(*sets.bound, design, *start);
   promises.noise = sets.noisy ? std::optional(sets.noisy->noise()) : std::nullopt;
   promises.slew = sets.slewing ? std::optional(sets.slewing->window().slew) : std::nullopt;
   Derivation found;

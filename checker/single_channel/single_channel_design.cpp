@@ -56,8 +56,8 @@ SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& obj
     objections.emplace_back("epsilon must be below 1");
   }
   const Tree& covariance = assume.at("initial_covariance");
-  design.starts_in_steady_state = covariance.kind() == Tree::Kind::text;
-  if (!design.starts_in_steady_state) {
+  design.has_given_covariance = covariance.kind() != Tree::Kind::text;
+  if (design.has_given_covariance) {
     for (std::size_t i = 0; i < 9; ++i) {
       read_number(covariance.at(i / 3).at(i % 3), objections);
     }

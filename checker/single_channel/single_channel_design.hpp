@@ -11,7 +11,7 @@ struct SingleChannelDesign {
   Ball lowest, highest;     ///< true frequencies, rad/sample
   Ball noise, slew;
   Ball amplitude_error, phase_error, frequency_error;  ///< of the start, bounds on absolute values
-  bool starts_in_steady_state = false;
+  bool has_given_covariance = false;
   [[nodiscard]] bool without_leak() const { return certainly_equal(epsilon, zero); }
 };
 

@@ -1,6 +1,7 @@
 #include "checker/theorems/design.hpp"
 
 #include "checker/document/design_number.hpp"
+#include "checker/numbers/matrix3.hpp"
 
 namespace veritrack::checker {
 
@@ -19,6 +20,42 @@ std::array<std::array<Ball, 3>, 3> read_covariance(const Tree& rows, const Ball&
     }
   }
   return covariance;
+}
+
+std::array<std::array<std::string, 3>, 3> texts_of(const Tree& rows) {
+  std::array<std::array<std::string, 3>, 3> texts;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      texts[i][j] = text_of(rows.at(i).at(j));
+    }
+  }
+  return texts;
+}
+
+/// From one end to the other, two matrices or two numbers. Objects to a range that may contain nothing.
+void read_covariance_range(const Tree& range, Design& design, Objections& objections) {
+  const Tree& from = range.at("from");
+  const Tree& to = range.at("to");
+  if (from.kind() != to.kind()) {
+    throw Malformed("initial_covariance goes from a matrix to a number");
+  }
+  bool in_order = false;
+  if (from.kind() == Tree::Kind::array) {
+    design.covariance = read_covariance(from, design.amplitude, objections);
+    design.highest_covariance = read_covariance(to, design.amplitude, objections);
+    design.covariance_texts = texts_of(from);
+    design.highest_covariance_texts = texts_of(to);
+    in_order = definite(*design.covariance) && definite(*design.highest_covariance - *design.covariance);
+  } else {
+    design.covariance_multiples = {read_positive(from, "initial_covariance", objections),
+                                   read_positive(to, "initial_covariance", objections)};
+    design.multiples_texts = {text_of(from), text_of(to)};
+    in_order = text_of(from) == text_of(to) ||
+               certainly_less((*design.covariance_multiples)[0], (*design.covariance_multiples)[1]);
+  }
+  if (!in_order) {
+    objections.emplace_back("initial_covariance must go from a positive definite matrix to a larger one");
+  }
 }
 
 }  // namespace
@@ -54,13 +91,11 @@ Design read_design(const Tree& tree, Objections& objections) {
   const Tree& covariance = assume.at("initial_covariance");
   if (covariance.kind() == Tree::Kind::array) {
     design.covariance = read_covariance(covariance, amplitude, objections);
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        design.covariance_texts[i][j] = text_of(covariance.at(i).at(j));
-      }
-    }
+    design.covariance_texts = texts_of(covariance);
+  } else if (covariance.kind() == Tree::Kind::object) {
+    read_covariance_range(covariance, design, objections);
   } else if (covariance.text() != "steady-state") {
-    throw Malformed("initial_covariance is neither a matrix nor steady-state");
+    throw Malformed("initial_covariance is neither a matrix, nor a range, nor steady-state");
   }
   design.state_bound = positive(theorem, "R_x");
   design.sigma = positive(theorem, "sigma");

@@ -16,10 +16,14 @@ struct Design {
   Ball lowest_frequency, highest_frequency, largest_frequency;  ///< rad/sample
   Ball noise, slew;
   Ball amplitude_error, phase_error, frequency_error;  ///< of the start, bounds on absolute values
-  std::optional<std::array<std::array<Ball, 3>, 3>>
-      covariance;  ///< P(0|0); none: a multiple of a matrix of ours
-  std::array<std::array<std::string, 3>, 3> covariance_texts;  ///< as written, in signal units
-  Ball state_bound, sigma, gamma_fraction, c1, c2;             ///< of Theorem 2.9
+  /// P(0|0) as the design gives it, or the two ends between which it lies in the Loewner order; none: a
+  /// multiple of a matrix of ours.
+  std::optional<std::array<std::array<Ball, 3>, 3>> covariance, highest_covariance;
+  std::optional<std::array<Ball, 2>> covariance_multiples;  ///< those of the design: from, to
+  /// As written, in signal units; of the multiples alone the ends are.
+  std::array<std::array<std::string, 3>, 3> covariance_texts, highest_covariance_texts;
+  std::array<std::string, 2> multiples_texts;
+  Ball state_bound, sigma, gamma_fraction, c1, c2;  ///< of Theorem 2.9
   bool q1_equals_q2 = false;
   [[nodiscard]] bool without_leak() const { return certainly_equal(epsilon, zero); }
 };

@@ -14,10 +14,11 @@ ErrorEquation error_equation(const Design& d, const Ball& radius) {
   e.smallest = one / max(one / d.q1 + one / d.r, one / d.q2);
   e.largest = largest_covariance(d.q1, d.q2, d.r, d.epsilon, one - radius);
   if (d.covariance) {
-    const Range start = extreme_eigenvalues(*d.covariance);
-    const Ball first = square(e.transition) * start.high + max(d.q1, d.q2);
-    e.smallest = min(e.smallest, start.low);
-    e.largest = max(e.largest, max(start.high, first));
+    const Ball least = extreme_eigenvalues(*d.covariance).low;
+    const Ball most = extreme_eigenvalues(d.highest_covariance.value_or(*d.covariance)).high;
+    const Ball first = square(e.transition) * most + max(d.q1, d.q2);
+    e.smallest = min(e.smallest, least);
+    e.largest = max(e.largest, max(most, first));
   }
   e.process = min(d.q1, d.q2);
   const Ball gain = e.process / (e.largest * square(e.transition));
@@ -46,7 +47,7 @@ std::vector<Quantity> quantities_of(const ErrorEquation& e) {
 
 Condition start_covariance(const ErrorEquation& e, const Design& d) {
   const bool known = e.smallest.finite() && e.largest.finite();
-  const bool is_kept = d.covariance.has_value() || d.without_leak();
+  const bool is_kept = d.covariance.has_value() || (d.without_leak() && !d.covariance_multiples);
   return {"start-covariance", R"(\underline p I \le P(0 \mid 0) \le \bar p I)", proved_if(known && is_kept),
           e.smallest, e.largest};
 }

@@ -106,9 +106,11 @@ std::string check_repaired_theorem(const Tree& claimed, const Design& d, Objecti
     invariance.lhs_sense = Sense::bounds_above;
     invariance.rhs = assumed->radius;
     // Without a leak the steady state lies in every order interval that the filter keeps.
-    const bool in_range = d.covariance ? assumed->window == 0 && definite(assumed->upper - *d.covariance) &&
-                                             definite(*d.covariance - inverse(assumed->information))
-                                       : d.without_leak();
+    const bool in_range = d.covariance
+                              ? assumed->window == 0 &&
+                                    definite(assumed->upper - d.highest_covariance.value_or(*d.covariance)) &&
+                                    definite(*d.covariance - inverse(assumed->information))
+                              : d.without_leak() && !d.covariance_multiples;
     found.conditions[3].verdict = proved_if(in_range);
     Condition& initial = found.conditions[4];
     initial.lhs = largest_initial_error(d);

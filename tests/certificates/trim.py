@@ -11,10 +11,15 @@ contraction       all certified sets, the derivation "contraction" and the claim
 settling          the same from the sets that bound the frequency error, in the long run too: checked fast
 one-set           the same from the set that is checked fastest, for tests that check it hundreds of times
 given-covariance  one-set with a P(0|0) that the design gives
+covariance-range  one-set with every P(0|0) from one matrix of the design to another
+covariance-multiples  one-set with every P(0|0) from one multiple of the printed matrix to another
 capture           farther starts, followed into the set of one-set: one box, of which little is said
 From tests/certificates/kkl-observer.toml, a KKL observer at one frequency with a sinusoidal disturbance:
 kkl-observer      its bounds, with an easier one on the amplitude error
 kkl-paper         its ell and the paper's claims
+From tests/certificates/kkl-close-rates.toml and kkl-wide-rates.toml, as they are:
+kkl-close-rates   rates 1, 1.001, 1.002, 1.003: ell is 8e-27
+kkl-wide-rates    rates 0.01, 1, 100, 1e4
 From tests/certificates/steady-state.toml, the single-channel tracker with a leak at one frequency:
 steady-state      its bias and Proposition 1
 frozen-filter     its frozen filter, alone
@@ -115,6 +120,22 @@ def given_covariance(certificate):
     del certificate["derivations"][0]["evidence"]
 
 
+def covariance_range(certificate):
+    one_set(certificate)
+    ends = {"from": [["0.00955", "0", "0"], ["0", "0.0248", "0.0075"], ["0", "0.0075", "0.00754"]],
+            "to": [["0.0097", "0", "0"], ["0", "0.02505", "0.0076"], ["0", "0.0076", "0.00763"]]}
+    certificate["design"]["assume"]["initial_covariance"] = {
+        name: [[number(text) for text in row] for row in rows] for name, rows in ends.items()}
+    del certificate["derivations"][0]["evidence"]
+
+
+def covariance_multiples(certificate):
+    one_set(certificate)
+    ends = {"from": "0.99", "to": "1.005"}
+    certificate["design"]["assume"]["initial_covariance"] = {name: number(text) for name, text in ends.items()}
+    certificate["derivations"][0]["evidence"][0]["decimals"].update(ends)
+
+
 def capture(certificate):
     """From 0.012 rad/sample off, after six samples."""
     one_set(certificate)
@@ -202,9 +223,13 @@ KINDS = {
     "settling": settling,
     "one-set": one_set,
     "given-covariance": given_covariance,
+    "covariance-range": covariance_range,
+    "covariance-multiples": covariance_multiples,
     "capture": capture,
     "kkl-observer": kkl_observer,
     "kkl-paper": kkl_paper,
+    "kkl-close-rates": lambda certificate: None,
+    "kkl-wide-rates": lambda certificate: None,
     "steady-state": steady_state,
     "frozen-filter": lambda certificate: keep(certificate, ["single-channel/transfer-function"], []),
     "phases": phases,

@@ -65,6 +65,35 @@ class Verify(CliTestCase):
         self.write(flattering, "flattering.md")
         self.assertEqual(verify("--markdown", self.folder / "flattering.md", certificate).returncode, 3)
 
+    def test_a_range_of_start_covariances(self):
+        text = (ROOT / "designs/la-scala-1994-figure-3.5-without-leak.toml").read_text()
+        steady = 'initial_covariance = "steady-state"'
+        self.assertIn(steady, text)
+        ranges = {"multiples": ("{ from = 0.6, to = 1.6 }", "every P(0|0) from 0.6 M to 1.6 M, M = ["),
+                  "matrices": ("{ from = [[0.007, 0, 0], [0, 0.02, 0.006], [0, 0.006, 0.006]], "
+                               "to = [[0.013, 0, 0], [0, 0.03, 0.009], [0, 0.009, 0.009]] }",
+                               "every P(0|0) from [0.007, 0, 0; 0, 0.02, 0.006; 0, 0.006, 0.006] to [0.013, 0, 0; "
+                               "0, 0.03, 0.009; 0, 0.009, 0.009] in the frame")}
+        for name, (value, words) in ranges.items():
+            design = self.write(text.replace(steady, "initial_covariance = " + value), name + ".toml")
+            self.run_here("certify", design, "--out", name)
+            folder = self.folder / name
+            result = verify("--design", design, "--markdown", folder / "certificate.md", folder / "certificate.json")
+            self.assertEqual(result.returncode, 0, result.stdout)
+            self.assertIn(words, result.stdout)
+            certificate = json.loads((folder / "certificate.json").read_text())
+            asked = certificate["design"]["assume"]["initial_covariance"]
+            asked["to"] = asked["from"]
+            forged = verify(self.write(json.dumps(certificate), "forged.json"))
+            self.assertEqual(forged.returncode, 3)
+        # More than any set holds: the reason names it.
+        design = self.write(text.replace(steady, "initial_covariance = { from = 0.01, to = 1 }"))
+        self.run_here("certify", design, "--out", "wide")
+        top = (self.folder / "wide/certificate.md").read_text().split("##")[0]
+        self.assertIn("**UNDECIDED**: ", top)
+        self.assertRegex(top, r"Why not: .* every P\(0\|0\) from 0.01 M to 1 M, .* a narrower range may help")
+        self.assertEqual(verify(self.folder / "wide/certificate.json").returncode, 1)
+
     def test_exit_status(self):
         certificates = ROOT / "tests" / "certificates"
         accepted = str(certificates / "accepted" / "one-set.json")

@@ -64,6 +64,20 @@ void check(const QuadratureEkfTables& tables) {
       std::for_each(row.begin(), row.end(), [](const Number& number) { check(number); });
     }
   }
+  if (assume.covariance_range) {
+    for (const CovarianceArray& end : *assume.covariance_range) {
+      for (const auto& row : end) {
+        std::for_each(row.begin(), row.end(), [](const Number& number) { check(number); });
+      }
+    }
+  }
+  if (assume.covariance_multiples) {
+    const auto& [from, to] = *assume.covariance_multiples;
+    check(from);
+    check(to);
+    require(from.value.lower() > 0.0, "a multiple that may be zero");
+    require(same_number(from, to) || from.value.upper() < to.value.lower(), "no multiple between the ends");
+  }
   require(tables.simulate.samples >= 1 && tables.simulate.samples <= 10'000'000, "samples out of range");
 }
 

@@ -93,6 +93,11 @@ StartCapture capture_starts(const sets::ContractionQuestion& question, const Cer
       capture.region = prove_region(*problem, target, starts, options, progress);
     }
     derivation.conditions.push_back(starts_captured(capture.region, derivation.notes));
+    if (derivation.conditions.back().verdict == Verdict::undecided && question.start_covariance &&
+        !question.start_covariance->range.empty()) {
+      derivation.conditions.back().reason +=
+          " The starts have " + question.start_covariance->range + "; a narrower range may help.";
+    }
   } else {
     derivation.conditions.push_back(
         {"starts-captured", "X(k_c) \\in \\Omega \\text{ from every assumed start}", Verdict::undecided,

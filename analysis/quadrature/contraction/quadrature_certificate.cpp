@@ -22,6 +22,14 @@ using theorems::Condition;
 
 constexpr const char* kNone = "No set could be certified.";
 
+std::string not_between(const sets::ContractionQuestion& question) {
+  const bool is_range = question.start_covariance && !question.start_covariance->range.empty();
+  return is_range ? question.start_covariance->range +
+                        " is not proved to lie between the covariance bounds of a certified set; a narrower "
+                        "range may."
+                  : "the initial covariance is not proved to lie between the bounds of the certified set.";
+}
+
 Condition start_in_set(const sets::ContractionQuestion& question, const CertifiedSet& set,
                        bool starts_inside) {
   const Interval radius(set.radius);
@@ -34,13 +42,12 @@ Condition start_in_set(const sets::ContractionQuestion& question, const Certifie
                       {},
                       theorems::Sense::at_most};
   // cannot bind (level): it chooses words, next to a verdict that was reached without it.
-  condition.reason =
-      starts_inside ? "every assumed start lies in a certified set."
-      : certainly_less_equal(level, radius)
-          ? "the initial covariance is not proved to lie between the bounds of the certified set."
-          : "the assumed starts have level " + rigor::upper_decimal(level) +
-                "; the certified set has level " + rigor::lower_decimal(radius) +
-                ". Smaller start errors, or a proof of capture, would suffice.";
+  condition.reason = starts_inside ? "every assumed start lies in a certified set."
+                     : certainly_less_equal(level, radius)
+                         ? not_between(question)
+                         : "the assumed starts have level " + rigor::upper_decimal(level) +
+                               "; the certified set has level " + rigor::lower_decimal(radius) +
+                               ". Smaller start errors, or a proof of capture, would suffice.";
   return condition;
 }
 

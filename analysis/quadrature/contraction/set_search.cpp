@@ -25,13 +25,13 @@ ProposalRequest request_for(const sets::ContractionQuestion& question, Objective
   request.start << question.initial_amplitude_error.upper(), question.initial_phase_error.upper(),
       question.initial_frequency_error.upper();
   if (question.start_covariance) {
-    const auto multiple = [&](double c) {
-      const rigor::IntervalMatrix<3>& p = question.start_covariance->matrix;
-      return BlockCovariance<double>{c * midpoint(p(0, 0)), c * midpoint(p(1, 1)), c * midpoint(p(1, 2)),
-                                     c * midpoint(p(2, 2))};
+    const auto block = [&](const rigor::IntervalMatrix<3>& p) {
+      return BlockCovariance<double>{midpoint(p(0, 0)), midpoint(p(1, 1)), midpoint(p(1, 2)),
+                                     midpoint(p(2, 2))};
     };
-    const Interval& multiples = question.start_covariance->multiples;
-    request.start_covariance = CovarianceRange{multiple(multiples.lower()), multiple(multiples.upper())};
+    const rigor::UpwardRounding upward;
+    request.start_covariance = CovarianceRange{block(question.start_covariance->lower_end()),
+                                               block(question.start_covariance->upper_end())};
   }
   request.evaluations = question.search_evaluations;
   return request;

@@ -13,6 +13,9 @@ using rigor::Verdict;
 SteadyReport::SteadyReport(const sets::ContractionQuestion& question, const sets::LockBranch& branch,
                            const SteadySet& set)
     : set_(set), starts_(follow_to_steady_set(question, branch.cells, set)), start_(joined(starts_)) {
+  if (question.start_covariance) {
+    covariance_range_ = question.start_covariance->range;
+  }
   biases_.reserve(branch.cells.size());
   for (const auto& cell : branch.cells) {
     biases_.push_back(magnitude(sets::steady_state_error(cell).frequency_error));
@@ -50,7 +53,8 @@ theorems::Condition SteadyReport::start_in_set() const {
     condition.reason +=
         ": a smaller leak epsilon, a narrower [assume] frequency or smaller start errors would help.";
   } else {
-    condition.reason = "the initial covariance is not proved to lie between the bounds of the certified set";
+    condition.reason = (covariance_range_.empty() ? "the initial covariance" : covariance_range_) +
+                       " is not proved to lie between the bounds of the certified set";
     condition.reason += start_.failure.empty() ? "." : ", and " + start_.failure + ".";
   }
   return condition;

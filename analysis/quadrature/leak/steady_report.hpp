@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "analysis/quadrature/leak/steady_start.hpp"
 #include "analysis/sets/fixed_point_bias.hpp"
@@ -42,6 +43,7 @@ class SteadyReport {
   SteadyStart start_;                ///< all of them
   std::vector<double> biases_;       ///< by cells: of the steady states that starts of the cell may reach
   double bias_ = 0.0;                ///< the largest
+  std::string covariance_range_;     ///< of the question, for reasons
 };
 
 }  // namespace veritrack::quadrature

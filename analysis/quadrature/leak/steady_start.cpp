@@ -36,8 +36,9 @@ SteadyStart start_of(const sets::ContractionQuestion& question, const sets::Quad
   SteadyStart result;
   std::optional<double> covariance;
   if (question.start_covariance) {
-    covariance = covariance_level(
-        IntervalMatrix<3>(question.start_covariance->enclosure() - covariance_of(steady)), set);
+    const IntervalMatrix<3> p = covariance_of(steady);
+    covariance = covariance_level(IntervalMatrix<3>(question.start_covariance->lower_end() - p),
+                                  IntervalMatrix<3>(question.start_covariance->upper_end() - p), set);
   }
   const Interval norm = metric_norm(set, IntervalVector<3>(error - steady.head<3>()));
   if (covariance && is_finite(norm)) {
@@ -117,13 +118,18 @@ SteadyStart follow_cell(const sets::ContractionQuestion& question, const sets::Q
 }  // namespace
 
 std::optional<double> covariance_level(const IntervalMatrix<3>& deviation, const SteadySet& set) {
+  return covariance_level(deviation, deviation, set);
+}
+
+std::optional<double> covariance_level(const IntervalMatrix<3>& least, const IntervalMatrix<3>& largest,
+                                       const SteadySet& set) {
   constexpr int kSteps = 40;
   const IntervalMatrix<3> below = rigor::to_interval(set.below);
   const IntervalMatrix<3> above = rigor::to_interval(set.above);
   for (int i = 1; i <= kSteps; ++i) {
     const Interval level(static_cast<double>(i) / kSteps);
-    const IntervalMatrix<3> room_below = deviation + below * level;
-    const IntervalMatrix<3> room_above = above * level - deviation;
+    const IntervalMatrix<3> room_below = least + below * level;
+    const IntervalMatrix<3> room_above = above * level - largest;
     if (rigor::is_positive_definite(room_below) == rigor::Verdict::proved &&
         rigor::is_positive_definite(room_above) == rigor::Verdict::proved) {
       return level.upper();

@@ -39,5 +39,9 @@ struct SteadyStart {
 /// the set; nothing when there is none. Needs the upward mode.
 [[nodiscard]] std::optional<double> covariance_level(const rigor::IntervalMatrix<3>& deviation,
                                                      const SteadySet& set);
+/// The same of all deviations between two in the Loewner order.
+[[nodiscard]] std::optional<double> covariance_level(const rigor::IntervalMatrix<3>& least,
+                                                     const rigor::IntervalMatrix<3>& largest,
+                                                     const SteadySet& set);
 
 }  // namespace veritrack::quadrature

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "tests/trackers/textbook_single_channel_ekf.hpp"
@@ -19,6 +20,8 @@ struct Attack {
   double noise, slew;  ///< bounds
   double amplitude_error, phase_error, frequency_error;
   int samples;
+  /// P(0|0), the same in the frame of the filter; none: the steady state.
+  std::optional<TextbookSingleChannelEkf<long double>::Matrix3> start_covariance = std::nullopt;
 };
 
 using Filter = TextbookSingleChannelEkf<long double>;
@@ -48,7 +51,8 @@ inline std::vector<double> attacked_errors(const Attack& attack) {
       Filter::Matrix3(Vector3::Constant(attack.q).asDiagonal()), attack.r, 0.0L,
       Vector3(amplitude * std::cos(static_cast<long double>(seen)),
               amplitude * std::sin(static_cast<long double>(seen)), frequency + attack.frequency_error),
-      steady_covariance(attack.q, attack.r, attack.frequency, seen)};
+      attack.start_covariance ? *attack.start_covariance
+                              : steady_covariance(attack.q, attack.r, attack.frequency, seen)};
   std::vector<double> errors;
   errors.reserve(static_cast<std::size_t>(attack.samples) + 1);
   errors.push_back(static_cast<double>(filter.x(2) - frequency));

@@ -109,8 +109,10 @@ TEST_CASE("claims that say a little too much do not verify") {
   refused([](WindowClaim& claim) { claim.shares.clear(); });
   CHECK(!verify_window(design(), Interval::empty(), good));
   CHECK(!verify_window(design(), Interval::from_bounds(0.0, 0.02), good));
-  CHECK(!certainly_holds_start(design(), kBand, good, {0.001, 0.001}, 1.0, 1.5));
-  CHECK(!certainly_holds_start(design(), kBand, good, {0.1, 0.1}, 0.01, 0.5));
+  CHECK(certainly_below_covariances(design(), kBand, good, {Interval(1e-9), Interval(1e-9)}));
+  CHECK(!certainly_below_covariances(design(), kBand, good, {Interval(1e3), Interval(1e-9)}));
+  CHECK(!certainly_below_covariances(design(), kBand, good, {Interval(1e-9), Interval(1e3)}));
+  CHECK(!certainly_below_covariances(design(), kBand, good, {Interval::empty(), Interval(1e-9)}));
 }
 
 TEST_CASE("the recursion of the errors") {

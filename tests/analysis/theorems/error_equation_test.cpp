@@ -83,6 +83,27 @@ TEST_CASE("no process noise, and values unknown, give empty constants") {
         Verdict::undecided);
 }
 
+TEST_CASE(
+    "the range of the covariance holds both ends of a range of starts, and nothing is said of multiples") {
+  const rigor::UpwardRounding upward;
+  const auto multiple = [](double factor) {
+    return rigor::to_interval(rigor::Matrix<3>(factor * rigor::Matrix<3>::Identity()));
+  };
+  theorems::TrackerInput input = test::without_leak(test::kTable32[0]);
+  input.initial_covariance = multiple(1e-5);
+  input.largest_initial_covariance = multiple(7.0);
+  const theorems::ErrorEquation wide = theorems::error_equation(input, Interval(0.25));
+  CHECK(wide.covariance.smallest.upper() <= 1.001e-5);
+  CHECK(wide.covariance.largest.lower() >= 7.0);
+  CHECK(theorems::start_covariance(input, wide).verdict == Verdict::proved);
+  input.initial_covariance.reset();
+  input.largest_initial_covariance.reset();
+  const theorems::ErrorEquation steady = theorems::error_equation(input, Interval(0.25));
+  CHECK(theorems::start_covariance(input, steady).verdict == Verdict::proved);
+  input.starts_from_multiples = true;
+  CHECK(theorems::start_covariance(input, steady).verdict == Verdict::undecided);
+}
+
 TEST_CASE("the best radius has the largest value") {
   const rigor::UpwardRounding upward;
   const auto hump = [](const Interval& radius) { return radius * (Interval(0.1) - radius); };

@@ -107,6 +107,16 @@ std::vector<Number> numbers_of(const Design& design) {
       numbers.insert(numbers.end(), row.begin(), row.end());
     }
   }
+  if (assume.covariance_range) {
+    for (const CovarianceArray& end : *assume.covariance_range) {
+      for (const auto& row : end) {
+        numbers.insert(numbers.end(), row.begin(), row.end());
+      }
+    }
+  }
+  if (assume.covariance_multiples) {
+    numbers.insert(numbers.end(), assume.covariance_multiples->begin(), assume.covariance_multiples->end());
+  }
   for (const auto& number : {quadrature_tables(design).require.frequency_error_below,
                              quadrature_tables(design).require.settles_within,
                              quadrature_tables(design).require.largest_noise_at_least,

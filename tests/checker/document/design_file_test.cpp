@@ -56,6 +56,32 @@ TEST_CASE("what is on one side only is told") {
   CHECK(more.size() == 2);  // another SHA-256, and a table that the certificate has not
 }
 
+TEST_CASE("a range of covariances is compared at both ends, whatever is on the other side") {
+  const auto range = [](const std::string& from, const std::string& to) {
+    return R"(, "initial_covariance": {"from": )" + from + R"(, "to": )" + to + "}";
+  };
+  const auto objections = [](const std::string& more, const std::string& line) {
+    // One more than these: the file has another SHA-256.
+    std::string file = kFile;
+    file.insert(file.find("[simulate]"), line + "\n");
+    return compared(certificate("0.001", more), file).size() - 1;
+  };
+  const std::string multiples = range(number("0.5"), number("2"));
+  CHECK(objections(multiples, "initial_covariance = { to = 2, from = 0.5 }") == 0);
+  CHECK(objections(multiples, "initial_covariance = { from = 0.5, to = 2.0 }") == 1);
+  CHECK(objections(multiples, "initial_covariance = { from = 0.5 }") == 1);
+  CHECK(objections(multiples, "initial_covariance = { from = 0.5, to = 2, by = 1 }") == 1);
+  CHECK(objections(multiples, "initial_covariance = { from = [[0.5]], to = 2 }") == 1);
+  CHECK(objections(multiples, "initial_covariance = 'steady-state'") > 0);
+  CHECK(objections(multiples, "") > 0);
+  CHECK(objections("", "initial_covariance = { from = 0.5, to = 2 }") == 1);
+  CHECK(objections(R"(, "initial_covariance": "steady-state")",
+                   "initial_covariance = { from = 0.5, to = 2 }") == 1);
+  const std::string matrices = range("[[" + number("1") + "]]", "[[" + number("2") + "]]");
+  CHECK(objections(matrices, "initial_covariance = { from = [[1]], to = [[2]] }") == 0);
+  CHECK(objections(matrices, "initial_covariance = { from = [[1]], to = [[3]] }") == 1);
+}
+
 TEST_CASE("a file that is no TOML is malformed") {
   CHECK_THROWS_AS(compared(certificate("0.001"), "name = "), Malformed);
 }

@@ -71,10 +71,8 @@ WindowStatement true_statement(const Extremes& seen) {
   statement.has_least = true;
   statement.least_p33 = Ball(0.8 * seen.least_p33);
   statement.has_starts = true;
-  statement.start_level = Ball(2.0 * 1e-3 * std::sqrt(seen.most_inverse));
-  statement.start_weight = Ball(0.01);
-  statement.start_signal = Ball(0.0);
-  statement.start_frequency = Ball(1e-3);
+  statement.start_signal = Ball(1e-6);
+  statement.start_frequency = Ball(0.25 / seen.most_inverse);
   return statement;
 }
 
@@ -97,7 +95,7 @@ TEST_CASE("what is true of the tracker that runs is accepted, what is not is ref
   CHECK(refused(&WindowStatement::signal_variance, 0.999 * seen.most_signal));
   CHECK(refused(&WindowStatement::signal_uncertainty, 1.001 * seen.least_predicted));
   CHECK(refused(&WindowStatement::least_p33, 1.001 * seen.least_p33));
-  CHECK(refused(&WindowStatement::start_level, 0.999 * 1e-3 * std::sqrt(seen.most_inverse)));
+  CHECK(refused(&WindowStatement::start_frequency, 1.001 / seen.most_inverse));
   CHECK(refused(&WindowStatement::curvature, 1e-4));
   CHECK(refused(&WindowStatement::radius, 0.1));
   CHECK(refused(&WindowStatement::radius, -1e-3));
@@ -107,9 +105,8 @@ TEST_CASE("what is true of the tracker that runs is accepted, what is not is ref
   CHECK(refused(&WindowStatement::least_p22, 1e3));
   // Of these the proof uses squares, or what they leave of 1.
   CHECK(refused(&WindowStatement::slew, -1e-9));
-  CHECK(refused(&WindowStatement::start_level, -2.0 * 1e-3 * std::sqrt(seen.most_inverse)));
-  CHECK(refused(&WindowStatement::start_weight, -0.5));
-  CHECK(refused(&WindowStatement::start_weight, 1.5));
+  CHECK(refused(&WindowStatement::start_signal, -1e-6));
+  CHECK(refused(&WindowStatement::start_frequency, 0.0));
   WindowStatement negative_share = statement;
   negative_share.shares[2] = Ball(-0.05);
   CHECK(!is_proved(negative_share, design));

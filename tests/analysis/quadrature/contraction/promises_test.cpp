@@ -36,7 +36,7 @@ sets::ContractionQuestion the_question(double noise) {
   question.initial_amplitude_error = question.initial_phase_error = question.initial_frequency_error =
       Interval(0.2);
   question.start_covariance = sets::StartCovariance{
-      rigor::to_interval(rigor::Matrix<3>(0.3 * rigor::Matrix<3>::Identity())), Interval(1.0), true};
+      rigor::to_interval(rigor::Matrix<3>(0.3 * rigor::Matrix<3>::Identity())), Interval(1.0)};
   return question;
 }
 

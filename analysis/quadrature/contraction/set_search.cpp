@@ -88,6 +88,7 @@ std::optional<Verification> find_inner_set(const sets::ContractionQuestion& ques
   }
   std::optional<Verification> inner = first_that_verifies(question, request);
   const rigor::UpwardRounding upward;
+  // cannot bind (outer): Promises asks the same before it uses the set.
   return inner && certainly_maps_into(outer, inner->set, question.noise, question.slew) ? inner
                                                                                         : std::nullopt;
 }

@@ -63,6 +63,15 @@ TEST_CASE("both bounds on the covariance must be kept") {
   }
 }
 
+TEST_CASE("bounds that a turn of the estimate leaves are not kept") {
+  Setting setting = the_setting();
+  setting.noisy = true;
+  setting.noise = Ball(0.01);
+  CHECK(keeps_covariance(setting));
+  setting.noise = Ball(0.5);  // turns by a third of a radian, while the gains stay what they are
+  CHECK_FALSE(keeps_covariance(setting));
+}
+
 TEST_CASE("noise that may carry the estimate through zero keeps no covariance, nor much more noise") {
   Setting setting = the_setting();
   for (const double noise : {5.0, 1e3, 1e6}) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "analysis/quadrature/contraction/proposal.hpp"
 #include "analysis/quadrature/contraction/verification.hpp"
 
 namespace veritrack::quadrature {
@@ -68,6 +69,7 @@ TEST_CASE("a set whose errors do not shrink is not proved, with noise and withou
   CertifiedSet set = verified_set();
   set.noise = 0.0;
   set.rate = 1.0;
+  set.radius = 0x1p-4;  // of which the square is exact
   CHECK_FALSE(is_proved(set));
 }
 
@@ -98,6 +100,27 @@ TEST_CASE("covariance bounds below zero, or not kept on one side") {
     set.covariance_upper = 1.001 * set.covariance_lower;
   }
   CHECK_FALSE(is_proved(set));
+}
+
+TEST_CASE("covariance bounds below zero, where process noise hides them from the gains") {
+  ProposalRequest request;
+  request.design = {0.1, 0.001, 0.01, 0.0};
+  request.objective = Objective::start_error;
+  request.evaluations = 40;
+  const auto shape = propose_shape(request);
+  REQUIRE(shape.has_value());
+  auto set = propose_set(request, *shape, 0.2);
+  REQUIRE(set.has_value());
+  const Design design{Interval(0.1), Interval(0.001), Interval(0.01), Interval(0.0)};
+  REQUIRE(is_proved(*set, design));
+  SUBCASE("in the amplitude") {
+    set->covariance_lower(0, 0) = -1e-3;
+  }
+  SUBCASE("in the phase") {
+    set->covariance_lower(1, 1) = -1e-3;
+    set->covariance_lower(1, 2) = set->covariance_lower(2, 1) = 0.0;
+  }
+  CHECK_FALSE(is_proved(*set, design));
 }
 
 TEST_CASE("an entry that the form does not have is refused, however small") {

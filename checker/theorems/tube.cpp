@@ -209,6 +209,8 @@ std::optional<Tube> verified_tube(const Tree& derivation, const std::string& nam
                   matrix("covariance_upper"),
                   matrix("information_upper"),
                   static_cast<int>(std::clamp(window, 0.0, 20.0))};
+  // cannot bind (tube.plane, tube.one_minus_alpha, design.q1): a turn of twice the arcsine of 1 is too large, and
+  // without the others mu Q is not above what is carried.
   const bool sensible = certainly_equal(number("window"), Ball(tube.window)) &&
                         certainly_positive(tube.plane) && certainly_less(tube.plane, one) &&
                         certainly_positive(tube.frequency) && certainly_positive(tube.one_minus_alpha) &&

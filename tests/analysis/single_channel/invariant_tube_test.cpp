@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/single_channel/curve_proposal.hpp"
+#include "analysis/single_channel/tube_verification.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::single_channel {

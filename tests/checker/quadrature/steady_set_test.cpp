@@ -5,12 +5,14 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "checker/quadrature/steady_contraction.hpp"
 #include "checker/quadrature/steady_level.hpp"
 
 using namespace veritrack::checker;
@@ -61,19 +63,23 @@ const std::vector<SteadyCell>& the_branch() {
   return *branch;
 }
 
-/// Why the set is not verified; empty when it is.
-std::string refusal(const WrittenSet& set) {
-  std::string text = R"({"name": "a", "matrices": {"metric": )" + json_of(set.metric) +
+std::string evidence_of(const WrittenSet& set, const std::string& name) {
+  std::string text = R"({"name": ")" + name + R"(", "matrices": {"metric": )" + json_of(set.metric) +
                      R"(, "covariance_below": )" + json_of(set.below) + R"(, "covariance_above": )" +
                      json_of(set.above) + R"(}, "numbers": {"noise": ")" + set.noise + R"(", "slew": ")" +
                      set.slew + "\"";
   for (std::size_t j = 0; j < set.levels.size(); ++j) {
     text += ", \"s_" + std::to_string(j) + "\": \"" + set.levels[j] + "\"";
   }
+  return text + "}}";
+}
+
+/// Why the set is not verified; empty when it is.
+std::string refusal(const WrittenSet& set) {
   std::int64_t cells = 0;
   Objections objections;
   const SteadySet checked =
-      check_steady_set(read_json(text + "}}"), the_design(), the_branch(), cells, objections);
+      check_steady_set(read_json(evidence_of(set, "a")), the_design(), the_branch(), cells, objections);
   CHECK(checked.verified == objections.empty());
   return objections.empty() ? std::string() : objections.front();
 }
@@ -159,6 +165,25 @@ TEST_CASE("bounds on the covariance that are none") {
     set.below[2][2] = "0x1.2p-11";
   }
   CHECK(!refusal(set).empty());
+}
+
+TEST_CASE("what is promised in the long run counts the bias, and the last level") {
+  const WrittenSet set;
+  const Tree derivation =
+      read_json(R"({"title": "", "verdict": "undecided", "conditions": [], "quantities": {}, "evidence": [)" +
+                evidence_of(set, "start-error") + "]}");
+  std::int64_t cells = 0;
+  Objections objections;
+  Design design = the_design();
+  design.amplitude_error = design.phase_error = design.frequency_error = Ball(0x1p-20);
+  const Promises promises = check_steady_contraction(derivation, design, cells, objections);
+  REQUIRE(promises.ultimate.has_value());
+  const double bias = std::fabs(the_branch().back().middle[2].near());
+  const double reach = 1.0 / from_hexadecimal(set.metric[2][2]).near();
+  const double expected = bias + from_hexadecimal(set.levels.back()).near() * reach;
+  CHECK(bias > 0.01 * reach);
+  CHECK(promises.ultimate->near() >= expected * (1.0 - 1e-3));
+  CHECK(promises.ultimate->near() <= expected * (1.0 + 1e-2));
 }
 
 namespace {

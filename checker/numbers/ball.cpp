@@ -165,6 +165,7 @@ Ratio arctangent_ratio(const Ball& t) {
   if (!t.finite()) {
     return {Ball::everything(), Ball::everything()};
   }
+  // cannot bind (x): a quotient of a ball that contains zero is a ball of everything, others are right.
   const auto ratio = [](const Ball& x) {
     return certainly_less(smallest(), x) ? arctangent(x) / x : near_limit(one);
   };

@@ -170,6 +170,8 @@ bool QuadratureBranch::add_cell(const Ball& frequencies) {
 // exact estimate with its steady covariance.
 Ball QuadratureBranch::error_at(const Ball& frequency) {
   constexpr double kWidth = 0x1p-6;  // rad/sample
+  // cannot bind (frequency.lower(), frequency): the cells begin at 0 and are right at every frequency, but
+  // the branch would never end.
   if (!certainly_not_negative(frequency.lower()) || !certainly_less(frequency, pi() + one)) {
     return Ball::everything();
   }
@@ -178,11 +180,13 @@ Ball QuadratureBranch::error_at(const Ball& frequency) {
     if (!lost_) {
       const Cell& first = cells_.front();
       constexpr std::array<slong, 4> kOdd{1, 2, 4, 6};
+      // cannot bind (first.middle(i, 0)): the simulation adds products with sin 0 and with zeros to zero.
       const bool symmetric = std::all_of(kOdd.begin(), kOdd.end(),
                                          [&](slong i) { return certainly_equal(first.middle(i, 0), zero); });
       lost_ = !symmetric || !positive_definite(first.around(zero, first.unique));
     }
   }
+  // cannot bind (cells_.back().frequencies.upper()): what no cell contains is found in none below.
   while (!lost_ && !certainly_at_most(frequency.upper(), cells_.back().frequencies.upper())) {
     const Ball end = cells_.back().frequencies.upper();
     lost_ = !add_cell(Ball::hull(end, end + Ball(kWidth)));

@@ -245,6 +245,7 @@ TEST_CASE("settling counts from where the errors begin, and never below what noi
   CHECK(!settled(set, design, start, twice, Ball(5.0)));
   CHECK(settled(set, design, Ball(1.9 * ultimate), twice, zero));
   CHECK(!settled(set, design, Ball(2.1 * ultimate), twice, zero));
+  CHECK(!settled(set, design, start, Ball(-1.0), Ball(6.0)));
   const Ball less(0.9 * ultimate / 20.0);
   CHECK(!settled(set, design, Ball(0.5 * ultimate), less, zero));
   CHECK(!settled(set, design, start, less, Ball(1e6)));

@@ -91,8 +91,9 @@ TEST_CASE("starts closer than what noise leaves are bounded by what noise leaves
   design.slew = zero;
   design.q1 = design.q2 = design.r = one;
   design.epsilon = zero;
-  const Tree nothing =
-      read_json(R"({"title": "", "verdict": "undecided", "conditions": [], "quantities": {}})");
+  design.covariance =
+      std::array<std::array<Ball, 3>, 3>{{{half, zero, zero}, {zero, half, zero}, {zero, zero, half}}};
+  const Tree nothing = read_json(R"({"conditions": [], "quantities": {}})");
   for (const double start : {0.0, 0.01, 0.03}) {
     CAPTURE(start);
     design.amplitude_error = design.phase_error = zero;
@@ -113,7 +114,7 @@ TEST_CASE("a set that is read knows how far its amplitudes and predicted phases 
   design.r = Ball(0.05);
   design.epsilon = zero;
   const Tree tree = read_json(
-      R"({"purpose": "a", "metric": [["0x1p+1","0x0p+0","0x0p+0"],["0x0p+0","0x1.8p+2","-0x1p+2"],)"
+      R"({"purpose": "settling", "metric": [["0x1p+1","0x0p+0","0x0p+0"],["0x0p+0","0x1.8p+2","-0x1p+2"],)"
       R"(["0x0p+0","0x0p+0","0x1.4p+4"]], "covariance_lower": [["0x1p-8","0x0p+0","0x0p+0"],)"
       R"(["0x0p+0","0x1p-8","0x0p+0"],["0x0p+0","0x0p+0","0x1p-8"]], "covariance_upper": )"
       R"([["0x1p-4","0x0p+0","0x0p+0"],["0x0p+0","0x1p-4","0x0p+0"],["0x0p+0","0x0p+0","0x1p-4"]], )"

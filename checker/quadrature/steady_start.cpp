@@ -7,9 +7,9 @@ namespace veritrack::checker {
 namespace {
 
 bool keeps(const SteadyStart& start, const SteadyStartClaim& claim) {
-  // cannot bind (value): it only ends the search. What was found is returned as it is, and the certificate's
-  // numbers are compared with that.
   const auto within = [](const Ball& value, const std::optional<Ball>& limit) {
+    // cannot bind (value): it only ends the search. What was found is returned as it is, and the
+    // certificate's numbers are compared with that.
     return !limit || certainly_at_most(value, *limit);
   };
   return within(start.samples, claim.samples) && within(start.level, claim.level) &&

@@ -93,9 +93,7 @@ Matrix rounded(const Matrix& x) {
 bool contains(const Matrix& outer, const Matrix& inner) {
   for (slong i = 0; i < kSize; ++i) {
     const Ball out = outer(i, 0);
-    const Ball in = inner(i, 0);
-    if (!in.finite() || !certainly_at_most(out.lower(), in.lower()) ||
-        !certainly_at_most(in.upper(), out.upper())) {
+    if (!out.finite() || arb_contains(out.raw(), inner(i, 0).raw()) == 0) {
       return false;
     }
   }
@@ -184,6 +182,9 @@ Ball QuadratureBranch::error_at(const Ball& frequency) {
       const bool symmetric = std::all_of(kOdd.begin(), kOdd.end(),
                                          [&](slong i) { return certainly_equal(first.middle(i, 0), zero); });
       lost_ = !symmetric || !positive_definite(first.around(zero, first.unique));
+      if (lost_) {
+        cells_.clear();
+      }
     }
   }
   // cannot bind (cells_.back().frequencies.upper()): what no cell contains is found in none below.
@@ -195,6 +196,9 @@ Ball QuadratureBranch::error_at(const Ball& frequency) {
       const Cell& last = cells_.back();
       const Cell& before = cells_[cells_.size() - 2];
       lost_ = !contains(last.around(end, last.unique), before.around(end, before.tight));
+      if (lost_) {
+        cells_.pop_back();
+      }
     }
   }
   Ball found = Ball::everything();

@@ -133,7 +133,7 @@ TEST_CASE("a level beyond the set is none of it") {
   CHECK(verdict_on(wide, starts_within(0.25), 0.27) == Verdict::proved);
   CHECK(verdict_on(wide, starts_within(0.25), 0.26) == Verdict::undecided);
   Evidence other;
-  other.level = "-0x1p-4";
+  other.level = "-0x1.1p-4";
   CHECK(verdict_on(other, starts_within(0.0625)) == Verdict::undecided);
   other.level = "0x1.fp-5";
   CHECK(verdict_on(other, starts_within(0.0625)) == Verdict::undecided);
@@ -147,6 +147,11 @@ TEST_CASE("a witness is an assumed start that ends whole turns off, farther than
   witness.turns = "0x1p+0";
   CHECK(verdict_on(witness, starts_within(7.0)) == Verdict::refuted);
   CHECK(verdict_on(witness, starts_within(6.0)) == Verdict::undecided);
+  SUBCASE("more turns than rounding is bounded for") {
+    witness.low = witness.high = "0x1.921fb54442d18p+4";
+    witness.turns = "0x1p+2";
+    CHECK(verdict_on(witness, starts_within(26.0)) == Verdict::undecided);
+  }
   SUBCASE("a set that reaches half of that decides nothing") {
     CHECK(verdict_on(witness, starts_within(7.0), 3.1) == Verdict::refuted);
     CHECK(verdict_on(witness, starts_within(7.0), 3.2) == Verdict::undecided);
@@ -158,6 +163,35 @@ TEST_CASE("a witness is an assumed start that ends whole turns off, farther than
     cover.level = "0x1p+3";
     CHECK(verdict_on(cover, starts_within(0.0625), 8.0) == Verdict::undecided);
   }
+}
+
+TEST_CASE("a box stands for its mirror image only when the covariance is symmetric, too") {
+  // Phase errors of either sign, in a box each, that are followed for a sample.
+  Design design = starts_within(0.0);
+  design.phase_error = Ball(0.3);
+  const auto verdict = [&](const std::string& level) {
+    const auto box = [&](const char* low, const char* high) {
+      return R"(["0x0p+0","0x0p+0",")" + std::string(low) + "\",\"" + high +
+             R"(","0x0p+0","0x0p+0","0x1p+0",")" + level + "\"]";
+    };
+    const Tree claimed =
+        read_json(R"({"id": "capture", "conditions": [], "quantities": {}, "evidence": [{"name": "cover",)"
+                  R"("numbers": {"noise": "0x0p+0", "slew": "0x0p+0"}, "matrices": {"boxes": [)" +
+                  box("-0x1.4p-2", "0x0p+0") + "," + box("0x0p+0", "0x1.4p-2") + "]}}]}");
+    CertifiedSet set = set_reaching(4.0);
+    set.setting.metric.amplitude = Ball(1024.0);
+    Objections objections;
+    return check_capture(claimed, design, {set}, false, objections).verdict;
+  };
+  CHECK(verdict("0x1.99999ap+1") == Verdict::proved);
+  SUBCASE("amplitude and phase") {
+    (*design.covariance)[0][1] = (*design.covariance)[1][0] = Ball(0.05);
+  }
+  SUBCASE("amplitude and frequency") {
+    (*design.covariance)[0][2] = (*design.covariance)[2][0] = Ball(0.05);
+  }
+  CHECK(verdict("0x1.99999ap+1") == Verdict::undecided);
+  CHECK(verdict("0x1p+2") == Verdict::proved);
 }
 
 TEST_CASE("nothing has settled before it is in the set") {

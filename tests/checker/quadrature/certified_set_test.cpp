@@ -141,6 +141,13 @@ TEST_CASE("a covariance bound below zero is refused") {
   CHECK(mentions(refusal(set), "positive definite"));
 }
 
+TEST_CASE("covariance bounds out of order and amplitudes near zero are refused for what they are") {
+  WrittenSet set;
+  set.upper = set.lower;
+  CHECK(mentions(refusal(set), "in order"));
+  CHECK(mentions(refusal_with("radius", "0x1p+1"), kRange));
+}
+
 TEST_CASE("an entry that the theorem's form does not have is refused, however small") {
   for (const auto& [i, j] : {std::pair{0U, 1U}, {0U, 2U}, {1U, 0U}, {2U, 0U}, {2U, 1U}}) {
     CAPTURE(i);

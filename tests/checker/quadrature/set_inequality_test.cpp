@@ -131,6 +131,24 @@ TEST_CASE("a rate that states on the rim exceed is not proved, though the middle
   CHECK_FALSE(contracts_with(setting));
 }
 
+TEST_CASE("a gain that cells keep in their middles and not at their ends is not proved") {
+  Setting setting = the_setting();
+  setting.radius = Ball(0.6);
+  setting.largest_amplitude = (setting.radius / setting.metric.amplitude).upper();
+  setting.largest_chi =
+      (setting.radius *
+       sqrt(square(one / setting.metric.phase) +
+            square((one - setting.metric.coupling / setting.metric.phase) / setting.metric.frequency)))
+          .upper();
+  setting.rate = Ball(0.997);
+  setting.noisy = true;
+  setting.noise = Ball(0.2);
+  setting.noise_gain = Ball(17.6);
+  CHECK(contracts_with(setting));
+  setting.noise_gain = Ball(16.7);
+  CHECK_FALSE(contracts_with(setting));
+}
+
 TEST_CASE("noise and slew need their gains") {
   Setting setting = the_setting();
   setting.noisy = setting.slewing = true;

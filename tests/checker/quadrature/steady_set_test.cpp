@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -173,6 +174,38 @@ TEST_CASE("bounds on the covariance that are none") {
   CHECK(mentions(refusal(set), why));
 }
 
+namespace {
+
+Rows times(double factor, Rows rows) {
+  for (auto& row : rows) {
+    for (std::string& entry : row) {
+      std::array<char, 40> text{};
+      std::snprintf(text.data(), text.size(), "%a", factor * from_hexadecimal(entry).near());
+      entry = text.data();
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+// The derivative of the steady covariance has eigenvalues of either sign, of which correlations in the bound
+// make the one or the other count more.
+TEST_CASE("slew moves the covariances, too, up and down") {
+  WrittenSet set;
+  SUBCASE("one way") {
+    set.below = times(0.87664, set.below);
+  }
+  SUBCASE("and the other") {
+    set.below[0][1] = set.below[1][0] = "-" + set.below[0][1];
+    set.below[0][2] = set.below[2][0] = "-" + set.below[0][2];
+    set.below = times(0.88209, set.below);
+  }
+  CHECK(refusal(set).empty());
+  set.slew = "0x1.0624dd2f1a9fcp-8";
+  CHECK(mentions(refusal(set), "next level"));
+}
+
 TEST_CASE("directions of the metric that are too much alike are not covered") {
   WrittenSet set;
   set.metric = {{{"0x1p+0", "0x0p+0", "-0x1.9p+6"},
@@ -218,22 +251,24 @@ TEST_CASE("a set is one for its own noise and slew, and for no more") {
   CHECK_FALSE(has_set(design));
 }
 
-TEST_CASE("settling is claimed at no less than the ultimate error") {
+TEST_CASE("settling is claimed at no less than the ultimate error, and not before the last level") {
   Design design = the_design();
-  design.amplitude_error = design.phase_error = design.frequency_error = Ball(0x1p-20);
+  design.amplitude_error = design.phase_error = Ball(0x1p-20);
+  design.frequency_error = Ball(0.118);  // above the last level
   const Symmetric<Ball> steady = covariance_part(the_branch().back().middle);
   design.covariance = matrix_of(steady);
-  const auto settles = [&](const std::string& error) {
+  const auto settles = [&](const std::string& error, const std::string& samples) {
     const Tree derivation =
-        read_json(R"({"conditions": [], "quantities": {"settling_samples": {"hi": "0x1p+6"},)"
-                  R"("settled_frequency_error": {"hi": ")" +
-                  error + R"("}}, "evidence": [)" + evidence_of(WrittenSet(), "start-error") + "]}");
+        read_json(R"({"conditions": [], "quantities": {"settling_samples": {"hi": ")" + samples +
+                  R"("}, "settled_frequency_error": {"hi": ")" + error + R"("}}, "evidence": [)" +
+                  evidence_of(WrittenSet(), "start-error") + "]}");
     std::int64_t cells = 0;
     Objections objections;
     return check_steady_contraction(derivation, design, cells, objections).settled.has_value();
   };
-  CHECK(settles("0x1p-1"));
-  CHECK_FALSE(settles("0x1p-6"));
+  CHECK(settles("0x1p-1", "0x1p+0"));
+  CHECK_FALSE(settles("0x1p-1", "0x0p+0"));
+  CHECK_FALSE(settles("0x1p-6", "0x1p+0"));
 }
 
 namespace {

@@ -55,6 +55,7 @@ TEST_CASE("a frequency has the bias of the cell that contains it, and of no othe
 }
 
 TEST_CASE("a covariance that is not certainly positive definite may be another solution") {
-  QuadratureBranch branch(values(1e-16, 1e-14, 0.001));
+  QuadratureBranch branch(values(1e-4, 1e-14, 0.01));  // of which the variances are less than the room for it
   CHECK_FALSE(branch.error_at(Ball(0.0)).finite());
+  CHECK_FALSE(branch.error_at(Ball(0.1)).finite());
 }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cstddef>
+#include <string>
 
 #include "analysis/quadrature/contraction/proposal.hpp"
 #include "analysis/quadrature/contraction/verification.hpp"
@@ -38,6 +39,12 @@ CertifiedSet verified_set() {
 
 bool is_proved(const CertifiedSet& set, const Design& design = la_scala()) {
   return verify_certified_set(design, set).verdict == Verdict::proved;
+}
+
+/// Is it refused, and for a reason with these words in it?
+bool is_refused(const CertifiedSet& set, const char* words) {
+  const Verification found = verify_certified_set(la_scala(), set);
+  return found.verdict != Verdict::proved && found.reason.find(words) != std::string::npos;
 }
 
 bool is_proved_with(double CertifiedSet::*member, double value) {
@@ -80,6 +87,23 @@ TEST_CASE("noise and slew that push the errors out of the set are not tolerated"
   set.slew_gain = 1024.0;
   set.slew = 0x1p-12;
   CHECK_FALSE(is_proved(set));
+}
+
+TEST_CASE("a set is refused for the first of its faults") {
+  CertifiedSet set = verified_set();
+  set.radius *= -1.0;
+  CHECK(is_refused(set, "outside their ranges"));
+  set = verified_set();
+  set.rate = 1.0;
+  CHECK(is_refused(set, "outside their ranges"));
+  set = verified_set();
+  set.covariance_lower(0, 0) *= -1.0;
+  CHECK(is_refused(set, "positive definite and in order"));
+  set = verified_set();
+  set.covariance_lower(1, 2) = set.covariance_lower(2, 1) = 0x1.c8p-6;
+  set.covariance_upper(2, 2) = 1.0;
+  set.covariance_upper(1, 1) = 1.0;
+  CHECK(is_refused(set, "positive definite and in order"));
 }
 
 TEST_CASE("covariance bounds below zero, or not kept on one side") {

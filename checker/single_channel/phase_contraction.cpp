@@ -148,6 +148,8 @@ bool tolerates(const ErrorSet& set, const SingleChannelDesign& design) {
 /// phase error, along which |delta| is at most that.
 bool holds_starts(const ErrorSet& set, const SingleChannelDesign& design) {
   const WindowStatement& window = set.window();
+  // cannot bind (design.phase_error): the level of the starts bounds it, as e'P^-1 e >= |delta|^2 over the
+  // largest variance of the signal, and is at most the radius.
   return window.has_starts && design.starts_in_steady_state && set.keeps(window.start_level) &&
          certainly_at_most(design.phase_error, window.radius * sqrt(window.signal_variance));
 }
@@ -192,7 +194,8 @@ std::optional<StartSet> starts_of(const ErrorSets& sets, bool starts_inside, boo
 bool settles(const StartSet& starts, const Settled& claim) {
   constexpr double kMost = 10000.0;
   const double samples = claim.samples.near();
-  return certainly_not_negative(claim.samples) && certainly_at_most(claim.samples, Ball(kMost)) &&
+  // cannot bind (Ball(kMost)): it only keeps the work finite.
+  return certainly_at_most(claim.samples, Ball(kMost)) &&
          starts.set.settled(starts.level, claim.frequency_error, static_cast<std::size_t>(samples));
 }
 

@@ -126,6 +126,7 @@ Ball Moves::kernel_integral(const Filters& q) const {
 
 Size Moves::size(const Filters& q) const {
   Size size{zero, zero};
+  // cannot bind (sinusoid_, bound_): the disturbance that there is not has amplitude 0.
   if (certainly_positive(sinusoid_)) {
     size.driven = (sinusoid_ * largest_response(q)).upper();
   } else if (certainly_positive(bound_)) {

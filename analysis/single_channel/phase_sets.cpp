@@ -146,6 +146,8 @@ std::optional<PhaseSet> PhaseSearch::least_bound() const {
     // The steady state of a start that is turned by the phase error: the error in z never exceeds this value.
     const Interval reach =
         Interval(set.claim.assumption.radius) * sqrt(Interval(set.claim.assumption.signal_variance));
+    // cannot bind (tracker.initial_phase_error): the level, which is at most the radius, bounds it: e'P^-1 e
+    // is at least |delta|^2 over the largest variance of the signal.
     const bool turns_little = certainly_less_equal(tracker.initial_phase_error, reach);
     const bool inside = errors_of(question_, set).levels(*set.assumed_level, kFollowed).has_value();
     return turns_little && inside;

@@ -100,7 +100,7 @@ bool contains(const Matrix& outer, const Matrix& inner) {
   return true;
 }
 /// The variances, and the minors of P that decide with them whether it is positive definite.
-bool positive_definite(const Matrix& x) {
+bool holds_covariances(const Matrix& x) {
   Matrix p(3, 3);
   slong at = 3;
   for (slong i = 0; i < 3; ++i) {
@@ -181,7 +181,7 @@ Ball QuadratureBranch::error_at(const Ball& frequency) {
       // cannot bind (first.middle(i, 0)): the simulation adds products with sin 0 and with zeros to zero.
       const bool symmetric = std::all_of(kOdd.begin(), kOdd.end(),
                                          [&](slong i) { return certainly_equal(first.middle(i, 0), zero); });
-      lost_ = !symmetric || !positive_definite(first.around(zero, first.unique));
+      lost_ = !symmetric || !holds_covariances(first.around(zero, first.unique));
       if (lost_) {
         cells_.clear();
       }

@@ -92,6 +92,7 @@ TEST_CASE("claims that say a little too much do not verify") {
   refused([](WindowClaim& claim) { claim.signal_uncertainty *= 1.25; });
   refused([](WindowClaim& claim) { claim.assumption.frequency_variance *= 0.9; });
   refused([](WindowClaim& claim) { claim.assumption.signal_variance *= 0.9; });
+  refused([](WindowClaim& claim) { claim.assumption.signal_variance *= 0.01; });
   refused([](WindowClaim& claim) { claim.assumption.radius *= 1.5; });
   refused([](WindowClaim& claim) { claim.slew = 0.05; });
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -92,6 +92,12 @@ TEST_CASE("no error bound where (2.43) is not certain or a constant is out of it
   // (2.43) is true of these, too.
   CHECK(refused([](auto& c) { c.zeta = Interval(-0.0625); }));
   CHECK(refused([](auto& c) { c.eta = Interval(-0.015625); }));
+  CHECK(refused([](auto& c) {  // of which the ultimate bound would be positive
+    c.beta = Interval(1.0);
+    c.one_minus_alpha = Interval(0.25);
+    c.zeta = Interval(0.5);
+    c.eta = Interval(-0.375);
+  }));
   CHECK(refused([](auto& c) { c.epsilon_z = Interval(-0.25); }));
   CHECK(refused([](auto& c) {
     c.one_minus_alpha = Interval(-0.5);

@@ -171,6 +171,16 @@ TEST_CASE("the errata sheet's sigma is read as small: no sigma, or a large one, 
   CHECK(verdicts(design.input()).at("w_3-range/errata") == Verdict::refuted);
 }
 
+TEST_CASE("a radius of no estimates, or of estimates through zero, proves no bound on predictions") {
+  test::TestDesign design = test::table_design(test::kTable32[0]);
+  for (const double sigma : {-0.5, 0.9, 1.5}) {
+    CAPTURE(sigma);
+    design.sigma = sigma;
+    CHECK(verdicts(design.input()).at("s/printed") != Verdict::proved);
+    CHECK((sigma == 0.9 || verdicts(design.input()).at("s/errata") != Verdict::proved));
+  }
+}
+
 TEST_CASE("inputs that are no numbers decide nothing about the design") {
   theorems::Theorem29Input input;  // everything empty
   for (const auto& decided : verdicts(input)) {

@@ -107,7 +107,7 @@ TEST_CASE("no curve where one of the conditions fails") {
   CHECK(!establish(checker::from_decimal("1.1"), 0.0, Ball(kRate)));
   CHECK(!establish(checker::from_decimal("1.2"), 0.0, Ball(kRate)));
   // Around one that is not where it is asked for.
-  CHECK(!establish(Ball::hull(Ball(1.49), Ball(1.51)), 0.0001, Ball(kRate)));
+  CHECK(!establish(Ball::hull(Ball(1.5 - 1e-6), Ball(1.5 + 1e-6)), 1e-7, Ball(kRate)));
   // Frequencies too far apart for one curve, and for one family.
   CHECK(!establish(Ball::hull(Ball(1.49), Ball(1.51)), 0.0, Ball(kRate)));
   CHECK(!establish(Ball(kFrequency), 0.5, Ball(kRate)));

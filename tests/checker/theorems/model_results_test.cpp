@@ -46,6 +46,12 @@ TEST_CASE("the information bound takes in the process noise of the frequency") {
   }
 }
 
+TEST_CASE("a covariance bound that a filter exceeds is none") {
+  CHECK(of_riccati_bounds(design_of(0.01, 0.01, 1.0), "p-printed") == Verdict::proved);
+  CHECK(of_riccati_bounds(design_of(1e6, 0.01, 1.0), "p-printed") == Verdict::refuted);
+  CHECK(of_riccati_bounds(design_of(1e6, 0.01, 1.0), "p-errata") == Verdict::undecided);
+}
+
 TEST_CASE("over-design is compared with the filter, and under-design with the optimal one") {
   const Design design = design_of(0.01, 0.01, 1.0);
   const Derivation found = theorem_3_2(design, Tree(Tree::Kind::object));

@@ -89,14 +89,21 @@ TEST_CASE("the r that is found is where the derivative of s p^2 q changes its si
         measure(low + third) > measure(high - third) ? third : -third;
   }
   const double r = std::exp(low);
-  const auto accepted = [&](double from, double to) {
+  const auto accepted_of = [&](const Design& of, double from, double to) {
     std::array<char, 200> text{};
     std::snprintf(text.data(), text.size(),
                   R"({"quantities": {"r_alpha": {"lo": "%a", "hi": "%a"}}, "conditions": []})", from, to);
     Objections objections;
-    check_table_3_1(read_json(text.data()), design, false, objections);
+    check_table_3_1(read_json(text.data()), of, false, objections);
     return objections.empty();
   };
+  const auto accepted = [&](double from, double to) { return accepted_of(design, from, to); };
   CHECK(accepted(r * (1.0 - 1e-4), r * (1.0 + 1e-4)));
+  // Of all designs between two: it is not only that of the middle one, on neither side.
+  Design wide = design;
+  wide.q1 = Ball::hull(Ball(0.008), Ball(0.0125));
+  CHECK(accepted_of(wide, 0.5 * r, 2.0 * r));
+  CHECK_FALSE(accepted_of(wide, 0.5 * r, r));
+  CHECK_FALSE(accepted_of(wide, r, 2.0 * r));
   CHECK_FALSE(accepted(r * (1.0 + 1e-4), r * (1.0 + 1e-3)));
 }

@@ -232,6 +232,19 @@ TEST_CASE("what is promised in the long run counts the bias, and the last level"
   CHECK(promises.ultimate->near() <= expected * (1.0 + 1e-2));
 }
 
+TEST_CASE("the rate is that of the slowest step") {
+  WrittenSet set;
+  set.levels = {"0x1p+0", "0x1.fp-1", "0x1.cdp-1"};
+  CHECK(refusal(set).empty());
+  const Tree derivation = read_json(R"({"conditions": [], "quantities": {}, "evidence": [)" +
+                                    evidence_of(set, "start-error") + "]}");
+  std::int64_t cells = 0;
+  Objections objections;
+  const Promises promises = check_steady_contraction(derivation, the_design(), cells, objections);
+  REQUIRE(promises.rate.has_value());
+  CHECK(promises.rate->near() >= 0x1.fp-1);
+}
+
 TEST_CASE("a set is one for its own noise and slew, and for no more") {
   const Tree derivation = read_json(R"({"conditions": [], "quantities": {}, "evidence": [)" +
                                     evidence_of(WrittenSet(), "start-error") + "]}");

@@ -69,6 +69,20 @@ TEST_CASE("a window is only for a tracker without a leak, with process noise in 
   CHECK(!is_proved(statement, undriven));
 }
 
+TEST_CASE("a loosening of 1 or more turns a bound around, and is refused") {
+  WindowStatement statement = true_statement(along_a_tone());
+  statement.frequency_variance = Ball(10.0) * statement.frequency_variance;
+  statement.signal_variance = Ball(10.0) * statement.signal_variance;
+  statement.curvature = Ball(1e3);
+  statement.signal_uncertainty = statement.radius = Ball(1e-9);
+  statement.shares = {Ball(1e-9), Ball(1e-9)};
+  statement.has_least = statement.has_starts = false;
+  statement.loosening = Ball(0.99);
+  CHECK(is_proved(statement, design_of_the_tone()));
+  statement.loosening = Ball(1.01);
+  CHECK(!is_proved(statement, design_of_the_tone()));
+}
+
 TEST_CASE("a frequency and pi less it are the same to the covariance") {
   const Extremes seen = along_a_tone();
   checker::SingleChannelDesign mirrored = design_of_the_tone();

@@ -52,6 +52,12 @@ TEST_CASE("a covariance bound that a filter exceeds is none") {
   CHECK(of_riccati_bounds(design_of(1e6, 0.01, 1.0), "p-errata") == Verdict::undecided);
 }
 
+TEST_CASE("a sigma that is hardly known refutes nothing") {
+  Design design = design_of(0.01, 0.01, 1.0);
+  design.sigma = Ball::hull(Ball(0.001), Ball(0.7));
+  CHECK(of_riccati_bounds(design, "p-printed") == Verdict::undecided);
+}
+
 TEST_CASE("over-design is compared with the filter, and under-design with the optimal one") {
   const Design design = design_of(0.01, 0.01, 1.0);
   const Derivation found = theorem_3_2(design, Tree(Tree::Kind::object));

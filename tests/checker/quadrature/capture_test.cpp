@@ -125,6 +125,13 @@ TEST_CASE("a box of starts is in the set, to the level that it reaches, under th
   CHECK(verdict_on({}, design) == Verdict::undecided);
 }
 
+TEST_CASE("what is promised of the frequency error is the level that is entered at") {
+  Objections objections;
+  const Captured found = follow({}, starts_within(0.0625), 0.125, objections);
+  REQUIRE(found.bound.has_value());
+  CHECK(certainly_at_most(Ball(0x1.1p-4), *found.bound));
+}
+
 TEST_CASE("a level beyond the set is none of it") {
   Evidence wide;
   wide.low = "-0x1p-2";
@@ -169,29 +176,30 @@ TEST_CASE("a box stands for its mirror image only when the covariance is symmetr
   // Phase errors of either sign, in a box each, that are followed for a sample.
   Design design = starts_within(0.0);
   design.phase_error = Ball(0.3);
-  const auto verdict = [&](const std::string& level) {
-    const auto box = [&](const char* low, const char* high) {
+  const auto verdict = [&](const std::string& level, const std::string& of_image) {
+    const auto box = [&](const char* low, const char* high, const std::string& reached) {
       return R"(["0x0p+0","0x0p+0",")" + std::string(low) + "\",\"" + high +
-             R"(","0x0p+0","0x0p+0","0x1p+0",")" + level + "\"]";
+             R"(","0x0p+0","0x0p+0","0x1p+0",")" + reached + "\"]";
     };
     const Tree claimed =
         read_json(R"({"id": "capture", "conditions": [], "quantities": {}, "evidence": [{"name": "cover",)"
                   R"("numbers": {"noise": "0x0p+0", "slew": "0x0p+0"}, "matrices": {"boxes": [)" +
-                  box("-0x1.4p-2", "0x0p+0") + "," + box("0x0p+0", "0x1.4p-2") + "]}}]}");
+                  box("-0x1.4p-2", "0x0p+0", level) + "," + box("0x0p+0", "0x1.4p-2", of_image) + "]}}]}");
     CertifiedSet set = set_reaching(4.0);
     set.setting.metric.amplitude = Ball(1024.0);
     Objections objections;
     return check_capture(claimed, design, {set}, false, objections).verdict;
   };
-  CHECK(verdict("0x1.99999ap+1") == Verdict::proved);
+  CHECK(verdict("0x1.99999ap+1", "0x1.99999ap+1") == Verdict::proved);
+  CHECK(verdict("0x1.99999ap+1", "0x1p-10") == Verdict::undecided);
   SUBCASE("amplitude and phase") {
     (*design.covariance)[0][1] = (*design.covariance)[1][0] = Ball(0.05);
   }
   SUBCASE("amplitude and frequency") {
     (*design.covariance)[0][2] = (*design.covariance)[2][0] = Ball(0.05);
   }
-  CHECK(verdict("0x1.99999ap+1") == Verdict::undecided);
-  CHECK(verdict("0x1p+2") == Verdict::proved);
+  CHECK(verdict("0x1.99999ap+1", "0x1.99999ap+1") == Verdict::undecided);
+  CHECK(verdict("0x1p+2", "0x1p+2") == Verdict::proved);
 }
 
 TEST_CASE("nothing has settled before it is in the set") {

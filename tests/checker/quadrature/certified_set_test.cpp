@@ -227,6 +227,11 @@ TEST_CASE("a set is reached only when errors and covariances that the other set 
   SUBCASE("errors") {
     inner.radius = Ball(0x1p-6);
   }
+  SUBCASE("errors that the outer set only nearly leaves") {
+    const Ball level = ultimate_level(outer, design);
+    const std::array<Ball, 3> rows = inverse_rows(outer.metric);
+    inner.radius = Ball(0.9) * largest_level(inner.metric, level * rows[0], level * rows[1], level * rows[2]);
+  }
   SUBCASE("a lower bound on the covariance that is higher") {
     inner.lower.p33 = Ball(0.375);
   }

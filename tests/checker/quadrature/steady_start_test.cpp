@@ -59,6 +59,8 @@ TEST_CASE("a start is at its level, and in the last set after as many steps as a
   REQUIRE(near.has_value());
   CHECK(certainly_at_most(near->level, half));
   CHECK(certainly_equal(near->settling, zero));
+  // Half of 1/8 rad/sample about a steady state that is biased by half a thousandth.
+  CHECK(certainly_at_most(Ball(0.0625 + 0.0005), near->bound));
   design.frequency_error = Ball(0.1);
   for (const Ball& slew : {zero, Ball(0x1p-20)}) {
     design.slew = slew;

@@ -88,6 +88,19 @@ TEST_CASE("matrices of a tube are symmetric, definite, and kept") {
   CHECK(!is_verified(tube));
 }
 
+TEST_CASE("amplitudes all over the tube keep the covariance, not those near 1 alone") {
+  WrittenTube tube;
+  tube.numbers.at("frequency_error") = "0x1p-20";
+  tube.numbers.at("one_minus_alpha") = "0x1p-20";
+  tube.numbers.at("curvature") = "0x1p+3";
+  tube.numbers.at("process_gain") = tube.numbers.at("s") = "0x1p+8";
+  tube.numbers.at("measurement_gain") = "0x1p+2";
+  tube.numbers.at("plane_error") = "0x1p-5";
+  CHECK(is_verified(tube));
+  tube.numbers.at("plane_error") = "0x1.8p-5";
+  CHECK(!is_verified(tube));
+}
+
 TEST_CASE("an upper bound below zero is kept, and is none") {
   WrittenTube tube;
   tube.numbers.at("curvature") = "0x1p+3";

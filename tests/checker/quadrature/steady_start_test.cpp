@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <optional>
+#include <vector>
 
 using namespace veritrack::checker;
 

@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
+
 #include "trackers/quadrature/quadrature_polar_frame.hpp"
 
 using namespace veritrack::checker;

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "analysis/quadrature/contraction/verification.hpp"
 #include "tests/analysis/quadrature/rounding/rounding_twin.hpp"
 

@@ -1,7 +1,7 @@
 # The two commands a newcomer needs:
 #   make certificate   install what is missing, build, and certify a published design
 #   make test          the same for the tests
-# and the ones that continuous integration adds: make lint, sanitize, fuzz, verify, proofs; and make bench.
+# and the ones that continuous integration adds: make lint, sanitize, fuzz, verify, proofs, mutation; and make bench.
 
 MAKEFLAGS += --no-print-directory
 
@@ -25,7 +25,7 @@ VERIFY_DESIGNS ?= $(shell scripts/one-of-each-kind)
 PROOF_DESIGNS  ?= designs/praly-section-v-proved-ell.toml designs/la-scala-1994-figure-3.5.toml \
   designs/bittanti-savaresi-2000-example-1.toml
 
-.PHONY: certificate verify proofs test lint format sanitize fuzz bench clean
+.PHONY: certificate verify proofs test lint format sanitize fuzz mutation bench clean
 
 certificate:
 	@scripts/install-packages $(BUILD_PACKAGES)
@@ -79,6 +79,17 @@ fuzz:
 	cmake --preset sanitizers
 	cmake --build --preset sanitizers --parallel $(JOBS) --target fuzzers
 	scripts/fuzz build/sanitizers $(FUZZ_SECONDS)
+
+# Each guard of analysis/ and checker/ made true, to see whether a test of its room notices. Some hours on two cores.
+MUTATION_EFFORT ?= 0.3
+MUTATION_ROOMS  ?= analysis checker
+
+mutation:
+	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) python3
+	cmake --preset mutation
+	cmake --build --preset mutation --parallel $(JOBS)
+	VERITRACK_TEST_EFFORT=$(MUTATION_EFFORT) scripts/mutation build/mutation --jobs $(JOBS) --rooms $(MUTATION_ROOMS) \
+	  --known tests/known-mutants.txt
 
 bench:
 	@scripts/install-packages $(BUILD_PACKAGES) $(BENCH_PACKAGES)

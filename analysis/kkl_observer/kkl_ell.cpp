@@ -124,12 +124,14 @@ theorems::Quantity quantity(std::string name, std::string symbol, std::string fo
 /// far off as its tolerance without being wrong.
 std::string comparison(const std::string& solver, double value, const Interval& enclosure) {
   const Interval point(value);
+  // cannot bind (enclosure): it chooses what is said of a solver's value, which decides nothing.
   if (!rigor::is_finite(enclosure) || !certainly_positive(enclosure)) {
     return "Without a verified enclosure nothing can be said about " + solver + "'s value.";
   }
   if (!rigor::is_finite(point)) {
     return solver + " found no number.";
   }
+  // cannot bind (point): the same.
   if (rigor::is_subset(point, enclosure)) {
     return solver + "'s value lies in the verified enclosure.";
   }

@@ -45,6 +45,7 @@ void add_left_inverse(const KklRange& range, const KklClaimsQuestion& question,
       condition("left-inverse", "\\gamma(T(x)) = x \\text{ on } O_r", Verdict::undecided, "", Interval());
   const bool small_enough =
       rigor::is_finite(limit) && rigor::certainly_less_equal(question.ell, Interval(limit.lower()));
+  // cannot bind (infimum): an ell of a design is positive, and this one is at most twice the infimum.
   if (small_enough && rigor::certainly_positive(infimum)) {
     vanishes.verdict = inverse.verdict = Verdict::proved;
     vanishes.reason = "the ell in use is at most twice the verified infimum; the factor is that of (9).";

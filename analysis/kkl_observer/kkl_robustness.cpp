@@ -54,6 +54,8 @@ KklRobustness search_errors(const Errors& errors, const KklRobustnessQuestion& q
   const auto square = minimize(0.2, std::numeric_limits<double>::infinity(),
                                [&](const auto& v) { return errors.relative_square(v); });
   result.smallest_relative_square = Interval(square.lower);
+  // cannot bind (result.smallest_relative_square): it spares work; frequency_condition asks the same of what
+  // is proved.
   if (!certainly_positive(result.smallest_relative_square)) {
     return result;
   }

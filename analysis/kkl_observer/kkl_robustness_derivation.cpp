@@ -36,6 +36,7 @@ theorems::Condition regular_condition(const KklRobustness& found, const Interval
   } else {
     condition.reason =
         "the ell in use is not proved to be small enough for mu of (9) to vanish under the disturbance";
+    // cannot bind (found.largest_ell): it chooses words, next to a verdict that was reached without it.
     condition.reason += rigor::is_finite(found.largest_ell) && rigor::certainly_positive(found.largest_ell)
                             ? " (" + rigor::lower_decimal(found.largest_ell) +
                                   " is small enough): the bounds are for an observer with a smaller ell."

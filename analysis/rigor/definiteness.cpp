@@ -51,6 +51,8 @@ bool is_dominant(const DynamicIntervalMatrix& y, const Eigen::VectorXd& weights)
         others += abs(y(i, j)) * Interval(weights[j]);
       }
     }
+    // cannot bind (Interval(weights[i])): no weight is negative, and with weight zero nothing is above the
+    // others.
     if (!certainly_positive(Interval(weights[i])) ||
         !certainly_less(others, y(i, i) * Interval(weights[i]))) {
       return false;

@@ -75,7 +75,7 @@ std::optional<InvariantTube> propose_tube(const ToneModel<Interval>& design, con
     return std::nullopt;
   }
   InvariantTube tube{design, frequency, curve, std::vector<TubeCell>(count), coordinates->rate};
-  std::vector<char> inverted(count, 0);
+  std::vector<char> usable(count, 0);
   for_each_cell(tube, [&](std::size_t i) {
     TubeCell& cell = tube.cells[i];
     cell.phase = cover[i];
@@ -85,12 +85,13 @@ std::optional<InvariantTube> propose_tube(const ToneModel<Interval>& design, con
     for (Eigen::Index row = 0; row < 9; ++row) {
       cell.reach[static_cast<std::size_t>(row)] = length(matrix.row(row).transpose());
     }
-    if (const auto inverse = rigor::inverse(matrix)) {
+    // A cell that leads nowhere would have nothing to be proved of.
+    if (const auto inverse = rigor::inverse(matrix); inverse && !cell.targets.empty()) {
       cell.inverse = *inverse;
-      inverted[i] = 1;
+      usable[i] = 1;
     }
   });
-  if (std::find(inverted.begin(), inverted.end(), 0) != inverted.end()) {
+  if (std::find(usable.begin(), usable.end(), 0) != usable.end()) {
     return std::nullopt;
   }
   return tube;

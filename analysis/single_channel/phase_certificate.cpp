@@ -171,6 +171,8 @@ void set_promises(const PhaseQuestion& question, const PhaseCertificate& certifi
   set(starts.frequency_error_bound, "\\sup_k x_k\\,\\sqrt{P_{33}}",
       certificate.bound_set ? frequency_error_bound(question, *certificate.bound_set, start) : Interval(),
       certificate.set ? "The assumed starts are not in a certified set." : kNone);
+  // cannot bind (question.tracker.noise, question.tracker.slew): without either no number of samples settles,
+  // and the rest is words.
   const bool disturbed =
       certainly_positive(question.tracker.noise) || certainly_positive(question.tracker.slew);
   Interval settling;

@@ -107,6 +107,7 @@ Statement identity(std::string id, std::string sentence, const Difference& diffe
 /// A printed formula that should equal another: refuted at the witness.
 Statement printed(std::string id, std::string sentence, const Interval& printed_value,
                   const Interval& true_value) {
+  // cannot bind (printed_value, true_value): both are constants, far apart.
   const bool differ =
       rigor::certainly_less(printed_value, true_value) || rigor::certainly_less(true_value, printed_value);
   return theorems::make_statement(

@@ -76,6 +76,7 @@ std::vector<Statement> proposition_2() {
   };
   const Interval once = first_gain(1.0);
   const Interval twice = first_gain(2.0);
+  // cannot bind (twice): 3/5 and 2/3.
   statements.push_back(theorems::make_statement(
       "proposition-2/same-start",
       "With q and r multiplied by α and the same P(0), the estimates are the same (one reading of \"the same "

@@ -141,6 +141,7 @@ TubeVerification verify(const InvariantTube& tube) {
         tube, [&](const TubeCell& cell) { return contraction<Variables>(tube, cell, tube_radius); });
     const Interval rate(kappa);
     const Interval radius(tube_radius);
+    // cannot bind (rate): with a rate of 1 or more no radius covers the rest and the distance is not finite.
     if (!rigor::certainly_less(rate, Interval(1.0))) {
       constexpr double kBeyondHope =
           100.0;  // the rest is due to the width of the cells only when it is small

@@ -137,6 +137,8 @@ bool holds_for_all(const std::vector<Cell>& cells, const Check& check) {
 bool is_sensible(const ToneModel<Interval>& design, const Interval& band, const WindowClaim& claim) {
   const auto positive = [](double x) { return x > 0.0 && x < kInfinity; };
   const WindowAssumption& assumption = claim.assumption;
+  // cannot bind (design.q1, design.q2, design.r): questions are well posed, and without q1 no set is looked
+  // for (certify_phases).
   return rigor::certainly_positive(design.q1) && rigor::certainly_positive(design.q2) &&
          rigor::certainly_positive(design.r) && design.without_leak() && is_finite(band) &&
          positive(assumption.radius) && positive(assumption.frequency_variance) &&

@@ -209,6 +209,8 @@ void audit_estimator(const Context& context, std::size_t k) {
 void audit_homogeneous(const Context& context) {
   const Theorem29Constants& c = context.theorem.constants;
   const Trajectory& trajectory = context.trajectory;
+  // cannot bind (c.initial_error_bound): from a start of length 0 no relative size is a number, and one of
+  // negative length is the start in the opposite direction; an audit samples, and proves nothing.
   if (trajectory.empty() || !is_finite(c.initial_error_bound) || !certainly_positive(c.initial_error_bound)) {
     return;
   }

@@ -17,6 +17,7 @@ std::optional<ErrorBound> make_error_bound(const ErrorBoundConstants& c) {
   const rigor::UpwardRounding upward;
   const Interval zero(0.0);
   const Interval one(1.0);
+  // cannot bind (c.one_minus_alpha): (2.43) is false without it, as zeta and eta are not negative.
   const bool admissible = certainly_less(zero, c.one_minus_alpha) &&
                           certainly_less_equal(c.one_minus_alpha, one) && certainly_less_equal(one, c.beta) &&
                           certainly_less_equal(zero, c.zeta) && certainly_less_equal(zero, c.eta) &&

@@ -103,6 +103,8 @@ std::optional<ErrorRecursion> error_recursion(const IntervalDesign& design, cons
   for (const Interval* value : {&recursion.one_minus_alpha, &recursion.curvature, &recursion.process_gain,
                                 &recursion.measurement_gain, &recursion.p, &recursion.q, &recursion.s,
                                 &recursion.plane_gain, &recursion.frequency_gain, &recursion.tube_radius}) {
+    // cannot bind (*value): each is a root, a norm, or a product of such and of the tube's sizes; what is not
+    // a number decides nothing in decide_invariant.
     if (!certainly_positive(*value)) {
       return std::nullopt;
     }

@@ -25,6 +25,7 @@ std::string why_not_applicable(Theorem29Variant variant, const Theorem29Input& i
   if (input.q1_equals_q2 || certainly_less_equal(input.q1, input.q2)) {
     return "";
   }
+  // cannot bind (input.q2): it chooses the words for why nothing is said.
   if (certainly_less(input.q2, input.q1)) {
     return "Not applicable: the table is for q_1 <= q_2, and here q_1 > q_2, for which the thesis's footnote "
            "to it "
@@ -105,9 +106,13 @@ Interval stationary_point(const Factors& factors, const std::array<Interval, 3>&
   for (int i = 0; i < 200 && upper > lower * (1.0 + 1e-9); ++i) {
     const double middle = std::sqrt(lower) * std::sqrt(upper);
     const Interval slope = slope_in_r(factors, design, measure, middle);
-    if (certainly_negative(slope)) {
+    // cannot bind (slope): the slopes at both ends are looked at again below.
+    const bool falls = certainly_negative(slope);
+    // cannot bind (slope): the same.
+    const bool rises = certainly_positive(slope);
+    if (falls) {
       lower = middle;
-    } else if (certainly_positive(slope)) {
+    } else if (rises) {
       upper = middle;
     } else {
       break;

@@ -18,6 +18,7 @@ std::vector<std::string> notes(Theorem29Variant variant, const Theorem29Input& i
         "The errata sheet leaves epsilon_r free in (0, 1) and uses sigma as a lower bound on w_3; "
         "epsilon_r = 1 - sigma is our choice.");
   }
+  // cannot bind (input.q2): a note, on which nothing depends.
   if (!input.q1_equals_q2 && certainly_less(input.q2, input.q1)) {
     result.emplace_back(
         "q_1 > q_2: the thesis warns of this in the footnote to section 3.5. The formulas are evaluated as "

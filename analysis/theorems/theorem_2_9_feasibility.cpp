@@ -107,6 +107,7 @@ Feasibility theorem_2_9_feasibility(Theorem29Variant variant, const Theorem29Inp
   const Interval special = bound_for_design(variant, input);
   const Interval bound = is_finite(special) ? special : every_design;
   feasibility.lower_bound = bound;
+  // cannot bind (every_design): a constant of either reading, which exceeds 1 whatever the design.
   if (certainly_less_equal(one, every_design)) {
     feasibility.verdict = Verdict::refuted;
     feasibility.every_design = true;

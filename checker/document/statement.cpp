@@ -65,12 +65,14 @@ void check_enclosure(const Tree& enclosure, const Quantity& quantity, Objections
   if (!low && !high) {
     objections.push_back(name + " says nothing");
   }
+  // cannot bind (*high): low is at most the value and the value at most high, or there are objections below.
   if (low && high && !certainly_at_most(*low, *high)) {
     objections.push_back(name + ": lo exceeds hi");
   }
   if (low && sense == Sense::bounds_above) {
     objections.push_back(name + " can only be bounded from above");
   } else if (low && !certainly_at_most(*low, value.low)) {
+    // cannot bind (value.high): there is an objection either way; this chooses a word of it.
     const bool alarm = certainly_less(value.high, *low);
     objections.push_back((alarm ? "ALARM: " : "") + name + " is not proved to be at least lo" + found);
   }

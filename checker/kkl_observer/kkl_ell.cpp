@@ -161,7 +161,7 @@ std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& 
   const Ball value = enclosed ? low : nothing;
   found.quantities = {{"ell", enclosed ? Range(low, high) : Range(nothing)},
                       {"argmin_omega", located ? Range(attained, last) : Range(nothing)}};
-  const Ball width = (high - low) / low;
+  const Ball width = (high - low) / abs(low);
   const Ball nine_digits(1e-9);
   found.conditions = {
       {"enclosed", R"((\ell_{hi} - \ell_{lo}) / \ell_{lo} \le 10^{-9})",

@@ -136,9 +136,13 @@ Ball Moves::kernel_integral(const Filters& q) const {
 
 Size Moves::size(const Filters& q) const {
   Size size{zero, zero};
-  if (certainly_positive(sinusoid_)) {
+  // cannot bind (sinusoid_, bound_): the disturbance that there is not has amplitude 0.
+  const bool is_sinusoid = certainly_positive(sinusoid_);
+  // cannot bind (sinusoid_, bound_): the same.
+  const bool is_bounded = certainly_positive(bound_);
+  if (is_sinusoid) {
     size.driven = (sinusoid_ * largest_response(q)).upper();
-  } else if (certainly_positive(bound_)) {
+  } else if (is_bounded) {
     size.driven = (bound_ * kernel_integral(q)).upper();
   }
   for (std::size_t i = 0; i < kFilters; ++i) {

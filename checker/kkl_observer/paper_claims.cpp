@@ -21,6 +21,7 @@ Verdict vanishes(const Polynomial& polynomial, int degree) {
     for (std::size_t i = 0; i < Variables; ++i) {
       point[i] = Ball(at[i]);
     }
+    // cannot bind (zero): the identities are true, and nothing of a certificate is in them.
     if (!certainly_equal(polynomial(point), zero)) {
       return Verdict::undecided;
     }
@@ -155,6 +156,7 @@ std::vector<Condition> claims_of_every_design() {
   // From x = (1, 1, 1) the formula's signal, sqrt(2) sin(t + pi/4), rises. With the signs for which T of (6)
   // solves (3), x1' = -x2 falls; with the other signs T does not solve it.
   const Ball rises = sqrt(two) * cos(pi() / four);
+  // cannot bind (rises, residual(one, {two, one, one, one})): constants, which are not zero.
   const bool formula_fails = invariant == Verdict::proved && certainly_positive(rises) &&
                              certainly_positive(abs(residual(one, {two, one, one, one})));
   const Ball column_count(static_cast<double>(columns(ones, ones).size()));
@@ -200,10 +202,12 @@ void add_inverse(const KklDesign& design, const Ball& ell, const EllEnclosure& i
                             : positive_somewhere ? Verdict::refuted
                                                  : Verdict::undecided;
   // Where mu = 0, det(L'L) = |M xi|^2 > 0 leaves x alone.
+  // cannot bind (infimum.low): the enclosure is narrow relative to it, and contains a positive number.
   const Verdict inverse =
       vanishing == Verdict::proved ? proved_if(certainly_positive(infimum.low)) : vanishing;
   const Ball modulus = continuity_modulus(design, ell);
   found.quantities.push_back({"continuity_modulus", modulus, Sense::bounds_above});
+  // cannot bind (ell): the design's, which is positive, or the lower end of the enclosure.
   found.conditions.insert(
       found.conditions.end(),
       {{"mu-vanishes", R"(\ell \le 2 \inf_{O_r} |MT|^2 / |T|^2)", vanishing, ell, limit},

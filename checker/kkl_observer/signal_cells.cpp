@@ -223,6 +223,7 @@ bool SignalCells::frequency_error_at_most(const KklCell& cell, const Ball& bound
 
 bool SignalCells::amplitude_error_at_most(const KklCell& cell, const Ball& bound) const {
   const Ball relative = squared_error(cell) / cell.over.frequency.value.lower();
+  // cannot bind (relative): roots of what may be negative are balls of everything.
   if (!certainly_less(relative, one)) {
     return false;
   }

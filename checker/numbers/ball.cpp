@@ -166,9 +166,11 @@ Ratio arctangent_ratio(const Ball& t) {
     return {Ball::everything(), Ball::everything()};
   }
   const auto ratio = [](const Ball& x) {
+    // cannot bind (x): a quotient by a ball that contains zero is a ball of everything, others are right.
     return certainly_less(smallest(), x) ? arctangent(x) / x : near_limit(one);
   };
   const auto slope = [&](const Ball& x) {
+    // cannot bind (x): a quotient by a ball that contains zero is a ball of everything, others are right.
     return certainly_less(smallest(), x) ? (one / (one + square(x)) - ratio(x)) / square(x)
                                          : near_limit(-two / Ball(3.0));
   };

@@ -81,11 +81,10 @@ StartSets follow_starts(const std::vector<CertifiedSet>& sets, const Setting* wh
 
 /// Is it true of the starts of some base?
 bool settles(const StartSets& starts, const Design& design, const Settled& claim) {
-  return certainly_not_negative(claim.samples) &&
-         std::any_of(starts.bases.begin(), starts.bases.end(), [&](const Setting* base) {
-           const Ball level = starts.promises.starts_inside ? start_level(*base, design) : base->radius;
-           return settled(*base, design, level, claim.frequency_error, claim.samples);
-         });
+  return std::any_of(starts.bases.begin(), starts.bases.end(), [&](const Setting* base) {
+    const Ball level = starts.promises.starts_inside ? start_level(*base, design) : base->radius;
+    return settled(*base, design, level, claim.frequency_error, claim.samples);
+  });
 }
 
 std::vector<Quantity> size_of(const Setting& set) {

@@ -203,7 +203,6 @@ PolarEnclosure FollowedStarts::polar(const Matrix3& metric, const std::array<Bal
   // On the segments arg z = angle + atan(tangent): only if z stays on the side that `angle` points to.
   const Ball ahead = cos(Ball(angle)) * (middle_[kZ1].range() + Ball::within(extent[kZ1])) +
                      sin(Ball(angle)) * (middle_[kZ2].range() + Ball::within(extent[kZ2]));
-  // cannot bind (ahead): the tangents are divided by it, and it is positive in the middle.
   State<Ball> found;
   for (std::size_t i = 0; i < found.size(); ++i) {
     std::array<Ball, kStateSize> row;
@@ -218,6 +217,7 @@ PolarEnclosure FollowedStarts::polar(const Matrix3& metric, const std::array<Bal
       }
       way += largest(sum);
     }
+    // cannot bind (ahead): the tangents are divided by it, and it is positive in the middle.
     found[i] = certainly_positive(ahead) ? middle[i].range() + Ball::within(way) : Ball::everything();
   }
   return {{found[0], found[1], found[2]},

@@ -31,6 +31,7 @@ bool cover_directions(SteadySetting& setting) {
   const Ball a = square(setting.a11) - m11;
   const Ball b = setting.a11 * setting.a21 - m12;
   const Ball c = square(setting.a21) + square(setting.a22) - m22;
+  // cannot bind (a): a11 is the upper end of a ball that contains margin sqrt(m11).
   return certainly_positive(a) && certainly_positive(a * c - square(b));
 }
 

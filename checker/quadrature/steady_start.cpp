@@ -8,6 +8,8 @@ namespace {
 
 bool keeps(const SteadyStart& start, const SteadyStartClaim& claim) {
   const auto within = [](const Ball& value, const std::optional<Ball>& limit) {
+    // cannot bind (value): it only ends the search. What was found is returned as it is, and the
+    // certificate's numbers are compared with that.
     return !limit || certainly_at_most(value, *limit);
   };
   return within(start.samples, claim.samples) && within(start.level, claim.level) &&
@@ -129,6 +131,8 @@ std::optional<SteadyStart> steady_start(const Design& design, const SteadySet& s
   constexpr int kHalvings = 3;
   constexpr int kMostSamples = 100;
   const bool still = certainly_equal(design.slew, zero);
+  // cannot bind (*claim.samples): starts may be followed for any number of samples; this one is a good
+  // choice.
   const int most = claim.samples && certainly_not_negative(*claim.samples) &&
                            certainly_at_most(*claim.samples, Ball(kMostSamples))
                        ? static_cast<int>(claim.samples->near())

@@ -187,6 +187,8 @@ std::optional<StateVector> steady_state_at_zero(const Design& design) {
     return p;
   };
   const Symmetric<Ball> top{large, zero, zero, large, zero, large};
+  // cannot bind (matrix_of(follow(top, 1.0, 1))): updates with variance r leave at most r of the variances in
+  // the plane, and at most half of `large` of the frequency's, which is correlated with the phase by then.
   if (!definite(matrix_of(top) - matrix_of(follow(top, 1.0, 1)))) {
     return std::nullopt;
   }
@@ -241,6 +243,7 @@ std::optional<std::vector<SteadyCell>> steady_branch(const Design& design, doubl
       const bool joins = cell && contains(moved(moved(cell->middle, cell->slope, Ball(from) - cell->centre),
                                                 cell->unique, one),
                                           *start);
+      // cannot bind (Ball(accuracy)): wider enclosures are right, too, and prove less.
       if (!joins || !certainly_less(abs(cell->tight[2]), Ball(accuracy))) {
         width *= 0.5;
         if (width < kNarrowest) {

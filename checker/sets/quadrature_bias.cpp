@@ -93,16 +93,14 @@ Matrix rounded(const Matrix& x) {
 bool contains(const Matrix& outer, const Matrix& inner) {
   for (slong i = 0; i < kSize; ++i) {
     const Ball out = outer(i, 0);
-    const Ball in = inner(i, 0);
-    if (!in.finite() || !certainly_at_most(out.lower(), in.lower()) ||
-        !certainly_at_most(in.upper(), out.upper())) {
+    if (!out.finite() || arb_contains(out.raw(), inner(i, 0).raw()) == 0) {
       return false;
     }
   }
   return true;
 }
 /// The variances, and the minors of P that decide with them whether it is positive definite.
-bool positive_definite(const Matrix& x) {
+bool holds_covariances(const Matrix& x) {
   Matrix p(3, 3);
   slong at = 3;
   for (slong i = 0; i < 3; ++i) {
@@ -170,6 +168,8 @@ bool QuadratureBranch::add_cell(const Ball& frequencies) {
 // exact estimate with its steady covariance.
 Ball QuadratureBranch::error_at(const Ball& frequency) {
   constexpr double kWidth = 0x1p-6;  // rad/sample
+  // cannot bind (frequency.lower(), frequency): the cells begin at 0 and are right at every frequency, but
+  // the branch would never end.
   if (!certainly_not_negative(frequency.lower()) || !certainly_less(frequency, pi() + one)) {
     return Ball::everything();
   }
@@ -178,11 +178,16 @@ Ball QuadratureBranch::error_at(const Ball& frequency) {
     if (!lost_) {
       const Cell& first = cells_.front();
       constexpr std::array<slong, 4> kOdd{1, 2, 4, 6};
+      // cannot bind (first.middle(i, 0)): the simulation adds products with sin 0 and with zeros to zero.
       const bool symmetric = std::all_of(kOdd.begin(), kOdd.end(),
                                          [&](slong i) { return certainly_equal(first.middle(i, 0), zero); });
-      lost_ = !symmetric || !positive_definite(first.around(zero, first.unique));
+      lost_ = !symmetric || !holds_covariances(first.around(zero, first.unique));
+      if (lost_) {
+        cells_.clear();
+      }
     }
   }
+  // cannot bind (cells_.back().frequencies.upper()): what no cell contains is found in none below.
   while (!lost_ && !certainly_at_most(frequency.upper(), cells_.back().frequencies.upper())) {
     const Ball end = cells_.back().frequencies.upper();
     lost_ = !add_cell(Ball::hull(end, end + Ball(kWidth)));
@@ -191,6 +196,9 @@ Ball QuadratureBranch::error_at(const Ball& frequency) {
       const Cell& last = cells_.back();
       const Cell& before = cells_[cells_.size() - 2];
       lost_ = !contains(last.around(end, last.unique), before.around(end, before.tight));
+      if (lost_) {
+        cells_.pop_back();
+      }
     }
   }
   Ball found = Ball::everything();

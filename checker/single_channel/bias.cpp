@@ -102,6 +102,7 @@ class Component {
 
 /// The parts of the t in question, narrow enough for Horner's scheme.
 std::vector<Ball> parts_of(const Ball& t) {
+  // cannot bind (t.upper() - t.lower()): one part is right, too; more are sharper.
   if (!certainly_less(t.upper() - t.lower(), one)) {
     return {Ball::hull(Ball(-1.0), Ball(-0.5)), Ball::hull(Ball(-0.5), zero), Ball::hull(zero, half),
             Ball::hull(half, one)};

@@ -185,6 +185,9 @@ class WindowCover {
 
 bool is_sensible(const WindowStatement& s, const SingleChannelDesign& d) {
   constexpr std::size_t kLongest = 64;  // samples
+  // cannot bind (d.q1, d.q2, d.r): without q1 the lower bound begins at zero along the amplitude and stays
+  // there, which signal_uncertainty exceeds; without q2 or r the inputs of the errors are not finite, and no
+  // set is kept.
   bool sensible = d.without_leak() && certainly_positive(d.q1) && certainly_positive(d.q2) &&
                   certainly_positive(d.r) && !s.shares.empty() && s.shares.size() <= kLongest &&
                   certainly_less(s.loosening, one) && certainly_not_negative(s.slew);
@@ -193,6 +196,7 @@ bool is_sensible(const WindowStatement& s, const SingleChannelDesign& d) {
     sensible = sensible && certainly_positive(*number);
   }
   for (const Ball& share : s.shares) {
+    // cannot bind (one): a share of 1 or more of the upper bound is not below the lower one.
     sensible = sensible && certainly_not_negative(share) && certainly_less(share, one);
   }
   return sensible &&

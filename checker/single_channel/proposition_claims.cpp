@@ -50,6 +50,7 @@ Verdict vanishes(const Difference& difference) {
     for (int j = 0; j <= kDegree; ++j) {
       for (int k = 0; k <= kDegree; ++k) {
         for (int l = 0; l <= kDegree; ++l) {
+          // cannot bind (zero): the identities are true, and nothing of a certificate is in them.
           if (!certainly_equal(difference(Point(Ball(i), Ball(j), Ball(k), Ball(l))), zero)) {
             return Verdict::undecided;
           }

@@ -74,6 +74,7 @@ Derivation riccati_bounds(const Design& d, const Tree& /*claimed*/) {
     const Constants29 c = constants_2_9(d, reading);
     const bool printed = reading == Reading::printed;
     const Ball m = printed ? one - c.epsilon_r : smallest_admitted_estimate(d);
+    // cannot bind (m): 1 - sqrt(1/2) + sigma, or a root, or a ball of everything.
     const Ball sound = certainly_positive(m) ? attained(m) : Ball::everything();
     found.quantities.push_back({"p_" + name, c.p});
     found.quantities.push_back({"p_sound_" + name, sound, Sense::bounds_above});
@@ -122,6 +123,7 @@ Derivation baras_bensoussan_james(const Design& d, const Tree& /*claimed*/) {
   const Ball nu = half * spread;
   const Ball q = nu + spread;
   const Ball sound = min(q_0 * sqrt(nu) / (q * sqrt(q)), band * sqrt(nu / q));
+  // cannot bind (leak): without one nu is a ball of everything, from which nothing follows.
   const Ball start = certainly_positive(leak) ? nu : one;
   const auto printed = [&](const Ball& units) {
     const Ball gamma2 = (two + square(one + band) + square(one + leak)) / square(q_0 * units);

@@ -51,6 +51,8 @@ Part strict(const Ball& left, const Ball& right) {
 }
 
 bool encloses(const Tree* side, const Range& value) {
+  // cannot bind (low_of(*side), value.high): check_derivation compares the sides again with those of the
+  // part.
   return side == nullptr ||
          (certainly_at_most(low_of(*side), value.low) && certainly_at_most(value.high, high_of(*side)));
 }
@@ -140,6 +142,7 @@ void check_feasibility(const Tree& claimed, const Design& d, Reading reading, Ob
   }
   // beta (zeta + eta) with every factor at its least over sigma, gamma, c_1, c_2.
   Ball least = four * ratio * sqrt(ratio);
+  // cannot bind (d.q1): without it the bound is a ball of everything.
   if (certainly_positive(d.q1)) {
     const Ball p = d.q2 + d.r * inverse_b_1;
     const Ball q = one / d.q1 + b_2 / d.r;
@@ -201,6 +204,7 @@ Constants29 constants_2_9(const Design& d, Reading reading) {
 
 Ball smallest_admitted_estimate(const Design& d) {
   const Ball two_sigma = two * d.sigma;
+  // cannot bind (two_sigma): a root of what may be negative is a ball of everything.
   return certainly_positive(two_sigma) && certainly_less(two_sigma, one) ? sqrt(two_sigma)
                                                                          : Ball::everything();
 }

@@ -59,6 +59,7 @@ class TubeCheck {
     const Ball turn = two * arcsine(tube_.plane) + tube_.frequency;
     const double half_turn = turn.upper_double();
     const double width = tube_.plane.upper_double();
+    // cannot bind (turn): larger turns are looked at, too, and those that are not finite prove nothing.
     return certainly_less(turn, one) && is_true_over(predicate, -width, width, -half_turn, half_turn, kDepth);
   }
 
@@ -209,6 +210,10 @@ std::optional<Tube> verified_tube(const Tree& derivation, const std::string& nam
                   matrix("covariance_upper"),
                   matrix("information_upper"),
                   static_cast<int>(std::clamp(window, 0.0, 20.0))};
+  // cannot bind (tube.plane, tube.one_minus_alpha, design.q1, design.epsilon): at amplitude zero the
+  // frequency is not seen, so that no bound on it is kept, and beyond 1 the arcsine is a ball of everything;
+  // without alpha and q1, mu Q is not above what is carried; designs with another epsilon are refused as they
+  // are read.
   const bool sensible = certainly_equal(number("window"), Ball(tube.window)) &&
                         certainly_positive(tube.plane) && certainly_less(tube.plane, one) &&
                         certainly_positive(tube.frequency) && certainly_positive(tube.one_minus_alpha) &&

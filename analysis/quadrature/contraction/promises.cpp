@@ -68,6 +68,7 @@ std::optional<Promises::Settling> Promises::settling() const {
   if (settled_) {
     levels.emplace_back(*settled_);
   }
+  // cannot bind (ultimate_): no start is ever within 0, nor within what is no number.
   if (disturbed_ && certainly_positive(ultimate_)) {
     levels.emplace_back((Interval(2.0) * ultimate_).upper());
   }

@@ -52,8 +52,8 @@ std::optional<Verification> first_that_verifies(const sets::ContractionQuestion&
     Verification verification =
         verify_certified_set(question.design, *proposal, {question.amplitude, question.largest_frequency});
     // A proposal is not trusted, not even to tolerate the noise and slew that it was searched for.
-    // cannot bind (question.noise, question.slew): it copies them from the request as they are.
     const rigor::UpwardRounding upward;
+    // cannot bind (question.noise, question.slew): it copies them from the request as they are.
     const bool tolerates_assumptions =
         sets_its_own_disturbance(request.objective) ||
         (certainly_less_equal(question.noise, Interval(verification.set.noise)) &&
@@ -105,6 +105,7 @@ std::optional<Verification> find_inner_set(const sets::ContractionQuestion& ques
   }
   std::optional<Verification> inner = first_that_verifies(question, request);
   const rigor::UpwardRounding upward;
+  // cannot bind (outer): Promises asks the same before it uses the set.
   return inner && certainly_maps_into(outer, inner->set, question.noise, question.slew) ? inner
                                                                                         : std::nullopt;
 }

@@ -38,6 +38,8 @@ bool certainly_positive_definite(const BlockCovariance<Interval>& p VERITRACK_CA
 std::string objection(const Design& design, const CertifiedSet& set) {
   const Interval zero(0.0);
   const auto& t = set.metric;
+  // cannot bind (design.r, design.q2, design.q1): no order is kept without them. Lower bounds grow by less
+  // than q1 and q2, and for r <= 0 a variance p is not between the bounds after p r / (p + r).
   if (!certainly_positive(design.r) || !certainly_positive(design.q2) || !certainly_not_negative(design.q1)) {
     return "the design is not one with q1 >= 0, q2 > 0 and r > 0.";
   }
@@ -65,6 +67,8 @@ std::string objection(const Design& design, const CertifiedSet& set) {
   }
   const BlockCovariance<Interval> low = block(set.covariance_lower);
   const BlockCovariance<Interval> high = block(set.covariance_upper);
+  // cannot bind (high.p11 - low.p11): what is kept from below and from above is in order, with the steady
+  // state between the two, or the spread of the gains between them is negative and has no root.
   if (!certainly_positive_definite(low) ||
       !certainly_positive_definite(BlockCovariance<Interval>{high.p11 - low.p11, high.p22 - low.p22,
                                                              high.p23 - low.p23, high.p33 - low.p33})) {
@@ -109,6 +113,8 @@ Verification verify_certified_set(const Design& design, const CertifiedSet& prop
     return result;
   }
   const StepSetting<Interval> setting = setting_of(design, proposal);
+  // cannot bind (setting.largest_amplitude): at amplitude zero the frequency is not seen, and P33 grows by
+  // q2.
   if (!certainly_less(setting.largest_amplitude, Interval(1.0))) {
     result.reason = "the set contains amplitudes near zero, where the phase is undefined.";
     return result;

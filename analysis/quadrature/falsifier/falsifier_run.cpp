@@ -31,7 +31,7 @@ double square(double x) {
 }
 
 /// By leading minors.
-bool is_positive_definite(const Eigen::Matrix3d& m) {
+bool is_definite(const Eigen::Matrix3d& m) {
   return m(0, 0) > 0.0 && m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1) > 0.0 && m.determinant() > 0.0;
 }
 
@@ -111,7 +111,7 @@ bool SetClaim::covariance_is_inside(const Eigen::Matrix3d& covariance, double sh
   const Eigen::Matrix3d lower = center_covariance_ + share * (set_.covariance_lower - center_covariance_);
   const Eigen::Matrix3d y = inverse_root_ * (covariance - lower) * inverse_root_.transpose();
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  return is_positive_definite(y + room * identity) && is_positive_definite((share + room) * identity - y);
+  return is_definite(y + room * identity) && is_definite((share + room) * identity - y);
 }
 
 std::optional<std::string> SetClaim::broken_by(const PolarState& before, const Eigen::Vector3d& input,

@@ -12,7 +12,7 @@ using rigor::Interval;
 std::optional<Interval> covering_share(const Symmetric<Interval>& bound, const Symmetric<Interval>& x) {
   double share = 1e-6;
   constexpr int kDoublings = 60;
-  const auto covers = [&](double l) {
+  const auto is_enough = [&](double l) {
     const Interval factor(l);
     const Symmetric<Interval> scaled{factor * bound.p11, factor * bound.p12, factor * bound.p13,
                                      factor * bound.p22, factor * bound.p23, factor * bound.p33};
@@ -20,7 +20,7 @@ std::optional<Interval> covering_share(const Symmetric<Interval>& bound, const S
            certainly_positive_definite(plus(scaled, x, Interval(1.0)));
   };
   int doublings = 0;
-  while (!covers(share)) {
+  while (!is_enough(share)) {
     share *= 1.5;
     if (++doublings > kDoublings) {
       return std::nullopt;

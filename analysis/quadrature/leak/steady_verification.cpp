@@ -128,6 +128,7 @@ CellResult verify_cell(const Design& design, const sets::QuadratureTube& tube, c
   setting.band = {to_symmetric(set.below), to_symmetric(set.above)};
   fill_turns(setting);
   const Symmetric<Interval> least = plus(setting.steady.covariance, setting.band.below, Interval(-1.0));
+  // cannot bind (setting.steady.covariance): it is the sum of `least` and of the bound below.
   if (!certainly_positive_definite(least) || !certainly_positive_definite(setting.steady.covariance)) {
     result.reason = "the lower covariance bound is not certainly positive definite.";
     return result;

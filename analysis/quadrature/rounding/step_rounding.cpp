@@ -140,6 +140,8 @@ StateDifference step_rounding(const Program& program, const HeldStates& box, con
   rigor::require_upward_rounding();
   const bool in_range = certainly_less_equal(Interval(Rounded::kSmallestUnit), program.amplitude) &&
                         certainly_less_equal(program.amplitude, Interval(Rounded::kLargestUnit));
+  // cannot bind (box.lower(2, 2)): regressions are quotients by every variance up to upper(2, 2), which is
+  // positive: where zero is among them nothing is finite.
   if (!in_range || !certainly_positive(box.lower(2, 2))) {
     return {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
   }

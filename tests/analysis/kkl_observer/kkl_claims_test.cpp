@@ -65,6 +65,15 @@ TEST_CASE("claims about the inverse follow the ell in use") {
   }
 }
 
+TEST_CASE("against an ell below twice the infimum there is no witness") {
+  const rigor::UpwardRounding upward;
+  KklRange range{rigor::to_interval(Eigen::Vector4d(1.0, 2.0, 3.0, 4.0)), rigor::Interval(3.0)};
+  // The infimum at 3 rad/s is 0.00146.
+  CHECK(find_inverse_witness(range, rigor::Interval(0.0035)).has_value());
+  CHECK_FALSE(find_inverse_witness(range, rigor::Interval(0.0028)).has_value());
+  CHECK_FALSE(find_inverse_witness(range, rigor::Interval(1e-9)).has_value());
+}
+
 TEST_CASE("a witness against the inverse is one in double, too") {
   const rigor::UpwardRounding upward;
   const Eigen::Vector4d lambda(1.0, 2.0, 3.0, 4.0);

@@ -118,5 +118,16 @@ TEST_CASE("an ell for which mu does not vanish, or a disturbance too large, leav
   }
 }
 
+TEST_CASE("a disturbance that leaves mu zero may still take the frequency away") {
+  auto q = question(SinusoidalDisturbance{Interval(1.6), Interval(20.0)});
+  q.cells = 4'000;
+  const auto found = derive_kkl_robustness(q);
+  for (const theorems::Condition& condition : found.conditions) {
+    CHECK_MESSAGE((condition.verdict == Verdict::proved) == (condition.id == "regular"), condition.id);
+  }
+  CHECK(theorems::find_quantity(found, "frequency_error_bound").not_applicable);
+  CHECK(found.verdict == Verdict::undecided);
+}
+
 }  // namespace
 }  // namespace veritrack::kkl_observer

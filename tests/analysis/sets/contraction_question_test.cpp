@@ -38,6 +38,9 @@ TEST_CASE("a question with a bound that is no number, or below zero, is not well
   ContractionQuestion without_noise_model = question();
   without_noise_model.design.r = Interval(0.0);
   CHECK_FALSE(sets::is_well_posed(without_noise_model));
+  ContractionQuestion still = question();
+  still.design.q2 = Interval(0.0);
+  CHECK_FALSE(sets::is_well_posed(still));
 }
 
 TEST_CASE("the reason names the limit that is exceeded, and only that") {

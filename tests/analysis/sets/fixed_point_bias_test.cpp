@@ -243,6 +243,11 @@ TEST_CASE("nothing is proved without numbers, or without an isolated steady stat
   // The amplitude is uncontrollable: its variance has no isolated positive steady state.
   CHECK(verify_lock_branch(design_of("0", "0.0013", "0.01", "0"), Interval(1.0)).verdict ==
         Verdict::undecided);
+  // The box of all covariances contains some that are none.
+  const trackers::ToneModel<Interval> vague{Interval(0.1), Interval::from_bounds(5e-5, 15e-5), Interval(1.0),
+                                            Interval::from_bounds(0.15, 0.45)};
+  CHECK(verify_lock_branch(vague, Interval(0.0)).reason.find("isolated positive definite") !=
+        std::string::npos);
   // A design that is not known well enough.
   broken = good;
   broken.r = Interval::from_bounds(1e-6, 1.0);

@@ -25,6 +25,14 @@ SteadyStateBias bias_of(const ToneModel<double>& design, double frequency) {
       Interval(frequency));
 }
 
+TEST_CASE("a frequency beyond the band of the sampling has no bias") {
+  for (const double frequency : {-0.5, 3.3, 4.0}) {
+    const SteadyStateBias bias = bias_of({0.005, 0.005, 0.01, 0.01}, frequency);
+    CHECK(bias.verdict == Verdict::undecided);
+    CHECK(bias.reason.find("within [0, pi]") != std::string::npos);
+  }
+}
+
 /// The frequency errors of the paper's filter on cos(omega k), in extended precision, after it has settled.
 std::vector<double> settled_errors(const ToneModel<double>& design, double frequency) {
   using Vector3 = Eigen::Matrix<long double, 3, 1>;

@@ -89,9 +89,13 @@ TEST_CASE("claims that say a little too much do not verify") {
     refused([m](WindowClaim& claim) { claim.shares[m] *= 1.15; });
   }
   refused([](WindowClaim& claim) { claim.curvature *= 0.85; });
+  // Little enough for the middles of the cells, and not for their ends.
+  refused([](WindowClaim& claim) { claim.curvature /= 1.038; });
+  refused([](WindowClaim& claim) { claim.shares.front() *= 1.0635; });
   refused([](WindowClaim& claim) { claim.signal_uncertainty *= 1.25; });
   refused([](WindowClaim& claim) { claim.assumption.frequency_variance *= 0.9; });
   refused([](WindowClaim& claim) { claim.assumption.signal_variance *= 0.9; });
+  refused([](WindowClaim& claim) { claim.assumption.signal_variance *= 0.01; });
   refused([](WindowClaim& claim) { claim.assumption.radius *= 1.5; });
   refused([](WindowClaim& claim) { claim.slew = 0.05; });
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -89,6 +89,20 @@ TEST_CASE("no error bound where (2.43) is not certain or a constant is out of it
   CHECK(refused([](auto& c) { c.beta = Interval(0.5); }));
   CHECK(refused([](auto& c) { c.initial_error = Interval(-0.1); }));
   CHECK(refused([](auto& c) { c.epsilon_z = Interval(10.0); }));  // the last term would be negative
+  // (2.43) is true of these, too.
+  CHECK(refused([](auto& c) { c.zeta = Interval(-0.0625); }));
+  CHECK(refused([](auto& c) { c.eta = Interval(-0.015625); }));
+  CHECK(refused([](auto& c) {  // of which the ultimate bound would be positive
+    c.beta = Interval(1.0);
+    c.one_minus_alpha = Interval(0.25);
+    c.zeta = Interval(0.5);
+    c.eta = Interval(-0.375);
+  }));
+  CHECK(refused([](auto& c) { c.epsilon_z = Interval(-0.25); }));
+  CHECK(refused([](auto& c) {
+    c.one_minus_alpha = Interval(-0.5);
+    c.zeta = c.eta = Interval(-1.0);
+  }));
   for (const Interval& poison : {Interval(), Interval::entire(),
                                  Interval::from_bounds(1.0, std::numeric_limits<double>::infinity())}) {
     CHECK(refused([&](auto& c) { c.state_bound = poison; }));

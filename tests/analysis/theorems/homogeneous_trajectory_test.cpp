@@ -123,3 +123,16 @@ TEST_CASE("NaN in, nothing out") {
   CHECK(is_empty(
       theorems::step_homogeneous(indefinite, Eigen::Vector3d(1.0, 0.0, 0.3), design).relative_decrease));
 }
+
+TEST_CASE("a covariance that is not positive definite has no energy, in whichever factor") {
+  const trackers::ToneModel<Interval> design{Interval(0.01), Interval(0.01), Interval(0.01), Interval(0.0)};
+  const rigor::UpwardRounding upward;
+  const auto decrease = [&](const trackers::FactoredCovariance<double>& covariance) {
+    const theorems::HomogeneousState state{Eigen::Vector3d(1.0, 0.0, 0.0), -10, covariance};
+    return theorems::step_homogeneous(state, Eigen::Vector3d(1.0, 0.0, 0.3), design).relative_decrease;
+  };
+  CHECK(is_finite(decrease({0.001, 0.0, 0.001, 0.0, 0.0, 0.001})));
+  CHECK(is_empty(decrease({-0.001, 0.0, -0.001, 0.0, 0.0, 0.001})));
+  CHECK(is_empty(decrease({0.001, 0.002, 0.001, 0.0, 0.0, 0.001})));
+  CHECK(is_empty(decrease({0.001, 0.0, 0.001, 0.0, 0.0, -0.001})));
+}

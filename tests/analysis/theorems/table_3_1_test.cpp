@@ -85,11 +85,31 @@ TEST_CASE("q1 = 0 and values unknown decide nothing") {
 
 TEST_CASE("a sigma out of its range, where the constants mean nothing, decides nothing") {
   test::TestDesign design = test::table_design(test::kTable32[3]);
-  for (const double sigma : {0.0, 0.8, 1.5}) {
+  for (const double sigma : {-0.001, 0.0, 0.8, 1.5}) {
+    CAPTURE(sigma);
     design.sigma = sigma;
+    for (const auto variant : {Theorem29Variant::printed, Theorem29Variant::errata}) {
+      if (sigma == 0.8 && variant == Theorem29Variant::errata) {
+        continue;
+      }
+      for (const auto& condition :
+           theorems::evaluate_table_3_1(variant, test::tracker_input(design)).conditions) {
+        CHECK(condition.verdict == Verdict::undecided);
+      }
+    }
+  }
+}
+
+TEST_CASE("an r that is stationary beyond the numbers that are looked at is not found") {
+  test::TestDesign design = test::table_design(test::kTable32[3]);
+  for (const double size : {1e-45, 1e45}) {
+    CAPTURE(size);
+    design.q1 = design.q2 = design.r = size;
     for (const auto& condition :
-         theorems::evaluate_table_3_1(Theorem29Variant::printed, test::tracker_input(design)).conditions) {
-      CHECK(condition.verdict == Verdict::undecided);
+         theorems::evaluate_table_3_1(Theorem29Variant::errata, test::tracker_input(design)).conditions) {
+      if (condition.id == "alpha-r" || condition.id == "beta-r" || condition.id.starts_with("r_")) {
+        CHECK(condition.verdict == Verdict::undecided);
+      }
     }
   }
 }

@@ -171,6 +171,34 @@ TEST_CASE("the errata sheet's sigma is read as small: no sigma, or a large one, 
   CHECK(verdicts(design.input()).at("w_3-range/errata") == Verdict::refuted);
 }
 
+TEST_CASE("a radius of no estimates, or of estimates through zero, proves no bound on predictions") {
+  test::TestDesign design = test::table_design(test::kTable32[0]);
+  for (const double sigma : {-0.5, 0.9, 1.5}) {
+    CAPTURE(sigma);
+    design.sigma = sigma;
+    CHECK(verdicts(design.input()).at("s/printed") != Verdict::proved);
+    CHECK((sigma == 0.9 || verdicts(design.input()).at("s/errata") != Verdict::proved));
+  }
+}
+
+TEST_CASE("without a positive radius, or room beside epsilon_z, nothing is said of the printed constants") {
+  test::TestDesign design = test::table_design(test::kTable32[0]);
+  design.sigma = 0.9;  // epsilon_r < 0
+  CHECK(verdicts(design.input()).at("w_3-range/printed") == Verdict::undecided);
+  design.sigma = 0.7071067;  // epsilon_r = 8e-8 = epsilon_z, and beta > 1
+  CHECK(verdicts(design.input()).at("eta-size/printed") != Verdict::proved);
+}
+
+TEST_CASE("designs that are hardly known leave open whether past errors matter") {
+  theorems::Theorem29Input input = test::TestDesign{}.input();
+  CHECK(verdicts(input).at("past-errors") == Verdict::refuted);
+  for (const double factor : {1.5, 2.0}) {
+    input.q1 = input.q2 = Interval::from_bounds(input.q2.lower(), factor * input.q2.lower());
+    input.r = Interval::from_bounds(input.r.lower(), factor * input.r.lower());
+    CHECK(verdicts(input).at("past-errors") == Verdict::undecided);
+  }
+}
+
 TEST_CASE("inputs that are no numbers decide nothing about the design") {
   theorems::Theorem29Input input;  // everything empty
   for (const auto& decided : verdicts(input)) {

@@ -120,3 +120,14 @@ TEST_CASE(
   eager.r = 0.01;
   CHECK(theorems::evaluate_theorem_2_7_printed(test::tracker_input(eager)).verdict == Verdict::undecided);
 }
+
+TEST_CASE("a rate of 1 or more bounds nothing") {
+  const rigor::UpwardRounding upward;
+  const auto bound = [](double alpha, double zeta) {
+    return theorems::total_stability_bound(
+        {Interval(2.0), Interval(alpha), Interval(zeta), Interval(0.1), Interval(1.0)}, Interval(0.5), 3);
+  };
+  CHECK(rigor::is_finite(bound(0.5, 0.1)));
+  CHECK_FALSE(rigor::is_finite(bound(0.5, 0.25)));
+  CHECK_FALSE(rigor::is_finite(bound(1.5, 0.0)));
+}

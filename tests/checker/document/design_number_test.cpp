@@ -56,6 +56,22 @@ TEST_CASE("a number stands for the decimal and for the double nearest to it, and
   CHECK(certainly_less(Ball(0x1.0624dd2f1a9fbp-10), value.lower()));
 }
 
+TEST_CASE("a decimal above the double nearest to it is in its number, too") {
+  Objections objections;
+  const Ball value = read_number(number("0.3", "0x1.3333333333333p-2", "0x1.3333333333334p-2"), objections);
+  CHECK(objections.empty());
+  CHECK(certainly_at_most(from_decimal("0.3").upper(), value.upper()));
+  CHECK(certainly_equal(Ball(0x1.3333333333333p-2), value.lower()));
+}
+
+TEST_CASE("a decimal in the middle of two doubles stands for both, whichever is read") {
+  Objections objections;
+  const Ball value = read_number(number("9007199254740993", "0x1p+53", "0x1.0000000000001p+53"), objections);
+  CHECK(objections.empty());
+  CHECK(certainly_at_most(value.lower(), Ball(0x1p+53)));
+  CHECK(certainly_at_most(Ball(0x1.0000000000001p+53), value.upper()));
+}
+
 TEST_CASE("what is no decimal is malformed") {
   for (const char* text : {"", "nan", "inf", "1e400", "0x1p3", "1,5", " 1"}) {
     CAPTURE(text);

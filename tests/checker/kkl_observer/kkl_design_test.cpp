@@ -40,6 +40,17 @@ std::string disturbance(const std::string& members) {
 
 }  // namespace
 
+TEST_CASE("a frequency that no double above zero is below") {
+  Objections found;
+  const std::string tiny =
+      R"({"text": "4e-324", "lo": "0x0p+0", "hi": "0x0.0000000000001p-1022", "decimal": "[0, 5e-324]"})";
+  read_kkl_design(
+      read_json(R"({"design": {"lambda": )" + list({1, 2, 3, 4}) + R"(}, "assume": {"frequency": [)" + tiny +
+                "," + number(1) + R"(], "amplitude": )" + list({1, 2}) + "}}"),
+      found);
+  CHECK(found.size() == 1);
+}
+
 TEST_CASE("designs that can be, and that cannot") {
   const std::string amplitude = R"("amplitude": )" + number(0.25);
   const std::string frequency = R"("frequency": )" + number(100);

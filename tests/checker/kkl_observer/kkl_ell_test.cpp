@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "tests/support/random.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
@@ -115,6 +116,33 @@ TEST_CASE("a bound that one end of the range satisfies is none when the ratio fa
   CHECK(is_bound(0.999 * ratio(4.0), 3.0, 4.0, 4.0));
   CHECK(!is_bound(1.001 * ratio(4.0), 3.0, 4.0, 4.0));
   CHECK(!is_bound(0.5 * (ratio(3.0) + ratio(4.0)), 3.0, 4.0, 4.0));
+}
+
+TEST_CASE("an enclosure is narrow and positive, or ell is not known") {
+  checker::KklDesign design;
+  for (const double rate : {1.0, 2.0, 3.0, 4.0}) {
+    design.lambda.emplace_back(rate);
+  }
+  design.frequency_low = Ball(2.0);
+  design.frequency_high = Ball(4.0);
+  const auto accepts = [&](const std::string& low, const std::string& high, const std::string& condition) {
+    const std::string at_4 = R"({"lo": "0x1p+2", "hi": "0x1p+2"})";
+    const checker::Tree derivation =
+        checker::read_json(R"({"conditions": [{"id": ")" + condition +
+                           R"(", "verdict": "proved"}], "quantities": {"ell": {"lo": ")" + low +
+                           R"(", "hi": ")" + high + R"("}, "argmin_omega": )" + at_4 + "}}");
+    checker::Objections objections;
+    const bool known = checker::check_kkl_ell(derivation, design, objections).has_value();
+    return std::pair(objections.empty(), known);
+  };
+  const std::string low = "0x1.6a49ba732a35ep-11";
+  const std::string high = "0x1.6a49ba7807062p-11";
+  CHECK(accepts(low, high, "enclosed") == std::pair(true, true));
+  CHECK(accepts(low, high, "positive") == std::pair(true, true));
+  CHECK(accepts("0x1.6a49bp-11", high, "enclosed") == std::pair(false, false));
+  CHECK(accepts("0x1.6a49bp-11", high, "positive") == std::pair(true, false));
+  CHECK(accepts("-0x1p-11", high, "enclosed") == std::pair(false, false));
+  CHECK(accepts("-0x1p-11", high, "positive") == std::pair(false, false));
 }
 
 TEST_CASE("the infimum is attained within the range") {

@@ -141,6 +141,13 @@ TEST_CASE("a covariance bound below zero is refused") {
   CHECK(mentions(refusal(set), "positive definite"));
 }
 
+TEST_CASE("covariance bounds out of order and amplitudes near zero are refused for what they are") {
+  WrittenSet set;
+  set.upper = set.lower;
+  CHECK(mentions(refusal(set), "in order"));
+  CHECK(mentions(refusal_with("radius", "0x1p+1"), kRange));
+}
+
 TEST_CASE("an entry that the theorem's form does not have is refused, however small") {
   for (const auto& [i, j] : {std::pair{0U, 1U}, {0U, 2U}, {1U, 0U}, {2U, 0U}, {2U, 1U}}) {
     CAPTURE(i);
@@ -220,6 +227,11 @@ TEST_CASE("a set is reached only when errors and covariances that the other set 
   SUBCASE("errors") {
     inner.radius = Ball(0x1p-6);
   }
+  SUBCASE("errors that the outer set only nearly leaves") {
+    const Ball level = ultimate_level(outer, design);
+    const std::array<Ball, 3> rows = inverse_rows(outer.metric);
+    inner.radius = Ball(0.9) * largest_level(inner.metric, level * rows[0], level * rows[1], level * rows[2]);
+  }
   SUBCASE("a lower bound on the covariance that is higher") {
     inner.lower.p33 = Ball(0.375);
   }
@@ -245,6 +257,7 @@ TEST_CASE("settling counts from where the errors begin, and never below what noi
   CHECK(!settled(set, design, start, twice, Ball(5.0)));
   CHECK(settled(set, design, Ball(1.9 * ultimate), twice, zero));
   CHECK(!settled(set, design, Ball(2.1 * ultimate), twice, zero));
+  CHECK(!settled(set, design, start, Ball(-1.0), Ball(6.0)));
   const Ball less(0.9 * ultimate / 20.0);
   CHECK(!settled(set, design, Ball(0.5 * ultimate), less, zero));
   CHECK(!settled(set, design, start, less, Ball(1e6)));

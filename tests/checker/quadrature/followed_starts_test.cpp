@@ -123,6 +123,26 @@ TEST_CASE("every run from a box of starts is in what is followed") {
   CHECK(lost <= test::effort(12) / 6);
 }
 
+TEST_CASE("a frequency that only ever rises, or falls, is followed") {
+  constexpr double kSlew = 0.01;
+  const trackers::ToneModel<double> design{0.001, 0.001, 0.1, 0.0};
+  const Ball zero(0.0);
+  const checker::Loop loop{Ball(design.q1), Ball(design.q2), Ball(design.r), zero, zero, zero,
+                           Ball(kSlew),     Ball(1.0),       Ball(3.2)};
+  const trackers::PolarCovariance<double> covariance{0.01, 0.0, 0.0, 0.01, 0.0, 0.01};
+  checker::FollowedStarts starts(loop, {zero, zero, zero}, in_balls(covariance.matrix()));
+  std::vector<trackers::PolarFrameState<double>> runs(2, {{0.0, 0.0, 0.0}, covariance});
+  for (int k = 0; k < 5; ++k) {
+    starts.step();
+    for (std::size_t run = 0; run < 2; ++run) {
+      runs[run] = trackers::polar_frame_map(runs[run], {0.0, 0.0, run == 0 ? kSlew : -kSlew, 0.5}, design);
+    }
+    check_holds(starts, runs);
+    CHECK(starts.frequency_error().finite());
+  }
+  CHECK(std::fabs(runs[0].error.frequency) > kSlew);
+}
+
 TEST_CASE("an estimate that may be zero is not followed") {
   const Ball zero(0.0);
   const checker::Loop loop{Ball(0.001), Ball(0.001), Ball(0.1), zero, zero, zero, zero, Ball(1.0), Ball(3.2)};

@@ -132,7 +132,41 @@ TEST_CASE("what cannot be bounded is not") {
   checker::Held unknown = held;
   checker::add_covariance(checker::diagonal(Ball(1.0), Ball(1.0), Ball(0.0)), p, unknown);
   CHECK_FALSE(checker::rounded_step(filter, unknown).finite());
+  checker::add_covariance(checker::diagonal(Ball(1.0), Ball(1.0), Ball(-0.5)), p, unknown);
+  CHECK_FALSE(unknown.u.finite());
+  unknown = held;
+  unknown.least_d = Ball(-1e-9);
+  CHECK_FALSE(checker::rounded_step(filter, unknown).finite());
   unknown = held;
   unknown.z = Ball::everything();
   CHECK_FALSE(checker::rounded_step(filter, unknown).finite());
+}
+
+TEST_CASE("designs of no filter, sizes beyond what underflow allows and vanishing divisors have no bound") {
+  checker::Held held;
+  held.z = held.measurement = held.frequency = Ball(1.0);
+  const checker::Matrix3 p = checker::diagonal(Ball(1.0), Ball(1.0), Ball(1.0));
+  checker::add_covariance(p, p, held);
+  checker::Filter filter{Ball(0.01), Ball(0.01), Ball(0.1), Ball(0.01), Ball(1.0)};
+  CHECK(checker::rounded_step(filter, held).finite());
+  SUBCASE("q1") {
+    filter.q1 = Ball(-0.001);
+  }
+  SUBCASE("q2") {
+    filter.q2 = Ball(-0.001);
+  }
+  SUBCASE("a leak below 0") {
+    filter.epsilon = Ball(-0.01);
+  }
+  SUBCASE("a leak of 1") {
+    filter.epsilon = Ball(1.0);
+  }
+  SUBCASE("a frequency of 2^600 rad/sample") {
+    held.frequency = Ball(0x1p600);
+  }
+  SUBCASE("a variance of which only the error is known") {
+    held.least_d = Ball(1e-25);
+    filter.q2 = Ball(1e-25);
+  }
+  CHECK_FALSE(checker::rounded_step(filter, held).finite());
 }

@@ -63,6 +63,15 @@ TEST_CASE("both bounds on the covariance must be kept") {
   }
 }
 
+TEST_CASE("bounds that a turn of the estimate leaves are not kept") {
+  Setting setting = the_setting();
+  setting.noisy = true;
+  setting.noise = Ball(0.01);
+  CHECK(keeps_covariance(setting));
+  setting.noise = Ball(0.5);  // turns by a third of a radian, while the gains stay what they are
+  CHECK_FALSE(keeps_covariance(setting));
+}
+
 TEST_CASE("noise that may carry the estimate through zero keeps no covariance, nor much more noise") {
   Setting setting = the_setting();
   for (const double noise : {5.0, 1e3, 1e6}) {
@@ -119,6 +128,24 @@ TEST_CASE("a rate that states on the rim exceed is not proved, though the middle
   CHECK(contracts_with(setting));
   CHECK(needed < 0x1.fb4e515d8926ep-1);
   setting.rate = Ball(0.999 * needed);
+  CHECK_FALSE(contracts_with(setting));
+}
+
+TEST_CASE("a gain that cells keep in their middles and not at their ends is not proved") {
+  Setting setting = the_setting();
+  setting.radius = Ball(0.6);
+  setting.largest_amplitude = (setting.radius / setting.metric.amplitude).upper();
+  setting.largest_chi =
+      (setting.radius *
+       sqrt(square(one / setting.metric.phase) +
+            square((one - setting.metric.coupling / setting.metric.phase) / setting.metric.frequency)))
+          .upper();
+  setting.rate = Ball(0.997);
+  setting.noisy = true;
+  setting.noise = Ball(0.2);
+  setting.noise_gain = Ball(17.6);
+  CHECK(contracts_with(setting));
+  setting.noise_gain = Ball(16.7);
   CHECK_FALSE(contracts_with(setting));
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -129,4 +130,14 @@ TEST_CASE("a mirror image is one in phase and frequency only, followed as long")
     cover.boxes[1].high[2] = Ball(-0.6);
   }
   CHECK(checker::mirror_image(cover, 0) == 0);
+}
+
+TEST_CASE("a witness turns a whole number of times") {
+  const auto turns = [](const std::string& number) {
+    const checker::Tree evidence = checker::read_json(
+        R"({"name": "witness", "matrices": {"boxes": []}, "numbers": {"turns": ")" + number + R"("}})");
+    return checker::read_cover(evidence).turns;
+  };
+  CHECK(certainly_equal(turns("-0x1p+1"), Ball(-2.0)));
+  CHECK_THROWS_AS(turns("0x1p-1"), checker::Malformed);
 }

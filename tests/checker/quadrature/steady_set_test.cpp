@@ -5,12 +5,15 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "checker/quadrature/steady_contraction.hpp"
 #include "checker/quadrature/steady_level.hpp"
 
 using namespace veritrack::checker;
@@ -61,19 +64,23 @@ const std::vector<SteadyCell>& the_branch() {
   return *branch;
 }
 
-/// Why the set is not verified; empty when it is.
-std::string refusal(const WrittenSet& set) {
-  std::string text = R"({"name": "a", "matrices": {"metric": )" + json_of(set.metric) +
+std::string evidence_of(const WrittenSet& set, const std::string& name) {
+  std::string text = R"({"name": ")" + name + R"(", "matrices": {"metric": )" + json_of(set.metric) +
                      R"(, "covariance_below": )" + json_of(set.below) + R"(, "covariance_above": )" +
                      json_of(set.above) + R"(}, "numbers": {"noise": ")" + set.noise + R"(", "slew": ")" +
                      set.slew + "\"";
   for (std::size_t j = 0; j < set.levels.size(); ++j) {
     text += ", \"s_" + std::to_string(j) + "\": \"" + set.levels[j] + "\"";
   }
+  return text + "}}";
+}
+
+/// Why the set is not verified; empty when it is.
+std::string refusal(const WrittenSet& set) {
   std::int64_t cells = 0;
   Objections objections;
   const SteadySet checked =
-      check_steady_set(read_json(text + "}}"), the_design(), the_branch(), cells, objections);
+      check_steady_set(read_json(evidence_of(set, "a")), the_design(), the_branch(), cells, objections);
   CHECK(checked.verified == objections.empty());
   return objections.empty() ? std::string() : objections.front();
 }
@@ -141,24 +148,140 @@ TEST_CASE("levels begin at 1 and fall, noise and slew are not negative") {
 
 TEST_CASE("bounds on the covariance that are none") {
   WrittenSet set;
+  std::string why;
   SUBCASE("below") {
     set.below[0][0] = "-0x1p-30";
+    why = "not positive definite";
   }
   SUBCASE("above") {
     set.above[0][0] = "-0x1p-30";
+    why = "not positive definite";
   }
   SUBCASE("so far below that covariances of the set are not definite") {
     set.below[0][0] = "0x1p-6";
     set.below[1][1] = "0x1p-6";
     set.below[2][2] = "0x1p-6";
+    why = "P* - below";
   }
   SUBCASE("kept from below, not from above") {
     set.above[2][2] = "0x1.8p-11";
+    why = "next level";
   }
   SUBCASE("kept from above, not from below") {
     set.below[2][2] = "0x1.2p-11";
+    why = "next level";
   }
-  CHECK(!refusal(set).empty());
+  CHECK(mentions(refusal(set), why));
+}
+
+namespace {
+
+Rows times(double factor, Rows rows) {
+  for (auto& row : rows) {
+    for (std::string& entry : row) {
+      std::array<char, 40> text{};
+      std::snprintf(text.data(), text.size(), "%a", factor * from_hexadecimal(entry).near());
+      entry = text.data();
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+// The derivative of the steady covariance has eigenvalues of either sign, of which correlations in the bound
+// make the one or the other count more.
+TEST_CASE("slew moves the covariances, too, up and down") {
+  WrittenSet set;
+  SUBCASE("one way") {
+    set.below = times(0.87664, set.below);
+  }
+  SUBCASE("and the other") {
+    set.below[0][1] = set.below[1][0] = "-" + set.below[0][1];
+    set.below[0][2] = set.below[2][0] = "-" + set.below[0][2];
+    set.below = times(0.88209, set.below);
+  }
+  CHECK(refusal(set).empty());
+  set.slew = "0x1.0624dd2f1a9fcp-8";
+  CHECK(mentions(refusal(set), "next level"));
+}
+
+TEST_CASE("directions of the metric that are too much alike are not covered") {
+  WrittenSet set;
+  set.metric = {{{"0x1p+0", "0x0p+0", "-0x1.9p+6"},
+                 {"0x0p+0", "0x1p+0", "-0x1.8cp+6"},
+                 {"0x0p+0", "0x0p+0", "0x1p+0"}}};
+  CHECK(mentions(refusal(set), "the metric has no inverse"));
+}
+
+TEST_CASE("what is promised in the long run counts the bias, and the last level") {
+  const WrittenSet set;
+  const Tree derivation = read_json(R"({"conditions": [], "quantities": {}, "evidence": [)" +
+                                    evidence_of(set, "start-error") + "]}");
+  std::int64_t cells = 0;
+  Objections objections;
+  Design design = the_design();
+  design.amplitude_error = design.phase_error = design.frequency_error = Ball(0x1p-20);
+  const Promises promises = check_steady_contraction(derivation, design, cells, objections);
+  REQUIRE(promises.ultimate.has_value());
+  const double bias = std::fabs(the_branch().back().middle[2].near());
+  const double reach = 1.0 / from_hexadecimal(set.metric[2][2]).near();
+  const double expected = bias + from_hexadecimal(set.levels.back()).near() * reach;
+  CHECK(bias > 0.004 * reach);
+  CHECK(promises.ultimate->near() >= expected * (1.0 - 1e-3));
+  CHECK(promises.ultimate->near() <= expected * (1.0 + 1e-2));
+}
+
+TEST_CASE("the rate is that of the slowest step") {
+  WrittenSet set;
+  set.levels = {"0x1p+0", "0x1.fp-1", "0x1.cdp-1"};
+  CHECK(refusal(set).empty());
+  const Tree derivation = read_json(R"({"conditions": [], "quantities": {}, "evidence": [)" +
+                                    evidence_of(set, "start-error") + "]}");
+  std::int64_t cells = 0;
+  Objections objections;
+  const Promises promises = check_steady_contraction(derivation, the_design(), cells, objections);
+  REQUIRE(promises.rate.has_value());
+  CHECK(promises.rate->near() >= 0x1.fp-1);
+}
+
+TEST_CASE("a set is one for its own noise and slew, and for no more") {
+  const Tree derivation = read_json(R"({"conditions": [], "quantities": {}, "evidence": [)" +
+                                    evidence_of(WrittenSet(), "start-error") + "]}");
+  const auto has_set = [&](const Design& design) {
+    std::int64_t cells = 0;
+    Objections objections;
+    return check_steady_contraction(derivation, design, cells, objections).reach.has_value();
+  };
+  Design design = the_design();
+  CHECK(has_set(design));
+  SUBCASE("noise") {
+    design.noise = Ball(0.00101);
+  }
+  SUBCASE("slew") {
+    design.slew = Ball(0x1p-60);
+  }
+  CHECK_FALSE(has_set(design));
+}
+
+TEST_CASE("settling is claimed at no less than the ultimate error, and not before the last level") {
+  Design design = the_design();
+  design.amplitude_error = design.phase_error = Ball(0x1p-20);
+  design.frequency_error = Ball(0.118);  // above the last level
+  const Symmetric<Ball> steady = covariance_part(the_branch().back().middle);
+  design.covariance = matrix_of(steady);
+  const auto settles = [&](const std::string& error, const std::string& samples) {
+    const Tree derivation =
+        read_json(R"({"conditions": [], "quantities": {"settling_samples": {"hi": ")" + samples +
+                  R"("}, "settled_frequency_error": {"hi": ")" + error + R"("}}, "evidence": [)" +
+                  evidence_of(WrittenSet(), "start-error") + "]}");
+    std::int64_t cells = 0;
+    Objections objections;
+    return check_steady_contraction(derivation, design, cells, objections).settled.has_value();
+  };
+  CHECK(settles("0x1p-1", "0x1p+0"));
+  CHECK_FALSE(settles("0x1p-1", "0x0p+0"));
+  CHECK_FALSE(settles("0x1p-6", "0x1p+0"));
 }
 
 namespace {

@@ -75,6 +75,12 @@ TEST_CASE("the frequency error stays below what is asked") {
   // A start that is off by as much as the limit refutes it.
   const std::string less = design(R"({"frequency_error_below": )" + exactly("0.5", "0x1p-1") + "}");
   CHECK(is_verified(id, "refuted", less, Promises{}));
+  // So does a start that ends farther off, and none that ends nearer.
+  Promises wrong;
+  wrong.wrong_lock = Ball(0.75);
+  CHECK(is_verified(id, "refuted", tables, wrong));
+  wrong.wrong_lock = Ball(0.74);
+  CHECK(!is_verified(id, "refuted", tables, wrong));
   // Nobody has asked for it.
   CHECK(!is_verified(id, "proved", design("{}"), bound(0.7)));
 }
@@ -143,6 +149,45 @@ TEST_CASE("sizes of sets: noise is certified relative to the amplitude") {
   promises.noise = Ball(0.24);
   CHECK(!is_verified("ekf/largest-noise", "proved", tables, promises));
   CHECK(!is_verified("ekf/largest-noise", "proved", tables, Promises{}));
+}
+
+TEST_CASE("sizes of sets: slew, and the reach") {
+  const std::string slew = design(R"({"largest_slew_at_least": )" + exactly("0.5", "0x1p-1") + "}");
+  const std::string reach =
+      design(R"({"frequency_error_radius_at_least": )" + exactly("0.5", "0x1p-1") + "}");
+  Promises promises;
+  promises.slew = promises.reach = Ball(0.5);
+  CHECK(is_verified("ekf/largest-slew", "proved", slew, promises));
+  CHECK(is_verified("ekf/frequency-error-radius", "proved", reach, promises));
+  promises.slew = promises.reach = Ball(0.49);
+  CHECK(!is_verified("ekf/largest-slew", "proved", slew, promises));
+  CHECK(!is_verified("ekf/frequency-error-radius", "proved", reach, promises));
+}
+
+TEST_CASE("nothing below zero is asked for, and a set of no size is none") {
+  for (const auto* value : {"0x0p+0", "-0x1p-1"}) {
+    Objections objections;
+    const Tree tables = read_json(
+        design(R"({"frequency_error_below": )" + exactly(*value == '-' ? "-0.5" : "0", value) + "}"));
+    const Guarantee guarantee(tables, {}, objections);
+    CHECK(objections.size() == 1);
+  }
+  Promises promises;
+  promises.reach = Ball(0.25);
+  promises.rate = Ball(0.9);
+  CHECK(!is_verified(
+      "ekf/invariant-set", "proved", design("{}"), promises,
+      R"({"frequency_error_radius": {"lo": "0x0p+0"}, "contraction_rate": {"hi": "0x1.dp-1"}})"));
+}
+
+TEST_CASE("a claim on settling is one from a sample on, below an error") {
+  const auto claim = [](const std::string& samples, const std::string& error) {
+    return settling_claim(read_json("{" + at_most("settling_samples", samples) + "," +
+                                    at_most("settled_frequency_error", error) + "}"));
+  };
+  CHECK(claim("0x0p+0", "0x1p-3").has_value());
+  CHECK_FALSE(claim("-0x1p+0", "0x1p-3").has_value());
+  CHECK_FALSE(claim("0x1p+0", "0x0p+0").has_value());
 }
 
 TEST_CASE("the size of the set and the limits are sentences of their own") {

@@ -101,6 +101,13 @@ TEST_CASE("no curve where one of the conditions fails") {
   // Faster than the products of the Jacobians shrink.
   CHECK(!establish(Ball(kFrequency), 0.0, Ball(0.7)));
   CHECK(!establish(Ball(kFrequency), 0.0, Ball(1.0)));
+  CHECK(!establish(Ball(kFrequency), 0.0, Ball(1.5)));
+  CHECK(!establish(Ball(kFrequency), 0.0, Ball(-0.99)));
+  // A frequency that no double is, from either side.
+  CHECK(!establish(checker::from_decimal("1.1"), 0.0, Ball(kRate)));
+  CHECK(!establish(checker::from_decimal("1.2"), 0.0, Ball(kRate)));
+  // Around one that is not where it is asked for.
+  CHECK(!establish(Ball::hull(Ball(1.5 - 1e-6), Ball(1.5 + 1e-6)), 1e-7, Ball(kRate)));
   // Frequencies too far apart for one curve, and for one family.
   CHECK(!establish(Ball::hull(Ball(1.49), Ball(1.51)), 0.0, Ball(kRate)));
   CHECK(!establish(Ball(kFrequency), 0.5, Ball(kRate)));
@@ -211,7 +218,7 @@ TEST_CASE("Proposition 1 rests on a bias that was established at the frequency i
   const Json claims = accepted()["claims"];
   const checker::SingleChannelDesign design{
       Ball(1.0), Ball(1.0), Ball(1.0), Ball(10.0), Ball(kEpsilon), Ball(1.5), Ball(1.5), {}, {}, {}, {}, {}};
-  const auto objections = [&](Json claim, const std::string& frequency, const Ball& mean) {
+  const auto objections = [&](Json claim, const std::string& frequency, const checker::Range& mean) {
     claim["frequency"] = frequency;
     checker::Objections found;
     const checker::Claim checked =
@@ -224,6 +231,27 @@ TEST_CASE("Proposition 1 rests on a bias that was established at the frequency i
   CHECK(objections(claims[1], "1.5", mean) == 0);
   CHECK(objections(claims[1], "1.5", Ball(0.0)) > 0);
   CHECK(objections(claims[1], "1.5", Ball::everything()) > 0);
+  // Claimed as wide as it was found, and on one side or on both of 0.
+  Json wide = claims[1];
+  const auto objections_within = [&](const char* low, const char* high) {
+    wide["evidence"]["mean_bias"] = {{"lo", low}, {"hi", high}};
+    return objections(wide, "1.5", {checker::from_hexadecimal(low), checker::from_hexadecimal(high)});
+  };
+  CHECK(objections_within("-0x1p-1", "-0x1p-2") == 0);
+  CHECK(objections_within("0x1p-2", "0x1p-1") == 0);
+  CHECK(objections_within("-0x1p-1", "0x1p-1") > 0);
+  CHECK(objections_within("-0x1p-1", "0x0p+0") > 0);
+  CHECK(objections_within("0x0p+0", "0x1p-1") > 0);
+  CHECK(objections(claims[1], "1.4", mean) > 0);
   CHECK(objections(claims[0], "3.2", mean) > 0);
   CHECK(objections(claims[1], "3.2", mean) > 0);
+  for (Ball checker::SingleChannelDesign::*value :
+       {&checker::SingleChannelDesign::q1, &checker::SingleChannelDesign::q2,
+        &checker::SingleChannelDesign::r}) {
+    checker::SingleChannelDesign without = design;
+    without.*value = Ball(0.0);
+    checker::Objections found;
+    check_proposition_1(checker::read_json(claims[0].dump()), without, {}, found);
+    CHECK_FALSE(found.empty());
+  }
 }

@@ -4,61 +4,26 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <array>
+#include <cstdio>
 #include <map>
 #include <string>
 #include <utility>
 
+#include "tests/checker/theorems/tube_support.hpp"
+
 using namespace veritrack::checker;
+using namespace veritrack::test::tube;
 
 namespace {
 
-using Rows = std::array<std::array<std::string, 3>, 3>;
-
-/// For La Scala's Figure 3.5 without its leak.
-struct WrittenTube {
-  std::map<std::string, std::string> numbers{{"window", "0x0p+0"},
-                                             {"plane_error", "0x1.46e2d35c182f2p-8"},
-                                             {"frequency_error", "0x1.6a2ca93ff07adp-9"},
-                                             {"one_minus_alpha", "0x1.39ab73862d9fdp-6"},
-                                             {"curvature", "0x1.85104abba9a95p-3"},
-                                             {"process_gain", "0x1.c300f1eb1aafbp+3"},
-                                             {"measurement_gain", "0x1.9e4880005914ep+1"},
-                                             {"s", "0x1.f0d5d276ca15dp-5"},
-                                             {"radius", "0x1.ef498e0a0fa9bp-6"}};
-  Rows upper{{{"0x1.703909e649cap-7", "0x0p+0", "0x0p+0"},
-              {"0x0p+0", "0x1.ba8525cf3716ap-6", "0x1.10ae74717165p-7"},
-              {"0x0p+0", "0x1.10ae74717165p-7", "0x1.11c5fa57b7c43p-7"}}};
-  Rows information{{{"0x1.e8aa2994bd472p+6", "0x0p+0", "0x0p+0"},
-                    {"0x0p+0", "0x1.f20ca156ca566p+5", "-0x1.ecd95cbbe6e26p+5"},
-                    {"0x0p+0", "-0x1.ecd95cbbe6e26p+5", "0x1.9bfe69f3607dp+7"}}};
-};
-
-std::string json_of(const Rows& rows) {
-  std::string text;
-  for (const auto& row : rows) {
-    text += (text.empty() ? "[\"" : ",[\"") + row[0] + "\",\"" + row[1] + "\",\"" + row[2] + "\"]";
-  }
-  return "[" + text + "]";
-}
-
-Design the_design() {
-  Design design;
-  design.q1 = design.q2 = Ball(0.0023);
-  design.r = Ball(0.05);
-  design.epsilon = zero;
-  return design;
-}
-
 bool is_verified(const WrittenTube& tube, const Design& design = the_design()) {
-  std::string text = R"({"evidence": [{"name": "a", "matrices": {"covariance_upper": )" +
-                     json_of(tube.upper) + R"(, "information_upper": )" + json_of(tube.information) +
-                     R"(}, "numbers": {"of": "0x0p+0")";
-  for (const auto& [name, number] : tube.numbers) {
-    text += ", \"" + name + "\": \"" + number + "\"";
-  }
   Objections objections;
-  const bool verified = verified_tube(read_json(text + "}}]}"), "a", design, objections).has_value();
+  const bool verified =
+      verified_tube(read_json(R"({"evidence": [)" + evidence_of(tube, "a") + "]}"), "a", design, objections)
+          .has_value();
   CHECK(verified == objections.empty());
   return verified;
 }
@@ -119,6 +84,108 @@ TEST_CASE("matrices of a tube are symmetric, definite, and kept") {
   }
   SUBCASE("a lower bound that is not kept") {
     tube.information[0][0] = "0x1.8p+6";
+  }
+  CHECK(!is_verified(tube));
+}
+
+TEST_CASE("amplitudes all over the tube keep the covariance, not those near 1 alone") {
+  WrittenTube tube;
+  tube.numbers.at("frequency_error") = "0x1p-20";
+  tube.numbers.at("one_minus_alpha") = "0x1p-20";
+  tube.numbers.at("curvature") = "0x1p+3";
+  tube.numbers.at("process_gain") = tube.numbers.at("s") = "0x1p+8";
+  tube.numbers.at("measurement_gain") = "0x1p+2";
+  tube.numbers.at("plane_error") = "0x1p-5";
+  CHECK(is_verified(tube));
+  tube.numbers.at("plane_error") = "0x1.8p-5";
+  CHECK(!is_verified(tube));
+}
+
+TEST_CASE("an upper bound below zero is kept, and is none") {
+  WrittenTube tube;
+  tube.numbers.at("curvature") = "0x1p+3";
+  CHECK(is_verified(tube));
+  tube.upper[0][0] = "-0x1.6p-5";
+  CHECK(!is_verified(tube));
+}
+
+namespace {
+
+Rows rows_of(const Eigen::Matrix3d& m) {
+  Rows rows;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      std::array<char, 40> text{};
+      std::snprintf(text.data(), text.size(), "%a",
+                    m(static_cast<Eigen::Index>(std::max(i, j)), static_cast<Eigen::Index>(std::min(i, j))));
+      rows[i][j] = text.data();
+    }
+  }
+  return rows;
+}
+
+/// A tube for what the filter's covariance is after `window` more updates, with an exact estimate: at most so
+/// many times the largest, and at least so many times the least.
+WrittenTube after_window(int window, double most, double least) {
+  const Eigen::Vector3d q(0.0023, 0.0023, 0.0023);
+  const Eigen::Vector3d seen(1.0 / 0.05, 1.0 / 0.05, 0.0);
+  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+  f(1, 2) = 1.0;
+  const auto updated = [&](const Eigen::Matrix3d& p) {
+    return Eigen::Matrix3d((p.inverse() + Eigen::Matrix3d(seen.asDiagonal())).inverse());
+  };
+  const auto after = [&](const Eigen::Matrix3d& p) {
+    return updated(f * p * f.transpose() + Eigen::Matrix3d(q.asDiagonal()));
+  };
+  Eigen::Matrix3d low = updated(q.asDiagonal());
+  // Nothing is known of the frequency before.
+  Eigen::Matrix3d high = Eigen::Vector3d(0.05, 0.05, 1e8).asDiagonal();
+  for (int k = 0; k < window; ++k) {
+    low = after(low);
+    high = after(high);
+  }
+  WrittenTube tube;
+  tube.upper = rows_of(most * high);
+  tube.information = rows_of((least * low).inverse());
+  tube.numbers = {{"window", window == 1 ? "0x1p+0" : "0x1p+1"},
+                  {"plane_error", "0x1p-20"},
+                  {"frequency_error", "0x1p-20"},
+                  {"one_minus_alpha", "0x1p-20"},
+                  {"curvature", "0x1p+8"},
+                  {"process_gain", "0x1p+8"},
+                  {"measurement_gain", "0x1.19p+2"},
+                  {"s", "0x1p+8"},
+                  {"radius", "0x1p-24"}};
+  return tube;
+}
+
+}  // namespace
+
+TEST_CASE("after a window the covariance is between bounds that all its values keep, and no closer ones") {
+  for (const int window : {1, 2}) {
+    CAPTURE(window);
+    CHECK(is_verified(after_window(window, 1.1, 0.9)));
+    CHECK(!is_verified(after_window(window, 0.95, 0.9)));
+    CHECK(!is_verified(after_window(window, 1.1, 1.05)));
+  }
+}
+
+TEST_CASE("estimates that are off need more room, above and below") {
+  WrittenTube tube;
+  SUBCASE("above, in the first step") {
+    tube = after_window(1, 1.0005, 0.5);
+    CHECK(is_verified(tube));
+    tube.numbers.at("plane_error") = "0x1p-8";
+  }
+  SUBCASE("above, in the steps after it") {
+    tube = after_window(2, 1.003, 0.5);
+    CHECK(is_verified(tube));
+    tube.numbers.at("frequency_error") = "0x1p-6";
+  }
+  SUBCASE("below") {
+    tube = after_window(1, 1.5, 0.9995);
+    CHECK(is_verified(tube));
+    tube.numbers.at("plane_error") = "0x1p-8";
   }
   CHECK(!is_verified(tube));
 }

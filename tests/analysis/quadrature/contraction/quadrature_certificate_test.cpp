@@ -139,6 +139,13 @@ TEST_CASE("starts beyond the set and noise beyond the limit are undecided, with 
   const ContractionCertificate loud = certify_contraction(noisy);
   CHECK(loud.derivation.verdict == Verdict::undecided);
   CHECK(condition(loud, "invariant-set").reason.find("largest certified noise") != std::string::npos);
+  sets::ContractionQuestion moving = question(0.0023, 0.05);
+  moving.slew = Interval(0.5);
+  moving.search_evaluations = 10;
+  const ContractionCertificate carried_off = certify_contraction(moving);
+  CHECK(carried_off.derivation.verdict == Verdict::undecided);
+  CHECK(carried_off.noise_set.has_value());
+  CHECK_FALSE(carried_off.set.has_value());
   // "Without noise" is said of no noise only.
   const auto why_no_settling_time = [](const ContractionCertificate& certificate) {
     return find_quantity(certificate.derivation, "settling_samples").not_applicable.value();

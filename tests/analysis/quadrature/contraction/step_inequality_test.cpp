@@ -21,15 +21,15 @@ BlockCovariance<Interval> enclosed(const BlockCovariance<double>& p) {
   return {Interval(p.p11), Interval(p.p22), Interval(p.p23), Interval(p.p33)};
 }
 
-StepSetting<double> the_setting(double noise) {
-  return {kDesign, {2.0, 3.0, -1.0, 4.0}, kLow, kHigh, 0.3, 0.6, noise};
+StepSetting<double> the_setting(double noise, const BlockCovariance<double>& high = kHigh) {
+  return {kDesign, {2.0, 3.0, -1.0, 4.0}, kLow, high, 0.3, 0.6, noise};
 }
 StepSetting<Interval> enclosed(const StepSetting<double>& s) {
   return {{Interval(kDesign.q1), Interval(kDesign.q2), Interval(kDesign.r), Interval(0.0)},
           {Interval(s.metric.amplitude), Interval(s.metric.phase), Interval(s.metric.coupling),
            Interval(s.metric.frequency)},
           enclosed(kLow),
-          enclosed(kHigh),
+          enclosed(s.covariance_upper),
           Interval(s.largest_amplitude),
           Interval(s.largest_chi),
           Interval(s.noise)};
@@ -41,8 +41,9 @@ struct Cell {
   CellForms forms;
   StepConstants<double> constants;
 
-  Cell(double rate_squared, double noise_gain_squared, double size)
-      : setting(the_setting(noise_gain_squared > 0.0 ? 0.01 : 0.0)),
+  Cell(double rate_squared, double noise_gain_squared, double size,
+       const BlockCovariance<double>& high = kHigh)
+      : setting(the_setting(noise_gain_squared > 0.0 ? 0.01 : 0.0, high)),
         constants{rate_squared, noise_gain_squared, 1.0, noise_gain_squared > 0.0, false} {
     const std::array<double, 4> middle{0.5, 1.0, 0.0, 0.0};
     const double c0 = std::cos(1.0);
@@ -94,6 +95,24 @@ TEST_CASE("noise must keep something of its gain, whatever the multiplier") {
   const Interval spread = generous.forms.middle.spread[0];
   CHECK_FALSE(Cell(1e9, 0.5 * multiplier * spread.lower(), 0.01).holds(multiplier));
   CHECK_FALSE(Cell(1e9, 1e-12 * multiplier * spread.lower(), 0.01).holds(multiplier));
+}
+
+TEST_CASE("noise must keep something of its gain along the prediction and across it") {
+  const rigor::UpwardRounding upward;
+  // A covariance that is known better along the prediction, or across it.
+  for (const auto& high : {BlockCovariance<double>{0.00301, 0.0045, 0.00101, 0.00201},
+                           BlockCovariance<double>{0.0035, 0.00401, 0.00101, 0.00201}}) {
+    const Cell generous(4.0, 1e6, 0.001, high);
+    const double multiplier = generous.proposed_multiplier();
+    CHECK(generous.holds(multiplier));
+    const double along = generous.forms.middle.spread[0].upper();
+    const double across = generous.forms.middle.spread[1].upper();
+    CHECK(std::max(along, across) > 4.0 * std::min(along, across));
+    // A multiplier that leaves something of the gain for the one and nothing for the other.
+    const Cell lenient(1e12, 1e6, 0.001, high);
+    CHECK(lenient.holds(0.5e6 / std::max(along, across)));
+    CHECK_FALSE(lenient.holds(1e6 / std::sqrt(along * across)));
+  }
 }
 
 TEST_CASE("a cell that is too wide is not proved, though its middle contracts") {

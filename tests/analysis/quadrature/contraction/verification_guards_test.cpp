@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <cstddef>
+#include <string>
 
+#include "analysis/quadrature/contraction/proposal.hpp"
 #include "analysis/quadrature/contraction/verification.hpp"
 
 namespace veritrack::quadrature {
@@ -39,6 +41,12 @@ bool is_proved(const CertifiedSet& set, const Design& design = la_scala()) {
   return verify_certified_set(design, set).verdict == Verdict::proved;
 }
 
+/// Is it refused, and for a reason with these words in it?
+bool is_refused(const CertifiedSet& set, const char* words) {
+  const Verification found = verify_certified_set(la_scala(), set);
+  return found.verdict != Verdict::proved && found.reason.find(words) != std::string::npos;
+}
+
 bool is_proved_with(double CertifiedSet::*member, double value) {
   CertifiedSet set = verified_set();
   set.*member = value;
@@ -68,6 +76,7 @@ TEST_CASE("a set whose errors do not shrink is not proved, with noise and withou
   CertifiedSet set = verified_set();
   set.noise = 0.0;
   set.rate = 1.0;
+  set.radius = 0x1p-4;  // of which the square is exact
   CHECK_FALSE(is_proved(set));
 }
 
@@ -78,6 +87,23 @@ TEST_CASE("noise and slew that push the errors out of the set are not tolerated"
   set.slew_gain = 1024.0;
   set.slew = 0x1p-12;
   CHECK_FALSE(is_proved(set));
+}
+
+TEST_CASE("a set is refused for the first of its faults") {
+  CertifiedSet set = verified_set();
+  set.radius *= -1.0;
+  CHECK(is_refused(set, "outside their ranges"));
+  set = verified_set();
+  set.rate = 1.0;
+  CHECK(is_refused(set, "outside their ranges"));
+  set = verified_set();
+  set.covariance_lower(0, 0) *= -1.0;
+  CHECK(is_refused(set, "positive definite and in order"));
+  set = verified_set();
+  set.covariance_lower(1, 2) = set.covariance_lower(2, 1) = 0x1.c8p-6;
+  set.covariance_upper(2, 2) = 1.0;
+  set.covariance_upper(1, 1) = 1.0;
+  CHECK(is_refused(set, "positive definite and in order"));
 }
 
 TEST_CASE("covariance bounds below zero, or not kept on one side") {
@@ -98,6 +124,27 @@ TEST_CASE("covariance bounds below zero, or not kept on one side") {
     set.covariance_upper = 1.001 * set.covariance_lower;
   }
   CHECK_FALSE(is_proved(set));
+}
+
+TEST_CASE("covariance bounds below zero, where process noise hides them from the gains") {
+  ProposalRequest request;
+  request.design = {0.1, 0.001, 0.01, 0.0};
+  request.objective = Objective::start_error;
+  request.evaluations = 40;
+  const auto shape = propose_shape(request);
+  REQUIRE(shape.has_value());
+  auto set = propose_set(request, *shape, 0.2);
+  REQUIRE(set.has_value());
+  const Design design{Interval(0.1), Interval(0.001), Interval(0.01), Interval(0.0)};
+  REQUIRE(is_proved(*set, design));
+  SUBCASE("in the amplitude") {
+    set->covariance_lower(0, 0) = -1e-3;
+  }
+  SUBCASE("in the phase") {
+    set->covariance_lower(1, 1) = -1e-3;
+    set->covariance_lower(1, 2) = set->covariance_lower(2, 1) = 0.0;
+  }
+  CHECK_FALSE(is_proved(*set, design));
 }
 
 TEST_CASE("an entry that the form does not have is refused, however small") {

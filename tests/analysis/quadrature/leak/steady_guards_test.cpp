@@ -2,6 +2,7 @@
 // stands between them and PROVED.
 #include <doctest/doctest.h>
 
+#include <string>
 #include <utility>
 
 #include "analysis/quadrature/leak/steady_verification.hpp"
@@ -43,6 +44,12 @@ SteadySet verified_steady_set() {
 
 bool is_proved(const SteadySet& set, const LeakingDesign& design = leaking_design()) {
   return verify_steady_set(design, narrow_branch().cells, set).verdict == Verdict::proved;
+}
+
+/// Is it refused, and for a reason with these words in it?
+bool is_refused(const SteadySet& set, const char* words, const LeakingDesign& design = leaking_design()) {
+  const SteadyVerification found = verify_steady_set(design, narrow_branch().cells, set);
+  return found.verdict != Verdict::proved && found.reason.find(words) != std::string::npos;
 }
 
 }  // namespace
@@ -106,13 +113,42 @@ TEST_CASE("an entry below the diagonal of T, or off the symmetry of a bound, is 
   }
 }
 
+TEST_CASE("a set around the steady state is refused for the first of its faults") {
+  SteadySet set = verified_steady_set();
+  const char* words = "covariance bounds are not certainly positive definite";
+  SUBCASE("below") {
+    set.below(0, 0) *= -1.0;
+  }
+  SUBCASE("above") {
+    set.above(0, 0) *= -1.0;
+  }
+  SUBCASE("so far below that covariances of the set are not definite") {
+    set.below(0, 0) *= 8.0;
+    words = "lower covariance bound is not certainly positive definite";
+  }
+  SUBCASE("directions that are too much alike") {
+    set.metric << 1e5, 0.0, -1e5, 0.0, 1e5, 0.0, 0.0, 0.0, 1.0;
+    words = "directions of the set could not be covered";
+  }
+  CHECK(is_refused(set, words));
+}
+
 TEST_CASE("designs that may be none") {
   LeakingDesign design = leaking_design();
+  SUBCASE("measurement noise that may be none") {
+    design.r = Interval::from_bounds(0.0, design.r.upper());
+  }
+  SUBCASE("a leak that may be less than none") {
+    design.epsilon = Interval::from_bounds(-0x1p-60, design.epsilon.upper());
+  }
+  SUBCASE("a leak of 1") {
+    design.epsilon = Interval::from_bounds(design.epsilon.lower(), 1.0);
+  }
   SUBCASE("process noise of the amplitude") {
     design.q1 = Interval::from_bounds(-0x1p-60, design.q1.upper());
   }
   SUBCASE("process noise of the frequency") {
     design.q2 = Interval::from_bounds(-0x1p-60, design.q2.upper());
   }
-  CHECK_FALSE(is_proved(verified_steady_set(), design));
+  CHECK(is_refused(verified_steady_set(), "the design is not one", design));
 }

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "analysis/quadrature/contraction/verification.hpp"
 #include "tests/analysis/quadrature/rounding/rounding_twin.hpp"
 
@@ -140,6 +142,15 @@ TEST_CASE("a change of z changes the phase, and the covariance that is seen from
   CHECK(polar.p_33 == 1e-7);
   CHECK_FALSE(std::isfinite(
       polar_difference({1.0, 0.0, 0.0, 0.0, 0.0}, Interval(0.5), Interval(2.0), Interval(1.0)).p_zz));
+}
+
+TEST_CASE("a z that may be zero has no phase") {
+  const rigor::UpwardRounding upward;
+  for (const double least : {0.0, -0.5}) {
+    CHECK_FALSE(std::isfinite(
+        polar_difference({1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, Interval(least), Interval(2.0), Interval(1.0))
+            .p_zz));
+  }
 }
 
 TEST_CASE("a share of P covers every small matrix within the bounds, and is not much more than needed") {

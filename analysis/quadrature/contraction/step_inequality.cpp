@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "analysis/rigor/mean_value_definiteness.hpp"
 #include "analysis/search/golden_section.hpp"
 
 namespace veritrack::quadrature {
@@ -118,60 +119,6 @@ void add_angle(rigor::LowerTriangle<6, Scalar>& a, const Scalar& multiplier, con
   a[kAcrossRow][kAcrossRow] += multiplier;
 }
 
-/// L^-1 of a = L L', roughly; nothing when a is not definite. Only the lower triangle has a meaning.
-std::optional<rigor::LowerTriangle<6, double>> inverse_cholesky(const rigor::LowerTriangle<6, double>& a) {
-  rigor::LowerTriangle<6, double> l{};
-  rigor::LowerTriangle<6, double> inverse{};
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = a[i][j];
-      for (std::size_t k = 0; k < j; ++k) {
-        sum -= l[i][k] * l[j][k];
-      }
-      if (i == j && !(sum > 0.0)) {
-        return std::nullopt;
-      }
-      l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
-    }
-  }
-  for (std::size_t j = 0; j < 6; ++j) {
-    for (std::size_t i = j; i < 6; ++i) {
-      double sum = i == j ? 1.0 : 0.0;
-      for (std::size_t k = j; k < i; ++k) {
-        sum -= l[i][k] * inverse[k][j];
-      }
-      inverse[i][j] = sum / l[i][i];
-    }
-  }
-  return inverse;
-}
-
-/// C A C' for a lower triangular C.
-template <typename Entry>
-rigor::LowerTriangle<6> congruent(const rigor::LowerTriangle<6>& c, const Entry& a) {
-  std::array<std::array<Interval, 6>, 6> half;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      Interval sum = c[i][0] * (j > 0 ? a(j, 0) : a(0, 0));
-      for (std::size_t k = 1; k <= i; ++k) {
-        sum += c[i][k] * (k < j ? a(j, k) : a(k, j));
-      }
-      half[i][j] = sum;
-    }
-  }
-  rigor::LowerTriangle<6> result;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      Interval sum = half[i][0] * c[j][0];
-      for (std::size_t k = 1; k <= j; ++k) {
-        sum += half[i][k] * c[j][k];
-      }
-      result[i][j] = sum;
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 RayRate propose_rate(const PolarStepForm<double, double>& form, const BlockMetric<double>& metric,
@@ -196,48 +143,21 @@ CellVerdict check_cell(const CellForms& forms, const BlockMetric<Interval>& metr
   if (!certainly_positive(lambda)) {
     return verdict;
   }
-  rigor::LowerTriangle<6, double> proposed =
+  const rigor::LowerTriangle<6, double> proposed =
       remaining_matrix(forms.proposal, proposed_metric, proposed_constants,
                        reduced_form(forms.proposal, proposed_metric, proposed_constants, multiplier));
   const double tau = propose_angle_multiplier(proposed, forms.tangent_squared);
-  if (tau > 0.0) {
-    add_angle(proposed, tau, forms.tangent_squared);
-  }
-  const auto inverse = inverse_cholesky(proposed);
   const ReducedForm<Interval, Interval> middle = reduced_form(forms.middle, metric, constants, lambda);
   const ReducedForm<Interval, Derivatives> over = reduced_form(forms.over, metric, constants, lambda);
-  if (!inverse || !certainly_positive(over.noise_pivots[0]) || !certainly_positive(over.noise_pivots[1])) {
+  if (!certainly_positive(over.noise_pivots[0]) || !certainly_positive(over.noise_pivots[1])) {
     return verdict;
-  }
-  rigor::LowerTriangle<6> c;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      c[i][j] = Interval((*inverse)[i][j]);
-    }
   }
   rigor::LowerTriangle<6> at_middle = remaining_matrix(forms.middle, metric, constants, middle);
   if (tau > 0.0) {
     add_angle(at_middle, Interval(tau), Interval(forms.tangent_squared));
   }
-  const rigor::LowerTriangle<6, Derivatives> slopes = remaining_matrix(forms.over, metric, constants, over);
-  rigor::LowerTriangle<6> sum = congruent(c, [&](std::size_t i, std::size_t j) { return at_middle[i][j]; });
-  for (int variable = 0; variable < kCellVariables; ++variable) {
-    const auto index = static_cast<std::size_t>(variable);
-    const Interval away = rigor::symmetric(forms.half_widths[index]);
-    const rigor::LowerTriangle<6> slope = congruent(c, [&](std::size_t i, std::size_t j) -> const Interval& {
-      return slopes[i][j].derivative(variable);
-    });
-    for (std::size_t i = 0; i < 6; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) {
-        const Interval moved = slope[i][j] * away;
-        verdict.influence[index] += moved.upper();
-        sum[i][j] += moved;
-      }
-    }
-  }
-  // C A C' is definite with A, as C is triangular; and that it has an inverse is not needed: a singular C
-  // would leave C A C' singular.
-  verdict.holds = rigor::certainly_positive_definite<6>(sum);
+  verdict.holds = rigor::certainly_definite_over<6, kCellVariables>(
+      at_middle, remaining_matrix(forms.over, metric, constants, over), forms.half_widths, verdict.influence);
   return verdict;
 }
 

@@ -6,8 +6,8 @@
 
 #include "analysis/quadrature/gaussian/drift_form.hpp"
 #include "analysis/quadrature/gaussian/level_proposal.hpp"
-#include "analysis/quadrature/gaussian/mean_value_definiteness.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/mean_value_definiteness.hpp"
 #include "analysis/search/golden_section.hpp"
 
 namespace veritrack::quadrature {
@@ -239,17 +239,18 @@ CellDrift DriftInequality::check(const LevelCell& cell) const {
       Point moved_by{};
       image_level[end] = t;
       if (!certainly_not_negative(affine.value()) ||
-          !certainly_definite_over<3, 3>(
+          !rigor::certainly_definite_over<3, 3>(
               difference(symmetric_of(upper_covariance(setting_, t)),
                          moved(at.upper.covariance, ends[end], at.upper.slope)),
               difference(symmetric_of(upper_covariance(setting_, affine)),
                          moved(over.upper.covariance, ends[end], over.upper.slope)),
               half_widths, moved_by) ||
-          !certainly_definite_over<3, 3>(difference(moved(at.lower.covariance, ends[end], at.lower.slope),
-                                                    symmetric_of(lower_covariance(setting_, t))),
-                                         difference(moved(over.lower.covariance, ends[end], over.lower.slope),
-                                                    symmetric_of(lower_covariance(setting_, affine))),
-                                         half_widths, moved_by)) {
+          !rigor::certainly_definite_over<3, 3>(
+              difference(moved(at.lower.covariance, ends[end], at.lower.slope),
+                         symmetric_of(lower_covariance(setting_, t))),
+              difference(moved(over.lower.covariance, ends[end], over.lower.slope),
+                         symmetric_of(lower_covariance(setting_, affine))),
+              half_widths, moved_by)) {
         return false;
       }
     }
@@ -301,7 +302,7 @@ CellDrift DriftInequality::check(const LevelCell& cell) const {
             .multiplier;
     Point moved_by{};
     found.holds = certainly_positive(Interval(multiplier)) &&
-                  certainly_definite_over<6, 3>(
+                  rigor::certainly_definite_over<6, 3>(
                       drift_form(setting_, images, left_at, Interval(multiplier)),
                       drift_form(setting_, images_at(over, ends[end], setting_.design.r),
                                  left(range, Derivatives(t + reach, slope), ends[end]), Interval(multiplier)),

@@ -75,8 +75,8 @@ TEST_CASE("a range is enclosed, both ends of it") {
   const Matrix3 all = range.enclosure();
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      for (const Ball& factor : {range.from, range.to}) {
-        CHECK(arb_contains(all[i][j].raw(), (factor * range.matrix[i][j]).raw()) != 0);
+      for (const Matrix3& end : {range.lowest, range.highest}) {
+        CHECK(arb_contains(all[i][j].raw(), end[i][j].raw()) != 0);
       }
     }
   }

@@ -50,7 +50,8 @@ SteadySet the_set() {
 /// Followed for up to so many samples.
 std::optional<SteadyStart> found(const Design& design, int samples,
                                  const Matrix3& covariance = steady_covariance()) {
-  return steady_start(design, the_set(), the_branch(), covariance, {Ball(samples), {}, {}, zero});
+  return steady_start(design, the_set(), the_branch(), {covariance, covariance, ""},
+                      {Ball(samples), {}, {}, zero});
 }
 
 }  // namespace
@@ -100,5 +101,6 @@ TEST_CASE("covariances of the start are in the set from below and from above") {
 }
 
 TEST_CASE("no cell holds no start") {
-  CHECK_FALSE(steady_start(the_design(), the_set(), {}, steady_covariance(), {}).has_value());
+  CHECK_FALSE(steady_start(the_design(), the_set(), {}, {steady_covariance(), steady_covariance(), ""}, {})
+                  .has_value());
 }

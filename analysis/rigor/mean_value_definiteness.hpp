@@ -9,14 +9,14 @@
 #include "analysis/rigor/dual.hpp"
 #include "analysis/rigor/small_definiteness.hpp"
 
-namespace veritrack::quadrature {
+namespace veritrack::rigor {
 
 /// L^-1 of a = L L', roughly; nothing when `a` is not definite.
 template <std::size_t Size>
-[[nodiscard]] std::optional<rigor::LowerTriangle<Size, double>> inverse_cholesky(
-    const rigor::LowerTriangle<Size, double>& a) {
-  rigor::LowerTriangle<Size, double> l{};
-  rigor::LowerTriangle<Size, double> inverse{};
+[[nodiscard]] std::optional<LowerTriangle<Size, double>> inverse_cholesky(
+    const LowerTriangle<Size, double>& a) {
+  LowerTriangle<Size, double> l{};
+  LowerTriangle<Size, double> inverse{};
   for (std::size_t i = 0; i < Size; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       double sum = a[i][j];
@@ -43,21 +43,21 @@ template <std::size_t Size>
 
 /// C A C' of a lower triangular C and a symmetric A(i, j), j <= i.
 template <std::size_t Size, typename Entry>
-[[nodiscard]] rigor::LowerTriangle<Size> congruent(const rigor::LowerTriangle<Size>& c, const Entry& a) {
-  rigor::LowerTriangle<Size> half;
+[[nodiscard]] LowerTriangle<Size> congruent(const LowerTriangle<Size>& c, const Entry& a) {
+  LowerTriangle<Size> half;
   for (std::size_t i = 0; i < Size; ++i) {
     for (std::size_t j = 0; j < Size; ++j) {
-      rigor::Interval sum = c[i][0] * a(j, 0);
+      Interval sum = c[i][0] * a(j, 0);
       for (std::size_t k = 1; k <= i; ++k) {
         sum += c[i][k] * (k < j ? a(j, k) : a(k, j));
       }
       half[i][j] = sum;
     }
   }
-  rigor::LowerTriangle<Size> result;
+  LowerTriangle<Size> result;
   for (std::size_t i = 0; i < Size; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      rigor::Interval sum = half[i][0] * c[j][0];
+      Interval sum = half[i][0] * c[j][0];
       for (std::size_t k = 1; k <= j; ++k) {
         sum += half[i][k] * c[j][k];
       }
@@ -70,14 +70,13 @@ template <std::size_t Size, typename Entry>
 /// True only when the matrix is positive definite everywhere in the cell. By the mean value theorem it is its
 /// value in the middle, plus derivatives out of those of `over` times the way, at most `half_widths`. With
 /// the middles of these derivatives that is affine, so that the corners decide; the rest of them is added at
-/// each. What this rest of each variable amounts to is added to `influence`. Needs the upward mode.
+/// each. How far each variable moves the matrix is added to `influence`. Needs the upward mode.
 template <std::size_t Size, int N>
-[[nodiscard]] bool certainly_definite_over(
-    const rigor::LowerTriangle<Size>& middle,
-    const rigor::LowerTriangle<Size, rigor::Dual<rigor::Interval, N>>& over,
-    const std::array<double, static_cast<std::size_t>(N)>& half_widths,
-    std::array<double, static_cast<std::size_t>(N)>& influence) {
-  rigor::LowerTriangle<Size, double> rough{};
+[[nodiscard]] bool certainly_definite_over(const LowerTriangle<Size>& middle,
+                                           const LowerTriangle<Size, Dual<Interval, N>>& over,
+                                           const std::array<double, static_cast<std::size_t>(N)>& half_widths,
+                                           std::array<double, static_cast<std::size_t>(N)>& influence) {
+  LowerTriangle<Size, double> rough{};
   for (std::size_t i = 0; i < Size; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       rough[i][j] = midpoint(middle[i][j]);
@@ -87,33 +86,32 @@ template <std::size_t Size, int N>
   if (!proposed) {
     return false;
   }
-  rigor::LowerTriangle<Size> c;
+  LowerTriangle<Size> c;
   for (std::size_t i = 0; i < Size; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      c[i][j] = rigor::Interval((*proposed)[i][j]);
+      c[i][j] = Interval((*proposed)[i][j]);
     }
   }
-  rigor::LowerTriangle<Size> sum =
-      congruent<Size>(c, [&](std::size_t i, std::size_t j) { return middle[i][j]; });
-  std::array<rigor::LowerTriangle<Size>, static_cast<std::size_t>(N)> ways;
+  LowerTriangle<Size> sum = congruent<Size>(c, [&](std::size_t i, std::size_t j) { return middle[i][j]; });
+  std::array<LowerTriangle<Size>, static_cast<std::size_t>(N)> ways;
   for (int variable = 0; variable < N; ++variable) {
     const auto index = static_cast<std::size_t>(variable);
-    const rigor::Interval half_width(half_widths[index]);
+    const Interval half_width(half_widths[index]);
     const auto slope =
         congruent<Size>(c, [&](std::size_t i, std::size_t j) { return over[i][j].derivative(variable); });
     for (std::size_t i = 0; i < Size; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
-        const rigor::Interval straight(midpoint(slope[i][j]));
-        const double rest = (rigor::abs(slope[i][j] - straight) * half_width).upper();
-        influence[index] += rest;
-        sum[i][j] += rigor::symmetric(rest);
+        const Interval straight(midpoint(slope[i][j]));
+        const double rest = (abs(slope[i][j] - straight) * half_width).upper();
+        influence[index] += (abs(slope[i][j]) * half_width).upper();
+        sum[i][j] += symmetric(rest);
         ways[index][i][j] = straight * half_width;
       }
     }
   }
   // C A C' is definite with A, as C is triangular; a singular C would leave C A C' singular.
   for (unsigned corner = 0; corner < (1U << static_cast<unsigned>(N)); ++corner) {
-    rigor::LowerTriangle<Size> there = sum;
+    LowerTriangle<Size> there = sum;
     for (std::size_t index = 0; index < ways.size(); ++index) {
       const bool forward = ((corner >> index) & 1U) != 0U;
       for (std::size_t i = 0; i < Size; ++i) {
@@ -122,11 +120,11 @@ template <std::size_t Size, int N>
         }
       }
     }
-    if (!rigor::certainly_positive_definite<Size>(there)) {
+    if (!certainly_positive_definite<Size>(there)) {
       return false;
     }
   }
   return true;
 }
 
-}  // namespace veritrack::quadrature
+}  // namespace veritrack::rigor

@@ -16,7 +16,11 @@ Matrix whole(const Symmetric<double>& x) {
 }
 
 /// The largest t with det(x - t y) = 0 for y > 0, and its vector v, v'y v = 1.
-std::pair<double, Eigen::Vector3d> largest(const Matrix& x, const Matrix& y) {
+struct Largest {
+  double value;
+  Eigen::Vector3d vector;
+};
+Largest largest(const Matrix& x, const Matrix& y) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(x, y);
   if (solver.info() != Eigen::Success) {
     return {std::numeric_limits<double>::quiet_NaN(), Eigen::Vector3d::Zero()};
@@ -28,17 +32,17 @@ std::pair<double, Eigen::Vector3d> largest(const Matrix& x, const Matrix& y) {
 
 LevelSlope propose_level(const LockSetting<double>& setting, const LevelStep<double>& step,
                          const std::array<LevelStep<double>, 3>& derivatives) {
-  const auto [above, v] = largest(whole(step.upper.covariance) - whole(symmetric_of(setting.centre)),
-                                  whole(symmetric_of(setting.spread_above)));
+  const Largest above = largest(whole(step.upper.covariance) - whole(symmetric_of(setting.centre)),
+                                whole(symmetric_of(setting.spread_above)));
   const Matrix inverse = whole(step.lower.covariance).inverse();
-  const auto [below, w] = largest(inverse - whole(symmetric_of(setting.centre_inverse)),
-                                  whole(symmetric_of(setting.spread_below)));
+  const Largest below = largest(inverse - whole(symmetric_of(setting.centre_inverse)),
+                                whole(symmetric_of(setting.spread_below)));
   LevelSlope result;
-  const bool up = above > below;
-  result.level = up ? above : below;
-  const Eigen::Vector3d pulled = inverse * w;
+  const bool up = above.value > below.value;
+  result.level = up ? above.value : below.value;
+  const Eigen::Vector3d pulled = inverse * below.vector;
   const auto slope = [&](const Symmetric<double>& upper, const Symmetric<double>& lower) {
-    return up ? v.dot(whole(upper) * v) : -pulled.dot(whole(lower) * pulled);
+    return up ? above.vector.dot(whole(upper) * above.vector) : -pulled.dot(whole(lower) * pulled);
   };
   for (std::size_t i = 0; i < result.along.size(); ++i) {
     result.along[i] = slope(derivatives[i].upper.covariance, derivatives[i].lower.covariance);

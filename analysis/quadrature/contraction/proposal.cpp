@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "analysis/quadrature/contraction/shape_search.hpp"
 
@@ -65,43 +66,47 @@ Eigen::VectorXd with_one_more(const Eigen::VectorXd& point, const ShapeSearch& p
   return best;
 }
 
-/// The best point from the start of the space and, when there is noise or slew, from the best one without it:
-/// a little slew then needs no other set than none.
-search::BestPoint best_of_several(const ProposalRequest& request, const BlockCovariance<double>& steady) {
-  search::BestPoint best = best_point(request, steady, std::nullopt);
+/// The points found from the start of the space and, when there is noise or slew, from the best point without
+/// it: a little slew then needs no other set than none. The best first.
+std::vector<search::BestPoint> best_points(const ProposalRequest& request,
+                                           const BlockCovariance<double>& steady) {
+  const search::BestPoint best = best_point(request, steady, std::nullopt);
   if (sets_a_disturbance(request.objective) || !(request.noise > 0.0 || request.slew > 0.0)) {
-    return best;
+    return {best};
   }
   ProposalRequest quieter = request;
   (request.slew > 0.0 ? quieter.slew : quieter.noise) = 0.0;
-  const search::BestPoint without = best_of_several(quieter, steady);
+  const search::BestPoint without = best_points(quieter, steady).front();
   const search::BestPoint other = best_point(
       request, steady, with_one_more(without.point, ShapeSearch(request, steady), request.objective));
-  return other.value > best.value ? other : best;
+  return other.value > best.value ? std::vector{other, best} : std::vector{best, other};
 }
 
 }  // namespace
 
-std::optional<Shape> propose_shape(const ProposalRequest& request) {
+std::vector<Shape> propose_shapes(const ProposalRequest& request) {
   const auto steady = steady_covariance(request.design);
   if (!steady) {
-    return std::nullopt;
+    return {};
   }
-  const search::BestPoint best = best_of_several(request, *steady);
   const bool about_start = is_about_a_start(request.objective);
-  if (about_start ? !(best.value > kWorthless) : !(best.value > 0.0)) {
-    return std::nullopt;
-  }
   const ShapeSearch proposer(request, *steady);
-  Shape shape = proposer.shape(best.point);
-  shape.objective = best.value;
-  if (request.objective == Objective::start_error) {
-    shape.radius = proposer.largest_radius(shape);
-  } else if (about_start) {
-    const auto promise = proposer.promise(shape);
-    shape.radius = promise ? promise->radius : 0.0;
+  std::vector<Shape> shapes;
+  for (const search::BestPoint& best : best_points(request, *steady)) {
+    if (about_start ? !(best.value > kWorthless) : !(best.value > 0.0)) {
+      continue;
+    }
+    Shape shape = proposer.shape(best.point);
+    shape.objective = best.value;
+    if (request.objective == Objective::start_error) {
+      shape.radius = proposer.largest_radius(shape);
+    } else if (about_start) {
+      const auto promise = proposer.promise(shape);
+      shape.radius = promise ? promise->radius : 0.0;
+    }
+    shapes.push_back(shape);
   }
-  return shape;
+  return shapes;
 }
 
 std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Shape& shape, double fraction) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/quadrature/contraction/covariance_proposal.hpp"
@@ -43,8 +44,9 @@ struct Shape {
   double objective = 0.0;  ///< rad/sample, noise, slew, or (less is better) minus rad/sample or samples
 };
 
-/// The best shape found; nothing when sampling finds no set at all (q1 = 0, say). Deterministic.
-[[nodiscard]] std::optional<Shape> propose_shape(const ProposalRequest& request);
+/// The best shapes found, one or two, the best first; none when sampling finds no set at all (q1 = 0, say).
+/// Deterministic.
+[[nodiscard]] std::vector<Shape> propose_shapes(const ProposalRequest& request);
 
 /// A set of this shape at `fraction` of its objective, 0 < fraction <= 1, with as much room for the
 /// verification as noise and slew leave; nothing when sampling finds that none is there. For objectives about

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "analysis/quadrature/contraction/start_bounds.hpp"
 
@@ -38,14 +39,9 @@ ProposalRequest request_for(const sets::ContractionQuestion& question, Objective
 }
 
 std::optional<Verification> first_that_verifies(const sets::ContractionQuestion& question,
-                                                const ProposalRequest& request) {
-  const rigor::NearestRounding nearest;
-  const auto shape = propose_shape(request);
-  if (!shape) {
-    return std::nullopt;
-  }
+                                                const ProposalRequest& request, const Shape& shape) {
   for (const double fraction : {0.85, 0.8, 0.7, 0.6, 0.45, 0.3, 0.15, 0.05}) {
-    const auto proposal = propose_set(request, *shape, fraction);
+    const auto proposal = propose_set(request, shape, fraction);
     if (!proposal) {
       continue;
     }
@@ -65,13 +61,31 @@ std::optional<Verification> first_that_verifies(const sets::ContractionQuestion&
   return std::nullopt;
 }
 
+/// Of the shapes that are proposed the first that verifies, or, where its size is the objective, the largest.
+std::optional<Verification> best_that_verifies(const sets::ContractionQuestion& question,
+                                               const ProposalRequest& request) {
+  const rigor::NearestRounding nearest;
+  const auto size = [](const CertifiedSet& set) { return set.radius / set.metric(2, 2); };
+  std::optional<Verification> best;
+  for (const Shape& shape : propose_shapes(request)) {
+    std::optional<Verification> found = first_that_verifies(question, request, shape);
+    if (found && (!best || size(found->set) > size(best->set))) {
+      best = std::move(found);
+    }
+    if (best && request.objective != Objective::start_error) {
+      break;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<Verification> find_set(const sets::ContractionQuestion& question, Objective objective,
                                      double settled_error) {
   ProposalRequest request = request_for(question, objective);
   request.settled_error = settled_error;
-  return first_that_verifies(question, request);
+  return best_that_verifies(question, request);
 }
 
 std::optional<Verification> with_slew(const sets::ContractionQuestion& question, const CertifiedSet& noisy) {
@@ -103,7 +117,7 @@ std::optional<Verification> find_inner_set(const sets::ContractionQuestion& ques
     constexpr double kRoom = 1.0001;
     request.start << kRoom * bounds[0].upper(), kRoom * bounds[1].upper(), kRoom * bounds[2].upper();
   }
-  std::optional<Verification> inner = first_that_verifies(question, request);
+  std::optional<Verification> inner = best_that_verifies(question, request);
   const rigor::UpwardRounding upward;
   // cannot bind (outer): Promises asks the same before it uses the set.
   return inner && certainly_maps_into(outer, inner->set, question.noise, question.slew) ? inner

@@ -131,9 +131,9 @@ TEST_CASE("covariance bounds below zero, where process noise hides them from the
   request.design = {0.1, 0.001, 0.01, 0.0};
   request.objective = Objective::start_error;
   request.evaluations = 40;
-  const auto shape = propose_shape(request);
-  REQUIRE(shape.has_value());
-  auto set = propose_set(request, *shape, 0.2);
+  const auto shapes = propose_shapes(request);
+  REQUIRE(!shapes.empty());
+  auto set = propose_set(request, shapes.front(), 0.2);
   REQUIRE(set.has_value());
   const Design design{Interval(0.1), Interval(0.001), Interval(0.01), Interval(0.0)};
   REQUIRE(is_proved(*set, design));

@@ -41,12 +41,12 @@ ToneModel<Interval> exact(const ToneModel<double>& d) {
 /// The largest proposal on a ladder of fractions that verifies.
 Verification certify(const ProposalRequest& request) {
   Verification last;
-  const auto shape = propose_shape(request);
-  if (!shape) {
+  const auto shapes = propose_shapes(request);
+  if (shapes.empty()) {
     return last;
   }
   for (const double fraction : {0.8, 0.65, 0.5, 0.35, 0.2}) {
-    if (const auto set = propose_set(request, *shape, fraction)) {
+    if (const auto set = propose_set(request, shapes.front(), fraction)) {
       last = verify_certified_set(exact(request.design), *set);
       if (last.verdict == Verdict::proved) {
         break;
@@ -232,9 +232,9 @@ TEST_CASE("noise and slew within the certified limits never drive the tracker ou
 TEST_CASE("a set that is too large does not verify") {
   for (const Case& one : kCases) {
     const auto request = request_for(one.design, Objective::start_error);
-    const auto shape = propose_shape(request);
-    REQUIRE(shape.has_value());
-    auto set = propose_set(request, *shape, 0.5);
+    const auto shapes = propose_shapes(request);
+    REQUIRE(!shapes.empty());
+    auto set = propose_set(request, shapes.front(), 0.5);
     REQUIRE(set.has_value());
     CertifiedSet larger = *set;
     larger.radius *= 3.0;
@@ -256,9 +256,9 @@ TEST_CASE("a set that is too large does not verify") {
 
 TEST_CASE("proposals with NaN, infinities, wrong signs or a wrong form never verify and never throw") {
   const auto request = request_for(kCases[1].design, Objective::start_error);
-  const auto shape = propose_shape(request);
-  REQUIRE(shape.has_value());
-  const auto set = propose_set(request, *shape, 0.4);
+  const auto shapes = propose_shapes(request);
+  REQUIRE(!shapes.empty());
+  const auto set = propose_set(request, shapes.front(), 0.4);
   REQUIRE(set.has_value());
   REQUIRE(verify_certified_set(exact(kCases[1].design), *set).verdict == Verdict::proved);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -298,7 +298,7 @@ TEST_CASE("proposals with NaN, infinities, wrong signs or a wrong form never ver
 }
 
 TEST_CASE("without process noise on the amplitude nothing is proposed") {
-  CHECK_FALSE(propose_shape(request_for({0.0, 0.001, 0.01, 0.0}, Objective::start_error)).has_value());
+  CHECK(propose_shapes(request_for({0.0, 0.001, 0.01, 0.0}, Objective::start_error)).empty());
 }
 
 TEST_CASE("random designs: what is proved is never broken by simulation") {

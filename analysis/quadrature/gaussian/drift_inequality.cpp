@@ -222,23 +222,10 @@ std::optional<DriftInequality::ImageLevel> DriftInequality::find_level(const Cel
 }
 
 Interval DriftInequality::constant_over(const CellStep& step, const LevelCell& cell) const {
-  const auto values = [](const CovarianceImage<Derivatives>& image) {
-    CovarianceImage<Interval> result;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) {
-        result.covariance[i][j] = image.covariance[i][j].value();
-        result.slope[i][j] = image.slope[i][j].value();
-      }
-      result.mean[i] = image.mean[i].value();
-    }
-    return result;
-  };
-  const LevelStep<Interval> all{
-      values(step.over.lower),
-      values(step.over.upper),
-      {step.over.prediction_error[0].value(), step.over.prediction_error[1].value()}};
+  const Interval all = hull(step.ends[0], step.ends[1]);
+  const Interval& r = setting_.design.r;
   const Interval determinant =
-      determinant_.bound(images_at(all, hull(step.ends[0], step.ends[1]), setting_.design.r));
+      determinant_.bound_over(images_at(step.at, all, r), images_at(step.over, all, r), step.half_widths);
   const Interval core =
       Interval(2.0) *
       rigor::log(Interval(1.0) + Interval(set_.drift) * rigor::exp(-highest_level(set_, cell)));

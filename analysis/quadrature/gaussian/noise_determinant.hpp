@@ -12,8 +12,20 @@ class NoiseDeterminant {
 
   /// An upper bound over all covariances between the two images; infinite or empty when there is none.
   [[nodiscard]] rigor::Interval bound(const LevelImages<rigor::Interval>& images) const;
+  /// The same over a cell: with derivatives, from its middle. `over` are the images there, `middle` those in
+  /// the middle.
+  [[nodiscard]] rigor::Interval bound_over(const LevelImages<rigor::Interval>& middle,
+                                           const LevelImages<rigor::Dual<rigor::Interval, 3>>& over,
+                                           const std::array<double, 3>& half_widths) const;
 
  private:
+  /// A lower bound on 1 - tr(sigma^2 K'M_t K), which is at most det(I - sigma^2 K'M_t K).
+  template <typename Scalar>
+  [[nodiscard]] Scalar trace_bound(const LevelImages<Scalar>& images) const;
+  /// An upper bound on the eigenvalues of sigma^2 K'M_t K, by the sum of norms, with the values of a cell.
+  [[nodiscard]] rigor::Interval eigenvalue_bound(
+      const LevelImages<rigor::Dual<rigor::Interval, 3>>& images) const;
+
   rigor::Interval r_, noise_variance_;
   Symmetric<rigor::Interval> weight_;  ///< M_t = (M^-1 - w^2 e3 e3')^-1
   rigor::Interval walk_determinant_;   ///< det(I - w^2 e3 e3' M)

@@ -1,0 +1,182 @@
+#include "analysis/quadrature/gaussian/lock_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "analysis/quadrature/contraction/covariance_proposal.hpp"
+#include "analysis/quadrature/gaussian/drift_inequality.hpp"
+#include "analysis/search/maximize.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using LevelPoint = std::array<double, 4>;
+constexpr Eigen::Index kParameters = 13;
+
+/// A block matrix by its Cholesky factor [[a, 0, 0], [0, b, 0], [0, c, d]].
+struct Factor {
+  double a, b, c, d;
+  [[nodiscard]] BlockCovariance<double> product() const { return {a * a, b * b, b * c, c * c + d * d}; }
+};
+Factor factor_of(const BlockCovariance<double>& p) {
+  const double b = std::sqrt(p.p22);
+  const double c = p.p23 / b;
+  return {std::sqrt(p.p11), b, c, std::sqrt(p.p33 - c * c)};
+}
+/// The factor of C X C', C and X = f f' by their factors.
+Factor times(const Factor& c, const Factor& f) {
+  return {c.a * f.a, c.b * f.b, c.c * f.b + c.d * f.c, c.d * f.d};
+}
+Factor inverse(const Factor& c) {
+  return {1.0 / c.a, 1.0 / c.b, -c.c / (c.b * c.d), 1.0 / c.d};
+}
+/// C^-T X C^-1.
+BlockCovariance<double> pulled_back(const Factor& c, const BlockCovariance<double>& x) {
+  const Factor i = inverse(c);
+  const double row = x.p23 * i.d;
+  const double last = x.p33 * i.d;
+  return {x.p11 * i.a * i.a, i.b * i.b * x.p22 + 2.0 * i.b * i.c * x.p23 + i.c * i.c * x.p33,
+          i.b * row + i.c * last, last * i.d};
+}
+
+/// In coordinates in which the steady state is the identity and the noise is that of the model. Four numbers
+/// a matrix: logarithms of a, b, d, and c.
+class Shapes {
+ public:
+  Shapes(const LockRequest& request, const BlockCovariance<double>& steady)
+      : request_(request), steady_(steady), root_(factor_of(steady)) {}
+
+  /// What good sets of the designs of La Scala's Table 3.2 have in common.
+  [[nodiscard]] static search::SearchSpace space(int evaluations) {
+    search::SearchSpace space{Eigen::VectorXd(kParameters), Eigen::VectorXd::Constant(kParameters, 0.1),
+                              Eigen::VectorXd::Constant(kParameters, -6.0),
+                              Eigen::VectorXd::Constant(kParameters, 6.0), evaluations};
+    space.start << -0.8, -0.43, 0.21, -0.08,  // T
+        -0.03, -0.46, 0.32, -0.6,             // D_h
+        -0.2, -0.05, 0.26, -0.7,              // D_l
+        1.39;                                 // gamma
+    return space;
+  }
+
+  [[nodiscard]] LockSet set(const Eigen::VectorXd& x) const {
+    const auto factor = [&](Eigen::Index first) {
+      return Factor{std::exp(x[first]), std::exp(x[first + 1]), x[first + 2], std::exp(x[first + 3])};
+    };
+    LockSet set;
+    const double scale = request_.design.r / (request_.noise_deviation * request_.noise_deviation);
+    BlockCovariance<double> weight = pulled_back(root_, factor(0).product());
+    const Factor metric =
+        factor_of({scale * weight.p11, scale * weight.p22, scale * weight.p23, scale * weight.p33});
+    // M = T'T with an upper triangular T.
+    set.metric = {metric.a, metric.b, metric.c, metric.d};
+    set.centre = steady_;
+    set.spread_above = times(root_, factor(4)).product();
+    set.spread_below = pulled_back(root_, factor(8).product());
+    set.weight = std::exp(x[12]);
+    set.level = request_.level;
+    set.drift = request_.drift;
+    set.noise_deviation = request_.noise_deviation;
+    set.frequency_walk = request_.frequency_walk;
+    return set;
+  }
+
+ private:
+  const LockRequest& request_;
+  BlockCovariance<double> steady_;
+  Factor root_;
+};
+
+/// Directions in which points are looked at, evenly spread (Kronecker's sequence, by the normal quantiles'
+/// rough shape), with u3 and s not negative.
+std::vector<LevelPoint> directions(int count, int first) {
+  std::vector<LevelPoint> result;
+  result.reserve(static_cast<std::size_t>(count));
+  constexpr std::array<double, 4> kSteps{0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
+                                         0.5385972572236101};
+  for (int k = first; k < first + count; ++k) {
+    LevelPoint direction{};
+    double length = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      double part = 0.0;
+      const double uniform = 2.0 * std::modf(0.5 + k * kSteps[i], &part) - 1.0;
+      direction[i] = std::atanh(0.999 * uniform);
+      length += direction[i] * direction[i];
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      direction[i] = (i < 2 ? direction[i] : std::fabs(direction[i])) / std::sqrt(length);
+    }
+    result.push_back(direction);
+  }
+  return result;
+}
+
+/// The point of the set in this direction at a share of its level.
+LevelPoint point_at(const LockSet& set, const LevelPoint& direction, double share) {
+  const double radius = std::sqrt(2.0 * share * set.level);
+  return {radius * direction[0], radius * direction[1], radius * direction[2],
+          radius * direction[3] / std::sqrt(set.weight)};
+}
+
+constexpr std::array<double, 5> kShares{1.0, 0.85, 0.6, 0.35, 0.12};
+
+struct Worst {
+  double margin;
+  std::size_t direction;
+};
+Worst worst_of(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set,
+               const std::vector<LevelPoint>& directions) {
+  const DriftInequality inequality(design, set);
+  Worst worst{1.0, 0};
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    for (const double share : kShares) {
+      const double margin = inequality.margin_at(point_at(set, directions[k], share));
+      if (!(margin >= worst.margin)) {
+        worst = {std::isnan(margin) ? -1.0 : margin, k};
+      }
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
+  const auto steady = steady_covariance(request.design);
+  if (!steady) {
+    return std::nullopt;
+  }
+  constexpr int kRounds = 4;
+  constexpr int kFirstDirections = 40;
+  constexpr int kAllDirections = 1200;
+  constexpr std::size_t kAdded = 12;
+  const Shapes shapes(request, *steady);
+  const trackers::ToneModel<rigor::Interval> design{rigor::Interval(request.design.q1),
+                                                    rigor::Interval(request.design.q2),
+                                                    rigor::Interval(request.design.r), rigor::Interval(0.0)};
+  std::vector<LevelPoint> looked_at = directions(kFirstDirections, 1);
+  const std::vector<LevelPoint> all = directions(kAllDirections, 1);
+  search::SearchSpace space = Shapes::space(request.evaluations / kRounds);
+  for (int round = 0; round < kRounds; ++round) {
+    const search::BestPoint best = search::maximize(
+        [&](const Eigen::VectorXd& x) { return worst_of(design, shapes.set(x), looked_at).margin; }, space);
+    space.start = best.point;
+    space.step *= 0.6;
+    // The directions in which this set is worst are looked at from now on.
+    const LockSet set = shapes.set(best.point);
+    std::vector<std::pair<double, std::size_t>> margins;
+    margins.reserve(all.size());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      margins.emplace_back(worst_of(design, set, {all[k]}).margin, k);
+    }
+    std::sort(margins.begin(), margins.end());
+    for (std::size_t k = 0; k < kAdded; ++k) {
+      looked_at.push_back(all[margins[k].second]);
+    }
+  }
+  const LockSet set = shapes.set(space.start);
+  return LockProposal{set, worst_of(design, set, all).margin};
+}
+
+}  // namespace veritrack::quadrature

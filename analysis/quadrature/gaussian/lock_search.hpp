@@ -1,0 +1,33 @@
+// Which set might the noise leave seldom? Proposals in floating point; nothing here is evidence.
+#pragma once
+
+#include <optional>
+
+#include "analysis/quadrature/gaussian/lock_set.hpp"
+#include "trackers/tone_model.hpp"
+
+namespace veritrack::quadrature {
+
+/// What is asked of a proposal, for a signal of amplitude 1.
+struct LockRequest {
+  trackers::ToneModel<double> design;  ///< epsilon = 0
+  double noise_deviation = 0.0;        ///< of each channel, relative to the amplitude
+  double frequency_walk = 0.0;         ///< deviation of the frequency's step, rad/sample
+  double level = 27.0;                 ///< L
+  double drift = 0.5;                  ///< c_0
+  int evaluations = 1500;              ///< of the search; a thousand take some seconds
+};
+
+/// A proposal, and by how much the drift inequality holds at the sampled points of the set:
+/// DriftInequality::margin_at, the least of them.
+struct LockProposal {
+  LockSet set;
+  double margin = 0.0;
+};
+
+/// The set with the largest margin that was found: over all its thirteen shape parameters, points at which
+/// the inequality is worst being added on the way. Nothing when there is no steady state (q1 = 0).
+/// Deterministic; needs the upward mode.
+[[nodiscard]] std::optional<LockProposal> propose_lock_set(const LockRequest& request);
+
+}  // namespace veritrack::quadrature

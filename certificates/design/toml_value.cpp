@@ -103,7 +103,9 @@ Number TomlValue::real(RealPredicate is_allowed) const {
   const std::string shown = printable(number.text, kShownLimit);
   try {
     number.tight = rigor::parse_decimal(decimal);
-    number.value = with_room(number.tight);
+    // A number just inside what is allowed stays inside: 1e-400 is not negative.
+    const rigor::Interval wider = with_room(number.tight);
+    number.value = is_allowed(wider) ? wider : number.tight;
   } catch (const rigor::NumberFormatError&) {
     refuse(shown + ", not a decimal number in the range of double precision");
   }

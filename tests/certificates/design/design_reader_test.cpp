@@ -144,9 +144,17 @@ void check_number(const Number& number) {
   CHECK(std::nextafter(number.tight.lower(), kInfinity) >= number.tight.upper());
   CHECK(number.tight.lower() <= expected);
   CHECK(expected <= number.tight.upper());
-  // A unit in the last place around it, and no room where the number is a double.
-  const bool is_point = number.tight.lower() == number.tight.upper() ||
-                        !std::isfinite(std::nextafter(number.tight.upper(), kInfinity));
+  // A unit in the last place around it, and no room where the number is a double or next to a limit of what
+  // is allowed: 0, 1 and pi.
+  const bool is_inner = number.tight.lower() > 1e-300 && number.tight.upper() < 1e300 &&
+                        (number.tight.upper() < 0.9 || number.tight.lower() > 1.1) &&
+                        (number.tight.upper() < 3.1 || number.tight.lower() > 3.2);
+  if (!is_inner) {
+    CHECK(number.value.lower() <= number.tight.lower());
+    CHECK(number.value.upper() >= number.tight.upper());
+    return;
+  }
+  const bool is_point = number.tight.lower() == number.tight.upper();
   CHECK(number.value.lower() ==
         (is_point ? number.tight.lower() : std::nextafter(number.tight.lower(), -kInfinity)));
   CHECK(number.value.upper() ==
@@ -237,6 +245,17 @@ TEST_CASE("docs/design-file.md names every key") {
       }
     }
   }
+}
+
+TEST_CASE("a number just inside what is allowed has no room beyond it") {
+  const std::string text = contents(kSource / "tests" / "fuzz" / "corpus" / "design_reader" / "tiny.toml");
+  const Design design = read_design(text, "tiny.toml");
+  const auto& [q1, q2, r, epsilon] = quadrature_tables(design).design;
+  CHECK(q1.value.lower() == 0.0);
+  CHECK(q1.value.upper() > 0.0);
+  CHECK(q2.value.lower() > 0.0);
+  CHECK(r.value.lower() < r.tight.lower());
+  CHECK(epsilon.value.upper() < 1.0);
 }
 
 TEST_CASE("everything is read to its place") {

@@ -11,7 +11,8 @@
 //     [ I - mu sigma^2 Z'Delta Z/r^2,   .  ,                                .                   ]
 //     [ sigma T K,                      I - w^2 t3 t3' - T Delta T'/mu,     .                   ]
 //     [ mu sigma (Z'Delta Z p)'/r^2,    (T m)',                    l - mu p'Z'Delta Z p/r^2     ]   > 0,
-// m and K at the mean image, Z = H', p the prediction's error, t3 = T e3.
+// m and K at the mean image, Z = H', p the prediction's error, t3 = T e3. For the step of the program, which
+// rounds, I - ... is (1 - eta) I - ..., and so in the determinant (docs/gaussian.md, section 7).
 #pragma once
 
 #include <algorithm>
@@ -122,7 +123,9 @@ template <typename Constant, typename Scalar>
   }
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      const Constant unit = Constant(i == j ? 1.0 : 0.0) - setting.walk_variance * t3[i] * t3[j];
+      // The next metric is M/(1 - eta): room for what rounding adds to the error.
+      const Constant unit =
+          Constant(i == j ? 1.0 - kRoundingRoom : 0.0) - setting.walk_variance * t3[i] * t3[j];
       form[kError + i][kError + j] = unit - spread[i][j] * over_multiplier;
     }
     form[kLeft][kError + i] = mean[i];

@@ -19,8 +19,6 @@ using rigor::Interval;
 using Derivatives = rigor::Dual<Interval, 3>;
 using Point = std::array<double, 3>;
 
-/// What a step in double precision may change, and more (docs/gaussian.md).
-constexpr double kStrictness = 1e-9;
 /// Of the level of an image above its tangent: more is of no use in any cell.
 constexpr double kMostRaise = 1.0;
 
@@ -77,16 +75,44 @@ Interval highest_level(const LockSet& set, const LevelCell& cell) {
   return Interval(std::min((Interval(0.5) * twice).upper(), set.level));
 }
 
-/// The multiplier that leaves most, with a form at a point.
+/// What elimination leaves of the last entry, and the logarithm of the determinant; where a pivot is too
+/// small for that, less and less, so that a search finds its way out.
+struct Elimination {
+  double rest, log_determinant;
+};
+Elimination eliminated(DriftForm<double> form) {
+  constexpr double kLeastPivot = 1e-3;
+  constexpr double kPenalty = 100.0;
+  const auto logarithm = [](double x) {
+    return x > kLeastPivot ? std::log(x) : std::log(kLeastPivot) + (x - kLeastPivot) / kLeastPivot;
+  };
+  Elimination result{0.0, 0.0};
+  for (std::size_t k = 0; k < kLeft; ++k) {
+    double& pivot = form[k][k];
+    result.log_determinant += logarithm(pivot);
+    result.rest -= kPenalty * std::max(0.0, kLeastPivot - pivot);
+    pivot = std::max(kLeastPivot, pivot);
+    for (std::size_t i = k + 1; i < form.size(); ++i) {
+      const double factor = form[i][k] / pivot;
+      for (std::size_t j = k + 1; j <= i; ++j) {
+        form[i][j] -= factor * form[j][k];
+      }
+    }
+  }
+  result.rest += form[kLeft][kLeft];
+  result.log_determinant += logarithm(form[kLeft][kLeft]);
+  return result;
+}
+
+/// The multiplier with the largest determinant: away from all limits, as a cell needs it. And what it leaves.
 struct Choice {
   double multiplier = 0.0, left = -std::numeric_limits<double>::infinity();
 };
 Choice choose_multiplier(const LockSetting<double>& setting, const LevelImages<double>& images, double left) {
   const Symmetric<double>& delta = images.half_spread;
   const Symmetric<double> spread = transformed(setting.metric, delta);
-  const auto value = [&](double log_multiplier) {
-    DriftForm<double> form = drift_form(setting, images, left, std::exp(log_multiplier));
-    return rigor::eliminate(form, kLeft) ? -form[kLeft][kLeft] : std::numeric_limits<double>::infinity();
+  const auto at = [&](double log_multiplier) {
+    return eliminated(drift_form(setting, images, left, std::exp(log_multiplier)));
   };
   const double least = spread[0][0] + spread[1][1] + spread[2][2];
   const double most =
@@ -94,8 +120,9 @@ Choice choose_multiplier(const LockSetting<double>& setting, const LevelImages<d
   constexpr int kSteps = 12;
   const double low = std::log(std::max(least, 1e-12)) - 0.7;
   const double high = std::max(low + 1.0, std::min(std::log(most) + 0.7, low + 12.0));
-  const search::GoldenPoint best = search::golden_section(low, high, kSteps, value);
-  return {std::exp(best.point), -best.cost};
+  const search::GoldenPoint best =
+      search::golden_section(low, high, kSteps, [&](double x) { return -at(x).log_determinant; });
+  return {std::exp(best.point), at(best.point).rest};
 }
 
 }  // namespace
@@ -210,8 +237,7 @@ std::optional<DriftInequality::ImageLevel> DriftInequality::find_level(const Cel
   for (double raise = std::max(0.02 * widest * widest, 1e-9); raise < kMostRaise; raise *= 3.0) {
     ImageLevel level;
     for (std::size_t end = 0; end < 2; ++end) {
-      level.at[end] = Interval(proposed.level + raise) + Interval(proposed.with_level) * step.ends[end] +
-                      Interval(kStrictness);
+      level.at[end] = Interval(proposed.level + raise) + Interval(proposed.with_level) * step.ends[end];
       level.over[end] = Derivatives(level.at[end] + reach, slope);
     }
     if (is_level(step, level)) {
@@ -229,7 +255,7 @@ Interval DriftInequality::constant_over(const CellStep& step, const LevelCell& c
   const Interval core =
       Interval(2.0) *
       rigor::log(Interval(1.0) + Interval(set_.drift) * rigor::exp(-highest_level(set_, cell)));
-  return Interval(core.lower()) - Interval(determinant.upper()) - Interval(2.0 * kStrictness);
+  return Interval(core.lower()) - Interval(determinant.upper()) - Interval(2.0 * kRoundingRoom);
 }
 
 CellDrift DriftInequality::check(const LevelCell& cell) const {
@@ -247,7 +273,8 @@ CellDrift DriftInequality::check(const LevelCell& cell) const {
                                          const Interval& away) {
     using rigor::square;
     const Interval level_squared = square(step.level_middle) + Interval(2.0) * step.level_middle * away;
-    return Scalar(square(u[0]) + square(u[1]) + square(u[2]) - square(t) * setting_.weight +
+    const Scalar next = t + Interval(kRoundingRoom);
+    return Scalar(square(u[0]) + square(u[1]) + square(u[2]) - square(next) * setting_.weight +
                   (setting_.weight * level_squared + constant));
   };
   const Interval& r = setting_.design.r;
@@ -286,13 +313,12 @@ double DriftInequality::margin_at(const std::array<double, 4>& x) const {
       values.half_spread[i][j] = Interval(images.half_spread[i][j]);
     }
   }
-  const Interval determinant = determinant_.bound(values);
-  if (!is_finite(determinant) || !std::isfinite(level.level)) {
+  if (!std::isfinite(level.level)) {
     return -1.0;
   }
   const double twice = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + set_.weight * x[3] * x[3];
-  const double left = twice - set_.weight * std::max(0.0, level.level) * level.level - determinant.upper() +
-                      2.0 * std::log1p(set_.drift * std::exp(-0.5 * twice));
+  const double left = twice - set_.weight * std::max(0.0, level.level) * level.level -
+                      determinant_.roughly(values) + 2.0 * std::log1p(set_.drift * std::exp(-0.5 * twice));
   const double rest = choose_multiplier(rough_, images, left).left;
   return std::isfinite(rest) ? rest / (1.0 + twice) : -1.0;
 }

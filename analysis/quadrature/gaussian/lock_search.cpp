@@ -1,12 +1,17 @@
 #include "analysis/quadrature/gaussian/lock_search.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "analysis/quadrature/contraction/covariance_proposal.hpp"
 #include "analysis/quadrature/gaussian/drift_inequality.hpp"
-#include "analysis/search/maximize.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "analysis/search/maximin.hpp"
 
 namespace veritrack::quadrature {
 
@@ -121,23 +126,25 @@ LevelPoint point_at(const LockSet& set, const LevelPoint& direction, double shar
 
 constexpr std::array<double, 5> kShares{1.0, 0.85, 0.6, 0.35, 0.12};
 
-struct Worst {
-  double margin;
-  std::size_t direction;
+/// A direction and a share of the level.
+struct Sample {
+  LevelPoint direction;
+  double share;
 };
-Worst worst_of(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set,
-               const std::vector<LevelPoint>& directions) {
+
+/// The margins of a set at these samples, in parallel.
+Eigen::VectorXd margins_of(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set,
+                           const std::vector<Sample>& samples) {
   const DriftInequality inequality(design, set);
-  Worst worst{1.0, 0};
-  for (std::size_t k = 0; k < directions.size(); ++k) {
-    for (const double share : kShares) {
-      const double margin = inequality.margin_at(point_at(set, directions[k], share));
-      if (!(margin >= worst.margin)) {
-        worst = {std::isnan(margin) ? -1.0 : margin, k};
-      }
+  Eigen::VectorXd margins(static_cast<Eigen::Index>(samples.size()));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), 64), [&](const auto& range) {
+    const rigor::UpwardRounding upward;
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      const double margin = inequality.margin_at(point_at(set, samples[k].direction, samples[k].share));
+      margins[static_cast<Eigen::Index>(k)] = std::isnan(margin) ? -1.0 : margin;
     }
-  }
-  return worst;
+  });
+  return margins;
 }
 
 }  // namespace
@@ -147,36 +154,53 @@ std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
   if (!steady) {
     return std::nullopt;
   }
-  constexpr int kRounds = 4;
-  constexpr int kFirstDirections = 40;
   constexpr int kAllDirections = 1200;
-  constexpr std::size_t kAdded = 12;
-  const Shapes shapes(request, *steady);
+  constexpr std::size_t kAdded = 24;
   const trackers::ToneModel<rigor::Interval> design{rigor::Interval(request.design.q1),
                                                     rigor::Interval(request.design.q2),
                                                     rigor::Interval(request.design.r), rigor::Interval(0.0)};
-  std::vector<LevelPoint> looked_at = directions(kFirstDirections, 1);
-  const std::vector<LevelPoint> all = directions(kAllDirections, 1);
-  search::SearchSpace space = Shapes::space(request.evaluations / kRounds);
-  for (int round = 0; round < kRounds; ++round) {
-    const search::BestPoint best = search::maximize(
-        [&](const Eigen::VectorXd& x) { return worst_of(design, shapes.set(x), looked_at).margin; }, space);
-    space.start = best.point;
-    space.step *= 0.6;
-    // The directions in which this set is worst are looked at from now on.
-    const LockSet set = shapes.set(best.point);
-    std::vector<std::pair<double, std::size_t>> margins;
-    margins.reserve(all.size());
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      margins.emplace_back(worst_of(design, set, {all[k]}).margin, k);
-    }
-    std::sort(margins.begin(), margins.end());
-    for (std::size_t k = 0; k < kAdded; ++k) {
-      looked_at.push_back(all[margins[k].second]);
+  std::vector<Sample> all;
+  for (const LevelPoint& direction : directions(kAllDirections, 1)) {
+    for (const double share : kShares) {
+      all.push_back({direction, share});
     }
   }
-  const LockSet set = shapes.set(space.start);
-  return LockProposal{set, worst_of(design, set, all).margin};
+  // From less noise to that which is asked for: what is worst with less is nearly so with more.
+  constexpr std::array<double, 4> kNoise{0.5, 0.7, 0.9, 1.0};
+  std::vector<Sample> looked_at(all.begin(), all.begin() + 200);
+  search::SearchSpace space = Shapes::space(request.evaluations);
+  double least = -1.0;
+  const Shapes shapes(request, *steady);
+  LockSet set;
+  for (const double part : kNoise) {
+    const auto set_at = [&](const Eigen::VectorXd& x) {
+      LockSet easier = shapes.set(x);
+      easier.noise_deviation *= part;
+      easier.frequency_walk *= part;
+      return easier;
+    };
+    const int rounds = part < 1.0 ? 1 : 6;
+    for (int round = 0; round < rounds; ++round) {
+      const search::BestPoint best = search::climb_least(
+          [&](const Eigen::VectorXd& x) { return margins_of(design, set_at(x), looked_at); }, space);
+      space.start = best.point;
+      set = set_at(best.point);
+      const Eigen::VectorXd margins = margins_of(design, set, all);
+      least = margins.minCoeff();
+      if (least >= best.value - 1e-3 && round > 0) {
+        break;
+      }
+      std::vector<std::size_t> order(all.size());
+      std::iota(order.begin(), order.end(), std::size_t{0});
+      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return margins[static_cast<Eigen::Index>(a)] < margins[static_cast<Eigen::Index>(b)];
+      });
+      for (std::size_t k = 0; k < kAdded; ++k) {
+        looked_at.push_back(all[order[k]]);
+      }
+    }
+  }
+  return LockProposal{set, least};
 }
 
 }  // namespace veritrack::quadrature

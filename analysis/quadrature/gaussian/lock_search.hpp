@@ -15,7 +15,7 @@ struct LockRequest {
   double frequency_walk = 0.0;         ///< deviation of the frequency's step, rad/sample
   double level = 27.0;                 ///< L
   double drift = 0.5;                  ///< c_0
-  int evaluations = 1500;              ///< of the search; a thousand take some seconds
+  int evaluations = 400;               ///< of the search a round; some hundred take a second
 };
 
 /// A proposal, and by how much the drift inequality holds at the sampled points of the set:

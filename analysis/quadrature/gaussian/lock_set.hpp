@@ -5,6 +5,7 @@
 #include "analysis/quadrature/contraction/correction.hpp"
 #include "analysis/quadrature/contraction/gain_spread.hpp"
 #include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/matrix.hpp"
 
 namespace veritrack::quadrature {
 
@@ -16,7 +17,8 @@ namespace veritrack::quadrature {
 /// are exact doubles: what is certified is the set that they describe.
 ///
 /// When verify_lock_set has certified it, W = exp(level of (e, P)) satisfies E[W(k+1) | k] <= W(k) + drift
-/// wherever the level of (e(k), P(k)) is at most `level`: docs/gaussian.md, condition (4).
+/// wherever the level of (e(k), P(k)) is at most `level`: docs/gaussian.md, condition (4); and so it does
+/// when the exact step is followed by a change that is small enough: lock_rounding.hpp.
 struct LockSet {
   BlockMetric<double> metric;            ///< T, invertible
   BlockCovariance<double> centre;        ///< P_0 > 0
@@ -28,6 +30,13 @@ struct LockSet {
   double noise_deviation = 0.0;  ///< sigma of each channel, relative to the amplitude, > 0: an upper bound
   double frequency_walk = 0.0;   ///< deviation of the frequency's step, rad/sample, >= 0: an upper bound
 };
+
+/// eta of docs/gaussian.md, section 7: what the inequality has left for rounding.
+inline constexpr double kRoundingRoom = 0x1p-20;
+
+/// hi(s) and lo(s). Need the upward mode.
+[[nodiscard]] rigor::IntervalMatrix<3> upper_covariance(const LockSet& set, const rigor::Interval& s);
+[[nodiscard]] rigor::IntervalMatrix<3> lower_covariance(const LockSet& set, const rigor::Interval& s);
 
 /// An upper bound on |nu| in the set, rad/sample: sqrt(2 L)/t33. Needs the upward mode.
 [[nodiscard]] rigor::Interval largest_frequency_error(const LockSet& set);

@@ -1,6 +1,7 @@
 #include "analysis/quadrature/gaussian/noise_determinant.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/rigor/elementary.hpp"
 
@@ -11,10 +12,12 @@ using rigor::Interval;
 NoiseDeterminant::NoiseDeterminant(const LockSetting<Interval>& setting)
     : r_(setting.design.r), noise_variance_(setting.noise_variance) {
   const BlockMetric<Interval>& t = setting.metric;
-  // M_t = T'(I + w^2 t3 t3'/(1 - w^2 |t3|^2)) T, t3 = (0, coupling, frequency).
+  // With k = 1/(1 - eta), k M in place of M:
+  // M_t = k T'(I + k w^2 t3 t3'/(1 - k w^2 |t3|^2)) T, t3 = (0, coupling, frequency).
+  const Interval k = Interval(1.0) / Interval(1.0 - kRoundingRoom);
   const Interval length = rigor::square(t.coupling) + rigor::square(t.frequency);
-  walk_determinant_ = Interval(1.0) - setting.walk_variance * length;
-  const Interval more = setting.walk_variance / walk_determinant_;
+  walk_determinant_ = Interval(1.0) - k * setting.walk_variance * length;
+  const Interval more = k * setting.walk_variance / walk_determinant_;
   const std::array<Interval, 3> t3{Interval(0.0), t.phase * t.coupling, length};
   const Interval none(0.0);
   weight_ = {{{rigor::square(t.amplitude), none, none},
@@ -23,6 +26,11 @@ NoiseDeterminant::NoiseDeterminant(const LockSetting<Interval>& setting)
   for (std::size_t i = 1; i < 3; ++i) {
     for (std::size_t j = 1; j <= i; ++j) {
       weight_[i][j] += more * t3[i] * t3[j];
+    }
+  }
+  for (auto& row : weight_) {
+    for (Interval& entry : row) {
+      entry *= k;
     }
   }
 }
@@ -134,6 +142,16 @@ Interval NoiseDeterminant::eigenvalue_bound(const LevelImages<Derivatives>& imag
                                             at(images.half_spread, 1, 1));
   const Interval norm = root_of_square(mean) + root_of_square(root_of_square(squared) * spread);
   return Interval((noise_variance_ * rigor::square(norm / r_)).upper());
+}
+
+double NoiseDeterminant::roughly(const LevelImages<Interval>& images) const {
+  constexpr double kLeast = 1e-3;
+  const double trace = midpoint(trace_bound(images));
+  const double walk = midpoint(walk_determinant_);
+  const auto logarithm = [](double x) {
+    return x > kLeast ? std::log(x) : std::log(kLeast) + x / kLeast - 1.0;
+  };
+  return -(logarithm(trace) + logarithm(walk));
 }
 
 Interval NoiseDeterminant::bound(const LevelImages<Interval>& images) const {

@@ -12,6 +12,9 @@ class NoiseDeterminant {
 
   /// An upper bound over all covariances between the two images; infinite or empty when there is none.
   [[nodiscard]] rigor::Interval bound(const LevelImages<rigor::Interval>& images) const;
+  /// The same without rounding, and where there is none a number that grows with what is missing: for
+  /// searches.
+  [[nodiscard]] double roughly(const LevelImages<rigor::Interval>& images) const;
   /// The same over a cell: with derivatives, from its middle. `over` are the images there, `middle` those in
   /// the middle.
   [[nodiscard]] rigor::Interval bound_over(const LevelImages<rigor::Interval>& middle,

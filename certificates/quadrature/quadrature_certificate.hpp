@@ -7,7 +7,8 @@ namespace veritrack::certificates {
 
 /// Adds the published theorem in its readings ("theorem-2.9/..."), other published results, what this program
 /// proves ("contraction"; then, when the starts exceed the certified set, "capture" and perhaps
-/// "capture/noise-free" and "capture/reduced-noise"), and the claims. Needs the upward mode.
+/// "capture/noise-free" and "capture/reduced-noise"), and the claims. With Gaussian noise the probability of
+/// losing lock ("lock") in place of all these. Needs the upward mode.
 void certify_quadrature(Certificate& certificate, const CertifyProgress& progress);
 
 }  // namespace veritrack::certificates

@@ -87,6 +87,29 @@ Json certified_set_json(const NamedSet& named) {
           {"slew_gain", rigor::to_hexadecimal(set.slew_gain)}};
 }
 
+/// A metric, a covariance: [[a, 0, 0], [0, b, c], [0, d, e]].
+Json block_json(double a, double b, double c, double d, double e) {
+  Eigen::Matrix3d matrix;
+  matrix << a, 0.0, 0.0, 0.0, b, c, 0.0, d, e;
+  return matrix_json(matrix);
+}
+
+Json lock_set_json(const quadrature::LockSet& set) {
+  const auto covariance = [](const quadrature::BlockCovariance<double>& p) {
+    return block_json(p.p11, p.p22, p.p23, p.p23, p.p33);
+  };
+  return {{"metric", block_json(set.metric.amplitude, set.metric.phase, set.metric.coupling, 0.0,
+                                set.metric.frequency)},
+          {"centre", covariance(set.centre)},
+          {"spread_above", covariance(set.spread_above)},
+          {"spread_below", covariance(set.spread_below)},
+          {"weight", rigor::to_hexadecimal(set.weight)},
+          {"level", rigor::to_hexadecimal(set.level)},
+          {"drift", rigor::to_hexadecimal(set.drift)},
+          {"noise_deviation", rigor::to_hexadecimal(set.noise_deviation)},
+          {"frequency_walk", rigor::to_hexadecimal(set.frequency_walk)}};
+}
+
 }  // namespace
 
 Json quadrature_design_json(const Design& read) {
@@ -111,7 +134,11 @@ Json quadrature_evidence_json(const Certificate& certificate) {
   for (const NamedSet& set : quadrature_particulars(certificate).certified_sets) {
     sets.push_back(certified_set_json(set));
   }
-  return {{"certified_sets", sets}};
+  Json json{{"certified_sets", sets}};
+  if (const auto& set = quadrature_particulars(certificate).lock_set) {
+    json["lock_sets"] = Json::array({lock_set_json(*set)});
+  }
+  return json;
 }
 
 Json quadrature_report_json(const Certificate& certificate) {

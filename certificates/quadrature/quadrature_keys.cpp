@@ -43,7 +43,9 @@ std::vector<BoundTable> bind_tables(std::any& tables) {
 }
 
 std::optional<TableObjection> objection(const std::any& tables) {
-  return objection_to(std::any_cast<const QuadratureEkfTables&>(tables).require);
+  const auto& read = std::any_cast<const QuadratureEkfTables&>(tables);
+  const std::optional<TableObjection> found = objection_to(read.require);
+  return found ? found : objection_to(read.assume, read.require);
 }
 
 }  // namespace

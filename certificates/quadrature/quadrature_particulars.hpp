@@ -8,6 +8,7 @@
 #include "analysis/quadrature/capture/capture_basin.hpp"
 #include "analysis/quadrature/capture/capture_region.hpp"
 #include "analysis/quadrature/contraction/certified_set.hpp"
+#include "analysis/quadrature/gaussian/lock_set.hpp"
 #include "analysis/theorems/audit.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/quadrature/start_covariance.hpp"
@@ -48,6 +49,7 @@ struct ComparedResult {
 struct QuadratureParticulars {
   StartCovarianceText start_covariance;
   std::vector<NamedSet> certified_sets;
+  std::optional<quadrature::LockSet> lock_set;    ///< for Gaussian noise
   std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
   std::vector<AuditedDerivation> audits;
   std::vector<ComparedResult> comparison;

@@ -1,6 +1,7 @@
 // [assume] of the extended Kalman filters.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -44,6 +45,31 @@ void one_frequency_or_band(const TomlValue& value, Assumptions& assume) {
   }
   const Number number = value.real(frequency_of_a_sampled_signal);
   assume.frequency = {number, number};
+}
+
+bool finite_level(const Interval& x) {
+  return rigor::certainly_less_equal(rigor::abs(x), Interval(200.0));
+}
+
+/// A bound, or the deviation of Gaussian noise.
+void noise(const TomlValue& value, Assumptions& assume) {
+  assume.gaussian.reset();
+  if (!value.is_table()) {
+    assume.noise = value.real(not_negative);
+    return;
+  }
+  assume.noise = {};
+  if (const auto level = value.fields({"snr_db"})) {
+    assume.gaussian = GaussianNoise{level->front().real(finite_level), std::nullopt};
+  } else if (const auto deviation = value.fields({"deviation"})) {
+    assume.gaussian = GaussianNoise{std::nullopt, deviation->front().real(positive)};
+  } else {
+    value.refuse("a table with other keys");
+  }
+}
+
+bool at_least_one_sample(const Interval& x) {
+  return rigor::certainly_less_equal(Interval(1.0), x) && rigor::certainly_less_equal(x, Interval(1e15));
 }
 
 /// Symmetry is that of the intervals: they hold the symmetric matrices that a certificate is about.
@@ -173,6 +199,26 @@ constexpr std::array kAssumeKeys{
         initial_covariance, defaults_to("\"steady-state\"")},
 };
 
+/// kAssumeKeys with noise that may be Gaussian, and what goes with that.
+constexpr std::array<Key<Assume>, kAssumeKeys.size() + 2> with_gaussian_noise() {
+  std::array<Key<Assume>, kAssumeKeys.size() + 2> keys{};
+  std::copy(kAssumeKeys.begin(), kAssumeKeys.end(), keys.begin());
+  for (Key<Assume>& key : keys) {
+    if (key.name == "noise") {
+      key.allowed =
+          "a number, 0 or more (a bound), or Gaussian noise: { snr_db = a number from -200 to 200 } or { "
+          "deviation = a number above 0 }";
+      key.read = noise;
+    }
+  }
+  keys[kAssumeKeys.size()] = {"frequency_walk", kNotNegative, real<&Assume::frequency_walk, not_negative>,
+                              kOptional};
+  keys[kAssumeKeys.size() + 1] = {"samples", "a number from 1 to 1e15",
+                                  real<&Assume::samples, at_least_one_sample>, kOptional};
+  return keys;
+}
+constexpr std::array kAssumeKeysWithGaussianNoise = with_gaussian_noise();
+
 /// kAssumeKeys with a frequency that may be one number, and without ranges of covariances.
 constexpr std::array<Key<Assume>, kAssumeKeys.size()> with_one_frequency() {
   std::array<Key<Assume>, kAssumeKeys.size()> keys = kAssumeKeys;
@@ -197,6 +243,6 @@ std::span<const Key<Assumptions>> assume_keys_with_one_frequency() {
   return kAssumeKeysWithOneFrequency;
 }
 std::span<const Key<Assumptions>> assume_keys() {
-  return kAssumeKeys;
+  return kAssumeKeysWithGaussianNoise;
 }
 }  // namespace veritrack::certificates

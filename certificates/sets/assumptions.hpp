@@ -14,15 +14,26 @@ namespace veritrack::certificates {
 /// definite matrix, row by row.
 using CovarianceArray = std::array<std::array<Number, 3>, 3>;
 
+/// Errors of the samples without a bound: independent from sample to sample and from channel to channel,
+/// Gaussian with mean zero. Exactly one of the two.
+struct GaussianNoise {
+  std::optional<Number> snr_db;     ///< 10 log10(amplitude^2 / (2 deviation^2)), dB
+  std::optional<Number> deviation;  ///< of each channel, signal units
+};
+
 /// [assume].
 struct Assumptions {
   Number amplitude;                 ///< signal units
   std::array<Number, 2> frequency;  ///< [lowest, highest], rad/sample
-  Number noise;                     ///< |v(k)| <= noise for every k, signal units
-  Number slew;                      ///< |omega(k+1) - omega(k)| <= slew, rad/sample per sample
-  Number initial_frequency_error;   ///< rad/sample
-  Number initial_phase_error;       ///< rad
-  Number initial_amplitude_error;   ///< signal units
+  /// |v(k)| <= noise for every k, signal units. Empty where the noise is Gaussian: nothing follows from it.
+  Number noise;
+  std::optional<GaussianNoise> gaussian;
+  std::optional<Number> frequency_walk;  ///< deviation of Gaussian steps of the frequency, rad/sample
+  std::optional<Number> samples;         ///< for how many a probability is asked; given with Gaussian noise
+  Number slew;                           ///< |omega(k+1) - omega(k)| <= slew, rad/sample per sample
+  Number initial_frequency_error;        ///< rad/sample
+  Number initial_phase_error;            ///< rad
+  Number initial_amplitude_error;        ///< signal units
   /// At most one of the three; none: "steady-state". Every P(0|0) from the first to the second matrix in the
   /// Loewner order, or from the first to the second multiple of the matrix that the certificate prints.
   std::optional<CovarianceArray> initial_covariance;
@@ -32,12 +43,13 @@ struct Assumptions {
 
 /// [require]: what CI must find PROVED.
 struct Requirements {
-  std::optional<Number> frequency_error_below;            ///< rad/sample, for ever
-  std::optional<Number> settles_within;                   ///< samples, after which the frequency error stays
-  std::optional<Number> settled_below;                    ///< below that many rad/sample
-  std::optional<Number> largest_noise_at_least;           ///< signal units, at a constant frequency
-  std::optional<Number> largest_slew_at_least;            ///< rad/sample per sample, without noise
-  std::optional<Number> frequency_error_radius_at_least;  ///< rad/sample, of an invariant set
+  std::optional<Number> frequency_error_below;             ///< rad/sample, for ever
+  std::optional<Number> settles_within;                    ///< samples, after which the frequency error stays
+  std::optional<Number> settled_below;                     ///< below that many rad/sample
+  std::optional<Number> largest_noise_at_least;            ///< signal units, at a constant frequency
+  std::optional<Number> largest_slew_at_least;             ///< rad/sample per sample, without noise
+  std::optional<Number> frequency_error_radius_at_least;   ///< rad/sample, of an invariant set
+  std::optional<Number> probability_of_losing_lock_below;  ///< within the assumed samples, Gaussian noise
 };
 
 /// [simulate]: the run that the audit and the figures use.

@@ -27,6 +27,16 @@ Json initial_covariance(const Assumptions& assume) {
   return assume.initial_covariance ? rows_json(*assume.initial_covariance) : Json("steady-state");
 }
 
+Json noise_json(const Assumptions& assume) {
+  if (!assume.gaussian) {
+    return number_json(assume.noise);
+  }
+  Json json = Json::object();
+  add_number(json, "snr_db", assume.gaussian->snr_db);
+  add_number(json, "deviation", assume.gaussian->deviation);
+  return json;
+}
+
 }  // namespace
 
 Json require_json(const Requirements& require) {
@@ -37,18 +47,22 @@ Json require_json(const Requirements& require) {
   add_number(json, "largest_noise_at_least", require.largest_noise_at_least);
   add_number(json, "largest_slew_at_least", require.largest_slew_at_least);
   add_number(json, "frequency_error_radius_at_least", require.frequency_error_radius_at_least);
+  add_number(json, "probability_of_losing_lock_below", require.probability_of_losing_lock_below);
   return json;
 }
 
 Json assume_json(const Assumptions& assume) {
-  return {{"amplitude", number_json(assume.amplitude)},
-          {"frequency", {number_json(assume.frequency[0]), number_json(assume.frequency[1])}},
-          {"noise", number_json(assume.noise)},
-          {"slew", number_json(assume.slew)},
-          {"initial_frequency_error", number_json(assume.initial_frequency_error)},
-          {"initial_phase_error", number_json(assume.initial_phase_error)},
-          {"initial_amplitude_error", number_json(assume.initial_amplitude_error)},
-          {"initial_covariance", initial_covariance(assume)}};
+  Json json = {{"amplitude", number_json(assume.amplitude)},
+               {"frequency", {number_json(assume.frequency[0]), number_json(assume.frequency[1])}},
+               {"noise", noise_json(assume)},
+               {"slew", number_json(assume.slew)},
+               {"initial_frequency_error", number_json(assume.initial_frequency_error)},
+               {"initial_phase_error", number_json(assume.initial_phase_error)},
+               {"initial_amplitude_error", number_json(assume.initial_amplitude_error)},
+               {"initial_covariance", initial_covariance(assume)}};
+  add_number(json, "frequency_walk", assume.frequency_walk);
+  add_number(json, "samples", assume.samples);
+  return json;
 }
 
 Json simulate_json(const SimulationSettings& simulate) {

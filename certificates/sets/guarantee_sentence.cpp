@@ -10,6 +10,7 @@
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/contraction.hpp"
+#include "certificates/sets/gaussian_noise.hpp"
 
 namespace veritrack::certificates {
 
@@ -58,6 +59,9 @@ std::string objection(const sets::StartResult& starts) {
 
 std::string assumed_disturbance(const GuaranteeTerms& terms) {
   const Assumptions& assume = terms.assume;
+  if (assume.gaussian) {
+    return gaussian_disturbance(assume);
+  }
   std::string text = is_zero(assume.slew)
                          ? " and is constant"
                          : fmt::format(" and changes by at most {} rad/sample per sample", assume.slew.text);
@@ -85,8 +89,10 @@ std::string tone(const GuaranteeTerms& terms, bool disturbed) {
   const Assumptions& assume = terms.assume;
   std::string text = fmt::format("{}, for a tone of constant amplitude {} whose frequency ", terms.arithmetic,
                                  assume.amplitude.text);
+  const bool walks = assume.frequency_walk && !is_zero(*assume.frequency_walk);
   text += terms.in_band ? fmt::format("lies between {} and {} rad/sample", assume.frequency[0].text,
                                       assume.frequency[1].text)
+          : walks       ? "is at most pi rad/sample at the start"
                         : "is at most pi rad/sample";
   return text + (disturbed ? assumed_disturbance(terms) : "");
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "certificates/document/markdown_text.hpp"
@@ -47,19 +48,35 @@ std::string assumptions_section(const Assumptions& assume) {
   };
   const auto code = [](const Number& number) { return "`" + number.text + "`"; };
   std::string text = "## Assumptions on the signal and the start\n\n";
-  text += markdown::table(
-      {"Assumption", "Value", "Unit"},
-      {row("amplitude of the signal", "A =", code(assume.amplitude), "signal units"),
-       row("frequency, always within", "",
-           fmt::format("[{}, {}]", code(assume.frequency[0]), code(assume.frequency[1])), "rad/sample"),
-       row("measurement noise, every sample", "|v(k)| \\le", code(assume.noise), "signal units"),
-       row("change of frequency, every sample", "|\\omega(k+1) - \\omega(k)| \\le", code(assume.slew),
-           "rad/sample per sample"),
-       row("error of frequency at the start", "|\\hat x_3(0) - \\omega(0)| \\le",
-           code(assume.initial_frequency_error), "rad/sample"),
-       row("error of phase at the start", "\\le", code(assume.initial_phase_error), "rad"),
-       row("error of amplitude at the start", "\\le", code(assume.initial_amplitude_error), "signal units"),
-       row("covariance at the start", "P(0|0):", covariance_text(assume), "")});
+  std::vector<std::vector<std::string>> rows{
+      row("amplitude of the signal", "A =", code(assume.amplitude), "signal units"),
+      row(assume.gaussian ? "frequency at the start, within" : "frequency, always within", "",
+          fmt::format("[{}, {}]", code(assume.frequency[0]), code(assume.frequency[1])), "rad/sample")};
+  if (const auto& gaussian = assume.gaussian) {
+    rows.push_back(gaussian->snr_db
+                       ? row("measurement noise, independent Gaussian: signal-to-noise ratio",
+                             "A^2/(2\\sigma^2) =", code(*gaussian->snr_db), "dB")
+                       : row("measurement noise, independent Gaussian: deviation in each channel",
+                             "\\sigma =", code(*gaussian->deviation), "signal units"));
+    rows.push_back(assume.frequency_walk ? row("deviation of the frequency's independent Gaussian steps",
+                                               "w =", code(*assume.frequency_walk), "rad/sample")
+                                         : row("frequency", "", "constant", ""));
+    rows.push_back(row("for so many samples", "N =", code(assume.samples.value()), "samples"));
+  } else {
+    rows.push_back(row("measurement noise, every sample", "|v(k)| \\le", code(assume.noise), "signal units"));
+    rows.push_back(row("change of frequency, every sample", "|\\omega(k+1) - \\omega(k)| \\le",
+                       code(assume.slew), "rad/sample per sample"));
+  }
+  for (auto& start : std::vector<std::vector<std::string>>{
+           row("error of frequency at the start", "|\\hat x_3(0) - \\omega(0)| \\le",
+               code(assume.initial_frequency_error), "rad/sample"),
+           row("error of phase at the start", "\\le", code(assume.initial_phase_error), "rad"),
+           row("error of amplitude at the start", "\\le", code(assume.initial_amplitude_error),
+               "signal units"),
+           row("covariance at the start", "P(0|0):", covariance_text(assume), "")}) {
+    rows.push_back(std::move(start));
+  }
+  text += markdown::table({"Assumption", "Value", "Unit"}, rows);
   return text +
          "\nThe decimals in these tables are exact: every computation covers both the decimal and the double "
          "nearest to it, with which the filter runs.\n\n";

@@ -22,6 +22,10 @@ bool at_least_one(const Interval& x) {
   return rigor::certainly_less_equal(Interval(1.0), x);
 }
 
+bool between_zero_and_one(const Interval& x) {
+  return positive(x) && rigor::certainly_less(x, Interval(1.0));
+}
+
 template <auto member, RealPredicate is_allowed>
 void whole_number(const TomlValue& value, Owner<member>& target) {
   target.*member = value.whole_number(is_allowed);
@@ -44,6 +48,8 @@ constexpr std::array kRequireKeys{
                  kOptional},
     Key<Require>{"frequency_error_radius_at_least", kPositive,
                  real<&Require::frequency_error_radius_at_least, positive>, kOptional},
+    Key<Require>{"probability_of_losing_lock_below", "a number above 0 and below 1",
+                 real<&Require::probability_of_losing_lock_below, between_zero_and_one>, kOptional},
 };
 
 using Simulate = SimulationSettings;
@@ -52,6 +58,45 @@ using Simulate = SimulationSettings;
 
 std::span<const Key<Requirements>> require_keys() {
   return kRequireKeys;
+}
+std::span<const Key<Requirements>> require_keys_of_bounded_noise() {
+  return require_keys().first(kRequireKeys.size() - 1);
+}
+
+std::optional<TableObjection> objection_to(const Assumptions& assume, const Requirements& require) {
+  if (!assume.gaussian) {
+    if (assume.frequency_walk || assume.samples) {
+      return TableObjection{
+          "assume",
+          "frequency_walk and samples go with Gaussian noise; allowed: noise = { snr_db = ... "
+          "} or { deviation = ... }, or a slew without these keys"};
+    }
+    return require.probability_of_losing_lock_below
+               ? std::optional(TableObjection{
+                     "require",
+                     "probability_of_losing_lock_below goes with Gaussian noise: with a bound on the noise "
+                     "there are guarantees for ever; allowed: noise = { snr_db = ... } in [assume]"})
+               : std::nullopt;
+  }
+  if (!assume.samples) {
+    return TableObjection{"assume",
+                          "with Gaussian noise samples is missing: for how many samples the probability of "
+                          "losing lock is asked; allowed: a number from 1 to 1e15"};
+  }
+  if (!(assume.slew.value == Interval(0.0))) {
+    return TableObjection{"assume",
+                          "slew is a bound, which is not certified together with Gaussian noise; allowed: "
+                          "frequency_walk, the deviation of Gaussian steps of the frequency"};
+  }
+  const bool asks_for_ever = require.frequency_error_below || require.settles_within ||
+                             require.largest_noise_at_least || require.largest_slew_at_least ||
+                             require.frequency_error_radius_at_least;
+  return asks_for_ever
+             ? std::optional(TableObjection{
+                   "require",
+                   "nothing holds for ever with Gaussian noise, which exceeds every bound some time; "
+                   "allowed: probability_of_losing_lock_below"})
+             : std::nullopt;
 }
 
 std::optional<TableObjection> objection_to(const Requirements& require) {

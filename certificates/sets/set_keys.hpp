@@ -9,16 +9,20 @@
 
 namespace veritrack::certificates {
 
-/// [assume]
+/// [assume], with noise that may be Gaussian.
 [[nodiscard]] std::span<const Key<Assumptions>> assume_keys();
-/// [assume] of a tracker whose frequency may also be a single number.
+/// [assume] of a tracker whose frequency may also be a single number; its noise has a bound.
 [[nodiscard]] std::span<const Key<Assumptions>> assume_keys_with_one_frequency();
-/// [require]
+/// [require], with and without what is asked of Gaussian noise.
 [[nodiscard]] std::span<const Key<Requirements>> require_keys();
+[[nodiscard]] std::span<const Key<Requirements>> require_keys_of_bounded_noise();
 /// [simulate]
 [[nodiscard]] std::span<const Key<SimulationSettings>> simulate_keys();
 
 /// What no single key of [require] can say: that settling takes two.
 [[nodiscard]] std::optional<TableObjection> objection_to(const Requirements& require);
+/// Nor that what goes with Gaussian noise goes with a bound.
+[[nodiscard]] std::optional<TableObjection> objection_to(const Assumptions& assume,
+                                                         const Requirements& require);
 
 }  // namespace veritrack::certificates

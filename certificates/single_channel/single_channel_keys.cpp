@@ -45,7 +45,7 @@ std::vector<BoundTable> bind_tables(std::any& tables) {
   auto& target = std::any_cast<SingleChannelEkfTables&>(tables);
   return {bound_table("design", kSingleChannelEkfKeys, target.design),
           bound_table("assume", assume_keys_with_one_frequency(), target.assume),
-          bound_table("require", require_keys(), target.require),
+          bound_table("require", require_keys_of_bounded_noise(), target.require),
           bound_table("simulate", simulate_keys(), target.simulate)};
 }
 

@@ -45,11 +45,25 @@ void check(const QuadratureEkfTables& tables) {
   const Theorem29Parameters& theorem = tables.theorem_2_9;
   for (const Number& number :
        {tables.design.q1, tables.design.q2, tables.design.r, tables.design.epsilon, assume.amplitude,
-        assume.frequency[0], assume.frequency[1], assume.noise, assume.slew, assume.initial_frequency_error,
+        assume.frequency[0], assume.frequency[1], assume.slew, assume.initial_frequency_error,
         assume.initial_phase_error, assume.initial_amplitude_error, theorem.state_bound, theorem.sigma,
         theorem.gamma_fraction, theorem.c1, theorem.c2}) {
     check(number);
     require(number.value.lower() >= 0.0, "a negative number");
+  }
+  require(assume.gaussian.has_value() == assume.samples.has_value(), "samples without Gaussian noise");
+  if (!assume.gaussian) {
+    check(assume.noise);
+    require(assume.noise.value.lower() >= 0.0, "negative noise");
+    require(!assume.frequency_walk && !tables.require.probability_of_losing_lock_below,
+            "Gaussian keys with a bound");
+  } else {
+    const auto& [snr, deviation] = *assume.gaussian;
+    require(snr.has_value() != deviation.has_value(), "neither an SNR nor a deviation, or both");
+    check(snr ? *snr : *deviation);
+    require(snr || deviation->value.lower() > 0.0, "a deviation that may be zero");
+    check(*assume.samples);
+    require(assume.slew.value.upper() == 0.0, "Gaussian noise with a slew");
   }
   for (const Number& number : {tables.design.q2, tables.design.r, assume.amplitude, theorem.state_bound,
                                theorem.sigma, theorem.gamma_fraction}) {

@@ -67,6 +67,11 @@ struct SignalOptions {
   double frequency_high = 3.0;
   double noise_bound = 0.0;  ///< |y(k) - clean(k)| <= noise_bound, signal units
   double slew_bound = 0.0;   ///< |omega(k+1) - omega(k)| <= slew_bound, rad/sample per sample
+  /// Deviation of Gaussian noise in each channel, signal units, instead of noise in a disc where above 0.
+  double noise_deviation = 0.0;
+  /// Deviation of Gaussian steps of the frequency, rad/sample, from the middle of the band on, instead of
+  /// what the name says of the frequency, where above 0.
+  double walk_deviation = 0.0;
 };
 
 struct SignalDescription {
@@ -165,6 +170,19 @@ inline constexpr double kWithinBounds = 1.0 - 0x1p-20;
   return frequencies;
 }
 
+/// Gaussian steps from the middle of the band on; they know no band.
+[[nodiscard]] inline std::vector<double> gaussian_walk_frequencies(const SignalOptions& options,
+                                                                   RandomStream& random) {
+  std::vector<double> frequencies;
+  frequencies.reserve(static_cast<std::size_t>(options.samples));
+  double current = middle_of_band(options);
+  for (std::int64_t k = 0; k < options.samples; ++k) {
+    frequencies.push_back(current);
+    current += options.walk_deviation * random.normal();
+  }
+  return frequencies;
+}
+
 /// See the top of this file.
 [[nodiscard]] inline std::vector<double> la_scala_frequencies(std::int64_t samples) {
   constexpr double kStart = 0.5;        // rad/sample
@@ -204,6 +222,9 @@ inline void require_valid(const SignalOptions& options) {
           "the noise bound must be finite and not negative");
   require(options.slew_bound >= 0.0 && std::isfinite(options.slew_bound),
           "the slew bound must be finite and not negative");
+  require(options.noise_deviation >= 0.0 && std::isfinite(options.noise_deviation) &&
+              options.walk_deviation >= 0.0 && std::isfinite(options.walk_deviation),
+          "the deviations must be finite and not negative");
 }
 
 }  // namespace detail
@@ -215,7 +236,9 @@ inline void require_valid(const SignalOptions& options) {
   detail::require_valid(options);
   RandomStream random(options.seed);
   std::vector<double> frequencies;
-  if (signal.name == "constant") {
+  if (signal.honours_bounds && options.walk_deviation > 0.0) {
+    frequencies = detail::gaussian_walk_frequencies(options, random);
+  } else if (signal.name == "constant") {
     frequencies.assign(static_cast<std::size_t>(options.samples), detail::middle_of_band(options));
   } else if (signal.name == "sweep") {
     frequencies = detail::sweep_frequencies(options);
@@ -234,7 +257,10 @@ inline void require_valid(const SignalOptions& options) {
     const double clean_in_phase = options.amplitude * cosine;
     const double clean_quadrature = options.amplitude * sine;
     std::pair<double, double> noise;
-    if (signal.honours_bounds) {
+    if (signal.honours_bounds && options.noise_deviation > 0.0) {
+      noise.first = options.noise_deviation * random.normal();
+      noise.second = options.noise_deviation * random.normal();
+    } else if (signal.honours_bounds) {
       noise = random.in_disc(options.noise_bound * detail::kWithinBounds);
     } else {
       noise.first = kLaScalaDeviation * options.amplitude * random.normal();

@@ -35,7 +35,8 @@ template <typename Constant, typename Scalar>
 
 /// T X T' of a symmetric X.
 template <typename Constant, typename Scalar>
-[[nodiscard]] Symmetric<Scalar> transformed(const BlockMetric<Constant>& t, const Symmetric<Scalar>& x) {
+[[nodiscard]] SymmetricMatrix<Scalar> transformed(const BlockMetric<Constant>& t,
+                                                  const SymmetricMatrix<Scalar>& x) {
   const Scalar row2 = x[1][1] * t.phase + x[2][1] * t.coupling;
   const Scalar row3 = x[2][1] * t.phase + x[2][2] * t.coupling;
   const Scalar none(0.0);
@@ -48,15 +49,15 @@ template <typename Constant, typename Scalar>
 /// The images at the level s + away, bounded by their tangents.
 template <typename Scalar>
 struct LevelImages {
-  Symmetric<Scalar> mean, half_spread;  ///< (Psi_hi + Psi_lo)/2, (Psi_hi - Psi_lo)/2
-  std::array<Scalar, 3> error;          ///< m at the mean image
+  SymmetricMatrix<Scalar> mean, half_spread;  ///< (Psi_hi + Psi_lo)/2, (Psi_hi - Psi_lo)/2
+  std::array<Scalar, 3> error;                ///< m at the mean image
   std::array<Scalar, 2> prediction_error;
 };
 template <typename Constant, typename Scalar>
 [[nodiscard]] LevelImages<Scalar> images_at(const LevelStep<Scalar>& step, const Constant& away,
                                             const Constant& r) {
-  const Symmetric<Scalar> low = moved(step.lower.covariance, away, step.lower.slope);
-  const Symmetric<Scalar> high = moved(step.upper.covariance, away, step.upper.slope);
+  const SymmetricMatrix<Scalar> low = moved(step.lower.covariance, away, step.lower.slope);
+  const SymmetricMatrix<Scalar> high = moved(step.upper.covariance, away, step.upper.slope);
   const Constant half(0.5);
   LevelImages<Scalar> images;
   images.prediction_error = step.prediction_error;
@@ -88,8 +89,8 @@ template <typename Constant, typename Scalar>
   const Constant one(1.0);
   const Constant& deviation = setting.deviation;
   const Constant over_r = one / setting.design.r;
-  const Symmetric<Scalar>& delta = images.half_spread;
-  const Symmetric<Scalar> spread = transformed(t, delta);
+  const SymmetricMatrix<Scalar>& delta = images.half_spread;
+  const SymmetricMatrix<Scalar> spread = transformed(t, delta);
   const auto& p = images.prediction_error;
   // Z'Delta Z p.
   const std::array<Scalar, 2> pulled{delta[0][0] * p[0] + delta[1][0] * p[1],

@@ -27,8 +27,8 @@ double middle_of(const Interval& x) {
 }
 
 template <typename Scalar, typename Part>
-CovarianceImage<double> rough(const CovarianceImage<Scalar>& image, const Part& part) {
-  CovarianceImage<double> result{};
+LevelImage<double> rough(const LevelImage<Scalar>& image, const Part& part) {
+  LevelImage<double> result{};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       result.covariance[i][j] = part(image.covariance[i][j]);
@@ -109,8 +109,8 @@ struct Choice {
   double multiplier = 0.0, left = -std::numeric_limits<double>::infinity();
 };
 Choice choose_multiplier(const LockSetting<double>& setting, const LevelImages<double>& images, double left) {
-  const Symmetric<double>& delta = images.half_spread;
-  const Symmetric<double> spread = transformed(setting.metric, delta);
+  const SymmetricMatrix<double>& delta = images.half_spread;
+  const SymmetricMatrix<double> spread = transformed(setting.metric, delta);
   const auto at = [&](double log_multiplier) {
     return eliminated(drift_form(setting, images, left, std::exp(log_multiplier)));
   };

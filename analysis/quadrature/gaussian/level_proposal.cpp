@@ -9,7 +9,7 @@ namespace {
 
 using Matrix = Eigen::Matrix3d;
 
-Matrix whole(const Symmetric<double>& x) {
+Matrix whole(const SymmetricMatrix<double>& x) {
   Matrix m;
   m << x[0][0], x[1][0], x[2][0], x[1][0], x[1][1], x[2][1], x[2][0], x[2][1], x[2][2];
   return m;
@@ -41,7 +41,7 @@ LevelSlope propose_level(const LockSetting<double>& setting, const LevelStep<dou
   const bool up = above.value > below.value;
   result.level = up ? above.value : below.value;
   const Eigen::Vector3d pulled = inverse * below.vector;
-  const auto slope = [&](const Symmetric<double>& upper, const Symmetric<double>& lower) {
+  const auto slope = [&](const SymmetricMatrix<double>& upper, const SymmetricMatrix<double>& lower) {
     return up ? above.vector.dot(whole(upper) * above.vector) : -pulled.dot(whole(lower) * pulled);
   };
   for (std::size_t i = 0; i < result.along.size(); ++i) {

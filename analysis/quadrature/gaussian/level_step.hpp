@@ -79,17 +79,18 @@ template <typename Scalar>
 
 /// A symmetric 3x3 matrix, its lower triangle.
 template <typename Scalar>
-using Symmetric = rigor::LowerTriangle<3, Scalar>;
+using SymmetricMatrix = rigor::LowerTriangle<3, Scalar>;
 
 template <typename Scalar>
-[[nodiscard]] Symmetric<Scalar> symmetric_of(const BlockCovariance<Scalar>& p) {
+[[nodiscard]] SymmetricMatrix<Scalar> symmetric_of(const BlockCovariance<Scalar>& p) {
   const Scalar none(0.0);
   return {{{p.p11, none, none}, {none, p.p22, none}, {none, p.p23, p.p33}}};
 }
 
 /// x - y.
 template <typename Scalar>
-[[nodiscard]] Symmetric<Scalar> difference(const Symmetric<Scalar>& x, const Symmetric<Scalar>& y) {
+[[nodiscard]] SymmetricMatrix<Scalar> difference(const SymmetricMatrix<Scalar>& x,
+                                                 const SymmetricMatrix<Scalar>& y) {
   const Scalar none(0.0);
   return {{{x[0][0] - y[0][0], none, none},
            {x[1][0] - y[1][0], x[1][1] - y[1][1], none},
@@ -98,8 +99,8 @@ template <typename Scalar>
 
 /// p + s d.
 template <typename Scalar, typename Constant>
-[[nodiscard]] Symmetric<Scalar> moved(const Symmetric<Scalar>& p, const Constant& s,
-                                      const Symmetric<Scalar>& d) {
+[[nodiscard]] SymmetricMatrix<Scalar> moved(const SymmetricMatrix<Scalar>& p, const Constant& s,
+                                            const SymmetricMatrix<Scalar>& d) {
   const Scalar none(0.0);
   return {{{p[0][0] + d[0][0] * s, none, none},
            {p[1][0] + d[1][0] * s, p[1][1] + d[1][1] * s, none},
@@ -116,8 +117,8 @@ template <typename Constant, typename Scalar>
 
 /// What a step makes of one covariance: its image, how that moves with the covariance, and m.
 template <typename Scalar>
-struct CovarianceImage {
-  Symmetric<Scalar> covariance, slope;
+struct LevelImage {
+  SymmetricMatrix<Scalar> covariance, slope;
   std::array<Scalar, 3> mean;
 };
 
@@ -125,7 +126,8 @@ namespace detail {
 
 /// U X U' for U = diag(Rot(angle), 1).
 template <typename Scalar>
-[[nodiscard]] Symmetric<Scalar> turned(const Symmetric<Scalar>& x, const Scalar& sine, const Scalar& cosine) {
+[[nodiscard]] SymmetricMatrix<Scalar> turned(const SymmetricMatrix<Scalar>& x, const Scalar& sine,
+                                             const Scalar& cosine) {
   using trackers::detail::square;
   const Scalar sine_squared = square(sine);
   const Scalar cosine_twice = Scalar(1.0) - (sine_squared + sine_squared);
@@ -146,10 +148,10 @@ template <typename Scalar>
 /// formulas are those of trackers/quadrature/quadrature_rotating_frame.hpp for P12 = P13 = 0, to which a test
 /// ties them.
 template <typename Constant, typename Scalar>
-[[nodiscard]] CovarianceImage<Scalar> covariance_image(const trackers::ToneModel<Constant>& design,
-                                                       const BlockCovariance<Constant>& p,
-                                                       const BlockCovariance<Constant>& d,
-                                                       const std::array<Scalar, 3>& e) {
+[[nodiscard]] LevelImage<Scalar> covariance_image(const trackers::ToneModel<Constant>& design,
+                                                  const BlockCovariance<Constant>& p,
+                                                  const BlockCovariance<Constant>& d,
+                                                  const std::array<Scalar, 3>& e) {
   using trackers::detail::sin_cos;
   using trackers::detail::square;
   const Constant& r = design.r;
@@ -160,12 +162,12 @@ template <typename Constant, typename Scalar>
   // F p F' without the rows and columns that F leaves.
   const auto predicted = [&](const BlockCovariance<Constant>& x) {
     const Scalar across = z1 * x.p33 + x.p23;
-    return Symmetric<Scalar>{{{square(z2) * x.p33 + x.p11, none, none},
-                              {-(z2 * across), z1 * (across + x.p23) + x.p22, none},
-                              {-(z2 * x.p33), across, Scalar(x.p33)}}};
+    return SymmetricMatrix<Scalar>{{{square(z2) * x.p33 + x.p11, none, none},
+                                    {-(z2 * across), z1 * (across + x.p23) + x.p22, none},
+                                    {-(z2 * x.p33), across, Scalar(x.p33)}}};
   };
-  const Symmetric<Scalar> before = predicted(p);
-  const Symmetric<Scalar> change = predicted(d);
+  const SymmetricMatrix<Scalar> before = predicted(p);
+  const SymmetricMatrix<Scalar> change = predicted(d);
   const Constant noise = design.q1 + r;
   const Scalar s11 = before[0][0] + noise;
   const Scalar& s12 = before[1][0];
@@ -179,7 +181,7 @@ template <typename Constant, typename Scalar>
   };
   const std::array<Scalar, 2> gain = weighted(before[2][0], before[2][1]);
   const std::array<Scalar, 2> innovation = weighted(cosine - z1, -sine - z2);
-  CovarianceImage<Scalar> image;
+  LevelImage<Scalar> image;
   image.mean = {-((innovation[0] * cosine - innovation[1] * sine) * r),
                 -((innovation[0] * sine + innovation[1] * cosine) * r),
                 e[2] + before[2][0] * innovation[0] + before[2][1] * innovation[1]};
@@ -210,7 +212,7 @@ template <typename Constant, typename Scalar>
 /// The images of lo(s) and hi(s) at errors e, with their slopes along s; and p_z.
 template <typename Scalar>
 struct LevelStep {
-  CovarianceImage<Scalar> lower, upper;
+  LevelImage<Scalar> lower, upper;
   std::array<Scalar, 2> prediction_error;
 };
 

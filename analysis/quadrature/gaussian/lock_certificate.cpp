@@ -5,6 +5,7 @@
 
 #include "analysis/quadrature/gaussian/lock_rounding.hpp"
 #include "analysis/quadrature/gaussian/lock_search.hpp"
+#include "analysis/quadrature/gaussian/lock_verification.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -106,12 +107,11 @@ Condition rounding_condition(const LockRounding& rounding) {
   return {"rounding",
           "\\varrho \\le \\eta,\\ \\mu\\,hi \\le \\eta D_h,\\ \\mu\\,lo^{-1} \\le (1 - \\mu)\\,\\eta D_l",
           rounding.has_room ? Verdict::proved : Verdict::undecided,
-          Interval(rounding.error),
-          Interval(kRoundingRoom),
+          Interval::empty(),
+          Interval::empty(),
           rounding.has_room
               ? "what a step in double precision adds is within the room that the inequality leaves."
-              : "what a step in double precision adds could not be shown to be small enough.",
-          theorems::Sense::at_most};
+              : "what a step in double precision adds could not be shown to be small enough."};
 }
 
 Condition start_condition(const Interval& level, const LockSet& set) {
@@ -162,7 +162,8 @@ LockCertificate certify_lock(const LockQuestion& question) {
     LockStarts starts = question.starts;
     starts.covariance.multiples = widest_multiples(set, starts, kStartLevel);
     result.covariance_multiples = starts.covariance.multiples;
-    level = start_level(set, starts);
+    // A little more, so that another program finds it below this.
+    level = Interval((start_level(set, starts) * Interval(1.01) + Interval(0.01)).upper());
     derivation.conditions.push_back(rounding_condition(rounding));
     derivation.conditions.push_back(start_condition(level, set));
     result.cells = verification.cells;

@@ -1,10 +1,10 @@
 // The certificate for Gaussian noise: with which probability the tracker loses lock.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "analysis/quadrature/gaussian/lock_start.hpp"
-#include "analysis/quadrature/gaussian/lock_verification.hpp"
 #include "analysis/quadrature/rounding/step_rounding.hpp"
 #include "analysis/theorems/derivation.hpp"
 

@@ -32,7 +32,7 @@ struct LockSet {
 };
 
 /// eta of docs/gaussian.md, section 7: what the inequality has left for rounding.
-inline constexpr double kRoundingRoom = 0x1p-20;
+inline constexpr double kRoundingRoom = 0x1p-14;
 
 /// hi(s) and lo(s). Need the upward mode.
 [[nodiscard]] rigor::IntervalMatrix<3> upper_covariance(const LockSet& set, const rigor::Interval& s);

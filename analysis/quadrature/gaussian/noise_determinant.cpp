@@ -60,7 +60,7 @@ template <typename Scalar>
 Scalar NoiseDeterminant::trace_bound(const LevelImages<Scalar>& images) const {
   const Interval over_r = Interval(1.0) / r_;
   const Interval half_over_r = Interval(0.5) * over_r;
-  const Symmetric<Scalar>& delta = images.half_spread;
+  const SymmetricMatrix<Scalar>& delta = images.half_spread;
   const auto at = [](const auto& x, std::size_t i, std::size_t j) {
     return x[std::max(i, j)][std::min(i, j)];
   };
@@ -105,7 +105,7 @@ Scalar NoiseDeterminant::trace_bound(const LevelImages<Scalar>& images) const {
 }
 
 Interval NoiseDeterminant::eigenvalue_bound(const LevelImages<Derivatives>& images) const {
-  const auto at = [](const Symmetric<Derivatives>& x, std::size_t i, std::size_t j) -> const Interval& {
+  const auto at = [](const SymmetricMatrix<Derivatives>& x, std::size_t i, std::size_t j) -> const Interval& {
     return x[std::max(i, j)][std::min(i, j)].value();
   };
   const auto weight = [&](std::size_t i, std::size_t j) -> const Interval& {

@@ -30,8 +30,8 @@ class NoiseDeterminant {
       const LevelImages<rigor::Dual<rigor::Interval, 3>>& images) const;
 
   rigor::Interval r_, noise_variance_;
-  Symmetric<rigor::Interval> weight_;  ///< M_t = (M^-1 - w^2 e3 e3')^-1
-  rigor::Interval walk_determinant_;   ///< det(I - w^2 e3 e3' M)
+  SymmetricMatrix<rigor::Interval> weight_;  ///< M_t = (M^-1 - w^2 e3 e3')^-1
+  rigor::Interval walk_determinant_;         ///< det(I - w^2 e3 e3' M)
 };
 
 }  // namespace veritrack::quadrature

@@ -92,7 +92,6 @@ std::vector<Number> numbers_of(const Design& design) {
                               assume.amplitude,
                               assume.frequency[0],
                               assume.frequency[1],
-                              assume.noise,
                               assume.slew,
                               assume.initial_frequency_error,
                               assume.initial_phase_error,
@@ -102,6 +101,16 @@ std::vector<Number> numbers_of(const Design& design) {
                               quadrature_tables(design).theorem_2_9.gamma_fraction,
                               quadrature_tables(design).theorem_2_9.c1,
                               quadrature_tables(design).theorem_2_9.c2};
+  if (!assume.gaussian) {
+    numbers.push_back(assume.noise);
+  }
+  for (const auto& number :
+       {assume.gaussian ? assume.gaussian->snr_db : std::nullopt,
+        assume.gaussian ? assume.gaussian->deviation : std::nullopt, assume.frequency_walk, assume.samples}) {
+    if (number) {
+      numbers.push_back(*number);
+    }
+  }
   if (assume.initial_covariance) {
     for (const auto& row : *assume.initial_covariance) {
       numbers.insert(numbers.end(), row.begin(), row.end());

@@ -11,7 +11,7 @@
 namespace veritrack::quadrature {
 namespace {
 
-Eigen::Matrix3d whole(const Symmetric<double>& x) {
+Eigen::Matrix3d whole(const SymmetricMatrix<double>& x) {
   Eigen::Matrix3d m;
   m << x[0][0], x[1][0], x[2][0], x[1][0], x[1][1], x[2][1], x[2][0], x[2][1], x[2][2];
   return m;
@@ -95,7 +95,7 @@ TEST_CASE("tangents along the level bound the images: from above those of hi, fr
     const double other = random.uniform(0.0, 3.0);
     const LevelStep<double> step = level_step(setting, u, s);
     const LevelStep<double> there = level_step(setting, u, other);
-    const auto tangent = [&](const CovarianceImage<double>& image) {
+    const auto tangent = [&](const LevelImage<double>& image) {
       return whole(moved(image.covariance, other - s, image.slope));
     };
     CHECK(least(tangent(step.upper) - whole(there.upper.covariance)) > -1e-15);

@@ -17,8 +17,8 @@ namespace {
 using rigor::Interval;
 using Matrix = Eigen::Matrix3d;
 
-Symmetric<Interval> enclosed(const Matrix& m) {
-  Symmetric<Interval> result;
+SymmetricMatrix<Interval> enclosed(const Matrix& m) {
+  SymmetricMatrix<Interval> result;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       result[i][j] = Interval(m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));

@@ -1,0 +1,20 @@
+// Gaussian noise: with which probability the quadrature tracker loses lock.
+#pragma once
+
+#include <string>
+
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::certificates {
+
+/// Adds the derivation "lock", the claim "ekf/probability-of-losing-lock" that [require] asks for, and the
+/// guarantee in one sentence. The design's noise must be Gaussian. Needs the upward mode.
+void add_lock(Certificate& certificate);
+
+/// Its part of certificate.md.
+[[nodiscard]] std::string lock_section(const Certificate& certificate);
+
+/// What such a certificate covers and what it does not.
+[[nodiscard]] std::string lock_coverage_section();
+
+}  // namespace veritrack::certificates

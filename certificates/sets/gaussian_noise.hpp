@@ -1,0 +1,21 @@
+// Gaussian noise of a design, at a signal of amplitude 1, and how sentences name it.
+#pragma once
+
+#include <string>
+
+#include "certificates/sets/assumptions.hpp"
+
+namespace veritrack::certificates {
+
+/// The deviation of each channel relative to the amplitude. The noise must be Gaussian. Needs the upward
+/// mode.
+[[nodiscard]] rigor::Interval deviation_at_unit_amplitude(const Assumptions& assume);
+/// The double nearest to it: for simulations. Needs round-to-nearest.
+[[nodiscard]] double nearest_deviation(const Assumptions& assume);
+
+/// " and is constant, with independent Gaussian measurement noise of mean zero and an SNR of at
+/// least 17 dB (...)": the assumed noise and
+/// walk. Needs the upward mode.
+[[nodiscard]] std::string gaussian_disturbance(const Assumptions& assume);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,121 @@
+#include "analysis/quadrature/gaussian/lock_certificate.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "analysis/quadrature/gaussian/lock_rounding.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "tests/analysis/quadrature/gaussian/lock_sets.hpp"
+
+namespace veritrack::quadrature {
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+/// A thousand samples of Figure 3.5's design at 26 dB: a small set, some thousand cells.
+LockQuestion question(double decibels) {
+  const rigor::UpwardRounding upward;
+  const trackers::ToneModel<double>& d = test_sets::kDesigns[1];
+  const BlockCovariance<double> p = *steady_covariance(d);
+  Eigen::Matrix3d centre;
+  centre << p.p11, 0.0, 0.0, 0.0, p.p22, p.p23, 0.0, p.p23, p.p33;
+  LockQuestion result;
+  result.design = {Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(0.0)};
+  result.noise_deviation = Interval(std::sqrt(0.5 * std::pow(10.0, -decibels / 10.0)));
+  result.frequency_walk = Interval(0.0);
+  result.samples = Interval(1000.0);
+  result.probability = 1e-2;
+  result.starts = {Interval(0.01),
+                   Interval(0.02),
+                   Interval(0.01),
+                   {rigor::to_interval(centre), Interval::from_bounds(1.0 - 1e-6, 1.0 + 1e-6), false}};
+  return result;
+}
+
+Verdict verdict_of(const LockCertificate& certificate, const std::string& id) {
+  for (const theorems::Condition& condition : certificate.derivation.conditions) {
+    if (condition.id == id) {
+      return condition.verdict;
+    }
+  }
+  return Verdict::refuted;
+}
+
+}  // namespace
+
+TEST_CASE("a design with little noise has its probability, and it is the one that was asked for") {
+  const LockCertificate found = certify_lock(question(26.0));
+  REQUIRE(found.set.has_value());
+  CHECK(found.derivation.verdict == Verdict::proved);
+  const double p = theorems::find_quantity(found.derivation, "probability_of_losing_lock").value.upper();
+  CHECK(p < 1e-2);
+  CHECK(p > 0.2e-2);
+  CHECK(found.cells > 0);
+  // The covariance may be another one by much.
+  CHECK(found.covariance_multiples.lower() < 0.9);
+  CHECK(found.covariance_multiples.upper() > 1.1);
+  // By the formula, with the level that is said.
+  const double level = theorems::find_quantity(found.derivation, "start_level").value.upper();
+  CHECK(p == doctest::Approx(std::exp(-found.set->level) * (std::exp(level) + 1000.0 * found.set->drift)));
+  const double reach = theorems::find_quantity(found.derivation, "lock_frequency_error").value.upper();
+  CHECK(reach == doctest::Approx(std::sqrt(2.0 * found.set->level) / found.set->metric.frequency));
+}
+
+TEST_CASE("what is not certified says why, and claims nothing") {
+  LockQuestion noisy = question(3.0);
+  LockCertificate found = certify_lock(noisy);
+  CHECK_FALSE(found.set.has_value());
+  CHECK(verdict_of(found, "drift") == Verdict::undecided);
+  CHECK(theorems::applicable_quantity(found.derivation, "probability_of_losing_lock") == nullptr);
+  LockQuestion leaking = question(26.0);
+  leaking.design.epsilon = Interval(0.01);
+  found = certify_lock(leaking);
+  CHECK_FALSE(found.set.has_value());
+  CHECK(verdict_of(found, "leak") == Verdict::undecided);
+  LockQuestion far = question(26.0);
+  far.starts.phase_error = Interval(3.0);
+  found = certify_lock(far);
+  CHECK_FALSE(found.set.has_value());
+  CHECK(verdict_of(found, "start-in-set") == Verdict::undecided);
+  CHECK(theorems::applicable_quantity(found.derivation, "probability_of_losing_lock") == nullptr);
+}
+
+TEST_CASE("questions without a meaning have no answer") {
+  const auto refuses = [](void (*spoil)(LockQuestion&)) {
+    LockQuestion spoilt = question(26.0);
+    spoil(spoilt);
+    const LockCertificate found = certify_lock(spoilt);
+    CHECK_FALSE(found.set.has_value());
+    CHECK_FALSE(found.derivation.verdict == Verdict::proved);
+  };
+  refuses([](LockQuestion& q) { q.noise_deviation = Interval(0.0); });
+  refuses([](LockQuestion& q) { q.noise_deviation = Interval(); });
+  refuses([](LockQuestion& q) { q.samples = Interval(0.0); });
+  refuses([](LockQuestion& q) { q.samples = Interval(); });
+  refuses([](LockQuestion& q) { q.frequency_walk = Interval(-1.0); });
+  refuses([](LockQuestion& q) { q.probability = 0.0; });
+  refuses([](LockQuestion& q) { q.design.q2 = Interval::from_bounds(0.0, 1.0); });
+}
+
+TEST_CASE("rounding has room in ordinary units, and none beyond them") {
+  const rigor::UpwardRounding upward;
+  const LockSet set = test_sets::lock_set(0, 20.0);
+  const trackers::ToneModel<double>& d = test_sets::kDesigns[0];
+  const trackers::ToneModel<Interval> design{Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(0.0)};
+  const LockRounding found = lock_rounding(design, {}, set, Interval(1e6));
+  MESSAGE("error " << found.error << ", covariance " << found.covariance);
+  CHECK(found.has_room);
+  CHECK(found.error < 0.1 * kRoundingRoom);
+  CHECK_FALSE(lock_rounding(design, {Interval(0x1p61), 3.2}, set, Interval(1e6)).has_room);
+  CHECK_FALSE(lock_rounding(design, {Interval(1.0), 1e12}, set, Interval(1e6)).has_room);
+  CHECK_FALSE(lock_rounding(design, {}, set, Interval()).has_room);
+  LockSet walking = set;
+  walking.frequency_walk = 1e-3;
+  CHECK_FALSE(lock_rounding(design, {}, walking, Interval(1e30)).has_room);
+  // 4 N + 2 tails of exp(-450).
+  CHECK(probability_beyond(Interval(1e6)).upper() == doctest::Approx(4.000002e6 * std::exp(-450.0)));
+}
+
+}  // namespace veritrack::quadrature

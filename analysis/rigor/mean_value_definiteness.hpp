@@ -67,15 +67,17 @@ template <std::size_t Size, typename Entry>
   return result;
 }
 
-/// True only when the matrix is positive definite everywhere in the cell. By the mean value theorem it is its
-/// value in the middle, plus derivatives out of those of `over` times the way, at most `half_widths`. With
-/// the middles of these derivatives that is affine, so that the corners decide; the rest of them is added at
-/// each. How far each variable moves the matrix is added to `influence`. Needs the upward mode.
-template <std::size_t Size, int N>
-[[nodiscard]] bool certainly_definite_over(const LowerTriangle<Size>& middle,
-                                           const LowerTriangle<Size, Dual<Interval, N>>& over,
-                                           const std::array<double, static_cast<std::size_t>(N)>& half_widths,
-                                           std::array<double, static_cast<std::size_t>(N)>& influence) {
+namespace detail {
+
+/// Calls visit(matrix, determinant) with enclosures C A C' at each corner of a cell and of det C^2, until it
+/// returns false; false when it does, or without a C. Every A in the cell is a convex combination of matrices
+/// out of these enclosures.
+template <std::size_t Size, int N, typename Visit>
+[[nodiscard]] bool visit_corners(const LowerTriangle<Size>& middle,
+                                 const LowerTriangle<Size, Dual<Interval, N>>& over,
+                                 const std::array<double, static_cast<std::size_t>(N)>& half_widths,
+                                 std::array<double, static_cast<std::size_t>(N)>& influence,
+                                 const Visit& visit) {
   LowerTriangle<Size, double> rough{};
   for (std::size_t i = 0; i < Size; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
@@ -87,10 +89,12 @@ template <std::size_t Size, int N>
     return false;
   }
   LowerTriangle<Size> c;
+  Interval determinant(1.0);
   for (std::size_t i = 0; i < Size; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       c[i][j] = Interval((*proposed)[i][j]);
     }
+    determinant *= square(c[i][i]);
   }
   LowerTriangle<Size> sum = congruent<Size>(c, [&](std::size_t i, std::size_t j) { return middle[i][j]; });
   std::array<LowerTriangle<Size>, static_cast<std::size_t>(N)> ways;
@@ -120,11 +124,53 @@ template <std::size_t Size, int N>
         }
       }
     }
-    if (!certainly_positive_definite<Size>(there)) {
+    if (!visit(there, determinant)) {
       return false;
     }
   }
   return true;
+}
+
+}  // namespace detail
+
+/// True only when the matrix is positive definite everywhere in the cell. By the mean value theorem it is its
+/// value in the middle, plus derivatives out of those of `over` times the way, at most `half_widths`. With
+/// the middles of these derivatives that is affine, so that the corners decide; the rest of them is added at
+/// each. How far each variable moves the matrix is added to `influence`. Needs the upward mode.
+template <std::size_t Size, int N>
+[[nodiscard]] bool certainly_definite_over(const LowerTriangle<Size>& middle,
+                                           const LowerTriangle<Size, Dual<Interval, N>>& over,
+                                           const std::array<double, static_cast<std::size_t>(N)>& half_widths,
+                                           std::array<double, static_cast<std::size_t>(N)>& influence) {
+  return detail::visit_corners<Size, N>(middle, over, half_widths, influence,
+                                        [](const LowerTriangle<Size>& there, const Interval&) {
+                                          return certainly_positive_definite<Size>(there);
+                                        });
+}
+
+/// A lower bound on the determinant everywhere in the cell; empty when the matrix is not proved positive
+/// definite there. At the corners, because the logarithm of the determinant is concave. Needs the upward
+/// mode.
+template <std::size_t Size, int N>
+[[nodiscard]] Interval least_determinant_over(
+    const LowerTriangle<Size>& middle, const LowerTriangle<Size, Dual<Interval, N>>& over,
+    const std::array<double, static_cast<std::size_t>(N)>& half_widths) {
+  Interval least = Interval::empty();
+  std::array<double, static_cast<std::size_t>(N)> influence{};
+  const bool definite = detail::visit_corners<Size, N>(
+      middle, over, half_widths, influence, [&](LowerTriangle<Size> there, const Interval& determinant) {
+        if (!eliminate(there, Size)) {
+          return false;
+        }
+        Interval product(1.0);
+        for (std::size_t k = 0; k < Size; ++k) {
+          product *= there[k][k];
+        }
+        const Interval found = product / determinant;
+        least = is_empty(least) ? found : min(least, found);
+        return is_finite(least);
+      });
+  return definite ? Interval(least.lower()) : Interval::empty();
 }
 
 }  // namespace veritrack::rigor

@@ -12,7 +12,7 @@
 //     [ sigma T K,                      I - w^2 t3 t3' - T Delta T'/mu,     .                   ]
 //     [ mu sigma (Z'Delta Z p)'/r^2,    (T m)',                    l - mu p'Z'Delta Z p/r^2     ]   > 0,
 // m and K at the mean image, Z = H', p the prediction's error, t3 = T e3. For the step of the program, which
-// rounds, I - ... is (1 - eta) I - ..., and so in the determinant (docs/gaussian.md, section 7).
+// rounds, I - ... is (1 - eta) I - ... (docs/gaussian.md, section 7).
 #pragma once
 
 #include <algorithm>

@@ -75,22 +75,21 @@ Interval highest_level(const LockSet& set, const LevelCell& cell) {
   return Interval(std::min((Interval(0.5) * twice).upper(), set.level));
 }
 
-/// What elimination leaves of the last entry, and the logarithm of the determinant; where a pivot is too
-/// small for that, less and less, so that a search finds its way out.
+/// What is left of l by elimination with the determinant of the other rows as that of the noise; and what the
+/// choice of a multiplier is to make large. Where a pivot is too small, less and less, so that a search finds
+/// its way out.
 struct Elimination {
-  double rest, log_determinant;
+  double rest, quality;
 };
 Elimination eliminated(DriftForm<double> form) {
   constexpr double kLeastPivot = 1e-3;
-  constexpr double kPenalty = 100.0;
   const auto logarithm = [](double x) {
-    return x > kLeastPivot ? std::log(x) : std::log(kLeastPivot) + (x - kLeastPivot) / kLeastPivot;
+    return x > kLeastPivot ? std::log(x) : std::log(kLeastPivot) + x / kLeastPivot - 1.0;
   };
-  Elimination result{0.0, 0.0};
+  double log_determinant = 0.0;
   for (std::size_t k = 0; k < kLeft; ++k) {
     double& pivot = form[k][k];
-    result.log_determinant += logarithm(pivot);
-    result.rest -= kPenalty * std::max(0.0, kLeastPivot - pivot);
+    log_determinant += logarithm(pivot);
     pivot = std::max(kLeastPivot, pivot);
     for (std::size_t i = k + 1; i < form.size(); ++i) {
       const double factor = form[i][k] / pivot;
@@ -99,12 +98,11 @@ Elimination eliminated(DriftForm<double> form) {
       }
     }
   }
-  result.rest += form[kLeft][kLeft];
-  result.log_determinant += logarithm(form[kLeft][kLeft]);
-  return result;
+  const double rest = form[kLeft][kLeft] + log_determinant;
+  return {rest, log_determinant + logarithm(rest)};
 }
 
-/// The multiplier with the largest determinant: away from all limits, as a cell needs it. And what it leaves.
+/// The multiplier away from all limits, as a cell needs it, and what it leaves.
 struct Choice {
   double multiplier = 0.0, left = -std::numeric_limits<double>::infinity();
 };
@@ -121,8 +119,18 @@ Choice choose_multiplier(const LockSetting<double>& setting, const LevelImages<d
   const double low = std::log(std::max(least, 1e-12)) - 0.7;
   const double high = std::max(low + 1.0, std::min(std::log(most) + 0.7, low + 12.0));
   const search::GoldenPoint best =
-      search::golden_section(low, high, kSteps, [&](double x) { return -at(x).log_determinant; });
+      search::golden_section(low, high, kSteps, [&](double x) { return -at(x).quality; });
   return {std::exp(best.point), at(best.point).rest};
+}
+
+/// The rows but the last.
+template <typename Scalar>
+rigor::LowerTriangle<5, Scalar> without_last(const DriftForm<Scalar>& form) {
+  rigor::LowerTriangle<5, Scalar> rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::copy_n(form[i].begin(), rows.size(), rows[i].begin());
+  }
+  return rows;
 }
 
 }  // namespace
@@ -132,8 +140,7 @@ DriftInequality::DriftInequality(const trackers::ToneModel<Interval>& design, co
       setting_(setting_of(design, set)),
       rough_(setting_of(
           trackers::ToneModel<double>{midpoint(design.q1), midpoint(design.q2), midpoint(design.r), 0.0},
-          set)),
-      determinant_(setting_) {}
+          set)) {}
 
 bool DriftInequality::outside(const LevelCell& cell) const {
   Interval twice(0.0);
@@ -247,15 +254,11 @@ std::optional<DriftInequality::ImageLevel> DriftInequality::find_level(const Cel
   return std::nullopt;
 }
 
-Interval DriftInequality::constant_over(const CellStep& step, const LevelCell& cell) const {
-  const Interval all = hull(step.ends[0], step.ends[1]);
-  const Interval& r = setting_.design.r;
-  const Interval determinant =
-      determinant_.bound_over(images_at(step.at, all, r), images_at(step.over, all, r), step.half_widths);
+Interval DriftInequality::constant_over(const LevelCell& cell) const {
   const Interval core =
       Interval(2.0) *
       rigor::log(Interval(1.0) + Interval(set_.drift) * rigor::exp(-highest_level(set_, cell)));
-  return Interval(core.lower()) - Interval(determinant.upper()) - Interval(2.0 * kRoundingRoom);
+  return Interval(core.lower()) - Interval(2.0 * kRoundingRoom);
 }
 
 CellDrift DriftInequality::check(const LevelCell& cell) const {
@@ -263,10 +266,10 @@ CellDrift DriftInequality::check(const LevelCell& cell) const {
   CellDrift found;
   found.influence = step.sizes(set_.weight);
   const std::optional<ImageLevel> image_level = find_level(step);
-  const Interval constant = constant_over(step, cell);
-  if (!image_level || !is_finite(constant)) {
+  if (!image_level) {
     return found;
   }
+  const Interval constant = constant_over(cell);
   // s^2 is at least its tangent, and -t^2 is concave. So with one multiplier for both, what holds at the two
   // ends holds in between.
   const auto left = [&]<typename Scalar>(const std::array<Scalar, 3>& u, const Scalar& t,
@@ -282,16 +285,26 @@ CellDrift DriftInequality::check(const LevelCell& cell) const {
   const Interval multiplier(choose_multiplier(rough_, images_at(step.roughly, 0.0, rough_.design.r),
                                               midpoint(left(step.middle, in_the_middle, Interval(0.0))))
                                 .multiplier);
-  Point influence{};
-  found.holds = certainly_positive(multiplier);
-  for (std::size_t end = 0; end < 2 && found.holds; ++end) {
+  // The rows but the last bound the determinant of the noise for all covariances: docs/gaussian.md.
+  std::array<DriftForm<Interval>, 2> at;
+  std::array<DriftForm<Derivatives>, 2> over;
+  Interval determinant(1.0);
+  for (std::size_t end = 0; end < 2; ++end) {
     const Interval& away = step.ends[end];
-    found.holds = rigor::certainly_definite_over<6, 3>(
-        drift_form(setting_, images_at(step.at, away, r), left(step.middle, image_level->at[end], away),
-                   multiplier),
-        drift_form(setting_, images_at(step.over, away, r), left(step.range, image_level->over[end], away),
-                   multiplier),
-        step.half_widths, influence);
+    at[end] = drift_form(setting_, images_at(step.at, away, r), left(step.middle, image_level->at[end], away),
+                         multiplier);
+    over[end] = drift_form(setting_, images_at(step.over, away, r),
+                           left(step.range, image_level->over[end], away), multiplier);
+    determinant = min(determinant, rigor::least_determinant_over<5, 3>(
+                                       without_last(at[end]), without_last(over[end]), step.half_widths));
+  }
+  const Interval noise = -rigor::log(determinant);
+  Point influence{};
+  found.holds = certainly_positive(multiplier) && is_finite(noise);
+  for (std::size_t end = 0; end < 2 && found.holds; ++end) {
+    at[end][kLeft][kLeft] -= Interval(noise.upper());
+    over[end][kLeft][kLeft] -= Interval(noise.upper());
+    found.holds = rigor::certainly_definite_over<6, 3>(at[end], over[end], step.half_widths, influence);
   }
   // A matter of speed: the level is bisected when it is the widest side in the metric of the set.
   const double all = influence[0] + influence[1] + influence[2];
@@ -306,19 +319,12 @@ double DriftInequality::margin_at(const std::array<double, 4>& x) const {
   const LevelStep<double> step = level_step(rough_, std::array<double, 3>{x[0], x[1], x[2]}, x[3]);
   const LevelSlope level = propose_level(rough_, step, {});
   const LevelImages<double> images = images_at(step, 0.0, rough_.design.r);
-  LevelImages<Interval> values;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      values.mean[i][j] = Interval(images.mean[i][j]);
-      values.half_spread[i][j] = Interval(images.half_spread[i][j]);
-    }
-  }
   if (!std::isfinite(level.level)) {
     return -1.0;
   }
   const double twice = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + set_.weight * x[3] * x[3];
-  const double left = twice - set_.weight * std::max(0.0, level.level) * level.level -
-                      determinant_.roughly(values) + 2.0 * std::log1p(set_.drift * std::exp(-0.5 * twice));
+  const double left = twice - set_.weight * std::max(0.0, level.level) * level.level +
+                      2.0 * std::log1p(set_.drift * std::exp(-0.5 * twice));
   const double rest = choose_multiplier(rough_, images, left).left;
   return std::isfinite(rest) ? rest / (1.0 + twice) : -1.0;
 }

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "analysis/quadrature/gaussian/noise_determinant.hpp"
+#include "analysis/quadrature/gaussian/drift_form.hpp"
 
 namespace veritrack::quadrature {
 
@@ -41,13 +41,12 @@ class DriftInequality {
   /// True only when the level is one of the images everywhere in the cell: (3) of docs/gaussian.md.
   [[nodiscard]] bool is_level(const CellStep& step, const ImageLevel& level) const;
   [[nodiscard]] std::optional<ImageLevel> find_level(const CellStep& step) const;
-  /// A lower bound on the part of l that hardly changes: the core and the determinant.
-  [[nodiscard]] rigor::Interval constant_over(const CellStep& step, const LevelCell& cell) const;
+  /// A lower bound on the part of l that hardly changes.
+  [[nodiscard]] rigor::Interval constant_over(const LevelCell& cell) const;
 
   LockSet set_;
   LockSetting<rigor::Interval> setting_;
   LockSetting<double> rough_;
-  NoiseDeterminant determinant_;
 };
 
 }  // namespace veritrack::quadrature

@@ -23,7 +23,7 @@ constexpr const char* kSource = "docs/gaussian.md";
 constexpr const char* kNone = "No set could be certified.";
 /// What the starts may add to the probability, next to the samples: exp of that level.
 constexpr double kStartLevel = 8.0;
-constexpr double kDrift = 0.5;
+constexpr double kDrift = 1.0;
 
 /// What is certain of the inputs: a search or a proof with others has no meaning.
 bool is_well_posed(const LockQuestion& question) {

@@ -124,7 +124,7 @@ LevelPoint point_at(const LockSet& set, const LevelPoint& direction, double shar
           radius * direction[3] / std::sqrt(set.weight)};
 }
 
-constexpr std::array<double, 5> kShares{1.0, 0.85, 0.6, 0.35, 0.12};
+constexpr std::array<double, 7> kShares{1.0, 0.8, 0.5, 0.25, 0.1, 0.03, 0.003};
 
 /// A direction and a share of the level.
 struct Sample {

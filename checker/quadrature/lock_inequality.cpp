@@ -124,8 +124,7 @@ bool LockInequality::seems_to_fail(const LockBox& box, const LockStep& step, con
     }
   }
   middle.parts[1] = middle.parts[0];
-  const double multiplier =
-      proposal::propose_multiplier(middle, rough_constant_, rough_deviation_, rough_r_);
+  const double multiplier = proposal::propose_multiplier(middle, rough_constant_, rough_deviation_, rough_r_);
   const double left = proposal::left_over(proposal::form(middle.parts[0], rough_constant_, rest,
                                                          factors_of(multiplier, rough_deviation_, rough_r_)));
   return twice <= 2.0 * set_.level.near() && !(left > 0.0);
@@ -165,8 +164,8 @@ LockLook LockInequality::look(const LockCell& cell) const {
   }
   const auto rough_factors = factors_of(multiplier, rough_deviation_, rough_r_);
   forms.finish(constant_, factors_of(Ball(multiplier), set_.deviation, filter_.r),
-               proposal::propose_weights(
-                   proposal::form(forms.rough.parts[1], rough_constant_, forms.rough.rest[1], rough_factors)));
+               proposal::propose_weights(proposal::form(forms.rough.parts[1], rough_constant_,
+                                                        forms.rough.rest[1], rough_factors)));
   for (std::size_t k = 0; k < kLockCorners; ++k) {
     SquareMatrix<kSize> n = at_corner(forms.over[k / kCorners], k % kCorners);
     n[kRest][kRest] += rest[k];

@@ -64,8 +64,7 @@ double largest(const Matrix3& c, const Matrix3& x) {
   if (!(p > 0.0)) {
     return mean;
   }
-  const double determinant = a * (b * d - y[2][1] * y[2][1]) -
-                             y[1][0] * (y[1][0] * d - y[2][1] * y[2][0]) +
+  const double determinant = a * (b * d - y[2][1] * y[2][1]) - y[1][0] * (y[1][0] * d - y[2][1] * y[2][0]) +
                              y[2][0] * (y[1][0] * y[2][1] - b * y[2][0]);
   return mean + 2.0 * p * std::cos(std::acos(std::clamp(determinant / (2.0 * p * p * p), -1.0, 1.0)) / 3.0);
 }
@@ -176,7 +175,8 @@ double propose_multiplier(const Ends& ends, const Matrix6& constant, double devi
     noise = std::max({noise, parts[kNoise][kNoise], parts[kNoise + 1][kNoise + 1]});
   }
   double low = std::log(std::max(spread, 1e-12)) - 0.7;
-  double high = std::max(low + 1.0, std::min(std::log(r * r / (deviation * deviation * noise)) + 0.7, low + 12.0));
+  double high =
+      std::max(low + 1.0, std::min(std::log(r * r / (deviation * deviation * noise)) + 0.7, low + 12.0));
   constexpr double kGolden = 0.6180339887498949;
   constexpr int kSteps = 14;
   double left = high - kGolden * (high - low);

@@ -17,10 +17,10 @@ namespace veritrack::checker {
 /// What a certificate of the probability of losing lock rests on, docs/gaussian.md, section 4, at a signal of
 /// amplitude 1. The level of (e, P) is (|T e|^2 + gamma s^2)/2, s the level of P.
 struct LockSet {
-  Metric metric;                           ///< T
-  Covariance<Ball> centre, above, below;   ///< P_0, D_h, D_l
-  Ball weight, level, drift;               ///< gamma, L, c_0
-  Ball deviation, walk;                    ///< sigma of each channel; w, rad/sample
+  Metric metric;                          ///< T
+  Covariance<Ball> centre, above, below;  ///< P_0, D_h, D_l
+  Ball weight, level, drift;              ///< gamma, L, c_0
+  Ball deviation, walk;                   ///< sigma of each channel; w, rad/sample
 };
 
 /// The filter at a signal of amplitude 1, epsilon = 0.

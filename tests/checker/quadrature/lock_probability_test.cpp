@@ -11,21 +11,21 @@ using namespace veritrack::checker;
 
 namespace {
 
-std::string number(const std::string& text, const std::string& low, const std::string& high) {
+std::string bounded(const std::string& text, const std::string& low, const std::string& high) {
   return R"({"text": ")" + text + R"(", "lo": ")" + low + R"(", "hi": ")" + high + R"("})";
 }
 std::string exactly(const std::string& text, const std::string& value) {
-  return number(text, value, value);
+  return bounded(text, value, value);
 }
 
-struct Written {
+struct NoiseText {
   std::string noise = R"("snr_db": )" + exactly("17", "0x1.1p+4");
   std::string walk = exactly("0.25", "0x1p-2");
   std::string samples = exactly("1e6", "0x1.e848p+19");
   std::string slew = exactly("0", "0x0p+0");
 };
 
-GaussianNoise read(const Written& w, Objections& objections, double amplitude = 1.0) {
+GaussianNoise read_noise(const NoiseText& w, Objections& objections, double amplitude = 1.0) {
   const Tree tree = read_json(R"({"noise": {)" + w.noise + R"(}, "frequency_walk": )" + w.walk +
                               R"(, "samples": )" + w.samples + R"(, "slew": )" + w.slew + "}");
   const GaussianNoise noise = read_gaussian_noise(tree, Ball(amplitude), objections);
@@ -37,15 +37,15 @@ GaussianNoise read(const Written& w, Objections& objections, double amplitude = 
 
 TEST_CASE("noise is read, by its ratio to the signal or by its deviation") {
   Objections objections;
-  const GaussianNoise noise = read({}, objections, 3.0);
+  const GaussianNoise noise = read_noise({}, objections, 3.0);
   CHECK(objections.empty());
   // 17 dB: amplitude^2/(2 sigma^2) = 10^1.7.
   CHECK(std::fabs(noise.deviation.near() - std::sqrt(0.5 * std::pow(10.0, -1.7))) < 1e-15);
   CHECK(noise.walk.near() == 0.25);
   CHECK(noise.samples.near() == 1e6);
-  Written other;
+  NoiseText other;
   other.noise = R"("deviation": )" + exactly("0.75", "0x1.8p-1");
-  CHECK(read(other, objections, 3.0).deviation.near() == 0.25);
+  CHECK(read_noise(other, objections, 3.0).deviation.near() == 0.25);
   CHECK(objections.empty());
   CHECK(is_gaussian(read_json(R"({"noise": {"snr_db": {}}})")));
   CHECK_FALSE(is_gaussian(read_json(R"({"noise": )" + exactly("0.75", "0x1.8p-1") + "}")));
@@ -53,7 +53,7 @@ TEST_CASE("noise is read, by its ratio to the signal or by its deviation") {
 
 TEST_CASE("noise that is no noise, or said twice, is an objection") {
   Objections objections;
-  Written w;
+  NoiseText w;
   SUBCASE("both") {
     w.noise += R"(, "deviation": )" + exactly("0.75", "0x1.8p-1");
   }
@@ -81,17 +81,17 @@ TEST_CASE("noise that is no noise, or said twice, is an objection") {
   SUBCASE("a slew") {
     w.slew = exactly("0.25", "0x1p-2");
   }
-  read(w, objections);
+  read_noise(w, objections);
   CHECK_FALSE(objections.empty());
 }
 
 TEST_CASE("noise that is nothing is malformed") {
   Objections objections;
-  Written w;
+  NoiseText w;
   w.noise = "";
-  CHECK_THROWS_AS(read(w, objections), Malformed);
+  CHECK_THROWS_AS(read_noise(w, objections), Malformed);
   w.noise = R"("deviations": )" + exactly("0.75", "0x1.8p-1");
-  CHECK_THROWS_AS(read(w, objections), Malformed);
+  CHECK_THROWS_AS(read_noise(w, objections), Malformed);
 }
 
 TEST_CASE("the probability is that of the theorem, and of rounding") {

@@ -12,7 +12,7 @@ using lock_test::Textbook;
 
 namespace {
 
-Matrix3 in_balls(const Matrix& p) {
+Matrix3 balls_of(const Matrix& p) {
   Matrix3 m;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
@@ -38,7 +38,7 @@ TEST_CASE("every start is at most at the level that is found, and some are close
     const LockStart start{Ball(0.1), Ball(phase), Ball(0.03)};
     const Matrix lowest = the_covariance();
     const Matrix highest = 1.5 * lowest;
-    const Ball found = start_level(book.set, start, {in_balls(lowest), in_balls(highest), ""});
+    const Ball found = start_level(book.set, start, {balls_of(lowest), balls_of(highest), ""});
     REQUIRE(found.finite());
     double most = 0.0;
     for (std::int64_t k = 0; k < test::effort(4000); ++k) {
@@ -64,7 +64,7 @@ TEST_CASE("every start is at most at the level that is found, and some are close
 
 TEST_CASE("the steady state itself has level 0") {
   const Textbook book{{}, lock_test::WrittenSet().set()};
-  const Matrix3 centre = in_balls(lock_test::in_double(book.set.centre));
+  const Matrix3 centre = balls_of(lock_test::in_double(book.set.centre));
   const Ball found = start_level(book.set, {zero, zero, zero}, {centre, centre, ""});
   CHECK(certainly_not_negative(found));
   CHECK(certainly_less(found, Ball(1e-9)));
@@ -72,7 +72,7 @@ TEST_CASE("the steady state itself has level 0") {
 
 TEST_CASE("starts with no level have none") {
   const Textbook book{{}, lock_test::WrittenSet().set()};
-  const Matrix3 centre = in_balls(lock_test::in_double(book.set.centre));
+  const Matrix3 centre = balls_of(lock_test::in_double(book.set.centre));
   const Matrix3 singular = diagonal(Ball(1e-3), Ball(1e-3), zero);
   const LockStart start{Ball(0.1), Ball(0.1), Ball(0.01)};
   CHECK(start_level(book.set, start, {centre, centre, ""}).finite());

@@ -37,9 +37,24 @@ Covariance<Ball> slope_of_inverse(const Covariance<Ball>& x, const Covariance<Ba
           -(c * x.p23 + e * x.p33)};
 }
 
-/// The prediction z = (1 + e1, e2), seen from the true phase.
+/// The prediction z = (1 + e1, e2), seen from the true phase; the half widths of the box.
 struct Place {
   Chord z1, z2, z1_squared, z2_squared, z1_z2;
+  std::array<Ball, kSides> half_widths;
+
+  /// The same number, whose range its chords may make narrower.
+  [[nodiscard]] Chord narrowed(Chord x) const {
+    Ball reach;
+    for (std::size_t k = 0; k < kSides; ++k) {
+      reach += abs(x.by[k]) * half_widths[k];
+    }
+    const Ball by_chords = x.centre + Ball::within(reach);
+    Ball both;
+    if (arb_intersection(both.raw(), x.range.raw(), by_chords.raw(), precision()) != 0) {
+      x.range = both;
+    }
+    return x;
+  }
 };
 
 /// F P F', F = [[1, 0, -z2], [0, 1, z1], [0, 0, 1]].
@@ -64,32 +79,33 @@ struct Image {
 };
 
 Image image_of(const LockFilter& f, const Covariance<Ball>& p, const Covariance<Ball>& d, const Place& at) {
+  const auto narrow = [&](const Chord& number) { return at.narrowed(number); };
   const Lower3<Chord> x = carried(p, at);
   const Lower3<Chord> y = carried(d, at);
   const Chord s11 = x[0][0] + (f.q1 + f.r);
   const Chord s22 = x[1][1] + (f.q1 + f.r);
-  const Chord over = f.r * reciprocal(s11 * s22 - square(x[1][0]));
-  const Chord w11 = s22 * over;
-  const Chord w12 = -(x[1][0] * over);
-  const Chord w22 = s11 * over;
+  const Chord over = narrow(f.r * reciprocal(narrow(s11 * s22 - square(x[1][0]))));
+  const Chord w11 = narrow(s22 * over);
+  const Chord w12 = narrow(-(x[1][0] * over));
+  const Chord w22 = narrow(s11 * over);
   const Ball over_r = one / f.r;
   Image image;
-  const Chord g1 = over_r * (w11 * x[2][0] + w12 * x[2][1]);
-  const Chord g2 = over_r * (w12 * x[2][0] + w22 * x[2][1]);
-  image.variance = x[2][2] + f.q2 - (g1 * x[2][0] + g2 * x[2][1]);
+  const Chord g1 = narrow(over_r * (w11 * x[2][0] + w12 * x[2][1]));
+  const Chord g2 = narrow(over_r * (w12 * x[2][0] + w22 * x[2][1]));
+  image.variance = narrow(x[2][2] + f.q2 - (g1 * x[2][0] + g2 * x[2][1]));
   // I - K H = [[r S^-1, 0], [-g', 1]].
-  const Chord a11 = w11 * y[0][0] + w12 * y[1][0];
-  const Chord a12 = w11 * y[1][0] + w12 * y[1][1];
-  const Chord a21 = w12 * y[0][0] + w22 * y[1][0];
-  const Chord a22 = w12 * y[1][0] + w22 * y[1][1];
-  image.slope[0][0] = a11 * w11 + a12 * w12;
-  image.slope[1][0] = a21 * w11 + a22 * w12;
-  image.slope[1][1] = a21 * w12 + a22 * w22;
-  const Chord c1 = y[2][0] - (y[0][0] * g1 + y[1][0] * g2);
-  const Chord c2 = y[2][1] - (y[1][0] * g1 + y[1][1] * g2);
-  image.slope[2][0] = w11 * c1 + w12 * c2;
-  image.slope[2][1] = w12 * c1 + w22 * c2;
-  image.slope[2][2] = y[2][2] - (g1 * (c1 + y[2][0]) + g2 * (c2 + y[2][1]));
+  const Chord a11 = narrow(w11 * y[0][0] + w12 * y[1][0]);
+  const Chord a12 = narrow(w11 * y[1][0] + w12 * y[1][1]);
+  const Chord a21 = narrow(w12 * y[0][0] + w22 * y[1][0]);
+  const Chord a22 = narrow(w12 * y[1][0] + w22 * y[1][1]);
+  image.slope[0][0] = narrow(a11 * w11 + a12 * w12);
+  image.slope[1][0] = narrow(a21 * w11 + a22 * w12);
+  image.slope[1][1] = narrow(a21 * w12 + a22 * w22);
+  const Chord c1 = narrow(y[2][0] - (y[0][0] * g1 + y[1][0] * g2));
+  const Chord c2 = narrow(y[2][1] - (y[1][0] * g1 + y[1][1] * g2));
+  image.slope[2][0] = narrow(w11 * c1 + w12 * c2);
+  image.slope[2][1] = narrow(w12 * c1 + w22 * c2);
+  image.slope[2][2] = narrow(y[2][2] - (g1 * (c1 + y[2][0]) + g2 * (c2 + y[2][1])));
   image.weight = {w11, w12, w22};
   image.frequency = {g1, g2};
   return image;
@@ -103,9 +119,9 @@ std::array<Chord, 2> turned(const Chord& x, const Chord& y, const Turn& by) {
   return {x * by.cosine - y * by.sine, x * by.sine + y * by.cosine};
 }
 /// U X U', U = diag(Rot, 1).
-Lower3<Chord> turned(const Lower3<Chord>& x, const Turn& by) {
-  const Chord mean = half * (x[0][0] + x[1][1]);
-  const Chord off = half * (x[0][0] - x[1][1]);
+Lower3<Chord> turned(const Lower3<Chord>& x, const Turn& by, const Place& at) {
+  const Chord mean = at.narrowed(half * (x[0][0] + x[1][1]));
+  const Chord off = at.narrowed(half * (x[0][0] - x[1][1]));
   const Chord moved = off * by.cosine_twice - x[1][0] * by.sine_twice;
   const std::array<Chord, 2> last = turned(x[2][0], x[2][1], by);
   Lower3<Chord> y;
@@ -133,11 +149,15 @@ Lower3<Chord> covariance_of(const Image& image, const Ball& r) {
 
 LockStep lock_step(const LockFilter& filter, const LockSet& set, const std::array<Chord, 3>& u,
                    const Ball& level) {
+  std::array<Ball, kSides> half_widths;
+  for (std::size_t k = 0; k < kSides; ++k) {
+    half_widths[k] = abs(u[k].range - u[k].centre).upper();
+  }
   const Metric& t = set.metric;
   const Chord frequency = (one / t.frequency) * u[2];
   const Chord e2 = (one / t.phase) * (u[1] - t.coupling * frequency);
   const Chord z1 = (one / t.amplitude) * u[0] + one;
-  const Place at{z1, e2, square(z1), square(e2), z1 * e2};
+  const Place at{z1, e2, square(z1), square(e2), z1 * e2, half_widths};
   const Covariance<Ball> low = lower_covariance(set, level);
   const Image lower = image_of(filter, low, slope_of_inverse(low, set.below), at);
   const Image upper = image_of(filter, upper_covariance(set, level), set.above, at);
@@ -145,20 +165,23 @@ LockStep lock_step(const LockFilter& filter, const LockSet& set, const std::arra
   const Chord cosine = cos(frequency);
   const Turn turn{sine, cosine, two * (sine * cosine), Chord(one) - two * square(sine)};
   LockStep step;
-  step.lower = turned(covariance_of(lower, filter.r), turn);
-  step.upper = turned(covariance_of(upper, filter.r), turn);
-  step.lower_slope = turned(lower.slope, turn);
-  step.upper_slope = turned(upper.slope, turn);
+  step.lower = turned(covariance_of(lower, filter.r), turn, at);
+  step.upper = turned(covariance_of(upper, filter.r), turn, at);
+  step.lower_slope = turned(lower.slope, turn, at);
+  step.upper_slope = turned(upper.slope, turn, at);
   // The predicted estimate less the signal, in the frame of this sample: z - e^-i nu.
-  const Chord d1 = z1 - turn.cosine;
-  const Chord d2 = e2 + sine;
+  const Chord d1 = at.narrowed(z1 - turn.cosine);
+  const Chord d2 = at.narrowed(e2 + sine);
   step.prediction = turned(d1, d2, turn);
+  for (Chord& p : step.prediction) {
+    p = at.narrowed(p);
+  }
   std::array<Chord, 3> weight;
   for (std::size_t i = 0; i < 3; ++i) {
-    weight[i] = half * (lower.weight[i] + upper.weight[i]);
+    weight[i] = at.narrowed(half * (lower.weight[i] + upper.weight[i]));
   }
-  const std::array<Chord, 2> mean =
-      turned(weight[0] * d1 + weight[1] * d2, weight[1] * d1 + weight[2] * d2, turn);
+  const std::array<Chord, 2> mean = turned(at.narrowed(weight[0] * d1 + weight[1] * d2),
+                                           at.narrowed(weight[1] * d1 + weight[2] * d2), turn);
   step.mean = {mean[0], mean[1],
                frequency - half * ((lower.frequency[0] + upper.frequency[0]) * d1 +
                                    (lower.frequency[1] + upper.frequency[1]) * d2)};

@@ -91,7 +91,7 @@ TEST_CASE("a set for which the expected value of W rises too far is refused") {
   check_words(lock_refusal_with("drift", "0x1p-4"), kDrift);
   check_words(lock_refusal_with("noise_deviation", "0x1p-3"), kDrift);
   check_words(lock_refusal_with("frequency_walk", "0x1p-5"), kDrift);
-  check_words(lock_refusal_with("level", "0x1p+7"), kDrift);
+  check_words(lock_refusal_with("level", "0x1p+8"), kRounding);
   check_words(lock_refusal_with("weight", "0x1p+6"), kDrift);
   check_words(lock_refusal_with("metric", 2, 2, "0x1.79de63862c32ap+6"), kDrift);
   check_words(lock_refusal_with("metric", 1, 2, "0x1.cf59f82b18cb9p+3"), kDrift);

@@ -16,15 +16,21 @@ constexpr std::int64_t kDefaultBudget = 4'000'000'000;
 
 namespace detail {
 inline std::int64_t budget = kDefaultBudget;
-inline std::int64_t spent = 0;
+/// Of this thread.
+inline constinit thread_local std::int64_t spent = 0;
 [[noreturn]] void out_of_budget();
 }  // namespace detail
 
 /// Begins anew with that many operations.
 void set_budget(std::int64_t operations);
-/// The operations since then.
+/// The operations of this thread since then.
 inline std::int64_t operations_spent() {
   return detail::spent;
+}
+/// A thread that works for another begins with what that one has spent; in the end, what it has spent itself
+/// is to be counted there.
+inline void go_on_from(std::int64_t operations) {
+  detail::spent = operations;
 }
 /// Counts operations. Throws OutOfBudget.
 inline void spend(std::int64_t operations = 1) {

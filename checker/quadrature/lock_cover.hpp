@@ -1,0 +1,15 @@
+// Cells that cover a set, bisected until the drift inequality is proved in each.
+#pragma once
+
+#include <cstdint>
+
+#include "checker/quadrature/lock_inequality.hpp"
+
+namespace veritrack::checker {
+
+/// True only when the drift inequality is proved wherever the level of (e, P) is at most L. `cells` counts
+/// the cells that were looked at. Cells are shared among threads; neither the verdict nor, where it is
+/// proved, the count depends on how many there are. Throws OutOfBudget.
+bool drifts_slowly(const LockFilter& filter, const LockSet& set, std::int64_t& cells);
+
+}  // namespace veritrack::checker

@@ -1,0 +1,180 @@
+#include "checker/quadrature/lock_inequality.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace veritrack::checker {
+
+namespace {
+
+using namespace lock_form;
+namespace proposal = lock_proposal;
+
+constexpr std::size_t kCorners = kLockCorners / 2;
+
+void scale(SquareMatrix<kSize>& m, const Factors<Ball>& factors, bool by_size) {
+  for (std::size_t i = 0; i < kSize; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (const Ball* factor = factor_at(factors, i, j)) {
+        m[i][j] = (by_size ? abs(*factor) : *factor) * m[i][j];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+/// The matrix at the two ends of s, and roughly.
+struct LockInequality::Forms {
+  Forms(const LockBox& box, const LockStep& step, const Metric& next, const LockSet& set,
+        const LockFilter& filter) {
+    const Parts parts = parts_of(step, next, set.deviation, filter.r);
+    for (std::size_t end = 0; end < 2; ++end) {
+      over[end] = over_box<kSize>(parts.value, parts.slope, box.ends[end], box.half_widths);
+      rough.parts[end] = proposal::near(over[end].centre);
+    }
+  }
+  /// For a multiplier, with the rest taken off.
+  void finish(const SquareMatrix<kSize>& constant, const Factors<Ball>& factors,
+              const std::array<double, kSize>& weights) {
+    for (OverBox<kSize>& form : over) {
+      scale(form.centre, factors, false);
+      for (SquareMatrix<kSize>& way : form.ways) {
+        scale(way, factors, false);
+      }
+      scale(form.rest, factors, true);
+      for (std::size_t i = 0; i < kRest; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+          form.centre[i][j] += constant[i][j];
+        }
+      }
+      take_rest(form, weights);
+    }
+  }
+
+  std::array<OverBox<kSize>, 2> over;
+  proposal::Ends rough;
+};
+
+LockInequality::LockInequality(const LockFilter& filter, const LockSet& set)
+    : filter_(filter),
+      set_(set),
+      next_{(one + lock_room()) * set.metric.amplitude, (one + lock_room()) * set.metric.phase,
+            (one + lock_room()) * set.metric.coupling, (one + lock_room()) * set.metric.frequency},
+      levels_(set, next_),
+      rough_deviation_(set.deviation.near()),
+      rough_r_(filter.r.near()) {
+  // I - w^2 (T e3)(T e3)' in the rows of the error.
+  const std::array<Ball, 3> t3{zero, next_.coupling, next_.frequency};
+  const Ball walked = square(set.walk);
+  for (std::size_t i = 0; i < kRest; ++i) {
+    constant_[i][i] = one;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      constant_[i][j] -= walked * t3[i] * t3[j];
+    }
+  }
+  walk_loss_ = log(one - walked * (square(t3[1]) + square(t3[2])));
+  rough_constant_ = proposal::near(constant_);
+}
+
+bool LockInequality::outside(const LockCell& cell) const {
+  Ball twice;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double least = cell.low[i] > 0.0 ? cell.low[i] : cell.high[i] < 0.0 ? cell.high[i] : 0.0;
+    twice += i == 3 ? set_.weight * square(Ball(least)) : square(Ball(least));
+  }
+  return certainly_less(two * set_.level, twice);
+}
+
+LockInequality::Rests LockInequality::rests(const LockBox& box, const Rests& levels) const {
+  // 2 log(W + c_0) is convex in (u, s), so that its tangent is below it; -t^2 is concave.
+  Ball twice = set_.weight * square(box.level);
+  for (const Ball& u : box.middle) {
+    twice += square(u);
+  }
+  const Ball over = set_.drift * exp(-(half * twice));
+  const Ball share = two / (one + over);
+  const Ball middle = twice + two * log(one + over) + walk_loss_ - two * lock_room();
+  Rests rest;
+  for (std::size_t k = 0; k < kLockCorners; ++k) {
+    Ball moved = set_.weight * box.level * box.ends[k / kCorners];
+    for (std::size_t i = 0; i < kSides; ++i) {
+      const Ball way = box.middle[i] * box.half_widths[i];
+      moved += ((k >> i) & 1U) != 0U ? way : -way;
+    }
+    rest[k] = middle + share * moved - set_.weight * square(levels[k] + lock_room());
+  }
+  return rest;
+}
+
+bool LockInequality::seems_to_fail(const LockBox& box, const LockStep& step, const Forms& forms) const {
+  double twice = set_.weight.near() * box.level.near() * box.level.near();
+  for (const Ball& u : box.middle) {
+    twice += u.near() * u.near();
+  }
+  const double level = levels_.near_middle(step);
+  const double rest = twice + 2.0 * std::log1p(set_.drift.near() * std::exp(-0.5 * twice)) +
+                      walk_loss_.near() - set_.weight.near() * level * level;
+  proposal::Ends middle{forms.rough.parts, {rest, rest}};
+  for (std::size_t i = 0; i < kSize; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      middle.parts[0][i][j] = 0.5 * (forms.rough.parts[0][i][j] + forms.rough.parts[1][i][j]);
+    }
+  }
+  middle.parts[1] = middle.parts[0];
+  const double multiplier = proposal::propose_multiplier(middle, rough_constant_, rough_deviation_, rough_r_);
+  const double left = proposal::left_over(proposal::form(middle.parts[0], rough_constant_, rest,
+                                                         factors_of(multiplier, rough_deviation_, rough_r_)));
+  return twice <= 2.0 * set_.level.near() && !(left > 0.0);
+}
+
+LockLook LockInequality::look(const LockCell& cell) const {
+  const LockBox box(cell.low, cell.high);
+  LockLook found;
+  // A matter of speed: along s tangents lose less than chords along u.
+  std::array<double, 4> influence{};
+  for (std::size_t i = 0; i < kSides; ++i) {
+    influence[i] = std::pow(box.half_widths[i].near(), 2);
+  }
+  influence[kSides] = 0.25 * set_.weight.near() * std::pow(box.ends[1].near(), 2);
+  found.side = static_cast<std::size_t>(
+      std::distance(influence.begin(), std::max_element(influence.begin(), influence.end())));
+  const LockStep step = lock_step(filter_, set_, box.u, box.level);
+  Forms forms(box, step, next_, set_, filter_);
+  found.hopeless = seems_to_fail(box, step, forms);
+  Rests levels;
+  if (found.hopeless || !levels_.find(box, step, levels)) {
+    return found;
+  }
+  const Rests rest = rests(box, levels);
+  const auto middle_of = [&](std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t corner = 0; corner < kCorners; ++corner) {
+      sum += rest[corner + kCorners * end].near() / static_cast<double>(kCorners);
+    }
+    return sum;
+  };
+  forms.rough.rest = {middle_of(0), middle_of(1)};
+  const double multiplier =
+      proposal::propose_multiplier(forms.rough, rough_constant_, rough_deviation_, rough_r_);
+  if (!(multiplier > 0.0) || !std::isfinite(multiplier)) {
+    return found;
+  }
+  const auto rough_factors = factors_of(multiplier, rough_deviation_, rough_r_);
+  forms.finish(constant_, factors_of(Ball(multiplier), set_.deviation, filter_.r),
+               proposal::propose_weights(proposal::form(forms.rough.parts[1], rough_constant_,
+                                                        forms.rough.rest[1], rough_factors)));
+  for (std::size_t k = 0; k < kLockCorners; ++k) {
+    SquareMatrix<kSize> n = at_corner(forms.over[k / kCorners], k % kCorners);
+    n[kRest][kRest] += rest[k];
+    if (!(proposal::left_over(proposal::near(n)) > 0.0) || !certainly_positive(left_over(std::move(n)))) {
+      return found;
+    }
+  }
+  found.proved = true;
+  return found;
+}
+
+}  // namespace veritrack::checker

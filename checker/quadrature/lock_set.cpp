@@ -1,0 +1,114 @@
+#include "checker/quadrature/lock_set.hpp"
+
+#include "checker/document/evidence.hpp"
+#include "checker/quadrature/certified_set.hpp"
+#include "checker/quadrature/lock_cover.hpp"
+#include "checker/quadrature/rounded_step.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+/// The first row and column are zero but for the diagonal.
+bool amplitude_is_apart(const Matrix3& m) {
+  return certainly_equal(m[0][1], zero) && certainly_equal(m[0][2], zero) && certainly_equal(m[1][0], zero) &&
+         certainly_equal(m[2][0], zero);
+}
+
+/// A symmetric matrix with 12 = 13 = 0. Adds to `has_form` whether it is one.
+Covariance<Ball> read_covariance(const Tree& tree, bool& has_form) {
+  const Matrix3 p = exact_matrix(tree);
+  has_form = has_form && amplitude_is_apart(p) && symmetric(p);
+  return {p[0][0], p[1][1], p[1][2], p[2][2]};
+}
+
+/// The set, and whether its matrices have their form.
+std::pair<LockSet, bool> read_lock_set(const Tree& tree) {
+  LockSet set;
+  const Matrix3 metric = exact_matrix(tree.at("metric"));
+  bool has_form = amplitude_is_apart(metric) && certainly_equal(metric[2][1], zero);
+  set.metric = {metric[0][0], metric[1][1], metric[1][2], metric[2][2]};
+  set.centre = read_covariance(tree.at("centre"), has_form);
+  set.above = read_covariance(tree.at("spread_above"), has_form);
+  set.below = read_covariance(tree.at("spread_below"), has_form);
+  set.weight = exact_number(tree.at("weight"));
+  set.level = exact_number(tree.at("level"));
+  set.drift = exact_number(tree.at("drift"));
+  set.deviation = exact_number(tree.at("noise_deviation"));
+  set.walk = exact_number(tree.at("frequency_walk"));
+  return {set, has_form};
+}
+
+/// What of the theorem's hypotheses is not proved; nothing when all are.
+std::string refusal_of(const LockSet& set, const Design& design, const GaussianNoise& noise,
+                       std::int64_t& cells) {
+  if (!certainly_positive(set.metric.amplitude) || !certainly_positive(set.metric.phase) ||
+      !certainly_positive(set.metric.frequency)) {
+    return "the metric is not one with positive numbers on its diagonal";
+  }
+  if (!positive_definite(set.centre) || !positive_definite(set.above) || !positive_definite(set.below)) {
+    return "the matrices of the covariance's levels are not positive definite";
+  }
+  if (!certainly_positive(set.weight) || !certainly_positive(set.level) ||
+      !certainly_not_negative(set.drift) || !certainly_positive(set.deviation) ||
+      !certainly_not_negative(set.walk)) {
+    return "weight, level, drift, noise or walk are out of range";
+  }
+  if (!certainly_at_most(noise.deviation, set.deviation) || !certainly_at_most(noise.walk, set.walk)) {
+    return "the set is for less noise, or for a slower walk of the frequency, than the design assumes";
+  }
+  if (!has_room_for_rounding(set, design, noise.samples)) {
+    return "the rounding of a step in double precision is not within its room";
+  }
+  if (!drifts_slowly({design.q1, design.q2, design.r}, set, cells)) {
+    return "the expected value of W is not proved to rise by the drift at most";
+  }
+  return {};
+}
+
+}  // namespace
+
+bool has_room_for_rounding(const LockSet& set, const Design& design, const Ball& samples) {
+  const Ball radius = sqrt(two * set.level);
+  const std::array<Ball, 3> rows = inverse_rows(set.metric);
+  Held held;
+  held.z = one + radius * sqrt(square(rows[0]) + square(rows[1]));
+  held.frequency =
+      max(design.largest_frequency, pi()) + radius * rows[2] + kMostDeviations * set.walk * sqrt(samples);
+  held.measurement = one + kMostDeviations * sqrt(two) * set.deviation;
+  const Ball most = sqrt(two * set.level / set.weight);
+  add_covariance(whole(lower_covariance(set, most)), whole(upper_covariance(set, most)), held);
+  const Rounding rounding = rounded_step({design.q1, design.q2, design.r, zero, design.amplitude}, held);
+  if (!rounding.finite() ||
+      !certainly_at_most(largest_level(set.metric, rounding.z, rounding.z, rounding.frequency),
+                         lock_room())) {
+    return false;
+  }
+  // The drift inequality bounds the level of the image.
+  const Ball next = sqrt(two * (set.level + log(one + set.drift)) / set.weight);
+  const Covariance<Ball> low = lower_covariance(set, next);
+  const Covariance<Ball> high = upper_covariance(set, next);
+  // In the frame of the true phase nothing is turned by rounding.
+  const Ball share =
+      rounding_share(whole(low), {zero, zero, zero, rounding.p_zz, rounding.p_z3, rounding.p_33}).upper();
+  return certainly_less(share, one) && positive_definite(lock_room() * set.above - share * high) &&
+         positive_definite(lock_room() * set.below - share / (one - share) * inverse(low));
+}
+
+LockSet check_lock_set(const Tree& tree, const Design& design, const GaussianNoise& noise,
+                       std::int64_t& cells, Objections& objections) {
+  const auto [set, has_form] = read_lock_set(tree);
+  const bool applies = design.without_leak() && certainly_equal(design.slew, zero) &&
+                       certainly_not_negative(design.q1) && certainly_positive(design.q2) &&
+                       certainly_positive(design.r);
+  const std::string refusal = !applies
+                                  ? "sets for Gaussian noise are for epsilon = 0, slew = 0, q2 > 0, r > 0"
+                              : !has_form ? "the matrices do not have the required form"
+                                          : refusal_of(set, design, noise, cells);
+  if (!refusal.empty()) {
+    objections.push_back(refusal);
+  }
+  return set;
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,28 @@
+// The set of a certificate of the probability of losing lock: read, and proved.
+#pragma once
+
+#include <cstdint>
+
+#include "checker/document/json_tree.hpp"
+#include "checker/quadrature/lock_probability.hpp"
+#include "checker/quadrature/lock_step.hpp"
+#include "checker/theorems/design.hpp"
+
+namespace veritrack::checker {
+
+/// Reads a set and proves of it, from nothing but the design and its noise: the form and the signs of its
+/// numbers; that it is for at least this noise and walk; the drift inequality, with room for rounding,
+/// everywhere in it; and that the rounding of a step in double precision stays within that room, for
+/// measurements with noise of at most 30 deviations in each channel. What fails is an objection, and then
+/// nothing is said of the set. `cells` counts the cells that were looked at. Throws OutOfBudget.
+LockSet check_lock_set(const Tree& tree, const Design& design, const GaussianNoise& noise,
+                       std::int64_t& cells, Objections& objections);
+
+/// The number of deviations within which rounding is bounded.
+inline const Ball kMostDeviations(30.0);
+
+/// Whether the rounding of a step from anywhere in the set stays within lock_room(): T times what it adds to
+/// the error is no longer, and what it adds to the covariance adds no more to its level.
+bool has_room_for_rounding(const LockSet& set, const Design& design, const Ball& samples);
+
+}  // namespace veritrack::checker

@@ -1,0 +1,191 @@
+#include "checker/quadrature/lock_step.hpp"
+
+namespace veritrack::checker {
+
+const Ball& lock_room() {
+  static const Ball room(0x1p-20);
+  return room;
+}
+
+Covariance<Ball> operator+(const Covariance<Ball>& x, const Covariance<Ball>& y) {
+  return {x.p11 + y.p11, x.p22 + y.p22, x.p23 + y.p23, x.p33 + y.p33};
+}
+Covariance<Ball> operator*(const Ball& factor, const Covariance<Ball>& x) {
+  return {factor * x.p11, factor * x.p22, factor * x.p23, factor * x.p33};
+}
+Covariance<Ball> inverse(const Covariance<Ball>& p) {
+  const Ball over = one / (p.p22 * p.p33 - square(p.p23));
+  return {one / p.p11, over * p.p33, -(over * p.p23), over * p.p22};
+}
+
+Covariance<Ball> upper_covariance(const LockSet& set, const Ball& s) {
+  return set.centre + s * set.above;
+}
+Covariance<Ball> lower_covariance(const LockSet& set, const Ball& s) {
+  return inverse(inverse(set.centre) + s * set.below);
+}
+
+namespace {
+
+/// -x d x: the slope of (... + s d)^-1 where it is x.
+Covariance<Ball> slope_of_inverse(const Covariance<Ball>& x, const Covariance<Ball>& d) {
+  const Ball a = x.p22 * d.p22 + x.p23 * d.p23;
+  const Ball b = x.p22 * d.p23 + x.p23 * d.p33;
+  const Ball c = x.p23 * d.p22 + x.p33 * d.p23;
+  const Ball e = x.p23 * d.p23 + x.p33 * d.p33;
+  return {-(square(x.p11) * d.p11), -(a * x.p22 + b * x.p23), -(a * x.p23 + b * x.p33),
+          -(c * x.p23 + e * x.p33)};
+}
+
+/// The prediction z = (1 + e1, e2), seen from the true phase; the half widths of the box.
+struct Place {
+  Chord z1, z2, z1_squared, z2_squared, z1_z2;
+  std::array<Ball, kSides> half_widths;
+
+  /// The same number, whose range its chords may make narrower.
+  [[nodiscard]] Chord narrowed(Chord x) const {
+    Ball reach;
+    for (std::size_t k = 0; k < kSides; ++k) {
+      reach += abs(x.by[k]) * half_widths[k];
+    }
+    const Ball by_chords = x.centre + Ball::within(reach);
+    Ball both;
+    if (arb_intersection(both.raw(), x.range.raw(), by_chords.raw(), precision()) != 0) {
+      x.range = both;
+    }
+    return x;
+  }
+};
+
+/// F P F', F = [[1, 0, -z2], [0, 1, z1], [0, 0, 1]].
+Lower3<Chord> carried(const Covariance<Ball>& p, const Place& at) {
+  const Chord across = p.p33 * at.z1 + p.p23;
+  Lower3<Chord> x;
+  x[0][0] = p.p33 * at.z2_squared + p.p11;
+  x[1][0] = -(p.p33 * at.z1_z2 + p.p23 * at.z2);
+  x[1][1] = p.p33 * at.z1_squared + (two * p.p23) * at.z1 + p.p22;
+  x[2][0] = -(p.p33 * at.z2);
+  x[2][1] = across;
+  x[2][2] = p.p33;
+  return x;
+}
+
+/// Of a covariance with P12 = P13 = 0, before the frame is turned to the next phase.
+struct Image {
+  std::array<Chord, 3> weight;     ///< r S^-1 = I - Phi_zz/r: 11, 12, 22
+  std::array<Chord, 2> frequency;  ///< S^-1 Phi_z3 of the prediction = Phi_z3/r
+  Chord variance;                  ///< Phi_33
+  Lower3<Chord> slope;             ///< A d A', A = (I - K H) F
+};
+
+Image image_of(const LockFilter& f, const Covariance<Ball>& p, const Covariance<Ball>& d, const Place& at) {
+  const auto narrow = [&](const Chord& number) { return at.narrowed(number); };
+  const Lower3<Chord> x = carried(p, at);
+  const Lower3<Chord> y = carried(d, at);
+  const Chord s11 = x[0][0] + (f.q1 + f.r);
+  const Chord s22 = x[1][1] + (f.q1 + f.r);
+  const Chord over = narrow(f.r * reciprocal(narrow(s11 * s22 - square(x[1][0]))));
+  const Chord w11 = narrow(s22 * over);
+  const Chord w12 = narrow(-(x[1][0] * over));
+  const Chord w22 = narrow(s11 * over);
+  const Ball over_r = one / f.r;
+  Image image;
+  const Chord g1 = narrow(over_r * (w11 * x[2][0] + w12 * x[2][1]));
+  const Chord g2 = narrow(over_r * (w12 * x[2][0] + w22 * x[2][1]));
+  image.variance = narrow(x[2][2] + f.q2 - (g1 * x[2][0] + g2 * x[2][1]));
+  // I - K H = [[r S^-1, 0], [-g', 1]].
+  const Chord a11 = narrow(w11 * y[0][0] + w12 * y[1][0]);
+  const Chord a12 = narrow(w11 * y[1][0] + w12 * y[1][1]);
+  const Chord a21 = narrow(w12 * y[0][0] + w22 * y[1][0]);
+  const Chord a22 = narrow(w12 * y[1][0] + w22 * y[1][1]);
+  image.slope[0][0] = narrow(a11 * w11 + a12 * w12);
+  image.slope[1][0] = narrow(a21 * w11 + a22 * w12);
+  image.slope[1][1] = narrow(a21 * w12 + a22 * w22);
+  const Chord c1 = narrow(y[2][0] - (y[0][0] * g1 + y[1][0] * g2));
+  const Chord c2 = narrow(y[2][1] - (y[1][0] * g1 + y[1][1] * g2));
+  image.slope[2][0] = narrow(w11 * c1 + w12 * c2);
+  image.slope[2][1] = narrow(w12 * c1 + w22 * c2);
+  image.slope[2][2] = narrow(y[2][2] - (g1 * (c1 + y[2][0]) + g2 * (c2 + y[2][1])));
+  image.weight = {w11, w12, w22};
+  image.frequency = {g1, g2};
+  return image;
+}
+
+/// The turn by the frequency error.
+struct Turn {
+  Chord sine, cosine, sine_twice, cosine_twice;
+};
+std::array<Chord, 2> turned(const Chord& x, const Chord& y, const Turn& by) {
+  return {x * by.cosine - y * by.sine, x * by.sine + y * by.cosine};
+}
+/// U X U', U = diag(Rot, 1).
+Lower3<Chord> turned(const Lower3<Chord>& x, const Turn& by, const Place& at) {
+  const Chord mean = at.narrowed(half * (x[0][0] + x[1][1]));
+  const Chord off = at.narrowed(half * (x[0][0] - x[1][1]));
+  const Chord moved = off * by.cosine_twice - x[1][0] * by.sine_twice;
+  const std::array<Chord, 2> last = turned(x[2][0], x[2][1], by);
+  Lower3<Chord> y;
+  y[0][0] = mean + moved;
+  y[1][0] = off * by.sine_twice + x[1][0] * by.cosine_twice;
+  y[1][1] = mean - moved;
+  y[2][0] = last[0];
+  y[2][1] = last[1];
+  y[2][2] = x[2][2];
+  return y;
+}
+
+Lower3<Chord> covariance_of(const Image& image, const Ball& r) {
+  Lower3<Chord> x;
+  x[0][0] = r * (Chord(one) - image.weight[0]);
+  x[1][0] = -(r * image.weight[1]);
+  x[1][1] = r * (Chord(one) - image.weight[2]);
+  x[2][0] = r * image.frequency[0];
+  x[2][1] = r * image.frequency[1];
+  x[2][2] = image.variance;
+  return x;
+}
+
+}  // namespace
+
+LockStep lock_step(const LockFilter& filter, const LockSet& set, const std::array<Chord, 3>& u,
+                   const Ball& level) {
+  std::array<Ball, kSides> half_widths;
+  for (std::size_t k = 0; k < kSides; ++k) {
+    half_widths[k] = abs(u[k].range - u[k].centre).upper();
+  }
+  const Metric& t = set.metric;
+  const Chord frequency = (one / t.frequency) * u[2];
+  const Chord e2 = (one / t.phase) * (u[1] - t.coupling * frequency);
+  const Chord z1 = (one / t.amplitude) * u[0] + one;
+  const Place at{z1, e2, square(z1), square(e2), z1 * e2, half_widths};
+  const Covariance<Ball> low = lower_covariance(set, level);
+  const Image lower = image_of(filter, low, slope_of_inverse(low, set.below), at);
+  const Image upper = image_of(filter, upper_covariance(set, level), set.above, at);
+  const Chord sine = sin(frequency);
+  const Chord cosine = cos(frequency);
+  const Turn turn{sine, cosine, two * (sine * cosine), Chord(one) - two * square(sine)};
+  LockStep step;
+  step.lower = turned(covariance_of(lower, filter.r), turn, at);
+  step.upper = turned(covariance_of(upper, filter.r), turn, at);
+  step.lower_slope = turned(lower.slope, turn, at);
+  step.upper_slope = turned(upper.slope, turn, at);
+  // The predicted estimate less the signal, in the frame of this sample: z - e^-i nu.
+  const Chord d1 = at.narrowed(z1 - turn.cosine);
+  const Chord d2 = at.narrowed(e2 + sine);
+  step.prediction = turned(d1, d2, turn);
+  for (Chord& p : step.prediction) {
+    p = at.narrowed(p);
+  }
+  std::array<Chord, 3> weight;
+  for (std::size_t i = 0; i < 3; ++i) {
+    weight[i] = at.narrowed(half * (lower.weight[i] + upper.weight[i]));
+  }
+  const std::array<Chord, 2> mean = turned(at.narrowed(weight[0] * d1 + weight[1] * d2),
+                                           at.narrowed(weight[1] * d1 + weight[2] * d2), turn);
+  step.mean = {mean[0], mean[1],
+               frequency - half * ((lower.frequency[0] + upper.frequency[0]) * d1 +
+                                   (lower.frequency[1] + upper.frequency[1]) * d2)};
+  return step;
+}
+
+}  // namespace veritrack::checker

@@ -31,11 +31,11 @@ std::string gaussian_disturbance(const Assumptions& assume) {
   constexpr int kDigits = 3;
   const GaussianNoise& noise = assume.gaussian.value();
   const bool walks = assume.frequency_walk && !(assume.frequency_walk->value == Interval(0.0));
-  std::string text =
-      walks ? fmt::format(
-                  " and walks in independent Gaussian steps of mean zero and deviation at most {} rad/sample",
-                  assume.frequency_walk->text)
-            : " and is constant";
+  std::string text = walks ? fmt::format(
+                                 " at the start and walks in independent Gaussian steps of mean zero and "
+                                 "deviation at most {} rad/sample",
+                                 assume.frequency_walk->text)
+                           : " and is constant";
   text += ", with independent Gaussian measurement noise of mean zero and ";
   text += noise.snr_db
               ? fmt::format(

@@ -89,10 +89,8 @@ std::string tone(const GuaranteeTerms& terms, bool disturbed) {
   const Assumptions& assume = terms.assume;
   std::string text = fmt::format("{}, for a tone of constant amplitude {} whose frequency ", terms.arithmetic,
                                  assume.amplitude.text);
-  const bool walks = assume.frequency_walk && !is_zero(*assume.frequency_walk);
   text += terms.in_band ? fmt::format("lies between {} and {} rad/sample", assume.frequency[0].text,
                                       assume.frequency[1].text)
-          : walks       ? "is at most pi rad/sample at the start"
                         : "is at most pi rad/sample";
   return text + (disturbed ? assumed_disturbance(terms) : "");
 }

@@ -31,7 +31,8 @@ GaussianNoise read_gaussian_noise(const Tree& assume, const Ball& amplitude, Obj
   if (!certainly_positive(result.deviation)) {
     objections.emplace_back("the deviation of the noise is not a positive number");
   }
-  result.walk = read_not_negative(assume.at("frequency_walk"), "frequency_walk", objections);
+  const Tree* walk = assume.find("frequency_walk");
+  result.walk = walk == nullptr ? zero : read_not_negative(*walk, "frequency_walk", objections);
   result.samples = read_positive(assume.at("samples"), "samples", objections);
   if (!certainly_at_most(one, result.samples)) {
     objections.emplace_back("samples must be at least 1");

@@ -4,6 +4,8 @@
 
 #include "checker/quadrature/capture.hpp"
 #include "checker/quadrature/contraction.hpp"
+#include "checker/quadrature/lock.hpp"
+#include "checker/quadrature/lock_set.hpp"
 #include "checker/quadrature/steady_contraction.hpp"
 #include "checker/sets/guarantee.hpp"
 #include "checker/theorems/proof_gaps.hpp"
@@ -28,7 +30,12 @@ class QuadratureVerifier {
     const Tree& design = certificate_.at("design");
     leaks_ = !design_.without_leak();
     // Without a leak the frequency does not act on the errors.
-    const Guarantee guarantee(design, {leaks_, true, kDoublePrecision}, objections);
+    Wording wording{leaks_, true, kDoublePrecision};
+    if (is_gaussian(design.at("assume"))) {
+      noise_ = read_gaussian_noise(design.at("assume"), design_.amplitude, objections);
+      wording.deviation = noise_->deviation;
+    }
+    const Guarantee guarantee(design, wording, objections);
     add("design", objections);
     if (!objections.empty()) {
       return;  // nothing is said of what is no design
@@ -38,6 +45,7 @@ class QuadratureVerifier {
       sets_.push_back(check_set(set, design_, result_.cells, objections));
       add("certified set " + set.at("purpose").text(), objections);
     }
+    check_lock_sets();
     for (const Tree& derivation : certificate_.at("derivations").elements()) {
       check_one(derivation);
     }
@@ -55,6 +63,23 @@ class QuadratureVerifier {
     result_.parts.push_back({name, objections});
   }
 
+  /// With Gaussian noise only; otherwise nothing reads them.
+  void check_lock_sets() {
+    const Tree* sets = certificate_.find("lock_sets");
+    if (sets == nullptr || !noise_) {
+      return;
+    }
+    Objections objections;
+    if (sets->elements().size() != 1) {
+      objections.emplace_back("more or less than one set");
+    } else {
+      const LockSet set =
+          check_lock_set(sets->elements().front(), design_, *noise_, result_.cells, objections);
+      lock_set_ = objections.empty() ? std::optional(set) : std::nullopt;
+    }
+    add("lock set", objections);
+  }
+
   void check_one(const Tree& derivation) {
     const std::string& id = derivation.at("id").text();
     Objections objections;
@@ -62,7 +87,11 @@ class QuadratureVerifier {
     if (derivations_.count(id) != 0) {
       objections.emplace_back("a second derivation of this id");
     }
-    if (id == "theorem-2.9/printed") {
+    if (noise_.has_value() != (id == "lock")) {
+      objections.emplace_back("this is for noise of another kind");
+    } else if (id == "lock") {
+      promises_ = check_lock(derivation, design_, *noise_, lock_set_, objections);
+    } else if (id == "theorem-2.9/printed") {
       title = check_theorem_2_9(derivation, design_, Reading::printed, objections);
     } else if (id == "theorem-2.9/errata") {
       title = check_theorem_2_9(derivation, design_, Reading::errata, objections);
@@ -139,6 +168,8 @@ class QuadratureVerifier {
   Design design_;
   bool leaks_ = false;  ///< then the contraction is that about a biased steady state
   std::vector<CertifiedSet> sets_;
+  std::optional<GaussianNoise> noise_;  ///< in place of a bound
+  std::optional<LockSet> lock_set_;     ///< proved
   std::map<std::string, Known> derivations_;
   std::map<std::string, Captured> captured_;  ///< of the derivations that are verified
   Promises promises_;

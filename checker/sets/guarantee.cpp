@@ -20,6 +20,7 @@ const std::string kSlew = "ekf/largest-slew";
 const std::string kReach = "ekf/frequency-error-radius";
 const std::string kSet = "ekf/invariant-set";
 const std::string kLimits = "ekf/limits";
+const std::string kLosingLock = "ekf/probability-of-losing-lock";
 const std::string kPerSample = " rad/sample";
 
 bool is_zero(const Tree& number) {
@@ -61,13 +62,14 @@ std::optional<Settled> settling_claim(const Tree& quantities) {
 
 Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections)
     : design_(design), wording_(wording) {
-  const std::array<std::pair<std::string, std::optional<Number>*>, 6> keys{
+  const std::array<std::pair<std::string, std::optional<Number>*>, 7> keys{
       {{"frequency_error_below", &frequency_error_below_},
        {"settles_within", &settles_within_},
        {"settled_below", &settled_below_},
        {"largest_noise_at_least", &noise_},
        {"largest_slew_at_least", &slew_},
-       {"frequency_error_radius_at_least", &reach_}}};
+       {"frequency_error_radius_at_least", &reach_},
+       {"probability_of_losing_lock_below", &losing_lock_}}};
   for (const auto& member : design.at("require").members()) {
     const std::string& name = member.first;
     const Tree& value = member.second;
@@ -98,18 +100,26 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
   require(noise_.has_value(), kNoise);
   require(slew_.has_value(), kSlew);
   require(reach_.has_value(), kReach);
+  require(losing_lock_.has_value(), kLosingLock);
+  if (losing_lock_.has_value() != wording_.deviation.has_value() && !design.at("require").members().empty()) {
+    objections.emplace_back(
+        "[require] asks of Gaussian noise what is for bounded noise, or the other way round");
+  }
   const Tree& assume = design.at("assume");
   amplitude_ = read_number(assume.at("amplitude"), objections);
-  assumed_noise_ = read_number(assume.at("noise"), objections);
+  assumed_noise_ = wording_.deviation ? Ball::everything() : read_number(assume.at("noise"), objections);
   start_error_ = read_number(assume.at("initial_frequency_error"), objections);
 }
 
 bool Guarantee::is_guarantee(const std::string& id) {
-  const std::array ids{kBound, kSettling, kSentence, kNoise, kSlew, kReach, kSet, kLimits};
+  const std::array ids{kBound, kSettling, kSentence, kNoise, kSlew, kReach, kSet, kLimits, kLosingLock};
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
 std::string Guarantee::assumed_disturbance() const {
+  if (wording_.deviation) {
+    return gaussian_disturbance();
+  }
   const Tree& assume = design_.at("assume");
   const Tree& slew = assume.at("slew");
   std::string text = is_zero(slew) ? " and is constant"
@@ -121,6 +131,23 @@ std::string Guarantee::assumed_disturbance() const {
   return text + (wording_.two_channels ? " (the length of the error in both channels; " +
                                              lower_decimal(assumed_noise_ / sqrt(two)) + " in each is enough)"
                                        : "");
+}
+
+std::string Guarantee::gaussian_disturbance() const {
+  const Tree& assume = design_.at("assume");
+  const Tree& noise = assume.at("noise");
+  const Tree* walk = assume.find("frequency_walk");
+  std::string text =
+      walk == nullptr || is_zero(*walk)
+          ? " and is constant"
+          : " at the start and walks in independent Gaussian steps of mean zero and deviation at most " +
+                text_of(*walk) + kPerSample;
+  text += ", with independent Gaussian measurement noise of mean zero and ";
+  if (const Tree* decibels = noise.find("snr_db")) {
+    return text + "an SNR of at least " + text_of(*decibels) + " dB (a deviation of at most " +
+           lower_decimal(*wording_.deviation) + " of the amplitude in each channel)";
+  }
+  return text + "a deviation of at most " + text_of(noise.at("deviation")) + " in each channel";
 }
 
 std::string Guarantee::disturbance_of(const Ball& noise, const Ball& slew) {
@@ -176,6 +203,10 @@ std::string Guarantee::short_text(const std::string& id) const {
   if (id == kSlew) {
     return "without noise, the tracker tolerates a slew up to " + slew_->text + kPerSample +
            " per sample: a certified invariant set exists";
+  }
+  if (id == kLosingLock) {
+    return "the probability of losing lock within " + text_of(design_.at("assume").at("samples")) +
+           " samples is below " + losing_lock_->text;
   }
   return "under the assumed noise and slew, a certified invariant set contains frequency errors up to " +
          reach_->text + kPerSample;
@@ -306,6 +337,30 @@ Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
   return found;
 }
 
+Claim Guarantee::losing_lock(const Promises& promises) const {
+  Claim found;
+  found.statement = hypotheses(promises) + short_text(kLosingLock) + ".";
+  found.verdict = proved_if(certainly_less(of(promises.losing_lock), losing_lock_->value));
+  found.evidence = {{"probability_of_losing_lock", of(promises.losing_lock), Sense::bounds_above}};
+  return found;
+}
+
+/// With Gaussian noise: how probable it is that the tracker loses lock, and what that means.
+Claim Guarantee::lock_sentence(const Tree& claim, const Promises& promises) const {
+  const Tree& evidence = claim.at("evidence");
+  Claim found;
+  found.is_summary = true;
+  found.verdict = proved_if(promises.losing_lock.has_value() && promises.lock_reach.has_value());
+  found.evidence = {{"probability_of_losing_lock", of(promises.losing_lock), Sense::bounds_above},
+                    {"lock_frequency_error", of(promises.lock_reach), Sense::bounds_above}};
+  found.statement = hypotheses(promises) + "the probability that the tracker loses lock within " +
+                    text_of(design_.at("assume").at("samples")) + " samples, its frequency error exceeding " +
+                    upper_decimal(high_of(evidence.at("lock_frequency_error"))) + kPerSample +
+                    " at one of them, is at most " +
+                    upper_decimal(high_of(evidence.at("probability_of_losing_lock"))) + ".";
+  return found;
+}
+
 Claim Guarantee::check(const Tree& claim, const Promises& promises, Objections& objections) const {
   const std::string& id = claim.at("id").text();
   const bool asked = id == kSentence || id == kSet || id == kLimits ||
@@ -314,6 +369,15 @@ Claim Guarantee::check(const Tree& claim, const Promises& promises, Objections& 
   if (!asked) {
     objections.emplace_back("[require] does not ask for this");
     return {};
+  }
+  if (wording_.deviation) {
+    if (id != kSentence && id != kLosingLock) {
+      objections.emplace_back("this is for noise with a bound");
+      return {};
+    }
+    Claim gaussian = id == kSentence ? lock_sentence(claim, promises) : losing_lock(promises);
+    check_claim(claim, gaussian, objections);
+    return gaussian;
   }
   Claim found = id == kBound      ? frequency_error(promises)
                 : id == kSettling ? settling(promises)

@@ -26,8 +26,11 @@ struct Promises {
   // without noise, and how far the set for the assumed noise and slew reaches in frequency, rad/sample. Lower
   // bounds.
   std::optional<Ball> noise, slew, reach;
-  std::optional<Ball> rate;         ///< by which errors in that set shrink at least, a sample
-  std::size_t rate_window = 1;      ///< samples over which that is a mean
+  std::optional<Ball> rate;     ///< by which errors in that set shrink at least, a sample
+  std::size_t rate_window = 1;  ///< samples over which that is a mean
+  /// With Gaussian noise: of losing lock within the assumed samples, and |frequency error| until then. Upper
+  /// bounds.
+  std::optional<Ball> losing_lock, lock_reach;
   bool about_steady_state = false;  ///< the reach is measured from a biased steady state
   /// For which P(0|0) all this is true, as the sentences say it: "and with P(0|0) = ...".
   std::string covariance;
@@ -50,6 +53,7 @@ struct Wording {
   bool in_band = true;       ///< true of the assumed frequencies; else of every one
   bool two_channels = true;  ///< the noise is a vector in the plane
   const char* arithmetic = kExactArithmetic;
+  std::optional<Ball> deviation = std::nullopt;  ///< of Gaussian noise in each channel, relative
 };
 
 /// The claims of [require] and the guarantee of a design whose [assume] and [require] this reads.
@@ -84,11 +88,15 @@ class Guarantee {
   [[nodiscard]] Claim sentence(const Tree& claim, const Promises& promises) const;
   [[nodiscard]] Claim invariant_set(const Tree& claim, const Promises& promises) const;
   [[nodiscard]] Claim limits(const Tree& claim, const Promises& promises) const;
+  [[nodiscard]] std::string gaussian_disturbance() const;
+  [[nodiscard]] Claim losing_lock(const Promises& promises) const;
+  [[nodiscard]] Claim lock_sentence(const Tree& claim, const Promises& promises) const;
 
   const Tree& design_;
   Wording wording_;
   std::vector<Requirement> required_;
-  std::optional<Number> frequency_error_below_, settles_within_, settled_below_, noise_, slew_, reach_;
+  std::optional<Number> frequency_error_below_, settles_within_, settled_below_, noise_, slew_, reach_,
+      losing_lock_;
   Ball amplitude_, assumed_noise_, start_error_;
 };
 

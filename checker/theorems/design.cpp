@@ -83,7 +83,9 @@ Design read_design(const Tree& tree, Objections& objections) {
   design.lowest_frequency = band.lowest;
   design.highest_frequency = band.highest;
   design.largest_frequency = band.highest;
-  design.noise = not_negative(assume, "noise") / amplitude;
+  // Gaussian noise has no bound: nothing that needs one is true of it.
+  design.noise = assume.at("noise").find("text") == nullptr ? Ball::everything()
+                                                            : not_negative(assume, "noise") / amplitude;
   design.slew = not_negative(assume, "slew");
   design.amplitude_error = not_negative(assume, "initial_amplitude_error") / amplitude;
   design.phase_error = not_negative(assume, "initial_phase_error");

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "analysis/rigor/elementary.hpp"
+
 namespace veritrack::single_channel {
 
 namespace {
@@ -47,6 +49,37 @@ Interval frequency_error(const PhaseSet& set, double level) {
 
 constexpr int kFollowed = 4000;  // samples
 
+/// So that the checker's bounds on rounding, which are not these, may be larger.
+constexpr double kRoom = 16.0;
+
+TrackedSignal signal_of(const PhaseQuestion& question, const Interval& noise) {
+  return {question.tracker.amplitude, question.band, noise};
+}
+
+StepRounding with_room(const StepRounding& rounding) {
+  return {(Interval(kRoom) * Interval(rounding.error)).upper(),
+          (Interval(kRoom) * Interval(rounding.covariance)).upper()};
+}
+
+/// What is allowed for the rounding of a step in the sets of a claim.
+StepRounding rounding_of(const PhaseQuestion& question, const WindowClaim& claim, const Interval& noise) {
+  return with_room(window_rounding(question.tracker.design, signal_of(question, noise), claim.assumption));
+}
+
+/// True only when the rounding of the first step, from a start of the range, is no more than the claim allows
+/// for.
+bool certainly_covers_start(const PhaseQuestion& question, const PhaseSet& set VERITRACK_DECLARED_CALL_SITE) {
+  VERITRACK_MUTANT_RETURNS(true)
+  const DiagonalStart& start = set.start.value();
+  const Interval& amplitude = question.tracker.amplitude;
+  const StepRounding rounding = with_room(
+      window_rounding(question.tracker.design, signal_of(question, set.noise), set.claim.assumption,
+                      StartRange{start.times(start.from, amplitude), start.times(start.to, amplitude)}));
+  const StepRounding& allowed = set.claim.assumption.rounding;
+  return rounding.is_bounded() && rounding.error <= allowed.error &&
+         rounding.covariance <= allowed.covariance;
+}
+
 }  // namespace
 
 WindowErrors errors_of(const PhaseQuestion& question, const PhaseSet& set) {
@@ -87,6 +120,11 @@ std::optional<PhaseSet> PhaseSearch::verified(const WindowClaim& proposal, const
   for (const double slack : {0.012, kUsualSlack, 0.05, 0.1}) {
     PhaseSet set{with_slack(proposal, slack), {}, noise, slew, 0.0, std::nullopt};
     set.claim.slew = slew.upper();
+    StepRounding& rounding = set.claim.assumption.rounding;
+    rounding = rounding_of(question_, set.claim, noise);
+    if (!rounding.is_bounded()) {
+      return std::nullopt;
+    }
     set.start_level = largest_start(errors_of(question_, set), set.claim.assumption.radius);
     if (!(set.start_level > 0.0)) {
       return std::nullopt;
@@ -173,6 +211,7 @@ std::optional<PhaseSet> PhaseSearch::least_bound() const {
     for (const double margin : {1.02, 1.1, 1.3}) {
       if (within(*set, margin) &&
           certainly_less_equal(Interval(set->claim.signal_uncertainty), tracker.design.q1) &&
+          certainly_covers_start(question_, *set) &&
           certainly_below_covariances(tracker.design, question_.band, set->claim,
                                       set->start->times(set->start->to, tracker.amplitude))) {
         return set;
@@ -193,7 +232,10 @@ std::optional<PhaseSet> PhaseSearch::largest_noise() const {
   };
   for (const WindowClaim& proposal : best_first(still_proposals_, noise_of)) {
     for (const double slack : {0.012, kUsualSlack, 0.05}) {
-      const double noise = noise_of(with_slack(proposal, slack));
+      WindowClaim claim = with_slack(proposal, slack);
+      // Rounding takes some of the room; it grows with the noise.
+      claim.assumption.rounding = rounding_of(question_, claim, Interval(noise_of(claim)));
+      const double noise = noise_of(claim);
       if (!(noise > 0.0)) {
         continue;
       }

@@ -5,27 +5,35 @@
 #include "checker/document/evidence.hpp"
 #include "checker/single_channel/covariance_window.hpp"
 #include "checker/single_channel/diagonal_start.hpp"
+#include "checker/single_channel/rounded_step.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
 /// A verified window, and the recursion of the errors in it: x_k = |e_k| in the metric P_k^-1. As long as x
-/// <= R,
-///   x_{k+m} <= kappa_m x_k + c sum_{j<m} kappa_{m-1-j} x_{k+j}^2 + sqrt(m) u,   m = 1, ..., n.
+/// <= R, for m = 1, ..., n,
+///   x_{k+m} <= kappa_m x_k + c sum_{j<m} kappa_{m-1-j} x_{k+j}^2 + g^m sqrt(m) u + rho sum_{j<m} kappa_j,
+/// where a rounded step adds at most rho to e, and P changes by at most the part 1 - 1/g^2.
 class ErrorSet {
  public:
-  ErrorSet(WindowStatement window, const SingleChannelDesign& design, const Ball& noise, const Ball& start)
+  ErrorSet(WindowStatement window, const SingleChannelDesign& design, const Ball& noise, const Ball& start,
+           const Ball& error_rounding)
       : window_(std::move(window)), noise_(noise), start_(start), kappa_{one} {
+    const Ball growth = one / sqrt(one - window_.covariance_rounding);
+    const Ball input = sqrt(square(noise) / design.r + square(window_.slew) / design.q2);
+    Ball grown = one;
     for (const Ball& share : window_.shares) {
-      kappa_.push_back(sqrt(one - share));
-      sum_ += kappa_[kappa_.size() - 2];
+      grown = grown * growth;
+      sum_ += kappa_.back();
+      kappa_.push_back(grown * sqrt(one - share));
+      pushed_.push_back(grown * sqrt(Ball(static_cast<double>(pushed_.size()))) * input +
+                        error_rounding * sum_);
     }
     // |delta nu + i nu^2/2| falls short of the exact innovation by at most |nu|^3/6, |nu| <= x sqrt(P33).
     const Ball& variance = window_.frequency_variance;
     curvature_ = (window_.curvature + window_.radius * variance * sqrt(variance) / Ball(6.0)) /
-                 sqrt(window_.signal_uncertainty);
-    input_ = sqrt(square(noise) / design.r + square(window_.slew) / design.q2);
+                 sqrt(window_.signal_uncertainty) * growth;
   }
 
   [[nodiscard]] const WindowStatement& window() const { return window_; }
@@ -35,9 +43,7 @@ class ErrorSet {
   /// The factor by which a window multiplies errors that are at most `level` throughout, and the resulting
   /// level.
   [[nodiscard]] Ball factor(const Ball& level) const { return kappa_.back() + curvature_ * sum_ * level; }
-  [[nodiscard]] Ball after(const Ball& level) const {
-    return factor(level) * level + sqrt(Ball(static_cast<double>(samples()))) * input_;
-  }
+  [[nodiscard]] Ball after(const Ball& level) const { return factor(level) * level + pushed_.back(); }
   [[nodiscard]] Ball rate() const {
     return exp(log(factor(window_.radius)) / Ball(static_cast<double>(samples())));
   }
@@ -49,12 +55,11 @@ class ErrorSet {
     std::vector<Ball> x{start};
     for (std::size_t k = 1; k <= samples; ++k) {
       const std::size_t m = std::min(k, kappa_.size() - 1);
-      Ball pushed = zero;
+      Ball curved = zero;
       for (std::size_t j = 0; j < m; ++j) {
-        pushed += kappa_[m - 1 - j] * square(x[k - m + j]);
+        curved += kappa_[m - 1 - j] * square(x[k - m + j]);
       }
-      const Ball next =
-          kappa_[m] * x[k - m] + curvature_ * pushed + sqrt(Ball(static_cast<double>(m))) * input_;
+      const Ball next = kappa_[m] * x[k - m] + curvature_ * curved + pushed_[m];
       x.push_back(certainly_at_most(next, window_.radius) ? next.upper() : Ball::everything());
     }
     return x;
@@ -68,7 +73,7 @@ class ErrorSet {
   /// negative at R, is at most the smaller root.
   [[nodiscard]] Ball ultimate() const {
     const Ball room = one - kappa_.back();
-    const Ball pushed = sqrt(Ball(static_cast<double>(samples()))) * input_;
+    const Ball& pushed = pushed_.back();
     return two * pushed / (room + sqrt(square(room) - four * curvature_ * sum_ * pushed));
   }
   /// sup x_k for starts of that level: a level between the smaller root and R that a window starts with is
@@ -92,9 +97,10 @@ class ErrorSet {
  private:
   WindowStatement window_;
   Ball noise_, start_;
-  std::vector<Ball> kappa_;  ///< kappa_0 = 1, ..., kappa_n
-  Ball sum_ = zero;          ///< of kappa_0, ..., kappa_{n-1}
-  Ball curvature_, input_;   ///< c, u
+  std::vector<Ball> kappa_;         ///< kappa_0 = 1, ..., kappa_n
+  Ball sum_ = zero;                 ///< of kappa_0, ..., kappa_{n-1}
+  Ball curvature_;                  ///< c
+  std::vector<Ball> pushed_{zero};  ///< what noise, slew and rounding add in 0, ..., n samples
 };
 
 /// The set of this name, verified; none when the evidence has none, or not all that it says is proved.
@@ -131,9 +137,12 @@ std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& 
     window.start_signal = start->to * start->signal;
     window.start_frequency = start->to * start->frequency;
   }
-  const ErrorSet set(window, design, number("noise"), number("start_level"));
-  if (certainly_not_negative(set.noise()) && certainly_positive(set.start()) && set.keeps(set.start()) &&
-      window_is_proved(window, design, cells)) {
+  const Ball noise = number("noise");
+  const StepRounding rounding = step_rounding(design, window, noise, start);
+  window.covariance_rounding = rounding.covariance;
+  const ErrorSet set(window, design, noise, number("start_level"), rounding.error);
+  if (rounding.finite() && certainly_not_negative(set.noise()) && certainly_positive(set.start()) &&
+      set.keeps(set.start()) && window_is_proved(window, design, cells)) {
     return set;
   }
   objections.push_back("the set \"" + name + "\" is not proved by its evidence");
@@ -203,10 +212,13 @@ std::vector<Condition> conditions_of(const ErrorSets& sets, const SingleChannelD
   std::vector<Condition> conditions{
       {"leak", R"(\epsilon = 0)", proved_if(design.without_leak()), design.epsilon, zero},
       {"controllable-amplitude", "q_1 > 0", decide_less(zero, design.q1), design.q1, zero},
-      {"invariant-set", R"((\kappa_n + c R \sum_m \kappa_m) R + \sqrt n\,u \le R)", proved_if(invariant)}};
+      {"invariant-set",
+       R"((\kappa_n + c R \sum_m \kappa_m) R + g^n \sqrt n\,u + \varrho \sum_m \kappa_m \le R)",
+       proved_if(invariant)}};
   if (sets.whole) {
     conditions.back().lhs = sets.whole->after(sets.whole->window().radius);
     conditions.back().rhs = sets.whole->window().radius;
+    conditions.back().lhs_sense = Sense::bounds_above;
     conditions.push_back({"start-in-set", R"(e(0)' P(0)^{-1} e(0) \le R_0^2)", proved_if(inside),
                           inside ? sets.start_level : Ball::everything(),
                           inside ? sets.bound->start() : sets.whole->start(), Sense::bounds_above});

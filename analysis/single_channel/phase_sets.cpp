@@ -66,10 +66,8 @@ StepRounding rounding_of(const PhaseQuestion& question, const WindowClaim& claim
   return with_room(window_rounding(question.tracker.design, signal_of(question, noise), claim.assumption));
 }
 
-/// True only when the rounding of the first step, from a start of the range, is no more than the claim allows
-/// for.
-bool certainly_covers_start(const PhaseQuestion& question, const PhaseSet& set VERITRACK_DECLARED_CALL_SITE) {
-  VERITRACK_MUTANT_RETURNS(true)
+/// Whether the rounding of the first step, from a start of the range, is no more than the claim allows for.
+bool covers_start(const PhaseQuestion& question, const PhaseSet& set) {
   const DiagonalStart& start = set.start.value();
   const Interval& amplitude = question.tracker.amplitude;
   const StepRounding rounding = with_room(
@@ -211,7 +209,7 @@ std::optional<PhaseSet> PhaseSearch::least_bound() const {
     for (const double margin : {1.02, 1.1, 1.3}) {
       if (within(*set, margin) &&
           certainly_less_equal(Interval(set->claim.signal_uncertainty), tracker.design.q1) &&
-          certainly_covers_start(question_, *set) &&
+          covers_start(question_, *set) &&
           certainly_below_covariances(tracker.design, question_.band, set->claim,
                                       set->start->times(set->start->to, tracker.amplitude))) {
         return set;

@@ -42,15 +42,15 @@ Interval part(const Interval& x, int index, int count) {
 struct Prediction {
   Interval eigenvalues, u, d;
 };
-Prediction prediction_of(const trackers::ToneModel<Interval>& design, const HeldStates& states) {
+Prediction prediction_of(const trackers::ToneModel<Interval>& design, const HeldStates& states,
+                         const Interval& d) {
   // The prediction's M is the turned M, q1 I and q2 d/(d + q2) h h', its u is d/(d + q2) h; h = u + Jz.
   const Interval h = states.u + states.z;
-  const Interval most(states.d.upper());
+  const Interval most(d.upper());
   const Interval share = most / (most + design.q2);
   const Interval highest = Interval(states.eigenvalues.upper()) + design.q1 + design.q2 * share * square(h);
   const Interval lowest = Interval(states.eigenvalues.lower()) + design.q1;
-  return {Interval::from_bounds(lowest.lower(), sets::upper_or_infinite(highest)), share * h,
-          states.d + design.q2};
+  return {Interval::from_bounds(lowest.lower(), sets::upper_or_infinite(highest)), share * h, d + design.q2};
 }
 
 /// The prediction from all states, with its rounding.
@@ -82,8 +82,7 @@ StateDifference step_difference(const sets::Program& program, const HeldStates& 
                         certainly_less_equal(Interval(0.0), states.eigenvalues) &&
                         certainly_less_equal(Interval(0.0), model.q1) && certainly_positive(model.q2) &&
                         certainly_positive(model.r);
-  const Prediction limits = prediction_of(model, states);
-  if (!in_range || !rigor::is_finite(limits.eigenvalues) || !rigor::is_finite(limits.u)) {
+  if (!in_range) {
     constexpr double kUnknown = kUnboundedRounding.error;
     return {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   }
@@ -91,15 +90,16 @@ StateDifference step_difference(const sets::Program& program, const HeldStates& 
       trackers::diagonal_process_noise(Rounded(model.q1), Rounded(model.q2)), Rounded(model.r),
       Rounded(model.epsilon)};
   const Rounded measurement(component(Interval(program.largest_measurement)));
-  const Interval half_width = Interval(0.5) * Interval(rigor::width(limits.eigenvalues));
   StateDifference all;
   for (int i = 0; i < kVariances; ++i) {
     const Interval d = part(states.d, i, kVariances);
     RoundedEstimate before = predicted(design, program, states, d);
     const auto p = before.covariance;
+    const Prediction limits = prediction_of(model, states, d);
+    const Interval half_width = Interval(0.5) * Interval(rigor::width(limits.eigenvalues));
     before.in_phase = known(before.in_phase, component(states.z));
     before.quadrature = known(before.quadrature, component(states.z));
-    before.covariance.frequency_variance = known(p.frequency_variance, d + model.q2);
+    before.covariance.frequency_variance = known(p.frequency_variance, limits.d);
     before.covariance.conditional_22 = known(p.conditional_22, limits.eigenvalues);
     before.covariance.regression_2 = known(p.regression_2, component(limits.u));
     for (int j = 0; j < kDiagonals * kRegressions; ++j) {
@@ -123,6 +123,7 @@ Interval filtered_floor(const trackers::ToneModel<Interval>& design) {
 StepRounding in_metric(const trackers::ToneModel<Interval>& design, const StateDifference& difference) {
   rigor::require_upward_rounding();
   const Interval floor = filtered_floor(design);
+  // cannot bind (floor, design.q2): a quotient by zero is not certainly small, and designs are not negative.
   if (!sets::is_finite(difference) || !certainly_positive(floor) || !certainly_positive(design.q2)) {
     return kUnboundedRounding;
   }

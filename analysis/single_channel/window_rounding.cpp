@@ -8,10 +8,9 @@ using rigor::Interval;
 
 namespace {
 
-/// Everything from `low` to `high`, empty when they are not certainly in order.
+/// Everything from `low` to `high`; empty when they are not in order.
 Interval from_to(const Interval& low, const Interval& high) {
-  return certainly_less_equal(low, high) ? Interval::from_bounds(low.lower(), high.upper())
-                                         : Interval::empty();
+  return Interval::from_bounds(low.lower(), high.upper());
 }
 
 /// The covariances above (1 - kMostCovariance) diag(floor, floor, q2) of the assumption.

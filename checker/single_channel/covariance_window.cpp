@@ -196,7 +196,7 @@ bool is_sensible(const WindowStatement& s, const SingleChannelDesign& d) {
   bool sensible = d.without_leak() && certainly_positive(d.q1) && certainly_positive(d.q2) &&
                   certainly_positive(d.r) && !s.shares.empty() && s.shares.size() <= kLongest &&
                   certainly_less(s.loosening, one) && certainly_not_negative(s.slew) &&
-                  certainly_not_negative(s.covariance_rounding) && certainly_less(s.covariance_rounding, one);
+                  certainly_not_negative(s.covariance_rounding);
   for (const Ball* number : {&s.radius, &s.frequency_variance, &s.signal_variance, &s.loosening, &s.curvature,
                              &s.curvature_weight, &s.signal_uncertainty}) {
     sensible = sensible && certainly_positive(*number);

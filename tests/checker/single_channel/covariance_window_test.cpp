@@ -39,7 +39,11 @@ TEST_CASE("what is true of the tracker that runs is accepted, what is not is ref
   CHECK(refused(&WindowStatement::slew, 0.1));
   CHECK(refused(&WindowStatement::least_p11, 1e3));
   CHECK(refused(&WindowStatement::least_p22, 1e3));
+  CHECK_FALSE(refused(&WindowStatement::covariance_rounding, 1e-7));
+  CHECK(refused(&WindowStatement::covariance_rounding, 0.05));
+  CHECK(refused(&WindowStatement::covariance_rounding, 1.0));
   // Of these the proof uses squares, or what they leave of 1.
+  CHECK(refused(&WindowStatement::covariance_rounding, -1e-9));
   CHECK(refused(&WindowStatement::slew, -1e-9));
   CHECK(refused(&WindowStatement::start_signal, -1e-6));
   CHECK(refused(&WindowStatement::start_frequency, 0.0));

@@ -139,6 +139,13 @@ TEST_CASE("starts are covered with the rest") {
   CHECK_FALSE(rounding(start_of(-1e-3, 1e-3, 0.95, 1.05)).finite());
 }
 
+TEST_CASE("a share of P that is not small is none") {
+  const auto window = window_of(0.01, 0.0228, 0.114);
+  CHECK(step_rounding(design_of({1e-6, 0.005, 0.01}), window, Ball(0.0), std::nullopt).finite());
+  CHECK_FALSE(step_rounding(design_of({1e-14, 0.005, 0.01}), window, Ball(0.0), std::nullopt).finite());
+  CHECK_FALSE(step_rounding(design_of({0.0, 0.005, 0.01}), window, Ball(0.0), std::nullopt).finite());
+}
+
 TEST_CASE("nothing is bounded where something is unknown, or beyond the units of length that are admitted") {
   const test::SingleChannelValues usual{0.01, 0.01, 0.1};
   const test::StateLimits limits{1.1, 3.0, 0.01, 0.1, 2.0, 0.01, 0.02};

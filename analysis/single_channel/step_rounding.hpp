@@ -1,5 +1,5 @@
 // How far one step of the single-channel tracker in double precision can be from the same step in real
-// arithmetic (docs/rounding.md, section 6).
+// arithmetic (docs/rounding.md, "The single-channel tracker").
 //
 // Both start from what the program holds: an estimate whose covariance is the matrix that its factors stand
 // for, and a measurement. The bounds are for every orientation of the plane.

@@ -1,6 +1,6 @@
 // How the error of the single-channel tracker moves from sample to sample, as a recursion of numbers: what a
 // verified window (window_claim.hpp) comes to. docs/single-channel.md, section 4; docs/rounding.md,
-// section 6.
+// "The single-channel tracker".
 //
 // With x_k = |e_k| in the metric P_k^-1, rounding that adds at most rho to e in it and mu P to P in a step,
 // g = 1/sqrt(1 - mu), kappa_m = g^m sqrt(1 - shares_m), c = g curvature / sqrt(signal_uncertainty) and u^2 =

@@ -1,5 +1,5 @@
 // What rounding adds to a step of the single-channel tracker in the states of a window (docs/rounding.md,
-// section 6).
+// "The single-channel tracker").
 #pragma once
 
 #include <optional>

@@ -1,6 +1,7 @@
 // How far a step of the single-channel tracker in double precision can be from the exact step: the checker's
 // own transcription of the operations of trackers/single_channel/single_channel_ekf.hpp, a time update and a
-// measurement update, with what is known of the size of each result (docs/rounding.md, section 6).
+// measurement update, with what is known of the size of each result (docs/rounding.md, "The single-channel
+// tracker").
 //
 // Assumed of the program: checker/numbers/rounded_value.hpp, and sine and cosine within one unit in the last
 // place. Lengths are relative to the true amplitude, which must be between 2^-60 and 2^60.

@@ -123,7 +123,7 @@ Interval filtered_floor(const trackers::ToneModel<Interval>& design) {
 StepRounding in_metric(const trackers::ToneModel<Interval>& design, const StateDifference& difference) {
   rigor::require_upward_rounding();
   const Interval floor = filtered_floor(design);
-  // cannot bind (floor, design.q2): a quotient by zero is not certainly small, and designs are not negative.
+  // cannot bind (floor, design.q2): a quotient by zero is no number, and designs are not negative.
   if (!sets::is_finite(difference) || !certainly_positive(floor) || !certainly_positive(design.q2)) {
     return kUnboundedRounding;
   }
@@ -132,9 +132,6 @@ StepRounding in_metric(const trackers::ToneModel<Interval>& design, const StateD
   const Interval beside(difference.p_z3);
   const Interval share = rigor::max((Interval(difference.p_zz) + s * beside) / floor,
                                     (Interval(difference.p_33) + beside / s) / design.q2);
-  if (!certainly_less_equal(share, Interval(StepRounding::kMostCovariance))) {
-    return kUnboundedRounding;
-  }
   const Interval level =
       sqrt((square(Interval(difference.z)) / floor + square(Interval(difference.frequency)) / design.q2) /
            (Interval(1.0) - share));

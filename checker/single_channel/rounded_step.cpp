@@ -106,6 +106,7 @@ ToneRounding larger(const ToneRounding& a, const ToneRounding& b) {
 
 ToneRounding rounded_step(const SingleChannelDesign& design, const HeldTone& before) {
   const Ball nothing = Ball::everything();
+  // cannot bind (design.r): gains are bounded by what is divided by its root.
   const bool in_range = certainly_at_most(Ball(0x1p-60), design.amplitude) &&
                         certainly_at_most(design.amplitude, Ball(0x1p60)) && design.without_leak() &&
                         certainly_positive(design.r) && certainly_positive(design.q2) &&

@@ -59,6 +59,7 @@ TEST_CASE("what may overflow, or be divided by zero, is not bounded") {
   const RoundedValue one = checker::held(Ball(1.0));
   const RoundedValue uncertain{Ball(2.0), Ball(0.5)};
   CHECK_FALSE(quotient(one, uncertain, Ball(0.5), Ball(2.0)).error.finite());
+  CHECK_FALSE(quotient(one, uncertain, Ball(0.25), Ball(4.0)).error.finite());
   CHECK(quotient(one, uncertain, Ball(0.75), Ball(2.0)).error.finite());
   CHECK_FALSE(sum(one, {Ball::everything(), Ball(0.0)}).error.finite());
   CHECK_FALSE(sum(one, {Ball(1.0), Ball::everything()}).error.finite());

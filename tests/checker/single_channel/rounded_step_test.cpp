@@ -141,8 +141,13 @@ TEST_CASE("starts are covered with the rest") {
 
 TEST_CASE("a share of P that is not small is none") {
   const auto window = window_of(0.01, 0.0228, 0.114);
-  CHECK(step_rounding(design_of({1e-6, 0.005, 0.01}), window, Ball(0.0), std::nullopt).finite());
-  CHECK_FALSE(step_rounding(design_of({1e-14, 0.005, 0.01}), window, Ball(0.0), std::nullopt).finite());
+  for (int power = 5; power <= 15; ++power) {
+    const auto found =
+        step_rounding(design_of({std::pow(10.0, -power), 0.005, 0.01}), window, Ball(0.0), std::nullopt);
+    CHECK((!found.finite() || found.covariance.near() <= 0x1p-8));
+    CHECK((power > 6 || found.finite()));
+    CHECK((power < 14 || !found.finite()));
+  }
   CHECK_FALSE(step_rounding(design_of({0.0, 0.005, 0.01}), window, Ball(0.0), std::nullopt).finite());
 }
 

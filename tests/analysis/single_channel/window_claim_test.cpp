@@ -184,32 +184,37 @@ TEST_CASE("rounding is in the recursion of the errors, and of the covariance") {
   }
 }
 
-TEST_CASE("the bounds of a window hold a covariance that each step moves by its rounding") {
+TEST_CASE("the bounds of a window hold covariances that each step moves by its rounding, and little more") {
   const rigor::UpwardRounding upward;
+  // Without errors, so that rounding is what decides.
   WindowClaim claim = good_claim();
-  constexpr double kShare = 1e-4;
-  claim.assumption.rounding = {0.0, kShare};
-  const auto window = static_cast<int>(claim.shares.size());
+  claim.assumption.radius = 1e-9;
+  claim.assumption.loosening = 1e-6;
+  constexpr double kShare = 0.01;
   constexpr double kFrequency = 1.11;
-  for (const double share : {-kShare, kShare}) {
-    PhaseCovariance<double> p = diagonal(kQ, kQ);
-    constexpr int kBefore = 200;
-    for (int k = -kBefore; k <= claim.settling; ++k) {
-      p = scaled(1.0 + share, updated(predicted(p, 1.0, 0.0, {kQ, kQ, kR, 0.0}), k * kFrequency, kR));
-    }
-    int seen = 0;
-    follow_window<double>({kQ, kQ, kR, 0.0}, claim.assumption, {claim.settling, window, 0.0},
-                          claim.settling * kFrequency, kFrequency,
-                          [&](int m, const auto& upper, const auto& lower, const auto& /*predicted*/) {
-                            p = scaled(1.0 + share, updated(predicted(p, 1.0, 0.0, {kQ, kQ, kR, 0.0}),
-                                                            (claim.settling + m) * kFrequency, kR));
-                            CHECK(smallest_eigenvalue(matrix_of(upper) - matrix_of(p)) > 0.0);
-                            CHECK(smallest_eigenvalue(matrix_of(p) - matrix_of(lower)) > 0.0);
-                            ++seen;
-                            return true;
-                          });
-    CHECK(seen == window);
+  claim.assumption.rounding = {0.0, kShare};
+  const auto step = [](const PhaseCovariance<double>& p, double share, int sample) {
+    return scaled(1.0 + share, updated(predicted(p, 1.0, 0.0, {kQ, kQ, kR, 0.0}), sample * kFrequency, kR));
+  };
+  // From long ago, a little larger each time; and from zero, a little smaller.
+  PhaseCovariance<double> large = diagonal(kQ, kQ);
+  for (int k = -200; k <= 0; ++k) {
+    large = step(large, kShare, k);
   }
+  PhaseCovariance<double> small = diagonal(0.0, 0.0);
+  int seen = 0;
+  follow_window<double>({kQ, kQ, kR, 0.0}, claim.assumption, {30, 8, 0.0}, 0.0, kFrequency,
+                        [&](int m, const auto& upper, const auto& lower, const auto& /*predicted*/) {
+                          large = step(large, kShare, m);
+                          small = step(small, -kShare, m);
+                          CHECK(smallest_eigenvalue(matrix_of(upper) - matrix_of(large)) > 0.0);
+                          CHECK(smallest_eigenvalue(matrix_of(small) - matrix_of(lower)) > 0.0);
+                          CHECK(smallest_eigenvalue(1.02 * matrix_of(large) - matrix_of(upper)) > 0.0);
+                          CHECK(smallest_eigenvalue(matrix_of(lower) - 0.98 * matrix_of(small)) > 0.0);
+                          ++seen;
+                          return true;
+                        });
+  CHECK(seen == 8);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/single_channel/set_rounding.hpp"
 
 namespace veritrack::single_channel {
 
@@ -49,35 +50,6 @@ Interval frequency_error(const PhaseSet& set, double level) {
 
 constexpr int kFollowed = 4000;  // samples
 
-/// So that the checker's bounds on rounding, which are not these, may be larger.
-constexpr double kRoom = 16.0;
-
-TrackedSignal signal_of(const PhaseQuestion& question, const Interval& noise) {
-  return {question.tracker.amplitude, question.band, noise};
-}
-
-StepRounding with_room(const StepRounding& rounding) {
-  return {(Interval(kRoom) * Interval(rounding.error)).upper(),
-          (Interval(kRoom) * Interval(rounding.covariance)).upper()};
-}
-
-/// What is allowed for the rounding of a step in the sets of a claim.
-StepRounding rounding_of(const PhaseQuestion& question, const WindowClaim& claim, const Interval& noise) {
-  return with_room(window_rounding(question.tracker.design, signal_of(question, noise), claim.assumption));
-}
-
-/// Whether the rounding of the first step, from a start of the range, is no more than the claim allows for.
-bool covers_start(const PhaseQuestion& question, const PhaseSet& set) {
-  const DiagonalStart& start = set.start.value();
-  const Interval& amplitude = question.tracker.amplitude;
-  const StepRounding rounding = with_room(
-      window_rounding(question.tracker.design, signal_of(question, set.noise), set.claim.assumption,
-                      StartRange{start.times(start.from, amplitude), start.times(start.to, amplitude)}));
-  const StepRounding& allowed = set.claim.assumption.rounding;
-  return rounding.is_bounded() && rounding.error <= allowed.error &&
-         rounding.covariance <= allowed.covariance;
-}
-
 }  // namespace
 
 WindowErrors errors_of(const PhaseQuestion& question, const PhaseSet& set) {
@@ -119,7 +91,7 @@ std::optional<PhaseSet> PhaseSearch::verified(const WindowClaim& proposal, const
     PhaseSet set{with_slack(proposal, slack), {}, noise, slew, 0.0, std::nullopt};
     set.claim.slew = slew.upper();
     StepRounding& rounding = set.claim.assumption.rounding;
-    rounding = rounding_of(question_, set.claim, noise);
+    rounding = allowed_rounding(question_, set.claim, noise);
     if (!rounding.is_bounded()) {
       return std::nullopt;
     }
@@ -232,7 +204,7 @@ std::optional<PhaseSet> PhaseSearch::largest_noise() const {
     for (const double slack : {0.012, kUsualSlack, 0.05}) {
       WindowClaim claim = with_slack(proposal, slack);
       // Rounding takes some of the room; it grows with the noise.
-      claim.assumption.rounding = rounding_of(question_, claim, Interval(noise_of(claim)));
+      claim.assumption.rounding = allowed_rounding(question_, claim, Interval(noise_of(claim)));
       const double noise = noise_of(claim);
       if (!(noise > 0.0)) {
         continue;

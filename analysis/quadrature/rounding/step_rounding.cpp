@@ -1,12 +1,6 @@
 #include "analysis/quadrature/rounding/step_rounding.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <limits>
-#include <utility>
-#include <vector>
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounded.hpp"

@@ -66,19 +66,18 @@ ToneRounding update(const SingleChannelDesign& f, const HeldTone& held_before, c
   const RoundedValue s = sum(w, by_frequency);
   const RoundedValue innovation = sum(held(held_before.measurement), before.z);
   const RoundedValue weighted = quotient(innovation, s, least_w, innovation.size / least_w);
-  // P11/s is at most 1, and P1i/s at most sqrt(Pii/r)/2, as s = P11 + r.
-  const Ball root_r = sqrt(f.r);
+  // P11/s is at most 1, and P1i/s at most sqrt(Pii/s), as P1i^2 <= P11 Pii.
+  const Ball root = sqrt(least_w);
   const Ball most_p = p.most_m + p.d.size * square(p.most_u);
   const RoundedValue p12 = sum(p.beside, product(p13, p.u)).within(half * most_p);
   const RoundedValue z1 = sum(before.z, product(p11, weighted).within(innovation.size));
-  const RoundedValue z2 =
-      sum(before.z, product(p12, weighted).within(half * sqrt(most_p) / root_r * innovation.size));
+  const RoundedValue z2 = sum(before.z, product(p12, weighted).within(sqrt(most_p) / root * innovation.size));
   const RoundedValue frequency =
-      sum(before.frequency, product(p13, weighted).within(half * sqrt(p.d.size) / root_r * innovation.size));
+      sum(before.frequency, product(p13, weighted).within(sqrt(p.d.size) / root * innovation.size));
   const RoundedValue d = product(p.d, quotient(w, s, least_w, one)).within(p.d.size);
   // M11/w and M22 M11/w less M12^2/w likewise.
   const RoundedValue left = quotient(r, w, least_w, f.r / least_w);
-  const RoundedValue gain = quotient(p.beside, w, least_w, half * sqrt(p.most_m) / root_r);
+  const RoundedValue gain = quotient(p.beside, w, least_w, sqrt(p.most_m) / root);
   const RoundedValue determinant =
       sum(product(p.diagonal, p.diagonal), product(p.beside, p.beside)).within(square(p.most_m));
   const RoundedValue m11 = product(left, p.diagonal);
@@ -106,7 +105,6 @@ ToneRounding larger(const ToneRounding& a, const ToneRounding& b) {
 
 ToneRounding rounded_step(const SingleChannelDesign& design, const HeldTone& before) {
   const Ball nothing = Ball::everything();
-  // cannot bind (design.r): gains are bounded by what is divided by its root.
   const bool in_range = certainly_at_most(Ball(0x1p-60), design.amplitude) &&
                         certainly_at_most(design.amplitude, Ball(0x1p60)) && design.without_leak() &&
                         certainly_positive(design.r) && certainly_positive(design.q2) &&

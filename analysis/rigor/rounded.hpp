@@ -77,6 +77,13 @@ class Rounded {
     return {Rounded(sine, error), Rounded(cosine, error)};
   }
 
+  /// True only when both values are known and the same. Where they may be equal this says false, and so a
+  /// template that divides by something only when it is not zero divides by something that may be zero: the
+  /// error of the quotient is infinite.
+  friend bool operator==(const Rounded& a, const Rounded& b) {
+    return a.error_ == 0.0 && b.error_ == 0.0 && a.exact_ == b.exact_;
+  }
+
   /// x, when its exact value is known not to be negative, whatever the enclosure says.
   friend Rounded not_negative(const Rounded& x) {
     return {intersection(x.exact_, Interval::from_bounds(0.0, kInfinity)), x.error_};

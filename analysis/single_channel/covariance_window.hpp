@@ -13,6 +13,7 @@
 
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/taylor_model.hpp"
+#include "analysis/single_channel/step_rounding.hpp"
 #include "trackers/scalar_functions.hpp"
 #include "trackers/tone_model.hpp"
 
@@ -30,6 +31,12 @@ template <typename Scalar>
                                                const PhaseCovariance<Scalar>& b) {
   return {a.p11 + factor * b.p11, a.p12 + factor * b.p12, a.p13 + factor * b.p13,
           a.p22 + factor * b.p22, a.p23 + factor * b.p23, a.p33 + factor * b.p33};
+}
+
+/// factor p.
+template <typename Scalar>
+[[nodiscard]] PhaseCovariance<Scalar> scaled(const Scalar& factor, const PhaseCovariance<Scalar>& p) {
+  return {factor * p.p11, factor * p.p12, factor * p.p13, factor * p.p22, factor * p.p23, factor * p.p33};
 }
 
 /// diag(signal, signal, frequency).
@@ -78,6 +85,8 @@ struct WindowAssumption {
   double frequency_variance = 0.0;  ///< (rad/sample)^2
   double signal_variance = 0.0;     ///< relative to the amplitude, squared
   double loosening = 0.0;  ///< eta in (0, 1): (F + E) P (F + E)' <= (1 + eta) F P F' + (1 + 1/eta) E P E'
+  /// What the program's step adds to the exact one; zero for a tracker in real arithmetic.
+  StepRounding rounding = {};
 };
 
 /// A bound t with E P E' <= t diag(1, 1, 0), E = U(nu) F(z) - F, for every covariance P that is at most
@@ -148,6 +157,9 @@ void follow_window(const trackers::ToneModel<Scalar>& design, const WindowAssump
   const Interval one(1.0);
   const Scalar more = Scalar(1.0) + Scalar(assumption.loosening);
   const Scalar less = Scalar(1.0) - Scalar(assumption.loosening);
+  const Interval rounding(assumption.rounding.covariance);
+  const Scalar rounded_up((one + rounding).upper());
+  const Scalar rounded_down((one - rounding).lower());
   const auto above = [&](const PhaseCovariance<Scalar>& p) {
     const Interval added = (one + one / eta) * disturbance(assumption, detail::ranges_of(p));
     return predicted(p, more, Scalar(added.upper()), design);
@@ -165,11 +177,12 @@ void follow_window(const trackers::ToneModel<Scalar>& design, const WindowAssump
     const int samples = step - length.settling;
     const double drift = detail::phase_drift(samples, length.slew);
     const Scalar here = detail::advanced(phase, frequency, samples, drift);
-    upper = detail::without_remainder(updated(above(upper), here, design.r), 1.0, drift);
+    upper = detail::without_remainder(scaled(rounded_up, updated(above(upper), here, design.r)), 1.0, drift);
     if (step <= length.settling) {
       continue;
     }
-    lower = detail::without_remainder(updated(predicted_lower, here, design.r), -1.0, drift);
+    lower = detail::without_remainder(scaled(rounded_down, updated(predicted_lower, here, design.r)), -1.0,
+                                      drift);
     predicted_lower = beneath(lower);
     if (!visit(step - length.settling, upper, lower, predicted_lower)) {
       return;

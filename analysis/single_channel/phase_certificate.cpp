@@ -48,11 +48,14 @@ Condition controllable_amplitude(const trackers::ToneModel<Interval>& design) {
 
 Condition invariant_set(const PhaseQuestion& question, const PhaseCertificate& certificate) {
   Condition condition{"invariant-set",
-                      "(\\kappa_n + c R \\sum_m \\kappa_m) R + \\sqrt n\\,u \\le R",
+                      "(\\kappa_n + c R \\sum_m \\kappa_m) R + g^n \\sqrt n\\,u + \\varrho \\sum_m "
+                      "\\kappa_m \\le R",
                       Verdict::undecided,
                       {},
                       {},
-                      {}};
+                      {},
+                      theorems::Sense::at_most};  // rounding is bounded from above
+
   if (certificate.set) {
     const WindowErrors errors = errors_of(question, *certificate.set);
     const auto n = static_cast<double>(errors.window());
@@ -171,15 +174,15 @@ void set_promises(const PhaseQuestion& question, const PhaseCertificate& certifi
   set(starts.frequency_error_bound, "\\sup_k x_k\\,\\sqrt{P_{33}}",
       certificate.bound_set ? frequency_error_bound(question, *certificate.bound_set, start) : Interval(),
       certificate.set ? "The assumed starts are not in a certified set." : kNone);
-  // cannot bind (question.tracker.noise, question.tracker.slew): without either no number of samples settles,
-  // and the rest is words.
   const bool disturbed =
       certainly_positive(question.tracker.noise) || certainly_positive(question.tracker.slew);
   Interval settling;
   Interval settled;
   if (best) {
-    for (const std::optional<double>& level :
-         {question.tracker.settled_frequency_error, std::optional((Interval(2.0) * ultimate).upper())}) {
+    // What rounding alone leaves, nobody waits for.
+    const std::optional<double> of_ultimate =
+        disturbed ? std::optional((Interval(2.0) * ultimate).upper()) : std::nullopt;
+    for (const std::optional<double>& level : {question.tracker.settled_frequency_error, of_ultimate}) {
       if (level && *level > 0.0 && !rigor::is_finite(settling)) {
         settling = settling_samples(question, *best, start, *level);
         settled = rigor::is_finite(settling) ? Interval(*level) : Interval();
@@ -189,7 +192,8 @@ void set_promises(const PhaseQuestion& question, const PhaseCertificate& certifi
   const char* why_not = !best ? kNone
                         : disturbed
                             ? "No certified set gives a settling time."
-                            : "The bound in the long run is zero, which is approached but not reached.";
+                            : "Without noise and slew only rounding is left of the bound in the long run, "
+                              "and no settling time is computed.";
   set(starts.settling_samples, "|\\nu(k)| \\le \\nu_s \\text{ for } k \\ge k_s", settling, why_not);
   set(starts.settled_frequency_error, "", settled, why_not);
 }
@@ -239,8 +243,8 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
   derivation.id = "contraction";
   derivation.title = "Contraction of the errors over all phases and the band of frequencies";
   derivation.notes = {
-      "Covers the tracker in exact arithmetic, at every phase, for every frequency that stays in the band, "
-      "for a signal of constant amplitude.",
+      "Covers the tracker in double precision, at every phase, for every frequency that stays in the band, "
+      "for a signal of constant amplitude (docs/rounding.md says what is assumed of the program).",
       "The metric is the inverse of the tracker's own covariance, in which errors decrease over a window of "
       "samples. Amplitude error and noise are relative to the true amplitude."};
   const bool sensible = sets::is_well_posed(question.tracker) && is_finite(question.band);

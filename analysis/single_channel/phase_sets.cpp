@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "analysis/rigor/elementary.hpp"
+#include "analysis/single_channel/set_rounding.hpp"
+
 namespace veritrack::single_channel {
 
 namespace {
@@ -87,6 +90,11 @@ std::optional<PhaseSet> PhaseSearch::verified(const WindowClaim& proposal, const
   for (const double slack : {0.012, kUsualSlack, 0.05, 0.1}) {
     PhaseSet set{with_slack(proposal, slack), {}, noise, slew, 0.0, std::nullopt};
     set.claim.slew = slew.upper();
+    StepRounding& rounding = set.claim.assumption.rounding;
+    rounding = allowed_rounding(question_, set.claim, noise);
+    if (!rounding.is_bounded()) {
+      return std::nullopt;
+    }
     set.start_level = largest_start(errors_of(question_, set), set.claim.assumption.radius);
     if (!(set.start_level > 0.0)) {
       return std::nullopt;
@@ -173,6 +181,7 @@ std::optional<PhaseSet> PhaseSearch::least_bound() const {
     for (const double margin : {1.02, 1.1, 1.3}) {
       if (within(*set, margin) &&
           certainly_less_equal(Interval(set->claim.signal_uncertainty), tracker.design.q1) &&
+          covers_start(question_, *set) &&
           certainly_below_covariances(tracker.design, question_.band, set->claim,
                                       set->start->times(set->start->to, tracker.amplitude))) {
         return set;
@@ -193,7 +202,10 @@ std::optional<PhaseSet> PhaseSearch::largest_noise() const {
   };
   for (const WindowClaim& proposal : best_first(still_proposals_, noise_of)) {
     for (const double slack : {0.012, kUsualSlack, 0.05}) {
-      const double noise = noise_of(with_slack(proposal, slack));
+      WindowClaim claim = with_slack(proposal, slack);
+      // Rounding takes some of the room; it grows with the noise.
+      claim.assumption.rounding = allowed_rounding(question_, claim, Interval(noise_of(claim)));
+      const double noise = noise_of(claim);
       if (!(noise > 0.0)) {
         continue;
       }

@@ -8,6 +8,7 @@
 #include "analysis/single_channel/diagonal_start.hpp"
 #include "analysis/single_channel/window_errors.hpp"
 #include "analysis/single_channel/window_proposal.hpp"
+#include "analysis/single_channel/window_rounding.hpp"
 
 namespace veritrack::single_channel {
 

@@ -143,9 +143,9 @@ bool is_sensible(const ToneModel<Interval>& design, const Interval& band, const 
          rigor::certainly_positive(design.r) && design.without_leak() && is_finite(band) &&
          positive(assumption.radius) && positive(assumption.frequency_variance) &&
          positive(assumption.signal_variance) && positive(assumption.loosening) &&
-         assumption.loosening < 1.0 && claim.settling > 0 && !claim.shares.empty() && claim.slew >= 0.0 &&
-         positive(claim.curvature) && positive(claim.curvature_weight) &&
-         positive(claim.signal_uncertainty) &&
+         assumption.loosening < 1.0 && assumption.rounding.is_bounded() && claim.settling > 0 &&
+         !claim.shares.empty() && claim.slew >= 0.0 && positive(claim.curvature) &&
+         positive(claim.curvature_weight) && positive(claim.signal_uncertainty) &&
          std::all_of(claim.shares.begin(), claim.shares.end(), [](double share) { return share >= 0.0; });
 }
 

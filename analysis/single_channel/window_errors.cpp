@@ -15,15 +15,21 @@ WindowErrors::WindowErrors(const trackers::ToneModel<Interval>& design, const Wi
     : radius_(claim.assumption.radius) {
   const Interval zero(0.0);
   const Interval one(1.0);
+  const StepRounding& rounding = claim.assumption.rounding;
+  error_rounding_ = Interval(rounding.error);
+  const Interval growth = one / sqrt(one - Interval(rounding.covariance));
+  growth_.reserve(claim.shares.size() + 1);
+  growth_.push_back(one);
   shrinkage_.reserve(claim.shares.size() + 1);
   shrinkage_.push_back(one);
   for (const double share : claim.shares) {
-    shrinkage_.push_back(sqrt(max(one - Interval(share), zero)));
+    growth_.push_back(growth_.back() * growth);
+    shrinkage_.push_back(growth_.back() * sqrt(max(one - Interval(share), zero)));
   }
   // |delta nu + i nu^2 / 2| is less than the exact term by at most |nu|^3 / 6, |nu| <= R sqrt(P33).
   const Interval variance(claim.assumption.frequency_variance);
   const Interval cubic = radius_ * variance * sqrt(variance) / Interval(6.0);
-  curvature_ = (Interval(claim.curvature) + cubic) / sqrt(Interval(claim.signal_uncertainty));
+  curvature_ = growth * (Interval(claim.curvature) + cubic) / sqrt(Interval(claim.signal_uncertainty));
   input_ = sqrt(square(noise) / design.r + square(slew) / design.q2);
 }
 
@@ -35,8 +41,20 @@ Interval WindowErrors::factor(const Interval& level) const {
   return shrinkage_.back() + curvature_ * sum * level;
 }
 
+Interval WindowErrors::pushed_by_rounding(std::size_t samples) const {
+  Interval sum(0.0);
+  for (std::size_t j = 0; j < samples; ++j) {
+    sum += shrinkage_[j];
+  }
+  return error_rounding_ * sum;
+}
+
+Interval WindowErrors::pushed(std::size_t samples) const {
+  return growth_[samples] * sqrt(Interval(static_cast<int>(samples))) * input_ + pushed_by_rounding(samples);
+}
+
 Interval WindowErrors::after_window(const Interval& level) const {
-  return factor(level) * level + sqrt(Interval(window())) * input_;
+  return factor(level) * level + pushed(growth_.size() - 1);
 }
 
 bool WindowErrors::keeps(double level) const {
@@ -52,7 +70,9 @@ Interval WindowErrors::rate() const {
 }
 
 Interval WindowErrors::largest_input() const {
-  return radius_ * (Interval(1.0) - factor(radius_)) / sqrt(Interval(window()));
+  const Interval rounding = pushed_by_rounding(growth_.size() - 1);
+  return (radius_ * (Interval(1.0) - factor(radius_)) - rounding) /
+         (growth_.back() * sqrt(Interval(window())));
 }
 
 /// The bound on the level after `levels`, from the longest window that they allow.
@@ -63,9 +83,7 @@ double WindowErrors::next(const std::vector<double>& levels) const {
   for (std::size_t j = 0; j < m; ++j) {
     sum += shrinkage_[m - 1 - j] * square(Interval(levels[first + j]));
   }
-  const Interval bound = shrinkage_[m] * Interval(levels[first]) + curvature_ * sum +
-                         sqrt(Interval(static_cast<int>(m))) * input_;
-  return bound.upper();
+  return (shrinkage_[m] * Interval(levels[first]) + curvature_ * sum + pushed(m)).upper();
 }
 
 std::optional<std::vector<double>> WindowErrors::levels(double start, int samples) const {

@@ -1,11 +1,14 @@
 // How the error of the single-channel tracker moves from sample to sample, as a recursion of numbers: what a
-// verified window (window_claim.hpp) comes to. docs/single-channel.md, section 4.
+// verified window (window_claim.hpp) comes to. docs/single-channel.md, section 4; docs/rounding.md,
+// "The single-channel tracker".
 //
-// With x_k = |e_k| in the metric P_k^-1, kappa_m = sqrt(1 - shares_m), c = curvature /
-// sqrt(signal_uncertainty) and u^2 = V^2/r + W^2/q2, as long as x_k <= R,
-//     x_{k+m} <= kappa_m x_k + c sum_{j<m} kappa_{m-1-j} x_{k+j}^2 + sqrt(m) u,   m = 1, ..., n.
+// With x_k = |e_k| in the metric P_k^-1, rounding that adds at most rho to e in it and mu P to P in a step,
+// g = 1/sqrt(1 - mu), kappa_m = g^m sqrt(1 - shares_m), c = g curvature / sqrt(signal_uncertainty) and u^2 =
+// V^2/r + W^2/q2, as long as x_k <= R, for m = 1, ..., n,
+//     x_{k+m} <= kappa_m x_k + c sum_{j<m} kappa_{m-1-j} x_{k+j}^2 + g^m sqrt(m) u + rho sum_{j<m} kappa_j.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -41,12 +44,17 @@ class WindowErrors {
  private:
   /// kappa_n + c sum kappa level: what n samples make of errors of at most `level`, in terms of it.
   [[nodiscard]] rigor::Interval factor(const rigor::Interval& level) const;
+  /// What rounding, and what noise, slew and rounding add in so many samples.
+  [[nodiscard]] rigor::Interval pushed_by_rounding(std::size_t samples) const;
+  [[nodiscard]] rigor::Interval pushed(std::size_t samples) const;
   [[nodiscard]] double next(const std::vector<double>& levels) const;
 
   rigor::Interval radius_;
   std::vector<rigor::Interval> shrinkage_;  ///< kappa_0 = 1, ..., kappa_n
   rigor::Interval curvature_;               ///< c
   rigor::Interval input_;                   ///< u
+  std::vector<rigor::Interval> growth_;     ///< g^0, ..., g^n
+  rigor::Interval error_rounding_;          ///< rho
 };
 
 }  // namespace veritrack::single_channel

@@ -56,12 +56,13 @@ std::string bias_sentence(const Certificate& certificate, const Derivation& bias
   }
   if (value_of(bias, "min_error") == Interval(0.0) && value_of(bias, "max_error") == Interval(0.0)) {
     return fmt::format(
-        "{}: on a noise-free tone of {} rad/sample the steady-state frequency error is exactly "
-        "zero.",
+        "{}: in exact arithmetic, on a noise-free tone of {} rad/sample, the steady-state frequency error "
+        "is exactly zero.",
         markdown::verdict(bias.verdict), frequency);
   }
   return fmt::format(
-      "{}: on a noise-free tone of {} rad/sample the steady-state frequency error has the mean {} "
+      "{}: in exact arithmetic, on a noise-free tone of {} rad/sample, the steady-state frequency error has "
+      "the mean {} "
       "rad/sample; it varies with the phase between the minimum {} and the maximum {} rad/sample.",
       markdown::verdict(bias.verdict), frequency, enclosure(value_of(bias, "mean_bias"), 6),
       enclosure(value_of(bias, "min_error"), 4), enclosure(value_of(bias, "max_error"), 4));
@@ -142,7 +143,8 @@ std::string single_channel_design_section(const Certificate& certificate) {
 std::string bias_section(const Certificate& certificate) {
   std::string text = "## The bias\n\n";
   text +=
-      "On a noise-free tone of constant frequency the tracker settles on a periodic function of the signal's "
+      "In exact arithmetic, on a noise-free tone of constant frequency, the tracker settles on a periodic "
+      "function of the signal's "
       "phase. Its frequency error there (estimate minus true frequency, rad/sample) is enclosed by an "
       "invariant curve that is verified in interval arithmetic. Every start near the curve converges to it, "
       "by the factor per sample in the last column. The mean is over the phase, and also over time unless "
@@ -199,8 +201,12 @@ std::string single_channel_coverage_section() {
          "covers a tracker without a leak, started with the steady-state covariance, and a signal of "
          "constant amplitude.\n- The bias is that of the steady state which the tracker reaches from the "
          "exact estimate, on a tone without noise at the frequencies of the table, and around them where the "
-         "table says so. Elsewhere it is not enclosed.\n- The tracker is covered in exact arithmetic. Its "
-         "rounding errors in double precision are not covered.\n- The figures of the run show one simulation "
+         "table says so. Elsewhere it is not enclosed.\n- The contraction certificate covers the tracker as "
+         "it "
+         "runs in double precision: IEEE 754, rounding to nearest, sine and cosine of the C library within 1 "
+         "ulp, without -ffast-math. What rounding adds to a step is bounded and added to noise and slew "
+         "(docs/rounding.md). The bias, the frozen filter and the statements on the paper's propositions are "
+         "about exact arithmetic.\n- The figures of the run show one simulation "
          "in double precision and prove nothing.\n\n";
 }
 

@@ -218,7 +218,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
   add_all(
       single_channel::proposition_1_conclusion(at_middle, exact, design.epsilon, frequencies[middle].text));
   add_all(single_channel::proposition_2());
-  const GuaranteeTerms terms{tables.assume, tables.require, true, false, covariance};
+  const GuaranteeTerms terms{tables.assume, tables.require, true, false, covariance, kDoublePrecision};
   add_required_claims(certificate, terms);
   certificate.claims.push_back(guarantee_claim(certificate, terms));
   for (Claim& claim : set_claims(certificate, terms)) {

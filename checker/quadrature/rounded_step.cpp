@@ -1,64 +1,11 @@
 #include "checker/quadrature/rounded_step.hpp"
 
-#include <utility>
+#include "checker/numbers/rounded_value.hpp"
+#include "checker/sets/rounded_turn.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-/// Unit roundoff; underflow in a unit of length between 2^-60 and 2^60, of quantities that scale like its 8th
-/// power at most, which must not exceed this size in it.
-const Ball& unit_roundoff() {
-  static const Ball value(0x1p-53);
-  return value;
-}
-const Ball& underflow() {
-  static const Ball value(0x1p-595);
-  return value;
-}
-const Ball& largest_size() {
-  static const Ball value(0x1p540);
-  return value;
-}
-
-/// A bound on the size of an exact value, and on what the program's value differs from it.
-struct Value {
-  Ball size, error;
-
-  /// Its exact value is known to be at most this.
-  [[nodiscard]] Value within(const Ball& known) const { return {min(size, known).upper(), error}; }
-};
-
-/// Something that the program holds exactly.
-Value held(const Ball& size) {
-  return {size.upper(), zero};
-}
-
-/// An operation whose exact result, of exact operands, is within `size`, and of computed ones within `error`
-/// of that.
-Value rounded(const Ball& size, const Ball& error) {
-  const Ball largest = (size + error).upper();
-  if (!certainly_at_most(largest, largest_size())) {
-    return {Ball::everything(), Ball::everything()};
-  }
-  return {size.upper(), (error + unit_roundoff() * largest + underflow()).upper()};
-}
-
-/// Sums and differences.
-Value sum(const Value& x, const Value& y) {
-  return rounded(x.size + y.size, x.error + y.error);
-}
-Value product(const Value& x, const Value& y) {
-  return rounded(x.size * y.size, x.size * y.error + x.error * y.size + x.error * y.error);
-}
-/// x/y, of which |y| >= least and |x/y| <= size are known.
-Value quotient(const Value& x, const Value& y, const Ball& least, const Ball& size) {
-  const Ball divisor = (least - y.error).lower();
-  if (!certainly_positive(divisor)) {
-    return {Ball::everything(), Ball::everything()};
-  }
-  return rounded(size, (x.error + size * y.error) / divisor);
-}
 
 Ball length(const Ball& x, const Ball& y) {
   return sqrt(square(x) + square(y));
@@ -67,29 +14,29 @@ Ball length(const Ball& x, const Ball& y) {
 /// What the program computes of a covariance: the entries of M on and beside the diagonal, a component of u,
 /// d.
 struct Factors {
-  Value diagonal, beside, u, d;
+  RoundedValue diagonal, beside, u, d;
 };
 
 /// detail::predicted_in_own_frame, with bounds on the eigenvalues of M and on |u|.
 struct Predicted {
   Factors p;
   Ball least_m, most_m, u;
-  Value frequency;
+  RoundedValue frequency;
 };
 
 Predicted predict(const Filter& f, const Held& before) {
   const Ball kept = one - f.epsilon;
-  const Value retention = rounded(kept, zero);
-  const Value d = held(before.most_d);
+  const RoundedValue retention = rounded(kept, zero);
+  const RoundedValue d = held(before.most_d);
   const Ball h_size = before.u + before.z;
-  const Value h = rounded(h_size, zero);
-  const Value variance =
+  const RoundedValue h = rounded(h_size, zero);
+  const RoundedValue variance =
       sum(product(product(retention, retention), d), held(f.q2)).within(square(kept) * before.most_d + f.q2);
   // d / (kept^2 d + q2) grows with d.
-  const Value fraction = quotient(d, variance, square(kept) * before.least_d + f.q2,
-                                  before.most_d / (square(kept) * before.most_d + f.q2));
-  const Value regression = product(retention, fraction);
-  const Value remaining = product(held(f.q2), fraction);
+  const RoundedValue fraction = quotient(d, variance, square(kept) * before.least_d + f.q2,
+                                         before.most_d / (square(kept) * before.most_d + f.q2));
+  const RoundedValue regression = product(retention, fraction);
+  const RoundedValue remaining = product(held(f.q2), fraction);
   const Ball most_m = (before.most_m + f.q1 + remaining.size * square(h_size)).upper();
   Predicted result;
   result.least_m = (before.least_m + f.q1).lower();
@@ -106,62 +53,41 @@ Predicted predict(const Filter& f, const Held& before) {
 
 /// measurement_update: a component of z, the frequency, and the factors.
 struct Updated {
-  Value z, frequency;
+  RoundedValue z, frequency;
   Factors p;
 };
 
-Updated update(const Filter& f, const Predicted& before, const Held& start, const Value& innovation) {
+Updated update(const Filter& f, const Predicted& before, const Held& start, const RoundedValue& innovation) {
   const auto& [diagonal, beside, u, d] = before.p;
-  const Value r = held(f.r);
+  const RoundedValue r = held(f.r);
   const Ball least_w = before.least_m + f.r;
-  const Value w = sum(diagonal, r);
-  const Value determinant_m =
+  const RoundedValue w = sum(diagonal, r);
+  const RoundedValue determinant_m =
       sum(product(diagonal, diagonal), product(beside, beside)).within(square(before.most_m));
-  const Value determinant_w =
+  const RoundedValue determinant_w =
       sum(determinant_m, product(r, sum(diagonal, w))).within(square(before.most_m + f.r));
-  const Value inverse = quotient(held(one), determinant_w, square(least_w), one / square(least_w));
-  const Value scaled = product(r, inverse);
-  const Value isotropic = product(determinant_m, inverse).within(one);
+  const RoundedValue inverse = quotient(held(one), determinant_w, square(least_w), one / square(least_w));
+  const RoundedValue scaled = product(r, inverse);
+  const RoundedValue isotropic = product(determinant_m, inverse).within(one);
   // The gain is between 0 and I.
-  const Value gain = sum(isotropic, product(scaled, diagonal)).within(one);
-  const Value gain_beside = product(scaled, beside).within(half);
+  const RoundedValue gain = sum(isotropic, product(scaled, diagonal)).within(one);
+  const RoundedValue gain_beside = product(scaled, beside).within(half);
   const Ball t_size = before.u / least_w;
-  const Value t =
+  const RoundedValue t =
       product(sum(product(w, u), product(beside, u)).within((before.most_m + f.r) * before.u), inverse)
           .within(t_size);
-  const Value information = sum(product(u, t), product(u, t)).within(before.u * t_size);
-  const Value variance = quotient(d, sum(held(one), product(d, information)), one, d.size);
-  const Value regression = product(r, t).within(before.u);
+  const RoundedValue information = sum(product(u, t), product(u, t)).within(before.u * t_size);
+  const RoundedValue variance = quotient(d, sum(held(one), product(d, information)), one, d.size);
+  const RoundedValue regression = product(r, t).within(before.u);
   // d |u' W^-1 i| / (1 + d u' W^-1 u) <= sqrt(d / least W) |i| / 2.
-  const Value correction = product(variance, sum(product(t, innovation), product(t, innovation)))
-                               .within(half * sqrt(d.size / least_w) * innovation.size);
+  const RoundedValue correction = product(variance, sum(product(t, innovation), product(t, innovation)))
+                                      .within(half * sqrt(d.size / least_w) * innovation.size);
   Updated result;
   result.z = sum(sum(sum(held(start.z), product(gain, innovation)), product(gain_beside, innovation)),
                  product(regression, correction));
   result.frequency = sum(before.frequency, correction);
   result.p = {product(r, gain), product(r, gain_beside), regression, variance};
   return result;
-}
-
-/// turned: the sine and the cosine are within one unit in the last place, which is at most 2^-52.
-const Value& turn_factor() {
-  static const Value value{one, Ball(0x1p-52)};
-  return value;
-}
-Value turned_component(const Value& x) {
-  return sum(product(x, turn_factor()), product(x, turn_factor()));
-}
-
-/// The errors of the entries of M after the turn, on and beside the diagonal.
-std::pair<Ball, Ball> turned_block(const Value& diagonal, const Value& beside) {
-  const Value& s = turn_factor();
-  const Value sine_twice = product(sum(s, s), s).within(one);
-  const Value cosine_twice = sum(held(one), sum(product(s, s), product(s, s))).within(one);
-  const Value mean = product(held(half), sum(diagonal, diagonal)).within(diagonal.size);
-  const Value half_difference = product(held(half), sum(diagonal, diagonal)).within(half * diagonal.size);
-  const Value moved = sum(product(half_difference, cosine_twice), product(beside, sine_twice));
-  return {sum(mean, moved).error,
-          sum(product(half_difference, sine_twice), product(beside, cosine_twice)).error};
 }
 
 }  // namespace
@@ -207,16 +133,18 @@ Rounding rounded_step(const Filter& filter, const Held& before) {
   if (!in_range) {
     return {nothing, nothing, nothing, nothing, nothing};
   }
-  const Value measured = turned_component(held(before.measurement)).within(before.measurement);
-  const Value innovation = sum(measured, held(before.z));
+  const RoundedValue measured = turned_component(held(before.measurement)).within(before.measurement);
+  const RoundedValue innovation = sum(measured, held(before.z));
   const Predicted predicted = predict(filter, before);
   const Updated updated = update(filter, predicted, before, innovation);
-  const Value z = turned_component(updated.z);
-  const Value u = turned_component(updated.p.u);
-  const auto [on, beside] = turned_block(updated.p.diagonal, updated.p.beside);
+  const RoundedValue z = turned_component(updated.z);
+  const RoundedValue u = turned_component(updated.p.u);
+  const auto [on_diagonal, off_diagonal] = turned_block(updated.p.diagonal, updated.p.beside);
+  const Ball& on = on_diagonal.error;
+  const Ball& beside = off_diagonal.error;
   const Ball u_error = length(u.error, u.error);
   const Ball u_computed = predicted.u + u_error;
-  const Value& d = updated.p.d;
+  const RoundedValue& d = updated.p.d;
   return {length(z.error, z.error).upper(), updated.frequency.error.upper(),
           (two * length(on, beside) + d.error * square(u_computed) +
            d.size * u_error * (predicted.u + u_computed))

@@ -33,6 +33,10 @@ CellCovariance diagonal(const Ball& signal, const Ball& frequency) {
   return {signal, zero, signal, zero, zero, frequency};
 }
 
+CellCovariance scaled(const Ball& factor, const CellCovariance& p) {
+  return {factor * p.p11, factor * p.p21, factor * p.p22, factor * p.p31, factor * p.p32, factor * p.p33};
+}
+
 CellCovariance less(const CellCovariance& a, const Ball& factor, const CellCovariance& b) {
   return {a.p11 - factor * b.p11, a.p21 - factor * b.p21, a.p22 - factor * b.p22,
           a.p31 - factor * b.p31, a.p32 - factor * b.p32, a.p33 - factor * b.p33};

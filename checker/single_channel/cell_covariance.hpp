@@ -14,6 +14,8 @@ struct CellCovariance {
 
 /// diag(signal, signal, frequency).
 CellCovariance diagonal(const Ball& signal, const Ball& frequency);
+/// factor p.
+CellCovariance scaled(const Ball& factor, const CellCovariance& p);
 /// a - factor b.
 CellCovariance less(const CellCovariance& a, const Ball& factor, const CellCovariance& b);
 

@@ -44,12 +44,12 @@ class Window {
     Ball r = four * d_.r;
     for (int sample = 1 - before; sample <= window; ++sample) {
       const Turn turn = turn_into(sample);
-      upper = without_remainder(updated(above(upper, turn), r), one);
+      upper = without_remainder(scaled(one + s_.covariance_rounding, updated(above(upper, turn), r)), one);
       r = max(half * r, d_.r);
       if (sample < 1) {
         continue;
       }
-      lower = without_remainder(updated(beneath(lower, turn), d_.r), -one);
+      lower = without_remainder(least_updated(lower, turn), -one);
       if (!definite(less(lower, s_.shares[static_cast<std::size_t>(sample - 1)], upper))) {
         return false;
       }
@@ -62,7 +62,7 @@ class Window {
     // Every bound from below is one on all covariances; a longer window gives more than the claimed one.
     constexpr int kMore = 2;  // samples
     for (int sample = window + 1; s_.has_least && sample <= window + kMore; ++sample) {
-      lower = without_remainder(updated(beneath(lower, turn_into(sample)), d_.r), -one);
+      lower = without_remainder(least_updated(lower, turn_into(sample)), -one);
       if (!definite(lower)) {
         return false;  // the next prediction bounds nothing from below, as (F + E) X (F + E)' needs X >= 0
       }
@@ -89,6 +89,11 @@ class Window {
   }
   [[nodiscard]] CellCovariance beneath(const CellCovariance& p, const Turn& turn) const {
     return predicted(p, turn, one - s_.loosening, -((one / s_.loosening - one) * disturbance(p)), d_);
+  }
+
+  /// The next sample's, rounded.
+  [[nodiscard]] CellCovariance least_updated(const CellCovariance& p, const Turn& turn) const {
+    return scaled(one - s_.covariance_rounding, updated(beneath(p, turn), d_.r));
   }
 
   [[nodiscard]] bool keeps_variances(const CellCovariance& upper) const {
@@ -190,7 +195,8 @@ bool is_sensible(const WindowStatement& s, const SingleChannelDesign& d) {
   // set is kept.
   bool sensible = d.without_leak() && certainly_positive(d.q1) && certainly_positive(d.q2) &&
                   certainly_positive(d.r) && !s.shares.empty() && s.shares.size() <= kLongest &&
-                  certainly_less(s.loosening, one) && certainly_not_negative(s.slew);
+                  certainly_less(s.loosening, one) && certainly_not_negative(s.slew) &&
+                  certainly_not_negative(s.covariance_rounding);
   for (const Ball* number : {&s.radius, &s.frequency_variance, &s.signal_variance, &s.loosening, &s.curvature,
                              &s.curvature_weight, &s.signal_uncertainty}) {
     sensible = sensible && certainly_positive(*number);

@@ -18,6 +18,8 @@ struct WindowStatement {
   Ball frequency_variance, signal_variance;
   Ball loosening;  ///< eta, a free number of the proof
   Ball slew;       ///< bound on |omega(k+1) - omega(k)|, rad/sample
+  /// What rounding does to P in a step, as a share of it; zero for a tracker in real arithmetic.
+  Ball covariance_rounding;
   /// of any covariance at least the part shares[m - 1] is due to its last m samples;
   std::vector<Ball> shares;
   /// |nu| |delta + i nu/2| <= curvature e' P^-1 e, by a free weight;

@@ -5,97 +5,12 @@
 #include "checker/document/evidence.hpp"
 #include "checker/single_channel/covariance_window.hpp"
 #include "checker/single_channel/diagonal_start.hpp"
+#include "checker/single_channel/error_set.hpp"
+#include "checker/single_channel/rounded_step.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-/// A verified window, and the recursion of the errors in it: x_k = |e_k| in the metric P_k^-1. As long as x
-/// <= R,
-///   x_{k+m} <= kappa_m x_k + c sum_{j<m} kappa_{m-1-j} x_{k+j}^2 + sqrt(m) u,   m = 1, ..., n.
-class ErrorSet {
- public:
-  ErrorSet(WindowStatement window, const SingleChannelDesign& design, const Ball& noise, const Ball& start)
-      : window_(std::move(window)), noise_(noise), start_(start), kappa_{one} {
-    for (const Ball& share : window_.shares) {
-      kappa_.push_back(sqrt(one - share));
-      sum_ += kappa_[kappa_.size() - 2];
-    }
-    // |delta nu + i nu^2/2| falls short of the exact innovation by at most |nu|^3/6, |nu| <= x sqrt(P33).
-    const Ball& variance = window_.frequency_variance;
-    curvature_ = (window_.curvature + window_.radius * variance * sqrt(variance) / Ball(6.0)) /
-                 sqrt(window_.signal_uncertainty);
-    input_ = sqrt(square(noise) / design.r + square(window_.slew) / design.q2);
-  }
-
-  [[nodiscard]] const WindowStatement& window() const { return window_; }
-  [[nodiscard]] const Ball& noise() const { return noise_; }
-  [[nodiscard]] const Ball& start() const { return start_; }
-  [[nodiscard]] std::size_t samples() const { return window_.shares.size(); }
-  /// The factor by which a window multiplies errors that are at most `level` throughout, and the resulting
-  /// level.
-  [[nodiscard]] Ball factor(const Ball& level) const { return kappa_.back() + curvature_ * sum_ * level; }
-  [[nodiscard]] Ball after(const Ball& level) const {
-    return factor(level) * level + sqrt(Ball(static_cast<double>(samples()))) * input_;
-  }
-  [[nodiscard]] Ball rate() const {
-    return exp(log(factor(window_.radius)) / Ball(static_cast<double>(samples())));
-  }
-  [[nodiscard]] Ball frequency_error(const Ball& level) const {
-    return level * sqrt(window_.frequency_variance);
-  }
-  /// Bounds on x_0, ..., x_samples for x_0 <= start; everything where they are not certainly within R.
-  [[nodiscard]] std::vector<Ball> levels(const Ball& start, std::size_t samples) const {
-    std::vector<Ball> x{start};
-    for (std::size_t k = 1; k <= samples; ++k) {
-      const std::size_t m = std::min(k, kappa_.size() - 1);
-      Ball pushed = zero;
-      for (std::size_t j = 0; j < m; ++j) {
-        pushed += kappa_[m - 1 - j] * square(x[k - m + j]);
-      }
-      const Ball next =
-          kappa_[m] * x[k - m] + curvature_ * pushed + sqrt(Ball(static_cast<double>(m))) * input_;
-      x.push_back(certainly_at_most(next, window_.radius) ? next.upper() : Ball::everything());
-    }
-    return x;
-  }
-  /// Starts of that level are never above R: not in the first window, and so in none.
-  [[nodiscard]] bool keeps(const Ball& start) const {
-    return certainly_less(after(window_.radius), window_.radius) &&
-           certainly_at_most(start, window_.radius) && levels(start, samples()).back().finite();
-  }
-  /// limsup x_k for starts that are kept: L with L <= after(L) and L <= R, where after(L) - L is convex and
-  /// negative at R, is at most the smaller root.
-  [[nodiscard]] Ball ultimate() const {
-    const Ball room = one - kappa_.back();
-    const Ball pushed = sqrt(Ball(static_cast<double>(samples()))) * input_;
-    return two * pushed / (room + sqrt(square(room) - four * curvature_ * sum_ * pushed));
-  }
-  /// sup x_k for starts of that level: a level between the smaller root and R that a window starts with is
-  /// kept.
-  [[nodiscard]] Ball largest(const Ball& start) const {
-    Ball most = ultimate();
-    for (const Ball& level : levels(start, samples())) {
-      most = max(most, level);
-    }
-    return most;
-  }
-  /// From that sample on |nu| <= frequency_error: so it is for a window, and the level is kept.
-  [[nodiscard]] bool settled(const Ball& start, const Ball& frequency_error, std::size_t sample) const {
-    const Ball target = frequency_error / sqrt(window_.frequency_variance);
-    const std::vector<Ball> x = levels(start, sample + samples() - 1);
-    return certainly_at_most(ultimate(), target) &&
-           std::all_of(x.begin() + static_cast<std::ptrdiff_t>(sample), x.end(),
-                       [&](const Ball& level) { return certainly_at_most(level, target); });
-  }
-
- private:
-  WindowStatement window_;
-  Ball noise_, start_;
-  std::vector<Ball> kappa_;  ///< kappa_0 = 1, ..., kappa_n
-  Ball sum_ = zero;          ///< of kappa_0, ..., kappa_{n-1}
-  Ball curvature_, input_;   ///< c, u
-};
 
 /// The set of this name, verified; none when the evidence has none, or not all that it says is proved.
 std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& name,
@@ -131,9 +46,12 @@ std::optional<ErrorSet> verified_set(const Tree& derivation, const std::string& 
     window.start_signal = start->to * start->signal;
     window.start_frequency = start->to * start->frequency;
   }
-  const ErrorSet set(window, design, number("noise"), number("start_level"));
-  if (certainly_not_negative(set.noise()) && certainly_positive(set.start()) && set.keeps(set.start()) &&
-      window_is_proved(window, design, cells)) {
+  const Ball noise = number("noise");
+  const StepRounding rounding = step_rounding(design, window, noise, start);
+  window.covariance_rounding = rounding.covariance;
+  const ErrorSet set(window, design, noise, number("start_level"), rounding.error);
+  if (rounding.finite() && certainly_not_negative(set.noise()) && certainly_positive(set.start()) &&
+      set.keeps(set.start()) && window_is_proved(window, design, cells)) {
     return set;
   }
   objections.push_back("the set \"" + name + "\" is not proved by its evidence");
@@ -203,10 +121,13 @@ std::vector<Condition> conditions_of(const ErrorSets& sets, const SingleChannelD
   std::vector<Condition> conditions{
       {"leak", R"(\epsilon = 0)", proved_if(design.without_leak()), design.epsilon, zero},
       {"controllable-amplitude", "q_1 > 0", decide_less(zero, design.q1), design.q1, zero},
-      {"invariant-set", R"((\kappa_n + c R \sum_m \kappa_m) R + \sqrt n\,u \le R)", proved_if(invariant)}};
+      {"invariant-set",
+       R"((\kappa_n + c R \sum_m \kappa_m) R + g^n \sqrt n\,u + \varrho \sum_m \kappa_m \le R)",
+       proved_if(invariant)}};
   if (sets.whole) {
     conditions.back().lhs = sets.whole->after(sets.whole->window().radius);
     conditions.back().rhs = sets.whole->window().radius;
+    conditions.back().lhs_sense = Sense::bounds_above;
     conditions.push_back({"start-in-set", R"(e(0)' P(0)^{-1} e(0) \le R_0^2)", proved_if(inside),
                           inside ? sets.start_level : Ball::everything(),
                           inside ? sets.bound->start() : sets.whole->start(), Sense::bounds_above});

@@ -16,7 +16,7 @@ namespace {
 void verify(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
   Objections objections;
   const SingleChannelDesign design = read_single_channel_design(certificate.at("design"), objections);
-  const Guarantee guarantee(certificate.at("design"), {true, false, kExactArithmetic}, objections);
+  const Guarantee guarantee(certificate.at("design"), {true, false, kDoublePrecision}, objections);
   result.parts.push_back({"design", objections});
   if (!objections.empty()) {
     return;  // nothing is said of what is no design

@@ -42,6 +42,12 @@
 // 0 too, where P(k|k) is singular. Expanding the factors gives back (2); a test holds that against the
 // textbook matrices.
 //
+// Rounding. What is certified of this tracker (docs/rounding.md) is certified of `step` in double precision,
+// under these conditions on the program that includes this file: + - * / round to nearest in IEEE 754 double
+// precision, so no -ffast-math and nothing that it contains, no flush-to-zero set at run time, and no excess
+// precision (x87); std::sin and std::cos are within one unit in the last place. Whether products and sums are
+// fused (-ffp-contract) does not matter.
+//
 // Assumed, not checked: r >= 0, Q and P(0) symmetric and positive semidefinite, 0 <= epsilon < 1, all finite.
 #pragma once
 
@@ -130,11 +136,12 @@ template <typename Scalar>
 [[nodiscard]] inline SingleChannelEstimate<Scalar> measurement_update(
     const SingleChannelEstimate<Scalar>& predicted, const Scalar& measurement,
     const SingleChannelEkfDesign<Scalar>& design) {
+  using detail::not_negative;
   using detail::square;
   const FactoredCovariance<Scalar>& p = predicted.covariance;
   const Scalar& r = design.r;
   // w is the innovation variance if the frequency were known, s what it is.
-  const Scalar w = p.conditional_11 + r;
+  const Scalar w = not_negative(p.conditional_11) + r;
   const Scalar p11 = p.conditional_11 + p.frequency_variance * square(p.regression_1);
   const Scalar p13 = p.frequency_variance * p.regression_1;
   const Scalar s = w + p.frequency_variance * square(p.regression_1);
@@ -145,8 +152,7 @@ template <typename Scalar>
   SingleChannelEstimate<Scalar> filtered{
       predicted.in_phase + p11 * weighted,
       predicted.quadrature + (p.conditional_12 + p13 * p.regression_2) * weighted,
-      predicted.frequency + p13 * weighted,
-      {}};
+      predicted.frequency + p13 * weighted, p};
   const Scalar variance = p.frequency_variance * (w / s);
   if (w == Scalar(0.0)) {
     // x1 was certain but for the frequency, so that the measurement leaves no doubt of either.

@@ -1,12 +1,6 @@
 #include "analysis/quadrature/rounding/step_rounding.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <limits>
-#include <utility>
-#include <vector>
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounded.hpp"
@@ -19,14 +13,6 @@ namespace {
 using rigor::Interval;
 using rigor::Rounded;
 using Estimate = trackers::QuadratureEstimate<Rounded>;
-
-Interval largest(const Interval& x) {
-  return Interval(rigor::magnitude(x));
-}
-
-Interval error(const Rounded& x) {
-  return Interval(x.error());
-}
 
 /// The factors of P (trackers/factored_covariance.hpp) where P_33 lies in a part of its range.
 struct Factors {
@@ -102,38 +88,7 @@ Estimate turned(const HeldStates& box, const Factors& f, const Interval& angle, 
            Rounded(f.u1 * sine + f.u2 * cosine), Rounded(f.d)}};
 }
 
-/// From the factors to the matrix: P_zz = M + d u u', P_z3 = d u.
-StateDifference difference_of(const Estimate& after) {
-  const auto& p = after.covariance;
-  const Interval d_error = error(p.frequency_variance);
-  const Interval d = largest(p.frequency_variance.exact());
-  const Interval u = rigor::sqrt(rigor::square(largest(p.regression_1.exact())) +
-                                 rigor::square(largest(p.regression_2.exact())));
-  const Interval u_error =
-      rigor::sqrt(rigor::square(error(p.regression_1)) + rigor::square(error(p.regression_2)));
-  // A symmetric 2x2 matrix has at most the norm of its entries' root of squares.
-  const Interval m_error =
-      rigor::sqrt(rigor::square(error(p.conditional_11)) + rigor::square(error(p.conditional_22)) +
-                  Interval(2.0) * rigor::square(error(p.conditional_12)));
-  const Interval computed_u = u + u_error;
-  return {upper_or_infinite(
-              rigor::sqrt(rigor::square(error(after.in_phase)) + rigor::square(error(after.quadrature)))),
-          upper_or_infinite(error(after.frequency)),
-          upper_or_infinite(m_error + d_error * rigor::square(computed_u) + d * u_error * (u + computed_u)),
-          upper_or_infinite(d_error * computed_u + d * u_error), upper_or_infinite(d_error)};
-}
-
 }  // namespace
-
-StateDifference larger(const StateDifference& a, const StateDifference& b) {
-  return {std::max(a.z, b.z), std::max(a.frequency, b.frequency), std::max(a.p_zz, b.p_zz),
-          std::max(a.p_z3, b.p_z3), std::max(a.p_33, b.p_33)};
-}
-
-bool is_finite(const StateDifference& difference) {
-  return std::isfinite(difference.z) && std::isfinite(difference.frequency) &&
-         std::isfinite(difference.p_zz) && std::isfinite(difference.p_z3) && std::isfinite(difference.p_33);
-}
 
 StateDifference step_rounding(const Program& program, const HeldStates& box, const Pieces& pieces) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -5,31 +5,24 @@
 // covers every orientation.
 #pragma once
 
-#include <limits>
-
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/matrix.hpp"
+#include "analysis/sets/state_difference.hpp"
 #include "trackers/tone_model.hpp"
 
 namespace veritrack::quadrature {
 
-/// The upper end; infinity when there is none.
-[[nodiscard]] inline double upper_or_infinite(const rigor::Interval& x) {
-  return rigor::is_finite(x) ? x.upper() : std::numeric_limits<double>::infinity();
-}
+using sets::difference_of;
+using sets::is_finite;
+using sets::larger;
+using sets::Program;
+using sets::StateDifference;
+using sets::upper_or_infinite;
 
 /// What of the signal matters to rounding, besides its frequency error.
 struct TrackedSignal {
   rigor::Interval amplitude = rigor::Interval(1.0);  ///< signal units
   double largest_frequency = 0x1.921fb54442d19p+1;   ///< of |omega|, rad/sample; pi from above
-};
-
-/// What the program runs on, besides its state. Lengths are relative to the true amplitude.
-struct Program {
-  trackers::ToneModel<rigor::Interval> design;
-  rigor::Interval amplitude = rigor::Interval(1.0);  ///< the true one, signal units
-  double largest_measurement = 1.0;                  ///< of |y|: 1 and the noise
-  double largest_frequency = 0.0;                    ///< of |x3(k|k)|, rad/sample
 };
 
 /// Into how many pieces step_rounding cuts the ranges of what it looks at: many for a tight bound.
@@ -47,21 +40,6 @@ struct HeldStates {
   rigor::Interval z1, z2;
   rigor::IntervalMatrix<3> lower, upper;
 };
-
-/// Bounds on the difference of two states, in any orientation: of z the length, of P the norms of its blocks.
-struct StateDifference {
-  double z = 0.0;          ///< relative to the true amplitude
-  double frequency = 0.0;  ///< rad/sample
-  double p_zz = 0.0;       ///< spectral norm of the 2x2 block
-  double p_z3 = 0.0;       ///< length
-  double p_33 = 0.0;       ///< absolute value
-};
-
-/// The larger of each; neither may be NaN.
-[[nodiscard]] StateDifference larger(const StateDifference& a, const StateDifference& b);
-
-/// True only when all five are finite.
-[[nodiscard]] bool is_finite(const StateDifference& difference);
 
 /// |program's step - exact step| for every state in the box, turned by any angle, and every measurement;
 /// infinite when it cannot be bounded. Needs the upward mode.

@@ -134,3 +134,19 @@ TEST_CASE("what is known not to be negative divides") {
   CHECK(without.error() == kInfinity);
   CHECK(upward([] { return not_negative(Rounded(-1.0)); }).error() == kInfinity);
 }
+
+TEST_CASE("two values are the same only when both are known to be") {
+  const Rounded two(2.0);
+  CHECK(two == Rounded(2.0));
+  CHECK_FALSE(two == Rounded(3.0));
+  CHECK_FALSE(two == Rounded(Interval::from_bounds(1.0, 3.0)));
+  CHECK_FALSE(two == Rounded(Interval(2.0), 1e-20));
+  CHECK_FALSE(Rounded(Interval(2.0), 1e-20) == two);
+  CHECK_FALSE(Rounded(Interval::empty()) == Rounded(Interval::empty()));
+  // What is divided by only when it is not zero: where it may be, nothing is known of the quotient.
+  const bool upward_mode = upward([&] {
+    const Rounded perhaps(Interval::from_bounds(0.0, 1.0));
+    return !(perhaps == Rounded(0.0)) && !std::isfinite((two / perhaps).error());
+  });
+  CHECK(upward_mode);
+}

@@ -204,9 +204,24 @@ TEST_CASE("what is not covered is undecided, and says why") {
   question.band = Interval::entire();
   check(question);
   question = question_of(usual);
+  question.tracker.amplitude = Interval(0x1p-61);  // beyond the units in which rounding is bounded
+  check(question);
+  question = question_of(usual);
   question.tracker.start_covariance = sets::StartCovariance{
       rigor::to_interval(rigor::Matrix<3>(rigor::Matrix<3>::Identity())), Interval(1.0), true};
   check(question);
+}
+
+TEST_CASE("without noise and slew only rounding is left in the long run, and nobody waits for it") {
+  const PhaseCertificate certificate = certificate_of({0.005, 0.01, 1.4, 1.5, 0.0, 0.0, 0.0005});
+  REQUIRE(certificate.bound_set);
+  const StepRounding& rounding = certificate.bound_set->claim.assumption.rounding;
+  CHECK(rounding.error > 1e-14);
+  CHECK(rounding.covariance > 1e-14);
+  const double ultimate = upper_end(certificate, "ultimate_frequency_error");
+  CHECK(ultimate > rounding.error * 1e-3);
+  CHECK(ultimate < 1e-7);
+  CHECK(theorems::find_quantity(certificate.derivation, "settling_samples").not_applicable);
 }
 
 TEST_CASE("the sets do not depend on the number of threads") {

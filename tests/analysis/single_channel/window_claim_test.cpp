@@ -143,5 +143,79 @@ TEST_CASE("the recursion of the errors") {
   CHECK(levels->back() < 1e-6 * levels->front());
 }
 
+TEST_CASE("rounding is in the recursion of the errors, and of the covariance") {
+  const rigor::UpwardRounding upward;
+  WindowClaim claim = good_claim();
+  const Interval zero(0.0);
+  const Interval noise(1e-5);
+  const WindowErrors exact(design(), claim, noise, zero);
+  constexpr double kError = 1e-7;
+  constexpr double kCovariance = 1e-4;
+  claim.assumption.rounding = {kError, kCovariance};
+  const WindowErrors rounded(design(), claim, noise, zero);
+  // By hand: g^m for the past and for noise, g for what is curved, and rho for each sample.
+  const double g = 1.0 / std::sqrt(1.0 - kCovariance);
+  const double level = 0.5 * claim.assumption.radius;
+  const auto window = static_cast<int>(claim.shares.size());
+  const double a = claim.assumption.frequency_variance;
+  const double curved = g * (claim.curvature + claim.assumption.radius * a * std::sqrt(a) / 6.0) /
+                        std::sqrt(claim.signal_uncertainty);
+  double sum = 0.0;
+  for (int j = 0; j < window; ++j) {
+    sum += std::pow(g, j) * (j == 0 ? 1.0 : std::sqrt(1.0 - claim.shares[static_cast<std::size_t>(j - 1)]));
+  }
+  const double expected =
+      (std::pow(g, window) * std::sqrt(1.0 - claim.shares.back()) + curved * sum * level) * level +
+      std::pow(g, window) * std::sqrt(window) * 1e-5 / std::sqrt(kR) + kError * sum;
+  CHECK(rounded.after_window(Interval(level)).upper() == doctest::Approx(expected).epsilon(1e-12));
+  CHECK(rounded.ultimate() > exact.ultimate());
+  CHECK(rounded.rate().lower() > exact.rate().upper());
+  CHECK(rounded.largest_input().upper() < exact.largest_input().lower());
+  const double most = rounded.largest_input().lower() * std::sqrt(kR);
+  CHECK(WindowErrors(design(), claim, Interval(0.9999 * most), zero).keeps_radius());
+  CHECK(!WindowErrors(design(), claim, Interval(1.0001 * most), zero).keeps_radius());
+  // The covariance moves by a ten-thousandth a step, which the slack of the claim allows for.
+  CHECK(verify_window(design(), kBand, claim));
+  for (const StepRounding& odd :
+       {StepRounding{0.0, 0x1.01p-8}, StepRounding{0.0, -1e-9}, StepRounding{-1e-9, 0.0},
+        StepRounding{0.0, std::nan("")}, StepRounding{std::nan(""), 0.0}, kUnboundedRounding}) {
+    claim.assumption.rounding = odd;
+    CHECK(!verify_window(design(), kBand, claim));
+  }
+}
+
+TEST_CASE("the bounds of a window hold covariances that each step moves by its rounding, and little more") {
+  const rigor::UpwardRounding upward;
+  // Without errors, so that rounding is what decides.
+  WindowClaim claim = good_claim();
+  claim.assumption.radius = 1e-9;
+  claim.assumption.loosening = 1e-6;
+  constexpr double kShare = 0.01;
+  constexpr double kFrequency = 1.11;
+  claim.assumption.rounding = {0.0, kShare};
+  const auto step = [](const PhaseCovariance<double>& p, double share, int sample) {
+    return scaled(1.0 + share, updated(predicted(p, 1.0, 0.0, {kQ, kQ, kR, 0.0}), sample * kFrequency, kR));
+  };
+  // From long ago, a little larger each time; and from zero, a little smaller.
+  PhaseCovariance<double> large = diagonal(kQ, kQ);
+  for (int k = -200; k <= 0; ++k) {
+    large = step(large, kShare, k);
+  }
+  PhaseCovariance<double> small = diagonal(0.0, 0.0);
+  int seen = 0;
+  follow_window<double>({kQ, kQ, kR, 0.0}, claim.assumption, {30, 8, 0.0}, 0.0, kFrequency,
+                        [&](int m, const auto& upper, const auto& lower, const auto& /*predicted*/) {
+                          large = step(large, kShare, m);
+                          small = step(small, -kShare, m);
+                          CHECK(smallest_eigenvalue(matrix_of(upper) - matrix_of(large)) > 0.0);
+                          CHECK(smallest_eigenvalue(matrix_of(small) - matrix_of(lower)) > 0.0);
+                          CHECK(smallest_eigenvalue(1.02 * matrix_of(large) - matrix_of(upper)) > 0.0);
+                          CHECK(smallest_eigenvalue(matrix_of(lower) - 0.98 * matrix_of(small)) > 0.0);
+                          ++seen;
+                          return true;
+                        });
+  CHECK(seen == 8);
+}
+
 }  // namespace
 }  // namespace veritrack::single_channel

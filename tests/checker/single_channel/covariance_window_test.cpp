@@ -39,7 +39,11 @@ TEST_CASE("what is true of the tracker that runs is accepted, what is not is ref
   CHECK(refused(&WindowStatement::slew, 0.1));
   CHECK(refused(&WindowStatement::least_p11, 1e3));
   CHECK(refused(&WindowStatement::least_p22, 1e3));
+  CHECK_FALSE(refused(&WindowStatement::covariance_rounding, 1e-7));
+  CHECK(refused(&WindowStatement::covariance_rounding, 0.05));
+  CHECK(refused(&WindowStatement::covariance_rounding, 1.0));
   // Of these the proof uses squares, or what they leave of 1.
+  CHECK(refused(&WindowStatement::covariance_rounding, -1e-9));
   CHECK(refused(&WindowStatement::slew, -1e-9));
   CHECK(refused(&WindowStatement::start_signal, -1e-6));
   CHECK(refused(&WindowStatement::start_frequency, 0.0));
@@ -56,6 +60,33 @@ TEST_CASE("what is true of the tracker that runs is accepted, what is not is ref
   WindowStatement empty = statement;
   empty.shares.clear();
   CHECK(!is_proved(empty, design));
+}
+
+TEST_CASE("rounding makes the upper bounds larger and the lower ones smaller") {
+  const Extremes seen = along_a_tone();
+  const checker::SingleChannelDesign design = design_of_the_tone();
+  const auto proved = [&](WindowStatement statement, double rounding) {
+    statement.covariance_rounding = Ball(rounding);
+    return is_proved(statement, design);
+  };
+  // Nothing but the variances is close to what is true.
+  WindowStatement from_above = true_statement(seen);
+  from_above.has_least = from_above.has_starts = false;
+  from_above.shares = {Ball(1e-6), Ball(1e-6), Ball(1e-6), Ball(1e-6), Ball(1e-6)};
+  from_above.signal_uncertainty = Ball(1e-6);
+  from_above.curvature = Ball(10.0);
+  CHECK(proved(from_above, 1e-4));
+  CHECK_FALSE(proved(from_above, 0.1));
+  // Nothing but the least variance.
+  WindowStatement from_below = from_above;
+  from_below.frequency_variance = Ball(3.0 * seen.most_p33);
+  from_below.signal_variance = Ball(3.0 * seen.most_signal);
+  from_below.radius = Ball(1e-4);
+  CHECK(proved(from_below, 0.1));
+  from_below.has_least = true;
+  from_below.least_p33 = Ball(0.9 * seen.least_p33);
+  CHECK(proved(from_below, 1e-4));
+  CHECK_FALSE(proved(from_below, 0.1));
 }
 
 TEST_CASE("a window is only for a tracker without a leak, with process noise in the amplitude") {

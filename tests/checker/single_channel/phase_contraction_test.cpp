@@ -56,6 +56,9 @@ struct Found {
 Found check(const WrittenSet& set, const checker::SingleChannelDesign& design = the_design(),
             const std::string& quantities = "") {
   std::string numbers;
+  std::array<char, 40> p11{};
+  const double amplitude = design.amplitude.near();
+  std::snprintf(p11.data(), p11.size(), "%.17g", 1e-6 * amplitude * amplitude);
   std::array<char, 40> p33{};
   std::snprintf(p33.data(), p33.size(), "%.17g", set.start_frequency);
   for (const auto& [name, number] : set.numbers) {
@@ -64,11 +67,12 @@ Found check(const WrittenSet& set, const checker::SingleChannelDesign& design = 
                   number);
     numbers += text.data();
   }
-  const checker::Tree derivation = checker::read_json(
-      R"({"evidence": [{"name": "frequency-error-bound", "numbers": {)" + numbers +
-      R"(}}, {"name": "start-covariance", "decimals": {"p11": "1e-6", "p22": "1e-6", "p33": ")" + p33.data() +
-      R"(", "p12": "0", "p13": "0", "p23": "0", "from": "1", "to": "1"}}],)" +
-      R"( "conditions": [], "quantities": {)" + quantities + "}}");
+  const checker::Tree derivation =
+      checker::read_json(R"({"evidence": [{"name": "frequency-error-bound", "numbers": {)" + numbers +
+                         R"(}}, {"name": "start-covariance", "decimals": {"p11": ")" + p11.data() +
+                         R"(", "p22": ")" + p11.data() + R"(", "p33": ")" + p33.data() +
+                         R"(", "p12": "0", "p13": "0", "p23": "0", "from": "1", "to": "1"}}],)" +
+                         R"( "conditions": [], "quantities": {)" + quantities + "}}");
   std::int64_t cells = 0;
   checker::Objections objections;
   Found found{check_phase_contraction(derivation, design, cells, objections), false};
@@ -106,6 +110,22 @@ TEST_CASE("noise and starts that errors leave the set with") {
     set.numbers.at("noise") = 1e-5;
   }
   CHECK(check(set).refused);
+}
+
+TEST_CASE("a set of which the rounding cannot be bounded is refused") {
+  checker::SingleChannelDesign design = the_design();
+  design.amplitude = Ball(0x1p-61);
+  CHECK(check({}, design).refused);
+  design.amplitude = Ball(0x1p-60);
+  CHECK_FALSE(check({}, design).refused);
+}
+
+TEST_CASE("without noise and slew rounding alone is left in the long run") {
+  const Found found = check({});
+  REQUIRE(found.promises.ultimate);
+  const double ultimate = found.promises.ultimate->near();
+  CHECK(ultimate > 1e-15);
+  CHECK(ultimate < 1e-8);
 }
 
 TEST_CASE("a set is for its own noise and slew") {

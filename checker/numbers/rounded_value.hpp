@@ -1,0 +1,35 @@
+// What IEEE 754 double precision makes of a computation of which the sizes of all results are known: for each
+// result a bound on its exact size, and one on what the program's result differs from it (docs/rounding.md).
+//
+// Assumed of the program: + - * / round to nearest, in a unit of length between 2^-60 and 2^60 times the one
+// that sizes are in, of quantities that scale like the 8th power of length at most; a product and a sum may
+// be fused.
+#pragma once
+
+#include "checker/numbers/ball.hpp"
+
+namespace veritrack::checker {
+
+/// A bound on the size of an exact value, and on what the program's value differs from it. Exact balls, or
+/// balls of everything when there is no bound.
+struct RoundedValue {
+  Ball size, error;
+
+  /// Its exact value is known to be at most this.
+  [[nodiscard]] RoundedValue within(const Ball& known) const { return {min(size, known).upper(), error}; }
+};
+
+/// Something that the program holds exactly.
+RoundedValue held(const Ball& size);
+
+/// An operation whose exact result, of exact operands, is within `size`, and of computed ones within `error`
+/// of that.
+RoundedValue rounded(const Ball& size, const Ball& error);
+
+/// Sums and differences.
+RoundedValue sum(const RoundedValue& x, const RoundedValue& y);
+RoundedValue product(const RoundedValue& x, const RoundedValue& y);
+/// x/y, of which |y| >= least and |x/y| <= size are known.
+RoundedValue quotient(const RoundedValue& x, const RoundedValue& y, const Ball& least, const Ball& size);
+
+}  // namespace veritrack::checker

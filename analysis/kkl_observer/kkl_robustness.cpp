@@ -78,6 +78,11 @@ KklRobustness bound_kkl_errors(const KklRobustnessQuestion& question) {
   Filters transient = transient_at(question, settling_time);
   const std::array<Interval, 4> deviation = filter_deviation(question);
   for (std::size_t i = 0; i < transient.size(); ++i) {
+    if (!rigor::is_finite(deviation[i])) {
+      KklRobustness nothing;
+      nothing.settling_time = settling_time;
+      return nothing;
+    }
     transient[i] += rigor::symmetric(deviation[i].upper());
   }
   KklRobustness result;
@@ -92,6 +97,7 @@ KklRobustness bound_kkl_errors(const KklRobustnessQuestion& question) {
     result.worst[4] = 1.0 / result.worst[4];
   }
   result.settling_time = settling_time;
+  result.knows_filters = true;
   add_rounding(question, transient, result);
   return result;
 }

@@ -48,6 +48,8 @@ struct KklRobustness {
   /// Twice the smallest |M xi|^2 / |xi|^2 that the disturbed filters can reach: mu of (9) vanishes for any
   /// ell up to its lower end. Empty when not found.
   rigor::Interval largest_ell;
+  /// Is there a bound on how far the program's filters are from their differential equations?
+  bool knows_filters = false;
   /// What rounding of the static map adds, and is in the bounds, rad/s. Empty when there is no bound.
   rigor::Interval rounding;
   /// A lower bound on x3_hat / x3, which has to be positive for a frequency to exist.

@@ -1,7 +1,7 @@
 // Functions of a Rounded (rounded.hpp) beyond + - * /, and what Eigen needs to store it.
 //
-// The promise is about programs in which sqrt is rounded to nearest, as IEEE 754 demands, and exp is within one
-// unit in the last place, as it is in common C libraries.
+// The promise is about programs in which sqrt is rounded to nearest, as IEEE 754 demands, and exp is within
+// one unit in the last place, as it is in common C libraries.
 #pragma once
 
 #include <algorithm>
@@ -76,4 +76,5 @@ inline Rounded& operator-=(Rounded& a, const Rounded& b) {
 }  // namespace veritrack::rigor
 
 template <>
-struct Eigen::NumTraits<veritrack::rigor::Rounded> : veritrack::rigor::CostlyEigenScalar<veritrack::rigor::Rounded> {};
+struct Eigen::NumTraits<veritrack::rigor::Rounded>
+    : veritrack::rigor::CostlyEigenScalar<veritrack::rigor::Rounded> {};

@@ -58,19 +58,19 @@ struct OscillatorEstimate {
 
 /// Intermediate results of the static map, for an analysis that knows more of them than their operands show.
 enum class KklResult {
-  squared_norm,   ///< |xi|^2
-  excess,         ///< ell |xi|^2 - 2 |M xi|^2
-  entry_13,       ///< of L'L
-  entry_23,       ///< of L'L
-  entry_33,       ///< of L'L
-  right_1,        ///< of L' F^2 xi
-  right_2,        ///< of L' F^2 xi
-  right_3,        ///< of L' F^2 xi
-  reduced_23,     ///< the entry that is left when x1 is eliminated
-  reduced_33,     ///< the entry that is left when x1 and x2 are eliminated
-  reduced_2,      ///< the right-hand side when x1 is eliminated
-  reduced_3,      ///< the right-hand side when x1 and x2 are eliminated
-  x3,             ///< the estimate of w^2
+  squared_norm,  ///< |xi|^2
+  excess,        ///< ell |xi|^2 - 2 |M xi|^2
+  entry_13,      ///< of L'L
+  entry_23,      ///< of L'L
+  entry_33,      ///< of L'L
+  right_1,       ///< of L' F^2 xi
+  right_2,       ///< of L' F^2 xi
+  right_3,       ///< of L' F^2 xi
+  reduced_23,    ///< the entry that is left when x1 is eliminated
+  reduced_33,    ///< the entry that is left when x1 and x2 are eliminated
+  reduced_2,     ///< the right-hand side when x1 is eliminated
+  reduced_3,     ///< the right-hand side when x1 and x2 are eliminated
+  x3,            ///< the estimate of w^2
   squared_amplitude,
   count
 };
@@ -137,9 +137,9 @@ template <typename Scalar, int M, typename Known = KklNothingKnown>
     squared_norm += square(xi(i));
   }
   squared_norm = Scalar(known(KklResult::squared_norm, squared_norm));
-  const Scalar excess = known(
-      KklResult::excess,
-      Scalar(design.ell * squared_norm - Scalar(2.0) * kkl_excitation<Scalar, M>(xi, design.lambda)));
+  const Scalar excess =
+      known(KklResult::excess,
+            Scalar(design.ell * squared_norm - Scalar(2.0) * kkl_excitation<Scalar, M>(xi, design.lambda)));
   return max(excess, Scalar(0.0));
 }
 

@@ -54,7 +54,8 @@ void add_rounding(const KklRobustnessQuestion& question,
   }
   FilterStates states{question.range.lambda, question.ell, result.largest_ell, {}, {}};
   const Interval least = Interval(result.smallest_relative_square.lower()) * square(slowest);
-  const Interval most = square(Interval(question.range.frequency.upper()) + Interval(exact_frequency.upper()));
+  const Interval most =
+      square(Interval(question.range.frequency.upper()) + Interval(exact_frequency.upper()));
   states.squared_frequency = Interval::from_bounds(least.lower(), most.upper());
   states.least_amplitude = Interval(0.0);
   if (rigor::is_finite(exact_amplitude)) {

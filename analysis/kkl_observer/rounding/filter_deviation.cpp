@@ -33,8 +33,8 @@ std::array<Interval, 4> rounding_of_steps(const rigor::IntervalVector<4>& lambda
   for (Eigen::Index i = 0; i < kRates; ++i) {
     const Interval forgotten = Interval(1.0) - exp(-(lambda(i) * interval));
     const Interval sum = Interval(next(i).error()) / forgotten;
-    const bool is_known = rigor::certainly_positive(forgotten) &&
-                          rigor::certainly_less_equal(sum, Interval(0.5) / lambda(i));
+    const bool is_known =
+        rigor::certainly_positive(forgotten) && rigor::certainly_less_equal(sum, Interval(0.5) / lambda(i));
     result[static_cast<std::size_t>(i)] = is_known ? Interval(sum.upper()) : Interval::entire();
   }
   return result;
@@ -54,8 +54,8 @@ std::array<Interval, 4> sampled_deviation(const KklRobustnessQuestion& question,
   std::array<Interval, 4> result = rounding_of_steps(question.range.lambda, interval);
   for (std::size_t i = 0; i < result.size(); ++i) {
     const Interval input = bend + sample + Interval(kNeighbourhood);
-    const Interval sum = input / question.range.lambda(static_cast<Eigen::Index>(i)) +
-                         Interval(kRoom) * relative * result[i];
+    const Interval sum =
+        input / question.range.lambda(static_cast<Eigen::Index>(i)) + Interval(kRoom) * relative * result[i];
     result[i] = in_range ? Interval(sum.upper()) : Interval::entire();
   }
   return result;

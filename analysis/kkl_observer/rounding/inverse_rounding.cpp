@@ -76,9 +76,9 @@ Known known_of(const FilterStates& states, Interval& gram) {
   }
   Known known;
   known.set(KklResult::squared_norm, one);
-  known.set(KklResult::excess, Interval::from_bounds(-kInfinity, (Interval(states.ell.upper()) -
-                                                                  Interval(states.largest_ell.lower()))
-                                                                     .upper()));
+  known.set(KklResult::excess,
+            Interval::from_bounds(
+                -kInfinity, (Interval(states.ell.upper()) - Interval(states.largest_ell.lower())).upper()));
   known.set(KklResult::entry_13, linear(lambda));
   known.set(KklResult::entry_23, Interval::from_bounds(-2.0, 2.0));
   known.set(KklResult::entry_33, one);
@@ -110,8 +110,8 @@ void look(const trackers::OscillatorState<Rounded>& x, const FilterStates& state
       return Rounded(intersection(value.exact(), range), value.error());
     };
     known.set(KklResult::squared_amplitude, square(Interval::from_bounds(low, high)));
-    const trackers::OscillatorState<Rounded> here{
-        within(x(0), reach), within(x(1), reach * sqrt(states.squared_frequency)), x(2)};
+    const trackers::OscillatorState<Rounded> here{within(x(0), reach),
+                                                  within(x(1), reach * sqrt(states.squared_frequency)), x(2)};
     const auto estimate = trackers::in_engineering_units(here, known);
     worst.frequency = std::max(worst.frequency, estimate.frequency.error());
     worst.amplitude = std::max(worst.amplitude, estimate.amplitude.error());

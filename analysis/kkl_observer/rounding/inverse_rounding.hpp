@@ -5,8 +5,8 @@
 
 namespace veritrack::kkl_observer {
 
-/// Filter states xi of which a certificate knows that |M xi|^2 >= largest_ell / 2 |xi|^2 and that the exact map
-/// gives an estimate in these ranges. All scales of xi between kSmallestFilters and kLargestFilters.
+/// Filter states xi of which a certificate knows that |M xi|^2 >= largest_ell / 2 |xi|^2 and that the exact
+/// map gives an estimate in these ranges. All scales of xi between kSmallestFilters and kLargestFilters.
 struct FilterStates {
   rigor::IntervalVector<4> lambda;    ///< filter rates, 1/s; the program holds a double in each
   rigor::Interval ell;                ///< in use in (9)

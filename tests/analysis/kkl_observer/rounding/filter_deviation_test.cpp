@@ -118,7 +118,9 @@ TEST_CASE("rounding alone, at an interval where it is all there is, grows as the
   }
 }
 
-TEST_CASE("without an interval the deviation is the one of the sentence, with room; none for a sinusoid's samples") {
+TEST_CASE(
+    "without an interval the deviation is the one of the sentence, with room; none for a sinusoid's "
+    "samples") {
   KklRobustnessQuestion question =
       question_of(1.0, 2.0, SinusoidalDisturbance{Interval(0.1), Interval(50.0)}, 1e-3);
   CHECK(proved(question)[0] == HUGE_VAL);

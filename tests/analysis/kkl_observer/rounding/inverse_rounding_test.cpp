@@ -17,7 +17,8 @@ using rigor::Interval;
 using Long = long double;
 
 /// The states of which a certificate for these rates may know so much.
-FilterStates states_of(const Eigen::Vector4d& rates, double ell, double largest_ell, double low, double high) {
+FilterStates states_of(const Eigen::Vector4d& rates, double ell, double largest_ell, double low,
+                       double high) {
   FilterStates states;
   states.lambda = rigor::to_interval(rates);
   states.ell = Interval(ell);

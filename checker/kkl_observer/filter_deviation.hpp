@@ -1,5 +1,5 @@
 // How far the filters of the program may be from those of the differential equations (docs/rounding.md,
-// section 7).
+// The KKL observer).
 #pragma once
 
 #include "checker/kkl_observer/moves.hpp"

@@ -1,5 +1,5 @@
 // How far the estimates that a KKL observer computes in double precision are from the exact ones of the same
-// filter states (docs/rounding.md, section 7).
+// filter states (docs/rounding.md, The KKL observer).
 #pragma once
 
 #include "checker/kkl_observer/moves.hpp"

@@ -1,5 +1,5 @@
 // Bounds on what IEEE 754 double precision makes of a value: on the size of the exact one, and on how far the
-// computed one is from it (docs/rounding.md, section 7).
+// computed one is from it (docs/rounding.md, The KKL observer).
 //
 // In units in which the filters' states have length 1 and are between 2^-240 and 2^240 in the program's own.
 // All values scale like powers up to the second of it: below 2^540 here nothing overflows there, and half

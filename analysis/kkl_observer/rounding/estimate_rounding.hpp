@@ -1,4 +1,4 @@
-// Rounding in the bounds on the errors of the KKL observer's estimates: docs/rounding.md, section 7.
+// Rounding in the bounds on the errors of the KKL observer's estimates: docs/rounding.md, The KKL observer.
 #pragma once
 
 #include "analysis/kkl_observer/kkl_error_map.hpp"

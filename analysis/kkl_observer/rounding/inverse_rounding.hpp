@@ -1,4 +1,4 @@
-// What double precision adds to the static map of the KKL observer: docs/rounding.md, section 7.
+// What double precision adds to the static map of the KKL observer: docs/rounding.md, The KKL observer.
 #pragma once
 
 #include "analysis/rigor/matrix.hpp"

@@ -147,7 +147,7 @@ InverseRounding inverse_rounding(const FilterStates& states) {
   }
   // Cut into pieces on each of which z3 = x3 d3 is known well.
   InverseRounding worst{0.0, 0.0};
-  while (low < top) {
+  while (low < top && worst.frequency < kInfinity) {
     const double high = std::min(rigor::mul_up(kGrowth, low), top);
     const Interval piece = Interval::from_bounds(low, high);
     known.set(KklResult::reduced_33, piece);

@@ -13,12 +13,14 @@
 // xi into an estimate of x.
 //
 // Everything is a template over the scalar, free of branches on scalar values. It does not allocate, and it
-// never throws unless the scalar does. Assumed, not checked: lambda positive and distinct, ell >= 0, M >= 4.
+// never throws unless the scalar does. What double precision adds to the estimates is bounded in
+// docs/rounding.md. Assumed, not checked: lambda positive and distinct, ell >= 0, M >= 4.
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
 
+#include "trackers/kkl_observer/kkl_results.hpp"
 #include "trackers/scalar_functions.hpp"
 
 namespace veritrack::trackers {
@@ -54,33 +56,6 @@ struct OscillatorEstimate {
   Scalar amplitude;  ///< signal units
   Scalar phase;      ///< rad: y = amplitude sin(phase)
   Scalar frequency;  ///< rad/s
-};
-
-/// Intermediate results of the static map, for an analysis that knows more of them than their operands show.
-enum class KklResult {
-  squared_norm,  ///< |xi|^2
-  excess,        ///< ell |xi|^2 - 2 |M xi|^2
-  entry_13,      ///< of L'L
-  entry_23,      ///< of L'L
-  entry_33,      ///< of L'L
-  right_1,       ///< of L' F^2 xi
-  right_2,       ///< of L' F^2 xi
-  right_3,       ///< of L' F^2 xi
-  reduced_23,    ///< the entry that is left when x1 is eliminated
-  reduced_33,    ///< the entry that is left when x1 and x2 are eliminated
-  reduced_2,     ///< the right-hand side when x1 is eliminated
-  reduced_3,     ///< the right-hand side when x1 and x2 are eliminated
-  x3,            ///< the estimate of w^2
-  squared_amplitude,
-  count
-};
-
-/// What a tracker knows beside its numbers: nothing. Each is left as it is.
-struct KklNothingKnown {
-  template <typename Scalar>
-  [[nodiscard]] const Scalar& operator()(KklResult /*which*/, const Scalar& x) const {
-    return x;
-  }
 };
 
 /// Amplitude, phase and frequency of a state. Meaningless (NaN over double) unless x3 > 0.

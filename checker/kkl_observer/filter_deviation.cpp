@@ -23,7 +23,8 @@ Ball rounding_of_steps(const Ball& rate, const Ball& interval) {
   const RoundedValue state = held(two / rate);
   const RoundedValue next = decay * state + gain * sample + ramp * (sample + sample);
   const Ball sum = (next.error / forgotten).upper();
-  const bool is_known = certainly_positive(forgotten) && certainly_at_most(sum, half / rate);
+  // Where the interval is too short to forget anything, the sum is not finite.
+  const bool is_known = certainly_at_most(sum, half / rate);
   return is_known ? sum : Ball::everything();
 }
 

@@ -133,9 +133,8 @@ Value amplitude(const State& at, const FilterStates& states, const Ball& low, co
 MapRounding map_rounding(const FilterStates& states) {
   MapRounding result{Ball::everything(), Ball::everything()};
   const Rates rates = sums_of(states.lambda);
-  const bool is_usable = certainly_positive(states.least_square) && states.most_square.finite() &&
-                         certainly_positive(states.largest_ell) && finds_mu_zero(states, rates);
-  if (!is_usable) {
+  // Without a certainly positive largest_ell or least_square a divisor or a root below has no bound.
+  if (!finds_mu_zero(states, rates) || !states.most_square.finite()) {
     return result;
   }
   const State at = state(states, rates);

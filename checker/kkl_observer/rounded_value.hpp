@@ -51,12 +51,9 @@ inline RoundedValue quotient(const RoundedValue& x, const RoundedValue& y, const
   }
   return rounded(size, (x.error + size * y.error) / divisor);
 }
-/// The root of x, of which x >= least > 0 is known.
+/// The root of x, of which x >= least > 0 is known. Not a number where the computed x may be negative.
 inline RoundedValue root(const RoundedValue& x, const Ball& least) {
   const Ball computed = (least - x.error).lower();
-  if (!certainly_positive(computed)) {
-    return {Ball::everything(), Ball::everything()};
-  }
   return rounded(sqrt(x.size), x.error / (sqrt(least.lower()) + sqrt(computed)));
 }
 

@@ -33,8 +33,8 @@ std::array<Interval, 4> rounding_of_steps(const rigor::IntervalVector<4>& lambda
   for (Eigen::Index i = 0; i < kRates; ++i) {
     const Interval forgotten = Interval(1.0) - exp(-(lambda(i) * interval));
     const Interval sum = Interval(next(i).error()) / forgotten;
-    const bool is_known =
-        rigor::certainly_positive(forgotten) && rigor::certainly_less_equal(sum, Interval(0.5) / lambda(i));
+    // Where the interval is too short to forget anything, the sum is not finite.
+    const bool is_known = rigor::certainly_less_equal(sum, Interval(0.5) / lambda(i));
     result[static_cast<std::size_t>(i)] = is_known ? Interval(sum.upper()) : Interval::entire();
   }
   return result;

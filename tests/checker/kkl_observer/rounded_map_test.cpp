@@ -96,6 +96,8 @@ TEST_CASE("no bound where mu may be computed as more than zero, or where too lit
   states.least_amplitude = checker::zero;
   CHECK_FALSE(is_bounded(states));
   CHECK(map_rounding(states).frequency.finite());
+  states.least_amplitude = Ball(1e9);  // more than there can be
+  CHECK_FALSE(is_bounded(states));
 }
 
 TEST_CASE("each operation's error: operands at the ends of their bounds") {

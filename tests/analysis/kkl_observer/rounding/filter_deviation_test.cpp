@@ -142,6 +142,8 @@ TEST_CASE("no bound where the signal may over- or underflow, or where the steps 
   CHECK(proved(question_of(1.0, 0x1p250, NoDisturbance{}, 1e-3))[0] == HUGE_VAL);
   CHECK(proved(question_of(0x1p-250, 0x1p-249, NoDisturbance{}, 1e-3))[0] == HUGE_VAL);
   CHECK(proved(question_of(1.0, 1.0, NoDisturbance{}, 1e-17))[0] == HUGE_VAL);
+  // A sum of roundings of the size of the filters themselves, beyond the states that it is about.
+  CHECK(proved(question_of(1.0, 1.0, NoDisturbance{}, 1e-8))[0] == HUGE_VAL);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include "analysis/kkl_observer/kkl_bounded_errors.hpp"
 #include "analysis/kkl_observer/kkl_settling.hpp"
 #include "analysis/kkl_observer/kkl_sinusoidal_errors.hpp"
+#include "analysis/kkl_observer/rounding/estimate_rounding.hpp"
+#include "analysis/kkl_observer/rounding/filter_deviation.hpp"
 #include "analysis/search/branch_and_bound.hpp"
 
 namespace veritrack::kkl_observer {
@@ -73,7 +75,16 @@ KklRobustness search_errors(const Errors& errors, const KklRobustnessQuestion& q
 KklRobustness bound_kkl_errors(const KklRobustnessQuestion& question) {
   const rigor::UpwardRounding upward;
   const Interval settling_time(propose_settling_time(question));
-  const Filters transient = transient_at(question, settling_time);
+  Filters transient = transient_at(question, settling_time);
+  const std::array<Interval, 4> deviation = filter_deviation(question);
+  for (std::size_t i = 0; i < transient.size(); ++i) {
+    if (!rigor::is_finite(deviation[i])) {
+      KklRobustness nothing;
+      nothing.settling_time = settling_time;
+      return nothing;
+    }
+    transient[i] += rigor::symmetric(deviation[i].upper());
+  }
   KklRobustness result;
   if (const auto* bounded = std::get_if<BoundedDisturbance>(&question.disturbance)) {
     result = search_errors(BoundedErrors(question, *bounded, transient), question);
@@ -86,6 +97,8 @@ KklRobustness bound_kkl_errors(const KklRobustnessQuestion& question) {
     result.worst[4] = 1.0 / result.worst[4];
   }
   result.settling_time = settling_time;
+  result.knows_filters = true;
+  add_rounding(question, transient, result);
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <variant>
 
 #include "analysis/kkl_observer/kkl_ell.hpp"
@@ -31,11 +32,15 @@ struct KklRobustnessQuestion {
   rigor::Interval amplitude;  ///< of the signal, certainly positive, signal units
   rigor::Interval ell;        ///< in use in (9)
   Disturbance disturbance;
+  /// Between samples, s, of a program in double precision that takes the input to be straight between them;
+  /// the disturbance is that of the samples. None: filters in continuous time (kAllowedDeviation).
+  std::optional<rigor::Interval> interval;
   double relative_tolerance = 0.05;  ///< of the bounds; a wish, not a condition
   std::int64_t cells = 120'000;      ///< at most, for each bound
 };
 
 /// Bounds that hold from the settling time on, for every signal of the range and filters that start at rest.
+/// They are about estimates that are computed in double precision.
 struct KklRobustness {
   rigor::Interval settling_time;          ///< s
   rigor::Interval frequency_error_bound;  ///< rad/s; empty when none was found
@@ -43,6 +48,10 @@ struct KklRobustness {
   /// Twice the smallest |M xi|^2 / |xi|^2 that the disturbed filters can reach: mu of (9) vanishes for any
   /// ell up to its lower end. Empty when not found.
   rigor::Interval largest_ell;
+  /// Is there a bound on how far the program's filters are from their differential equations?
+  bool knows_filters = false;
+  /// What rounding of the static map adds, and is in the bounds, rad/s. Empty when there is no bound.
+  rigor::Interval rounding;
   /// A lower bound on x3_hat / x3, which has to be positive for a frequency to exist.
   rigor::Interval smallest_relative_square;
   /// A disturbed signal near the worst one for the frequency: frequency (rad/s), phase (rad), amplitude, and

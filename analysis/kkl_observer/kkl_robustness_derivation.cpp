@@ -29,7 +29,12 @@ theorems::Quantity quantity(std::string name, std::string symbol, std::string fo
 theorems::Condition regular_condition(const KklRobustness& found, const Interval& ell) {
   theorems::Condition condition{
       "regular", "\\ell \\le 2 \\inf |M\\xi|^2 / |\\xi|^2", Verdict::undecided, ell, found.largest_ell, {}};
-  if (rigor::certainly_less_equal(ell, found.largest_ell)) {
+  if (!found.knows_filters) {
+    condition.reason =
+        "the filters of the program cannot be bounded: a sinusoidal disturbance of any frequency from the "
+        "assumed one up may have any samples (assume a bound in its place), or the sampling interval is too "
+        "short for double precision.";
+  } else if (rigor::certainly_less_equal(ell, found.largest_ell)) {
     condition.verdict = Verdict::proved;
     condition.reason =
         "mu of (9) vanishes at every filter state that the disturbance can cause: the bounds apply.";
@@ -78,11 +83,12 @@ theorems::Condition bounded_condition(const KklRobustness& found, bool regular) 
     condition.reason = kOtherObserver;
   } else if (rigor::is_finite(found.frequency_error_bound) && rigor::is_finite(found.amplitude_error_bound)) {
     condition.verdict = Verdict::proved;
-    condition.reason =
-        "branch and bound over signal and disturbance, " + std::to_string(found.cells) + " cells.";
+    condition.reason = "branch and bound over signal and disturbance, " + std::to_string(found.cells) +
+                       " cells; rounding of the estimates adds at most " +
+                       rigor::upper_decimal(found.rounding, 3) + " rad/s.";
   } else {
-    condition.reason =
-        "branch and bound found no finite bound within " + std::to_string(found.cells) + " cells.";
+    condition.reason = "branch and bound found no finite bound within " + std::to_string(found.cells) +
+                       " cells, or rounding of the estimates has none.";
   }
   return condition;
 }
@@ -120,7 +126,9 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question
       {derivation.conditions[0].verdict, derivation.conditions[1].verdict, derivation.conditions[2].verdict});
   derivation.notes = {
       "The bounds are valid from the settling time on, for every signal of the assumed range, if the filters "
-      "start at rest with the signal. A sinusoidal disturbance may have any phase and any frequency at or "
+      "start at rest with the signal. They are about estimates computed in double precision "
+      "(docs/rounding.md). "
+      "A sinusoidal disturbance may have any phase and any frequency at or "
       "above the assumed one.",
       "The simulated errors are the largest over a grid of signals. They prove nothing, but show how tight "
       "the bounds are."};

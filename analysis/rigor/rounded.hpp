@@ -38,6 +38,8 @@ class Rounded {
   static constexpr double kSmallestUnit = 0x1p-60;
   static constexpr double kLargestUnit = 0x1p60;
 
+  /// Of which nothing is known.
+  Rounded() : Rounded(Interval(), kInfinity) {}
   /// A literal of the program, or an input of which it holds this very number.
   explicit Rounded(double value) : Rounded(Interval(value), 0.0) {}
   /// Any double in the interval: what the program reads is the exact value.

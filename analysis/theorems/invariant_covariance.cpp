@@ -56,8 +56,10 @@ IntervalMatrix<3> after_step(const IntervalMatrix<3>& covariance, const Interval
   return trackers::filtered_covariance(predicted, trackers::gain(predicted, design.r), design.r).matrix();
 }
 
-std::optional<MatrixRange> verified(const Eigen::Matrix3d& upper, const Eigen::Matrix3d& lower,
-                                    const IntervalDesign& design, const EstimateTube& tube) {
+}  // namespace
+
+std::optional<MatrixRange> verified_range(const Eigen::Matrix3d& upper, const Eigen::Matrix3d& lower,
+                                          const IntervalDesign& design, const EstimateTube& tube) {
   MatrixRange range;
   range.upper = rigor::to_interval(upper);
   const IntervalMatrix<3> least = rigor::to_interval(lower);
@@ -76,8 +78,6 @@ std::optional<MatrixRange> verified(const Eigen::Matrix3d& upper, const Eigen::M
   return range;
 }
 
-}  // namespace
-
 std::optional<MatrixRange> invariant_range(const IntervalDesign& design, const EstimateTube& tube) {
   constexpr double kLargestShare = 0.75;
   double share = tube.plane_error.upper();
@@ -87,7 +87,7 @@ std::optional<MatrixRange> invariant_range(const IntervalDesign& design, const E
     if (!upper || !lower) {
       return std::nullopt;
     }
-    if (auto range = verified(*upper, *lower, design, tube)) {
+    if (auto range = verified_range(*upper, *lower, design, tube)) {
       return range;
     }
     share *= 1.5;

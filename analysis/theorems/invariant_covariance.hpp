@@ -17,4 +17,11 @@ namespace veritrack::theorems {
 [[nodiscard]] std::optional<MatrixRange> invariant_range(const IntervalDesign& design,
                                                          const EstimateTube& tube);
 
+/// The range between two proposed matrices, when the order interval that they bound is verified as above and
+/// `lower` is positive definite. Needs the upward rounding mode.
+[[nodiscard]] std::optional<MatrixRange> verified_range(const Eigen::Matrix3d& upper,
+                                                        const Eigen::Matrix3d& lower,
+                                                        const IntervalDesign& design,
+                                                        const EstimateTube& tube);
+
 }  // namespace veritrack::theorems

@@ -36,21 +36,37 @@ kkl_observer::Disturbance disturbance_of(const KklAssumptions& assume) {
   return kkl_observer::SinusoidalDisturbance{given.amplitude->value, given.frequency->value};
 }
 
-/// "In continuous time and exact arithmetic, for every tone ..., ".
-std::string hypotheses(const KklAssumptions& assume) {
+/// What the estimates are computed from, and how.
+std::string arithmetic(const KklDesignTable& design) {
+  if (design.sampling_interval) {
+    return fmt::format(
+        "For the program in double precision, started at rest, with samples every {} s and straight lines "
+        "between them, ",
+        design.sampling_interval->text);
+  }
+  return "For filters within 1e-9 A/lambda of the exact solution from rest (A: the tone's amplitude, lambda: "
+         "the filter's rate) and estimates computed from them in double precision, ";
+}
+
+/// The arithmetic, then "for every tone ..., with ..., ".
+std::string hypotheses(const KklObserverTables& tables) {
+  const KklAssumptions& assume = tables.assume;
   std::string text = fmt::format(
-      "In continuous time and exact arithmetic, for every tone of constant frequency from {} to {} rad/s and "
-      "constant amplitude from {} to {} signal units",
-      assume.frequency[0].text, assume.frequency[1].text, assume.amplitude[0].text, assume.amplitude[1].text);
+      "{}for every tone of constant frequency from {} to {} rad/s and constant amplitude from {} to {} "
+      "signal "
+      "units",
+      arithmetic(tables.design), assume.frequency[0].text, assume.frequency[1].text, assume.amplitude[0].text,
+      assume.amplitude[1].text);
   if (!assume.disturbance) {
     return text + ", without disturbance, ";
   }
   const KklDisturbance& given = *assume.disturbance;
   return given.bound
-             ? fmt::format("{}, with any disturbance of at most {} signal units, ", text, given.bound->text)
+             ? fmt::format("{}, with any disturbance of at most {} signal units{}, ", text, given.bound->text,
+                           tables.design.sampling_interval ? " in each sample" : "")
              : fmt::format(
                    "{}, with a sinusoidal disturbance of amplitude {} signal units and frequency {} "
-                   "rad/s, ",
+                   "rad/s or more, ",
                    text, given.amplitude->text, given.frequency->text);
 }
 
@@ -74,7 +90,7 @@ Claim bound_claim(const Certificate& certificate, const std::string& id, const s
   Claim claim;
   claim.id = id;
   claim.requirement = requirement;
-  claim.statement = hypotheses(kkl_observer_tables(certificate.design).assume) + requirement;
+  claim.statement = hypotheses(kkl_observer_tables(certificate.design)) + requirement;
   claim.required = true;
   claim.position = required.position;
   const std::optional<Interval> bound = proved_kkl_bound(certificate, name);
@@ -147,6 +163,9 @@ kkl_observer::KklRobustnessQuestion kkl_robustness_question(const KklObserverTab
   question.amplitude = hull_of(tables.assume.amplitude);
   question.ell = ell;
   question.disturbance = disturbance_of(tables.assume);
+  if (tables.design.sampling_interval) {
+    question.interval = tables.design.sampling_interval->value;
+  }
   return question;
 }
 

@@ -13,6 +13,8 @@ namespace veritrack::certificates {
 struct KklDesignTable {
   std::vector<Number> lambda;  ///< filter rates, 1/s: four or more, positive and distinct
   std::optional<Number> ell;   ///< of (9) of the paper; none: the proved one
+  /// s, between samples of a program that takes its input to be straight between them; none: continuous time
+  std::optional<Number> sampling_interval;
 };
 
 /// What may be added to the signal: nothing is known but a bound, or a sinusoid of at least that frequency.

@@ -12,6 +12,7 @@ Json kkl_observer_design_json(const Design& read) {
   }
   Json chosen{{"lambda", rates}};
   add_number(chosen, "ell", design.ell);
+  add_number(chosen, "sampling_interval", design.sampling_interval);
   Json assumed{{"frequency", {number_json(assume.frequency[0]), number_json(assume.frequency[1])}},
                {"amplitude", {number_json(assume.amplitude[0]), number_json(assume.amplitude[1])}}};
   if (assume.disturbance) {

@@ -32,6 +32,10 @@ void ell(const TomlValue& value, KklDesignTable& design) {
   design.ell = value.real(positive);
 }
 
+void sampling_interval(const TomlValue& value, KklDesignTable& design) {
+  design.sampling_interval = value.real(positive);
+}
+
 /// [lowest, highest], both above zero.
 std::array<Number, 2> range(const TomlValue& value) {
   const std::vector<TomlValue> bounds = value.elements(2);
@@ -72,6 +76,7 @@ constexpr std::array kDesignKeys{
     Key<KklDesignTable>{"lambda", "an array of four to eight distinct numbers above 0 (1/s)", lambda,
                         kRequired},
     Key<KklDesignTable>{"ell", kPositive, ell, kOptional},
+    Key<KklDesignTable>{"sampling_interval", "a number of seconds above 0", sampling_interval, kOptional},
 };
 constexpr std::array kAssumeKeys{
     Key<KklAssumptions>{"frequency", "[lowest, highest] in rad/s, 0 < lowest <= highest", frequency,

@@ -40,6 +40,9 @@ std::string design_text(const Design& design, const Eigen::Vector4d& lambda) {
   text += design.source.empty() ? "" : fmt::format("source = {}\n", quoted(design.source));
   text += fmt::format("\n[design]\nlambda = [{:.4g}, {:.4g}, {:.4g}, {:.4g}] # 1/s\n", lambda(0), lambda(1),
                       lambda(2), lambda(3));
+  if (chosen.sampling_interval) {
+    text += fmt::format("sampling_interval = {} # s\n", chosen.sampling_interval->text);
+  }
   text += fmt::format("\n[assume]\nfrequency = [{}, {}] # rad/s\namplitude = [{}, {}] # signal units\n",
                       assume.frequency[0].text, assume.frequency[1].text, assume.amplitude[0].text,
                       assume.amplitude[1].text);

@@ -42,6 +42,9 @@ std::string design_section(const Certificate& certificate, const KklObserverTabl
        ell.decimal ? "`" + *ell.decimal + "`" : "the lower end of the proved one", "—"},
       {"frequency of the signal, always within", math("\\omega"), range(tables.assume.frequency), "rad/s"},
       {"amplitude of the signal, always within", math("A"), range(tables.assume.amplitude), "signal units"}};
+  if (tables.design.sampling_interval) {
+    rows.push_back({"interval between samples", math("h"), code(*tables.design.sampling_interval), "s"});
+  }
   if (const auto& disturbance = tables.assume.disturbance; disturbance && disturbance->bound) {
     rows.push_back(
         {"disturbance, at all times", math("|d(t)| \\le"), code(*disturbance->bound), "signal units"});
@@ -79,13 +82,26 @@ std::string figures_section(const MarkdownOptions& options) {
   return text.empty() ? text : "## In simulation\n\n" + text;
 }
 
-std::string coverage_section() {
-  return "## What this certificate covers, and what it does not\n\n- Covered: the observer in continuous "
-         "time and exact arithmetic, for every signal of constant amplitude and frequency within the assumed "
-         "range, with any disturbance that satisfies the assumption. Not covered: sampling of the input, and "
-         "rounding errors in double precision.\n- Every enclosure was computed with outward-rounded interval "
-         "arithmetic. Results of solvers and simulations are marked as not proved, and no verdict depends on "
-         "them.\n\n";
+std::string coverage_section(const KklObserverTables& tables) {
+  const char* filters =
+      tables.design.sampling_interval
+          ? "- Covered: the program, `KklObserver` of `trackers/kkl_observer/kkl_observer.hpp` for double, "
+            "stepped along straight lines between samples: what lies between samples, and all rounding. "
+            "Statements about a time are about the samples from then on."
+          : "- Covered: estimates of the program (`kkl_inverse` and `in_engineering_units` of "
+            "`trackers/kkl_observer/kkl_observer.hpp` for double, rounding included) from filters that solve "
+            "their differential equations to within 1e-9 of the signal's amplitude over their rates. Not "
+            "covered: how the filters are solved. With `sampling_interval` and a disturbance of which a "
+            "bound "
+            "is assumed, that is covered, too.";
+  return fmt::format(
+      "## What this certificate covers, and what it does not\n\n{} Every signal of constant amplitude and "
+      "frequency within the assumed range, with any disturbance that satisfies the assumption. What is "
+      "assumed of the compiler is in `docs/rounding.md`.\n- Not covered: the estimated phase.\n- The "
+      "constant of (10) and the paper's claims are about exact arithmetic.\n- Every enclosure was computed "
+      "with outward-rounded interval arithmetic. Results of solvers and simulations are marked as not "
+      "proved, and no verdict depends on them.\n\n",
+      filters);
 }
 
 }  // namespace
@@ -106,7 +122,7 @@ std::string kkl_observer_sections(const Certificate& certificate, const Markdown
          figures_section(options) + derivation_section(certificate, "kkl-ell", "The constant of (10)", true) +
          derivation_section(certificate, "kkl-paper", "The paper's claims", false) +
          derivation_section(certificate, "kkl-section-v", "The simulations of section V", false) +
-         coverage_section();
+         coverage_section(kkl_observer_tables(certificate.design));
 }
 
 }  // namespace veritrack::certificates

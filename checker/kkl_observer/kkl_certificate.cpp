@@ -26,13 +26,24 @@ constexpr std::array kRequirements{
     RequiredBound{"settles_within", "kkl/settling-time", "settling_time", "the proved bounds are valid from ",
                   " s after the start on"}};
 
-/// "In continuous time and exact arithmetic, for every tone ..., ".
-std::string hypotheses(const Tree& assume) {
+/// What the estimates are computed from, and how.
+std::string arithmetic(const Tree& chosen) {
+  if (const Tree* interval = chosen.find("sampling_interval")) {
+    return "For the program in double precision, started at rest, with samples every " + text_of(*interval) +
+           " s and straight lines between them, ";
+  }
+  return "For filters within 1e-9 A/lambda of the exact solution from rest (A: the tone's amplitude, lambda: "
+         "the filter's rate) and estimates computed from them in double precision, ";
+}
+
+/// The arithmetic, then "for every tone ..., with ..., ".
+std::string hypotheses(const Tree& design) {
+  const Tree& assume = design.at("assume");
   const auto range = [&](const char* name, const char* unit) {
     const Tree& ends = assume.at(name);
     return "from " + text_of(ends.at(0)) + " to " + text_of(ends.at(1)) + unit;
   };
-  std::string text = "In continuous time and exact arithmetic, for every tone of constant frequency " +
+  std::string text = arithmetic(design.at("design")) + "for every tone of constant frequency " +
                      range("frequency", " rad/s") + " and constant amplitude " +
                      range("amplitude", " signal units");
   const Tree* disturbance = assume.find("disturbance");
@@ -40,10 +51,11 @@ std::string hypotheses(const Tree& assume) {
     return text + ", without disturbance, ";
   }
   if (const Tree* bound = disturbance->find("bound")) {
-    return text + ", with any disturbance of at most " + text_of(*bound) + " signal units, ";
+    const char* where = design.at("design").find("sampling_interval") != nullptr ? " in each sample, " : ", ";
+    return text + ", with any disturbance of at most " + text_of(*bound) + " signal units" + where;
   }
   return text + ", with a sinusoidal disturbance of amplitude " + text_of(disturbance->at("amplitude")) +
-         " signal units and frequency " + text_of(disturbance->at("frequency")) + " rad/s, ";
+         " signal units and frequency " + text_of(disturbance->at("frequency")) + " rad/s or more, ";
 }
 
 /// Walks through a certificate of the KKL observer.
@@ -130,8 +142,8 @@ class KklVerifier {
     const Ball value = bound(known->quantity);
     Claim found;
     found.is_summary = true;
-    found.statement = hypotheses(design.at("assume")) + known->before + text_of(*asked) + known->after +
-                      ": from " + upper_decimal(settling) + " s after the start on, ";
+    found.statement = hypotheses(design) + known->before + text_of(*asked) + known->after + ": from " +
+                      upper_decimal(settling) + " s after the start on, ";
     const bool is_time = std::string(known->quantity) == "settling_time";
     found.statement += is_time ? "the frequency error is at most " +
                                      upper_decimal(bound("frequency_error_bound")) +

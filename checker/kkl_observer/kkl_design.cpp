@@ -18,6 +18,9 @@ KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
   if (const Tree* ell = chosen.find("ell")) {
     design.ell = positive(*ell);
   }
+  if (const Tree* interval = chosen.find("sampling_interval")) {
+    design.sampling_interval = positive(*interval);
+  }
   // A range is the hull of the two enclosures, which contain the decimals.
   const auto range = [&](const Tree& ends, Ball& low, Ball& high) {
     positive(ends.at(0));

@@ -9,8 +9,10 @@
 namespace veritrack::checker {
 
 struct KklDesign {
-  std::vector<Ball> lambda;            ///< filter rates, 1/s
-  std::optional<Ball> ell;             ///< of (9); none: the lower end of the enclosure of (10)
+  std::vector<Ball> lambda;  ///< filter rates, 1/s
+  std::optional<Ball> ell;   ///< of (9); none: the lower end of the enclosure of (10)
+  /// Of a program that takes its input to be straight between samples, s; none: continuous time.
+  std::optional<Ball> sampling_interval;
   Ball frequency_low, frequency_high;  ///< rad/s
   Ball amplitude_low, amplitude_high;  ///< signal units
   // The disturbance, none of these when there is none: |d| <= bound, or amplitude sin(W t + p) for any p and

@@ -82,6 +82,8 @@ class Infimum {
   /// True only when the ratio is at least the bound from `low` to `high`.
   [[nodiscard]] bool is_bound(const Ball& low, const Ball& high, int depth) const {
     const Slope ratio = ratio_.at(Slope::variable(Ball::hull(low, high), 0));
+    // cannot bind (ratio.along[0]): no rates are known for which the ratio ever rises with the frequency, and
+    // where it does not, the upper end of a cell decides. That it never does is not proved: hence the guard.
     const bool falls = certainly_less(ratio.along[0], zero);
     const bool at_end = (falls && at_least(high)) || (certainly_positive(ratio.along[0]) && at_least(low));
     if (certainly_at_most(bound_, ratio.value) || at_end) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checker/kkl_observer/filter_deviation.hpp"
 #include "checker/numbers/slope.hpp"
 
 namespace veritrack::checker {
@@ -48,6 +49,7 @@ Moves::Moves(const KklDesign& design, const Ball& settling_time) {
   } else if (design.bound) {
     cut_time();
   }
+  const Filters deviation = filter_deviation(design);
   const auto gain = [](const Ball& rate, const Ball& frequency) {
     return one / sqrt(square(rate) + square(frequency));
   };
@@ -56,7 +58,7 @@ Moves::Moves(const KklDesign& design, const Ball& settling_time) {
     if (design.disturbance_frequency) {
       start += sinusoid_ * gain(lambda_[i], *design.disturbance_frequency);
     }
-    left_[i] = exp(-(lambda_[i] * settling_time)) * start;
+    left_[i] = exp(-(lambda_[i] * settling_time)) * start + deviation[i];
   }
 }
 
@@ -132,6 +134,10 @@ Ball Moves::kernel_integral(const Filters& q) const {
     sum += abs(q[i]) * tail_[i];
   }
   return sum;
+}
+
+Ball Moves::reach(std::size_t filter, const Ball& gain) const {
+  return (gain + (sinusoid_ + bound_) / lambda_[filter] + left_[filter]).upper();
 }
 
 Size Moves::size(const Filters& q) const {

@@ -20,7 +20,8 @@ struct Size {
 
 /// The filters xi_i' = -lambda_i xi_i + y start at rest. After the settling time they are at A (T(x) + u), A
 /// the amplitude and T the response to the signal alone; u is what the disturbance has driven, and the rest
-/// of the start, |.| <= exp(-lambda_i t_s) times what the responses to signal and disturbance were at 0. All
+/// of the start, |.| <= exp(-lambda_i t_s) times what the responses to signal and disturbance were at 0, and
+/// what the program's filters deviate (filter_deviation.hpp). All
 /// such u together are a convex set that is symmetric about 0.
 class Moves {
  public:
@@ -29,6 +30,9 @@ class Moves {
 
   /// At least sup |q'u|, for every q of the balls.
   [[nodiscard]] Size size(const Filters& q) const;
+  /// At least |xi_i| / A of one filter, with `gain` at least that of the signal's response: for how large the
+  /// program's numbers get.
+  [[nodiscard]] Ball reach(std::size_t filter, const Ball& gain) const;
 
  private:
   /// A cell of periods 1/W (s), on which the filters' responses to exp(jWt) are `weight` (at most) times h,

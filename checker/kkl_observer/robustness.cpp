@@ -1,6 +1,10 @@
 #include "checker/kkl_observer/robustness.hpp"
 
+#include <algorithm>
+
 #include "checker/document/evidence.hpp"
+#include "checker/kkl_observer/filter_deviation.hpp"
+#include "checker/kkl_observer/rounded_map.hpp"
 #include "checker/kkl_observer/signal_cells.hpp"
 
 namespace veritrack::checker {
@@ -19,6 +23,40 @@ const Tree* left_side(const Tree& derivation, std::string_view id) {
     }
   }
   return nullptr;
+}
+
+/// Bounds that the estimates have in exact arithmetic.
+struct ExactBounds {
+  Ball largest_ell, relative_square, frequency_error, amplitude_error;
+};
+
+/// What computing such estimates in double precision adds to the errors: rad/s, signal units.
+MapRounding rounding_of(const KklDesign& design, const Ball& settling_time, const Ball& ell,
+                        const ExactBounds& exact) {
+  static const Ball kSmallest(0x1p-240);
+  static const Ball kLargest(0x1p240);
+  const Moves moves(design, settling_time);
+  FilterStates states{{}, ell, exact.largest_ell, {}, {}, {}};
+  std::copy_n(design.lambda.begin(), kFilters, states.lambda.begin());
+  // |xi| / A, and its smallest value: some filter is outside of the neighbourhood of zero.
+  Ball squares(0.0);
+  Ball fastest(0.0);
+  for (std::size_t i = 0; i < kFilters; ++i) {
+    const Ball gain = one / sqrt(square(states.lambda[i]) + square(design.frequency_low));
+    squares += square(moves.reach(i, gain));
+    fastest = max(fastest, states.lambda[i]);
+  }
+  const Ball longest = sqrt(squares).upper();
+  const bool in_range = certainly_at_most(kSmallest, design.amplitude_low * neighbourhood / fastest) &&
+                        certainly_at_most(design.amplitude_high * longest, kLargest);
+  if (!in_range) {
+    return {Ball::everything(), Ball::everything()};
+  }
+  states.least_square = (exact.relative_square * square(design.frequency_low)).lower();
+  states.most_square = square(design.frequency_high + exact.frequency_error).upper();
+  states.least_amplitude = (design.amplitude_low - exact.amplitude_error) / (design.amplitude_low * longest);
+  const MapRounding rounding = map_rounding(states);
+  return {rounding.frequency, rounding.amplitude * design.amplitude_high * longest};
 }
 
 }  // namespace
@@ -45,13 +83,23 @@ void check_kkl_robustness(const Tree& claimed, const KklDesign& design, const Ba
   // Where mu of (9) may not vanish the estimates are others.
   const Verdict regular = proved_if(certainly_at_most(ell, largest_ell));
   const Verdict exists = all_of({regular, proved_if(certainly_positive(relative_square))});
-  const auto of_estimate = [&](const Ball& bound, auto statement) {
-    return exists == Verdict::proved ? established(bound, statement) : Ball::everything();
-  };
-  const Ball frequency = of_estimate(end_of(quantities.find("frequency_error_bound"), "hi"),
-                                     &SignalCells::frequency_error_at_most);
-  const Ball amplitude = of_estimate(end_of(quantities.find("amplitude_error_bound"), "hi"),
-                                     &SignalCells::amplitude_error_at_most);
+  // Exact errors within the claimed bounds less what rounding adds, which supposes no more than the claimed
+  // bounds.
+  const ExactBounds claim{largest_ell, relative_square,
+                          end_of(quantities.find("frequency_error_bound"), "hi"),
+                          end_of(quantities.find("amplitude_error_bound"), "hi")};
+  Ball frequency = Ball::everything();
+  Ball amplitude = Ball::everything();
+  if (exists == Verdict::proved) {
+    const MapRounding rounding = rounding_of(design, settling_time, ell, claim);
+    const auto computed = [&](const Ball& bound, const Ball& added, auto statement) {
+      return established((bound - added).lower(), statement).finite() ? bound : Ball::everything();
+    };
+    frequency = computed(claim.frequency_error, rounding.frequency, &SignalCells::frequency_error_at_most);
+    if (frequency.finite()) {
+      amplitude = computed(claim.amplitude_error, rounding.amplitude, &SignalCells::amplitude_error_at_most);
+    }
+  }
   const bool bounded = frequency.finite() && amplitude.finite();
   check_derivation(
       claimed,

@@ -117,6 +117,8 @@ class CurveTube {
     }
     for (std::size_t i = 0; i < count; ++i) {
       const auto& [root, v] = norms.cells[i];
+      // cannot bind (): the square of a proposed root is at least that of the weights, twice what is asked;
+      // it would take rounding of its entries by a half.
       if (!(root.transposed() * root - half_squares).definite()) {
         return false;
       }

@@ -17,6 +17,10 @@ capture           farther starts, followed into the set of one-set: one box, of 
 From tests/certificates/kkl-observer.toml, a KKL observer at one frequency with a sinusoidal disturbance:
 kkl-observer      its bounds, with an easier one on the amplitude error
 kkl-paper         its ell and the paper's claims
+From tests/certificates/kkl-sampled.toml, the same observer as a program that gets samples:
+kkl-sampled       its bounds
+From tests/certificates/kkl-rounding.toml, rates for which rounding counts:
+kkl-rounding      its bounds
 From tests/certificates/kkl-close-rates.toml and kkl-wide-rates.toml, as they are:
 kkl-close-rates   rates 1, 1.001, 1.002, 1.003: ell is 8e-27
 kkl-wide-rates    rates 0.01, 1, 100, 1e4
@@ -173,6 +177,11 @@ def kkl_observer(certificate):
             owner["amplitude_error_bound"] = {"hi": "0x1.dp-6"}
 
 
+def kkl_bounds(certificate):
+    keep(certificate, ["kkl-ell", "kkl-robustness"],
+         [c["id"] for c in certificate["claims"] if c["id"].startswith("kkl/")])
+
+
 def kkl_paper(certificate):
     keep(certificate, ["kkl-ell", "kkl-paper"], [])
     drop_requirements(certificate)
@@ -227,6 +236,8 @@ KINDS = {
     "covariance-multiples": covariance_multiples,
     "capture": capture,
     "kkl-observer": kkl_observer,
+    "kkl-sampled": kkl_bounds,
+    "kkl-rounding": kkl_bounds,
     "kkl-paper": kkl_paper,
     "kkl-close-rates": lambda certificate: None,
     "kkl-wide-rates": lambda certificate: None,

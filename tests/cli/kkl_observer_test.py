@@ -77,6 +77,22 @@ class KklObserver(CliTestCase):
         self.assertEqual(verdicts, ["proved", "undecided", "proved"])
         self.assertEqual(result.returncode, 1)
 
+    def test_a_sampling_interval_makes_it_about_the_program(self):
+        require = "\n[require]\nfrequency_error_below = 0.1\n"
+        continuous = KKL.replace("{ amplitude = 0.2, frequency = 100.0 }", "{ bound = 0.002 }") + require
+        sampled = continuous.replace("4]\n", "4]\nsampling_interval = 1e-3\n", 1)
+        words = {continuous: "filters within 1e-9 A/lambda", sampled: "samples every 1e-3 s and straight lines"}
+        for text, said in words.items():
+            with self.subTest(said=said):
+                result, _, report = self.certify(text)
+                self.assertEqual(result.returncode, 0)
+                self.assertIn(said, report["claims"][0]["statement"])
+                self.assertIn("in double precision", report["claims"][0]["statement"])
+        undecided = KKL.replace("4]\n", "4]\nsampling_interval = 1e-3\n", 1) + require
+        result, found, _ = self.certify(undecided)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("may have any samples", found["kkl-robustness"]["conditions"][0]["reason"])
+
     def test_six_filters_are_injective_and_no_more_is_said(self):
         _, found, _ = self.certify(KKL.replace("3, 4]", "3, 4, 5, 6]"))
         self.assertEqual(list(found), ["kkl-paper"])

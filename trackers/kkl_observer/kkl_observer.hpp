@@ -13,12 +13,14 @@
 // xi into an estimate of x.
 //
 // Everything is a template over the scalar, free of branches on scalar values. It does not allocate, and it
-// never throws unless the scalar does. Assumed, not checked: lambda positive and distinct, ell >= 0, M >= 4.
+// never throws unless the scalar does. What double precision adds to the estimates is bounded in
+// docs/rounding.md. Assumed, not checked: lambda positive and distinct, ell >= 0, M >= 4.
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
 
+#include "trackers/kkl_observer/kkl_results.hpp"
 #include "trackers/scalar_functions.hpp"
 
 namespace veritrack::trackers {
@@ -57,13 +59,15 @@ struct OscillatorEstimate {
 };
 
 /// Amplitude, phase and frequency of a state. Meaningless (NaN over double) unless x3 > 0.
-template <typename Scalar>
-[[nodiscard]] inline OscillatorEstimate<Scalar> in_engineering_units(const OscillatorState<Scalar>& x) {
+template <typename Scalar, typename Known = KklNothingKnown>
+[[nodiscard]] inline OscillatorEstimate<Scalar> in_engineering_units(const OscillatorState<Scalar>& x,
+                                                                     const Known& known = {}) {
   using detail::square;
   using std::atan2;
   using std::sqrt;
   const Scalar frequency = sqrt(x(2));
-  return {sqrt(square(x(0)) + square(x(1)) / x(2)), atan2(frequency * x(0), Scalar(-x(1))), frequency};
+  const Scalar squared = known(KklResult::squared_amplitude, Scalar(square(x(0)) + square(x(1)) / x(2)));
+  return {sqrt(squared), atan2(Scalar(frequency * x(0)), Scalar(-x(1))), frequency};
 }
 
 /// T of (5)-(6): where the filters settle when the signal is that of x.
@@ -97,27 +101,32 @@ template <typename Scalar, int M>
 }
 
 /// mu of (9).
-template <typename Scalar, int M>
+template <typename Scalar, int M, typename Known = KklNothingKnown>
 [[nodiscard]] inline Scalar kkl_regularization(const Eigen::Matrix<Scalar, M, 1>& xi,
-                                               const KklObserverDesign<Scalar, M>& design) {
+                                               const KklObserverDesign<Scalar, M>& design,
+                                               const Known& known = {}) {
   using detail::square;
   using std::max;
   Scalar squared_norm(0.0);
   for (int i = 0; i < M; ++i) {
     squared_norm += square(xi(i));
   }
-  return max(Scalar(design.ell * squared_norm - Scalar(2.0) * kkl_excitation(xi, design.lambda)),
-             Scalar(0.0));
+  squared_norm = Scalar(known(KklResult::squared_norm, squared_norm));
+  const Scalar excess =
+      known(KklResult::excess,
+            Scalar(design.ell * squared_norm - Scalar(2.0) * kkl_excitation<Scalar, M>(xi, design.lambda)));
+  return max(excess, Scalar(0.0));
 }
 
 /// gamma of (8): the solution of (15), with (L'L + mu I) x = L' F^2 xi and L = (lambda, 1, -xi). The matrix
 /// is 3 x 3 (the paper's "4 x 4 identity" is a slip). At xi = 0, where (8) leaves the value free, it divides
 /// by zero.
-template <typename Scalar, int M>
+template <typename Scalar, int M, typename Known = KklNothingKnown>
 [[nodiscard]] inline OscillatorState<Scalar> kkl_inverse(const Eigen::Matrix<Scalar, M, 1>& xi,
-                                                         const KklObserverDesign<Scalar, M>& design) {
+                                                         const KklObserverDesign<Scalar, M>& design,
+                                                         const Known& known = {}) {
   using detail::square;
-  const Scalar mu = kkl_regularization(xi, design);
+  const Scalar mu = kkl_regularization<Scalar, M>(xi, design, known);
   // Phi, symmetric, and the right-hand side.
   Scalar p11(mu);
   Scalar p12(0.0);
@@ -141,17 +150,23 @@ template <typename Scalar, int M>
     right(1) += driven;
     right(2) -= xi(i) * driven;
   }
+  p13 = Scalar(known(KklResult::entry_13, p13));
+  p23 = Scalar(known(KklResult::entry_23, p23));
+  p33 = Scalar(known(KklResult::entry_33, p33));
+  right(0) = Scalar(known(KklResult::right_1, right(0)));
+  right(1) = Scalar(known(KklResult::right_2, right(1)));
+  right(2) = Scalar(known(KklResult::right_3, right(2)));
   // Cholesky's factors without roots: Phi = U' D U with U unit upper triangular.
   const Scalar u12 = p12 / p11;
   const Scalar u13 = p13 / p11;
   const Scalar d2 = p22 - p12 * u12;
-  const Scalar c23 = p23 - p12 * u13;
+  const Scalar c23 = known(KklResult::reduced_23, Scalar(p23 - p12 * u13));
   const Scalar u23 = c23 / d2;
-  const Scalar d3 = p33 - p13 * u13 - c23 * u23;
-  const Scalar z2 = right(1) - u12 * right(0);
-  const Scalar z3 = right(2) - u13 * right(0) - u23 * z2;
+  const Scalar d3 = known(KklResult::reduced_33, Scalar(p33 - p13 * u13 - c23 * u23));
+  const Scalar z2 = known(KklResult::reduced_2, Scalar(right(1) - u12 * right(0)));
+  const Scalar z3 = known(KklResult::reduced_3, Scalar(right(2) - u13 * right(0) - u23 * z2));
   OscillatorState<Scalar> x;
-  x(2) = z3 / d3;
+  x(2) = known(KklResult::x3, Scalar(z3 / d3));
   x(1) = z2 / d2 - u23 * x(2);
   x(0) = right(0) / p11 - u12 * x(1) - u13 * x(2);
   return x;

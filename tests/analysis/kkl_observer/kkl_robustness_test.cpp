@@ -78,6 +78,36 @@ TEST_CASE("a bounded disturbance: the bang-bang input stays within the bounds, a
   CHECK(bounds.frequency_error_bound.upper() <= 1.5 * sampled.frequency);
 }
 
+TEST_CASE("a program that gets samples: its runs stay within the bounds, which a coarser interval widens") {
+  auto q = question(BoundedDisturbance{Interval(0.002)});
+  const KklRobustness continuous = bound_kkl_errors(q);
+  q.interval = Interval(2e-3);
+  const KklRobustness sampled = bound_kkl_errors(q);
+  q.interval = Interval(2e-2);
+  const KklRobustness coarse = bound_kkl_errors(q);
+  REQUIRE(rigor::is_finite(coarse.frequency_error_bound));
+  CHECK(sampled.frequency_error_bound.upper() > continuous.frequency_error_bound.upper());
+  CHECK(coarse.frequency_error_bound.upper() > sampled.frequency_error_bound.upper());
+  test::Random random(42);
+  for (std::int64_t trial = 0; trial < test::effort(4); ++trial) {
+    CAPTURE(trial);
+    const SampledErrors run = largest_in_run(sampled, 3.0, random.uniform(0.0, 6.3), 0.002,
+                                             random.uniform(0.5, 60.0), random.uniform(0.0, 6.3));
+    CHECK(run.frequency <= sampled.frequency_error_bound.upper());
+    CHECK(run.amplitude <= sampled.amplitude_error_bound.upper());
+  }
+}
+
+TEST_CASE("samples of a sinusoid of any frequency may be any samples: undecided, with the reason") {
+  auto q = question(SinusoidalDisturbance{Interval(0.2), Interval(100.0)});
+  CHECK(derive_kkl_robustness(q).verdict == Verdict::proved);
+  q.interval = Interval(1e-3);
+  const auto found = derive_kkl_robustness(q);
+  CHECK(found.verdict == Verdict::undecided);
+  CHECK(found.conditions.front().reason.find("may have any samples") != std::string::npos);
+  CHECK(theorems::find_quantity(found, "frequency_error_bound").not_applicable);
+}
+
 TEST_CASE("without a disturbance what is left is a thousandth of the frequency") {
   const KklRobustness bounds = bound_kkl_errors(question(NoDisturbance{}, 2.0, 4.0));
   CHECK(bounds.frequency_error_bound.upper() < 0.004);

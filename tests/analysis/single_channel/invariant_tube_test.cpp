@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "analysis/single_channel/curve_proposal.hpp"
 #include "analysis/single_channel/tube_verification.hpp"
@@ -44,6 +45,28 @@ TEST_CASE("the cells that a cell is moved to are all those that it meets, whatev
       }
     }
   }
+}
+
+TEST_CASE("a curve farther from the steady state than the contraction reaches is none") {
+  const trackers::ToneModel<double> design{0.005, 0.005, 0.01, 0.01};
+  const rigor::UpwardRounding upward;
+  const Interval frequency(1.45);
+  const auto curve = propose_invariant_curves(design, frequency);
+  REQUIRE(curve.has_value());
+  const auto tube =
+      propose_tube({Interval(design.q1), Interval(design.q2), Interval(design.r), Interval(design.epsilon)},
+                   frequency, *curve, 128);
+  REQUIRE(tube.has_value());
+  CHECK(verify_tube(*tube).attempt == TubeAttempt::succeeded);
+  // The map contracts about the moved curve, but not as far as to where it leads.
+  int not_kept = 0;
+  for (double moved = 1.0e-5; moved < 1.8e-5; moved *= 1.02) {
+    InvariantTube away = *tube;
+    away.curve.terms.front().mean(trackers::kDeltaInPhase) += moved;
+    const std::string reason = verify_tube(away).reason;
+    not_kept += reason == "the tube about the proposed curve is not mapped into itself" ? 1 : 0;
+  }
+  CHECK(not_kept > 0);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/single_channel/window_claim.hpp"
 #include "tests/analysis/single_channel/phase_attack.hpp"
 #include "tests/support/random.hpp"
 
@@ -222,6 +223,26 @@ TEST_CASE("without noise and slew only rounding is left in the long run, and nob
   CHECK(ultimate > rounding.error * 1e-3);
   CHECK(ultimate < 1e-7);
   CHECK(theorems::find_quantity(certificate.derivation, "settling_samples").not_applicable);
+}
+
+TEST_CASE(
+    "the start of a set is below every covariance of every design that is meant, not of the middle alone") {
+  const rigor::UpwardRounding upward;
+  int found = 0;
+  for (const double share : {0.01, 0.02, 0.03}) {
+    CAPTURE(share);
+    PhaseQuestion question = question_of({0.005, 0.01, 1.2, 1.3, 0.0005, 0.00005, 0.0005});
+    const Interval around = Interval::from_bounds(1.0 - share, 1.0 + share);
+    question.tracker.design.q1 = question.tracker.design.q1 * around;
+    question.tracker.design.q2 = question.tracker.design.q2 * around;
+    const auto set = PhaseSearch(question).least_bound();
+    if (set) {
+      ++found;
+      CHECK(certainly_below_covariances(question.tracker.design, question.band, set->claim,
+                                        set->start->times(set->start->to, question.tracker.amplitude)));
+    }
+  }
+  CHECK(found > 0);
 }
 
 TEST_CASE("the sets do not depend on the number of threads") {

@@ -86,6 +86,26 @@ TEST_CASE("every step of the tube leads from the range into it, from its upper a
   CHECK(found > 10);
 }
 
+TEST_CASE(
+    "matrices that bound no invariant range: too low above, too high below, and a lower one below zero") {
+  const Tone design{0.0023, 0.0023, 0.05, 0.0};
+  const rigor::UpwardRounding upward;
+  const EstimateTube tube{Interval(1e-4), Interval(1e-4)};
+  const auto range = invariant_range(enclosed(design), tube);
+  REQUIRE(range.has_value());
+  const Eigen::Matrix3d high = middle_of(range->upper);
+  Eigen::Matrix3d low = middle_of(range->information).inverse();
+  low = 0.5 * (low + low.transpose()).eval();
+  const auto is_verified = [&](const Eigen::Matrix3d& upper, const Eigen::Matrix3d& lower) {
+    return verified_range(upper, lower, enclosed(design), tube).has_value();
+  };
+  CHECK(is_verified(1.01 * high, 0.99 * low));
+  CHECK_FALSE(is_verified(0.9 * high, 0.99 * low));
+  CHECK_FALSE(is_verified(1.01 * high, 1.1 * low));
+  // A step leads from it to what is positive: it is a lower bound of nothing that the filter keeps.
+  CHECK_FALSE(is_verified(1.01 * high, -1e-6 * Eigen::Matrix3d::Identity()));
+}
+
 TEST_CASE("a start is in the range only when it is between both bounds") {
   const Tone design{0.0023, 0.0023, 0.05, 0.0};
   const rigor::UpwardRounding upward;

@@ -1,5 +1,7 @@
 #include "checker/quadrature/lock_set.hpp"
 
+#include <utility>
+
 #include "checker/document/evidence.hpp"
 #include "checker/quadrature/certified_set.hpp"
 #include "checker/quadrature/lock_cover.hpp"

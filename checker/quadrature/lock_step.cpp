@@ -3,7 +3,7 @@
 namespace veritrack::checker {
 
 const Ball& lock_room() {
-  static const Ball room(0x1p-20);
+  static const Ball room(0x1p-14);
   return room;
 }
 

@@ -263,10 +263,10 @@ TEST_CASE("rounding has to stay within its room") {
     other.metric.frequency = Ball(1e12);
   }
   SUBCASE("of the covariance, above") {
-    other.above = Ball(1e-7) * set.above;
+    other.above = Ball(1e-10) * set.above;
   }
   SUBCASE("of the covariance, below") {
-    other.below = Ball(1e-7) * set.below;
+    other.below = Ball(1e-10) * set.below;
   }
   SUBCASE("with a large noise") {
     other.deviation = Ball(1e13);

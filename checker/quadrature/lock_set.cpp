@@ -1,5 +1,7 @@
 #include "checker/quadrature/lock_set.hpp"
 
+#include <utility>
+
 #include "checker/document/evidence.hpp"
 #include "checker/quadrature/certified_set.hpp"
 #include "checker/quadrature/lock_cover.hpp"
@@ -68,31 +70,49 @@ std::string refusal_of(const LockSet& set, const Design& design, const GaussianN
 
 }  // namespace
 
-bool has_room_for_rounding(const LockSet& set, const Design& design, const Ball& samples) {
-  const Ball radius = sqrt(two * set.level);
+namespace {
+
+/// What the rounding of a step adds, from anywhere in the set where the level of the covariance is between
+/// two numbers.
+Rounding rounding_between(const LockSet& set, const Design& design, const Ball& samples, const Ball& from,
+                          const Ball& to) {
+  const Ball radius = root_of_non_negative(two * set.level - set.weight * square(from));
   const std::array<Ball, 3> rows = inverse_rows(set.metric);
   Held held;
   held.z = one + radius * sqrt(square(rows[0]) + square(rows[1]));
   held.frequency =
       max(design.largest_frequency, pi()) + radius * rows[2] + kMostDeviations * set.walk * sqrt(samples);
   held.measurement = one + kMostDeviations * sqrt(two) * set.deviation;
-  const Ball most = sqrt(two * set.level / set.weight);
-  add_covariance(whole(lower_covariance(set, most)), whole(upper_covariance(set, most)), held);
-  const Rounding rounding = rounded_step({design.q1, design.q2, design.r, zero, design.amplitude}, held);
-  if (!rounding.finite() ||
-      !certainly_at_most(largest_level(set.metric, rounding.z, rounding.z, rounding.frequency),
-                         lock_room())) {
-    return false;
-  }
+  add_covariance(whole(lower_covariance(set, to)), whole(upper_covariance(set, to)), held);
+  return rounded_step({design.q1, design.q2, design.r, zero, design.amplitude}, held);
+}
+
+}  // namespace
+
+bool has_room_for_rounding(const LockSet& set, const Design& design, const Ball& samples) {
   // The drift inequality bounds the level of the image.
   const Ball next = sqrt(two * (set.level + log(one + set.drift)) / set.weight);
   const Covariance<Ball> low = lower_covariance(set, next);
   const Covariance<Ball> high = upper_covariance(set, next);
-  // In the frame of the true phase nothing is turned by rounding.
-  const Ball share =
-      rounding_share(whole(low), {zero, zero, zero, rounding.p_zz, rounding.p_z3, rounding.p_33}).upper();
-  return certainly_less(share, one) && positive_definite(lock_room() * set.above - share * high) &&
-         positive_definite(lock_room() * set.below - share / (one - share) * inverse(low));
+  constexpr int kPieces = 16;
+  const Ball most = sqrt(two * set.level / set.weight);
+  for (int k = 0; k < kPieces; ++k) {
+    const auto part = [&](int i) { return Ball(static_cast<double>(i) / kPieces) * most; };
+    const Rounding rounding = rounding_between(set, design, samples, part(k), part(k + 1));
+    if (!rounding.finite() ||
+        !certainly_at_most(largest_level(set.metric, rounding.z, rounding.z, rounding.frequency),
+                           lock_room())) {
+      return false;
+    }
+    // In the frame of the true phase nothing is turned by rounding.
+    const Ball share =
+        rounding_share(whole(low), {zero, zero, zero, rounding.p_zz, rounding.p_z3, rounding.p_33}).upper();
+    if (!certainly_less(share, one) || !positive_definite(lock_room() * set.above - share * high) ||
+        !positive_definite(lock_room() * set.below - share / (one - share) * inverse(low))) {
+      return false;
+    }
+  }
+  return true;
 }
 
 LockSet check_lock_set(const Tree& tree, const Design& design, const GaussianNoise& noise,

@@ -50,7 +50,8 @@ struct Place {
     }
     const Ball by_chords = x.centre + Ball::within(reach);
     Ball both;
-    if (arb_intersection(both.raw(), x.range.raw(), by_chords.raw(), precision()) != 0) {
+    if (x.range.finite() && by_chords.finite() &&
+        arb_intersection(both.raw(), x.range.raw(), by_chords.raw(), precision()) != 0) {
       x.range = both;
     }
     return x;

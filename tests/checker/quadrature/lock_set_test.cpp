@@ -260,19 +260,19 @@ TEST_CASE("rounding has to stay within its room") {
   CHECK(has_room_for_rounding(set, lock_design(), Ball(1e6)));
   LockSet other = set;
   SUBCASE("of the error") {
-    other.metric.frequency = Ball(1e8);
+    other.metric.frequency = Ball(1e12);
   }
   SUBCASE("of the covariance, above") {
-    other.above = Ball(1e-7) * set.above;
+    other.above = Ball(1e-10) * set.above;
   }
   SUBCASE("of the covariance, below") {
-    other.below = Ball(1e-7) * set.below;
+    other.below = Ball(1e-10) * set.below;
   }
   SUBCASE("with a large noise") {
-    other.deviation = Ball(1e8);
+    other.deviation = Ball(1e13);
   }
   SUBCASE("with a large walk") {
-    other.walk = Ball(1e6);
+    other.walk = Ball(1e12);
   }
   CHECK_FALSE(has_room_for_rounding(other, lock_design(), Ball(1e6)));
 }

@@ -1,6 +1,6 @@
 #include "checker/kkl_observer/filter_deviation.hpp"
 
-#include "checker/kkl_observer/rounded_value.hpp"
+#include "checker/numbers/rounded_value.hpp"
 
 namespace veritrack::checker {
 

@@ -22,15 +22,15 @@ const Ball& largest_size() {
 }  // namespace
 
 RoundedValue held(const Ball& size) {
-  return {size.upper(), zero};
+  return {abs(size).upper(), zero};
 }
 
-RoundedValue rounded(const Ball& size, const Ball& error) {
+RoundedValue rounded(const Ball& size, const Ball& error, const Ball& units) {
   const Ball largest = (size + error).upper();
   if (!certainly_at_most(largest, largest_size())) {
     return {Ball::everything(), Ball::everything()};
   }
-  return {size.upper(), (error + unit_roundoff() * largest + underflow()).upper()};
+  return {size.upper(), (error + units * (unit_roundoff() * largest + underflow())).upper()};
 }
 
 RoundedValue sum(const RoundedValue& x, const RoundedValue& y) {
@@ -47,6 +47,11 @@ RoundedValue quotient(const RoundedValue& x, const RoundedValue& y, const Ball& 
     return {Ball::everything(), Ball::everything()};
   }
   return rounded(size, (x.error + size * y.error) / divisor);
+}
+
+RoundedValue root(const RoundedValue& x, const Ball& least) {
+  const Ball computed = (least - x.error).lower();
+  return rounded(sqrt(x.size), x.error / (sqrt(least.lower()) + sqrt(computed)));
 }
 
 }  // namespace veritrack::checker

@@ -23,13 +23,21 @@ struct RoundedValue {
 RoundedValue held(const Ball& size);
 
 /// An operation whose exact result, of exact operands, is within `size`, and of computed ones within `error`
-/// of that.
-RoundedValue rounded(const Ball& size, const Ball& error);
+/// of that. `units`: of roundoff, by which it is rounded.
+RoundedValue rounded(const Ball& size, const Ball& error, const Ball& units = one);
 
 /// Sums and differences.
 RoundedValue sum(const RoundedValue& x, const RoundedValue& y);
 RoundedValue product(const RoundedValue& x, const RoundedValue& y);
+inline RoundedValue operator+(const RoundedValue& x, const RoundedValue& y) {
+  return sum(x, y);
+}
+inline RoundedValue operator*(const RoundedValue& x, const RoundedValue& y) {
+  return product(x, y);
+}
 /// x/y, of which |y| >= least and |x/y| <= size are known.
 RoundedValue quotient(const RoundedValue& x, const RoundedValue& y, const Ball& least, const Ball& size);
+/// The root of x, of which x >= least > 0 is known. Not a number where the computed x may be negative.
+RoundedValue root(const RoundedValue& x, const Ball& least);
 
 }  // namespace veritrack::checker

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "checker/kkl_observer/rounded_value.hpp"
+#include "checker/numbers/rounded_value.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 

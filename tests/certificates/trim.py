@@ -29,6 +29,8 @@ steady-state      its bias and Proposition 1
 frozen-filter     its frozen filter, alone
 From tests/certificates/phases.toml, the single-channel tracker at one frequency:
 phases            its sets over all phases, and the claims that rest on them
+From tests/certificates/lock.toml, as it is:
+lock              the probability of losing lock in Gaussian noise
 From tests/certificates/steady-set.toml, the quadrature tracker with a leak in a narrow band:
 steady-set        the contraction with two levels, and the set for the largest noise
 """
@@ -241,6 +243,7 @@ KINDS = {
     "kkl-paper": kkl_paper,
     "kkl-close-rates": lambda certificate: None,
     "kkl-wide-rates": lambda certificate: None,
+    "lock": lambda certificate: None,
     "steady-state": steady_state,
     "frozen-filter": lambda certificate: keep(certificate, ["single-channel/transfer-function"], []),
     "phases": phases,

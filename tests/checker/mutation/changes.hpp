@@ -45,7 +45,7 @@ inline constexpr std::array kSubjects{
     Subject{"settling", 4},     Subject{"capture", 4},         Subject{"contraction", 1},
     Subject{"published", 40},   Subject{"repaired", 40},       Subject{"kkl-observer", 8},
     Subject{"kkl-paper", 12},   Subject{"frozen-filter", 100}, Subject{"phases", 4},
-    Subject{"steady-state", 1}, Subject{"steady-set", 3}};
+    Subject{"steady-state", 1}, Subject{"steady-set", 3},      Subject{"lock", 3}};
 
 /// All values with the keys and indices on the way to them, outermost first.
 inline void collect(const Json& value, const Pointer& at, std::vector<Pointer>& found) {

@@ -61,7 +61,7 @@ std::optional<Settled> settling_claim(const Tree& quantities) {
 }
 
 Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections)
-    : design_(design), wording_(wording) {
+    : design_(design), wording_(std::move(wording)) {
   const std::array<std::pair<std::string, std::optional<Number>*>, 7> keys{
       {{"frequency_error_below", &frequency_error_below_},
        {"settles_within", &settles_within_},

@@ -53,15 +53,16 @@ Interval widest_multiples(const LockSet& set, LockStarts starts, double most) {
   if (starts.covariance.is_given) {
     return starts.covariance.multiples;
   }
-  const Interval asked = starts.covariance.multiples;
+  Interval widest = starts.covariance.multiples;
   for (const auto& [from, to] : kMultiples) {
     starts.covariance.multiples = Interval::from_bounds(from, to);
-    if (from <= asked.lower() && asked.upper() <= to &&
+    if (from <= widest.lower() && widest.upper() <= to &&
         certainly_less_equal(start_level(set, starts), Interval(most))) {
-      return starts.covariance.multiples;
+      widest = starts.covariance.multiples;
+      break;
     }
   }
-  return asked;
+  return widest;
 }
 
 Condition leak(const Interval& epsilon) {

@@ -42,6 +42,9 @@ std::vector<Level> error_levels(const Certificate& certificate) {
   }
   for (const theorems::Derivation& derivation : certificate.derivations) {
     for (const theorems::Quantity& quantity : derivation.quantities) {
+      if (quantity.name == "lock_frequency_error" && quantity.applies()) {
+        levels.push_back({"certified bound of the frequency error in lock", quantity.value.upper()});
+      }
       const double bound = quantity.value.lower();
       if (quantity.name == "initial_error_bound" && std::isfinite(bound) && bound > 0.0) {
         levels.push_back({fmt::format("start error that (2.45) admits, {}",

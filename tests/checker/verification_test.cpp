@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "checker/numbers/budget.hpp"
 #include "checker/verification.hpp"
 #include "tests/support/golden.hpp"
 
@@ -90,6 +91,17 @@ TEST_CASE("accepted certificates are verified") {
     }
     CHECK(result.verified());
   }
+}
+
+TEST_CASE("each certificate has the whole budget") {
+  const std::string text = test::read_file(kRoot + "accepted/lock.json");
+  REQUIRE(check(text).verified());
+  checker::set_budget(checker::operations_spent() + 1);
+  CHECK(check(text).verified());
+  CHECK(check(text).verified());
+  checker::set_budget(checker::operations_spent() / 2);
+  CHECK_FALSE(check(text).verified());
+  checker::set_budget(checker::kDefaultBudget);
 }
 
 TEST_CASE("rejected certificates are read and not verified, for the reason that their file names") {

@@ -47,7 +47,7 @@ void one_frequency_or_band(const TomlValue& value, Assumptions& assume) {
   assume.frequency = {number, number};
 }
 
-bool finite_level(const Interval& x) {
+bool within_200_decibels(const Interval& x) {
   return rigor::certainly_less_equal(rigor::abs(x), Interval(200.0));
 }
 
@@ -60,7 +60,7 @@ void noise(const TomlValue& value, Assumptions& assume) {
   }
   assume.noise = {};
   if (const auto level = value.fields({"snr_db"})) {
-    assume.gaussian = GaussianNoise{level->front().real(finite_level), std::nullopt};
+    assume.gaussian = GaussianNoise{level->front().real(within_200_decibels), std::nullopt};
   } else if (const auto deviation = value.fields({"deviation"})) {
     assume.gaussian = GaussianNoise{std::nullopt, deviation->front().real(positive)};
   } else {

@@ -36,7 +36,9 @@ std::string gaussian_disturbance(const Assumptions& assume) {
                                  "deviation at most {} rad/sample",
                                  assume.frequency_walk->text)
                            : " and is constant";
-  text += ", with independent Gaussian measurement noise of mean zero and ";
+  text +=
+      ", with Gaussian measurement noise of mean zero, independent from sample to sample and from channel to "
+      "channel, and ";
   text += noise.snr_db
               ? fmt::format(
                     "an SNR of at least {} dB (a deviation of at most {} of the amplitude in each channel)",

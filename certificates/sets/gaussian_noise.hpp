@@ -13,7 +13,7 @@ namespace veritrack::certificates {
 /// The double nearest to it: for simulations. Needs round-to-nearest.
 [[nodiscard]] double nearest_deviation(const Assumptions& assume);
 
-/// " and is constant, with independent Gaussian measurement noise of mean zero and an SNR of at
+/// " and is constant, with Gaussian measurement noise of mean zero, ..., and an SNR of at
 /// least 17 dB (...)": the assumed noise and
 /// walk. Needs the upward mode.
 [[nodiscard]] std::string gaussian_disturbance(const Assumptions& assume);

@@ -142,7 +142,9 @@ std::string Guarantee::gaussian_disturbance() const {
           ? " and is constant"
           : " at the start and walks in independent Gaussian steps of mean zero and deviation at most " +
                 text_of(*walk) + kPerSample;
-  text += ", with independent Gaussian measurement noise of mean zero and ";
+  text +=
+      ", with Gaussian measurement noise of mean zero, independent from sample to sample and from channel to "
+      "channel, and ";
   if (const Tree* decibels = noise.find("snr_db")) {
     return text + "an SNR of at least " + text_of(*decibels) + " dB (a deviation of at most " +
            lower_decimal(*wording_.deviation) + " of the amplitude in each channel)";

@@ -23,6 +23,7 @@ constexpr const char* kSource = "docs/gaussian.md";
 constexpr const char* kNone = "No set could be certified.";
 /// What the starts may add to the probability, next to the samples: exp of that level.
 constexpr double kStartLevel = 8.0;
+/// c_0: more lets the inequality hold near the middle of the set, and costs its logarithm in L.
 constexpr double kDrift = 1.0;
 
 /// What is certain of the inputs: a search or a proof with others has no meaning.
@@ -77,8 +78,10 @@ Condition leak(const Interval& epsilon) {
 }
 
 std::string db_of(const LockQuestion& question) {
+  constexpr double kHair = 1e-6;  // for words: 20 dB are not to read 19.9
   const double deviation = midpoint(question.noise_deviation);
-  return rigor::to_decimal(-10.0 * std::log10(2.0 * deviation * deviation), 3, rigor::Direction::down) +
+  return rigor::to_decimal(-10.0 * std::log10(2.0 * deviation * deviation) + kHair, 3,
+                           rigor::Direction::down) +
          " dB";
 }
 
@@ -99,7 +102,7 @@ Condition drift(const LockQuestion& question, const std::optional<LockProposal>&
       : proposal->margin <= 0.0
           ? "at " + db_of(question) +
                 " the search found no set in which it holds at all sampled points. Less noise, or a smaller "
-                "gain, would suffice."
+                "gain, may help."
           : "a set was found in which it holds at all sampled points, but " + verification.reason;
   return condition;
 }
@@ -173,15 +176,24 @@ LockCertificate certify_lock(const LockQuestion& question) {
                            certainly_less_equal(question.frequency_walk, Interval(set.frequency_walk));
     if (tolerates && rounding.has_room && certainly_less_equal(level, Interval(set.level))) {
       result.set = set;
+      derivation.notes.push_back(
+          "e is the error in the frame of the true phase: real and imaginary part of the estimate relative "
+          "to the "
+          "signal, less 1, and the frequency error. s(P) says how far the covariance is from the filter's "
+          "steady "
+          "state. W = exp(|T e|^2/2 + gamma s(P)^2/2), and the set is where W is at most exp(L), L = " +
+          rigor::upper_decimal(Interval(set.level)) + ", c_0 = " + rigor::upper_decimal(Interval(set.drift)) +
+          ".");
       probability = losing_probability(set, level, question.samples);
       reach = largest_frequency_error(set);
     }
   }
   theorems::conclude(derivation);
-  theorems::add_quantity(derivation,
-                         {"probability_of_losing_lock", "p", "e^{-L}(e^{l_0} + N c_0)", kSource,
-                          "of losing lock within the assumed number of samples", theorems::Sense::at_most},
-                         probability, kNone);
+  theorems::add_quantity(
+      derivation,
+      {"probability_of_losing_lock", "p", "e^{-L}(e^{l_0} + N c_0)", kSource,
+       "probability of losing lock within the assumed number of samples", theorems::Sense::at_most},
+      probability, kNone);
   theorems::add_quantity(derivation,
                          {"lock_frequency_error", "B", "\\sqrt{2L}\\,|e_3'T^{-1}|", kSource,
                           "frequency error while in lock, rad/sample", theorems::Sense::at_most},

@@ -58,21 +58,13 @@ LockRounding lock_rounding(const trackers::ToneModel<Interval>& design, const Tr
   found.covariance = share_of(least, blocks);
   const Interval room(kRoundingRoom);
   const Interval share(found.covariance);
-  const LockSet& s = set;
-  const auto block = [](const BlockCovariance<double>& p) {
-    IntervalMatrix<3> matrix;
-    const Interval none(0.0);
-    matrix << Interval(p.p11), none, none, none, Interval(p.p22), Interval(p.p23), none, Interval(p.p23),
-        Interval(p.p33);
-    return matrix;
-  };
   // mu hi(t) <= eta D_h, and mu/(1 - mu) lo(t)^-1 <= eta D_l: multiplied by lo(t) on both sides, mu/(1 - mu)
   // lo(t) <= eta lo(t) D_l lo(t).
   found.has_room =
       is_finite(difference) && certainly_less_equal(Interval(found.error), room) &&
       certainly_less(share, one) &&
-      certainly_definite(room * block(s.spread_above) - share * upper_covariance(set, most_level)) &&
-      certainly_definite(room * IntervalMatrix<3>(least * block(s.spread_below) * least) -
+      certainly_definite(room * enclosed(set.spread_above) - share * upper_covariance(set, most_level)) &&
+      certainly_definite(room * IntervalMatrix<3>(least * enclosed(set.spread_below) * least) -
                          share / (one - share) * least);
   return found;
 }

@@ -23,6 +23,10 @@ IntervalMatrix<3> whole_matrix(const BlockCovariance<Interval>& p) {
 
 }  // namespace
 
+IntervalMatrix<3> enclosed(const BlockCovariance<double>& p) {
+  return whole_matrix(enclosed_block(p));
+}
+
 IntervalMatrix<3> upper_covariance(const LockSet& set, const Interval& s) {
   return whole_matrix(moved(enclosed_block(set.centre), s, enclosed_block(set.spread_above)));
 }

@@ -34,6 +34,9 @@ struct LockSet {
 /// eta of docs/gaussian.md, section 7: what the inequality has left for rounding.
 inline constexpr double kRoundingRoom = 0x1p-14;
 
+/// As a 3x3 matrix.
+[[nodiscard]] rigor::IntervalMatrix<3> enclosed(const BlockCovariance<double>& p);
+
 /// hi(s) and lo(s). Need the upward mode.
 [[nodiscard]] rigor::IntervalMatrix<3> upper_covariance(const LockSet& set, const rigor::Interval& s);
 [[nodiscard]] rigor::IntervalMatrix<3> lower_covariance(const LockSet& set, const rigor::Interval& s);

@@ -12,7 +12,7 @@
 namespace veritrack::rigor {
 namespace {
 
-/// A matrix of two variables: I + cos and products, definite near zero.
+/// A matrix of two variables, definite near zero.
 template <typename Scalar>
 LowerTriangle<3, Scalar> matrix_at(const Scalar& x, const Scalar& y) {
   const Scalar one(1.0);

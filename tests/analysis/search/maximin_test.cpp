@@ -17,11 +17,10 @@ SearchSpace square(double size, int evaluations) {
 }  // namespace
 
 TEST_CASE("the least of three planes is largest where all meet") {
-  // 1 - x - y, 1 + 2x, 1 + y - x: equal to t at x = -y ... closed form below.
   const auto planes = [](const Eigen::VectorXd& x) {
     return Eigen::VectorXd(Eigen::Vector3d(1.0 - x[0] - x[1], 1.0 + 2.0 * x[0], 1.0 + x[1] - x[0]));
   };
-  // 1 = t by convex weights (1/2, 1/2, 0.5) of the gradients (-1, -1), (2, 0), (-1, 1): they add up to zero.
+  // The gradients (-1, -1), (2, 0), (-1, 1) add up to zero: no way leads up in all three, and they meet in 0.
   const BestPoint found = climb_least(planes, square(2.0, 400));
   CHECK(found.value == doctest::Approx(1.0).epsilon(1e-5));
   CHECK(found.point.norm() < 1e-3);

@@ -63,8 +63,8 @@ Claim probability_claim(const theorems::Derivation& derivation, const GuaranteeT
       theorems::applicable_quantity(derivation, "probability_of_losing_lock");
   Claim claim;
   claim.id = "ekf/probability-of-losing-lock";
-  claim.requirement = fmt::format("the probability of losing lock within {} samples is below {}",
-                                  terms.assume.samples->text, required.text);
+  claim.requirement = fmt::format("the probability of losing lock is below {} {}", required.text,
+                                  stretch_of_samples(terms.assume));
   claim.statement = hypotheses(terms) + claim.requirement + ".";
   claim.required = true;
   claim.position = required.position;
@@ -88,16 +88,16 @@ Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerm
   claim.id = "ekf/guarantee";
   claim.statement = hypotheses(terms);
   if (probability == nullptr || reach == nullptr) {
-    claim.statement += fmt::format("the tracker keeps its lock for {} samples with a stated probability.",
-                                   terms.assume.samples->text);
+    claim.statement += "the tracker keeps its lock with a stated probability.";
     claim.reason = open_condition(derivation);
     return claim;
   }
   claim.verdict = Verdict::proved;
   claim.statement += fmt::format(
-      "the probability that the tracker loses lock within {} samples, its frequency error exceeding {} "
-      "rad/sample at one of them, is at most {}.",
-      terms.assume.samples->text, rigor::upper_decimal(reach->value, kShownDigits),
+      "the probability that the tracker loses its lock {}, its frequency error exceeding {} rad/sample at "
+      "one "
+      "of them, is at most {}.",
+      stretch_of_samples(terms.assume), rigor::upper_decimal(reach->value, kShownDigits),
       rigor::upper_decimal(probability->value, kShownDigits));
   claim.reason =
       "All these starts lie in a set in which the expected value of a function of errors and covariance "

@@ -105,6 +105,7 @@ Json lock_set_json(const quadrature::LockSet& set) {
           {"spread_below", covariance(set.spread_below)},
           {"weight", rigor::to_hexadecimal(set.weight)},
           {"level", rigor::to_hexadecimal(set.level)},
+          {"decay", rigor::to_hexadecimal(set.decay)},
           {"drift", rigor::to_hexadecimal(set.drift)},
           {"noise_deviation", rigor::to_hexadecimal(set.noise_deviation)},
           {"frequency_walk", rigor::to_hexadecimal(set.frequency_walk)}};

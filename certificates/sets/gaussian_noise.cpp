@@ -27,15 +27,25 @@ double nearest_deviation(const Assumptions& assume) {
                          : std::sqrt(0.5) * std::pow(10.0, -noise.snr_db->nearest / 20.0);
 }
 
+bool frequency_walks(const Assumptions& assume) {
+  return assume.frequency_walk && !(assume.frequency_walk->value == Interval(0.0));
+}
+
+std::string stretch_of_samples(const Assumptions& assume) {
+  return frequency_walks(assume)
+             ? fmt::format("within {} samples", assume.samples.value().text)
+             : fmt::format("within any {} successive samples, however late", assume.samples.value().text);
+}
+
 std::string gaussian_disturbance(const Assumptions& assume) {
   constexpr int kDigits = 3;
   const GaussianNoise& noise = assume.gaussian.value();
-  const bool walks = assume.frequency_walk && !(assume.frequency_walk->value == Interval(0.0));
-  std::string text = walks ? fmt::format(
-                                 " at the start and walks in independent Gaussian steps of mean zero and "
-                                 "deviation at most {} rad/sample",
-                                 assume.frequency_walk->text)
-                           : " and is constant";
+  std::string text = frequency_walks(assume)
+                         ? fmt::format(
+                               " at the start and walks in independent Gaussian steps of mean zero and "
+                               "deviation at most {} rad/sample",
+                               assume.frequency_walk->text)
+                         : " and is constant";
   text +=
       ", with Gaussian measurement noise of mean zero, independent from sample to sample and from channel to "
       "channel, and ";

@@ -13,6 +13,13 @@ namespace veritrack::certificates {
 /// The double nearest to it: for simulations. Needs round-to-nearest.
 [[nodiscard]] double nearest_deviation(const Assumptions& assume);
 
+/// Whether `frequency_walk` is more than nothing.
+[[nodiscard]] bool frequency_walks(const Assumptions& assume);
+
+/// "within any 1e6 successive samples, however late"; for a frequency that walks, of the first ones.
+/// `samples` must be given.
+[[nodiscard]] std::string stretch_of_samples(const Assumptions& assume);
+
 /// " and is constant, with Gaussian measurement noise of mean zero, ..., and an SNR of at
 /// least 17 dB (...)": the assumed noise and
 /// walk. Needs the upward mode.

@@ -13,7 +13,7 @@ Promises check_lock(const Tree& derivation, const Design& design, const Gaussian
   found.title = "Gaussian noise: the probability of losing lock";
   found.conditions = {
       {"leak", R"(\epsilon = 0)", proved_if(design.without_leak()), design.epsilon, zero},
-      {"drift", R"(E[W(k+1) \mid k] \le W(k) + c_0 \text{ in the set})", proved_if(set.has_value())},
+      {"drift", R"(E[W(k+1) \mid k] \le \kappa W(k) + c_0 \text{ in the set})", proved_if(set.has_value())},
       {"rounding", R"(\varrho \le \eta,\ \mu\,hi \le \eta D_h,\ \mu\,lo^{-1} \le (1 - \mu)\,\eta D_l)",
        proved_if(set.has_value())}};
   if (set && covariance) {

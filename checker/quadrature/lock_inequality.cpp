@@ -91,14 +91,14 @@ bool LockInequality::outside(const LockCell& cell) const {
 }
 
 LockInequality::Rests LockInequality::rests(const LockBox& box, const Rests& levels) const {
-  // 2 log(W + c_0) is convex in (u, s), so that its tangent is below it; -t^2 is concave.
+  // 2 log(kappa W + c_0) is convex in (u, s), so that its tangent is below it; -t^2 is concave.
   Ball twice = set_.weight * square(box.level);
   for (const Ball& u : box.middle) {
     twice += square(u);
   }
   const Ball over = set_.drift * exp(-(half * twice));
-  const Ball share = two / (one + over);
-  const Ball middle = twice + two * log(one + over) + walk_loss_ - two * lock_room();
+  const Ball share = two * set_.decay / (set_.decay + over);
+  const Ball middle = twice + two * log(set_.decay + over) + walk_loss_ - two * lock_room();
   Rests rest;
   for (std::size_t k = 0; k < kLockCorners; ++k) {
     Ball moved = set_.weight * box.level * box.ends[k / kCorners];
@@ -117,7 +117,7 @@ bool LockInequality::seems_to_fail(const LockBox& box, const LockStep& step, con
     twice += u.near() * u.near();
   }
   const double level = levels_.near_middle(step);
-  const double rest = twice + 2.0 * std::log1p(set_.drift.near() * std::exp(-0.5 * twice)) +
+  const double rest = twice + 2.0 * std::log(set_.decay.near() + set_.drift.near() * std::exp(-0.5 * twice)) +
                       walk_loss_.near() - set_.weight.near() * level * level;
   proposal::Ends middle{forms.rough.parts, {rest, rest}};
   for (std::size_t i = 0; i < kSize; ++i) {

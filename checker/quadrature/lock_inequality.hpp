@@ -1,4 +1,4 @@
-// Does the expected value of W = exp(level) rise by the drift at most, in a cell of (T e, s)? With room for
+// Does the expected value of W = exp(level) shrink, but for the drift, in a cell of (T e, s)? With room for
 // the rounding of a step: the checker's own proof of (4) of docs/gaussian.md.
 #pragma once
 
@@ -29,7 +29,7 @@ class LockInequality {
   /// True only when no point of the cell has a level of at most L.
   [[nodiscard]] bool outside(const LockCell& cell) const;
   /// `proved` is true only when
-  ///   E[exp((1 + room) |T e+|^2/2)] exp(gamma (t + room)^2/2) exp(room) <= W + c_0
+  ///   E[exp((1 + room) |T e+|^2/2)] exp(gamma (t + room)^2/2) exp(room) <= kappa W + c_0
   /// for all (u, s) in the cell and all covariances of level s or less, t being a level of their images.
   [[nodiscard]] LockLook look(const LockCell& cell) const;
 

@@ -47,7 +47,9 @@ Ball probability_of_leaving(const LockSet& set, const Ball& start, const Ball& s
   if (!certainly_at_most(start, set.level) || !certainly_at_most(one, samples)) {
     return one;
   }
-  const Ball drifted = exp(start - set.level) + samples * set.drift * exp(-set.level);
+  // E[W; lock] is at most this at every sample.
+  const Ball expected = exp(start) + set.drift / (one - set.decay);
+  const Ball drifted = (expected + samples * set.drift) * exp(-set.level);
   // Noise beyond 30 deviations in one of two channels, in a sample; or a walk beyond 30 w sqrt(N), by the
   // maximal inequality. A standard Gaussian is beyond a on either side with less than 2 exp(-a^2/2).
   const Ball beyond = (four * samples + two) * exp(Ball(-450.0));

@@ -24,8 +24,8 @@ bool is_gaussian(const Tree& assume);
 GaussianNoise read_gaussian_noise(const Tree& assume, const Ball& amplitude, Objections& objections);
 
 /// For a set that check_lock_set has not objected to, and starts of a level of at most `start`
-/// (lock_start.hpp): an upper bound on the probability that the state leaves the set at one of the samples
-/// 1, ..., N. At most 1, and 1 where nothing is proved.
+/// (lock_start.hpp): an upper bound on the probability that the state leaves the set at one of any N
+/// successive samples. At most 1, and 1 where nothing is proved.
 Ball probability_of_leaving(const LockSet& set, const Ball& start, const Ball& samples);
 
 /// An upper bound on |frequency error| in the set, rad/sample.

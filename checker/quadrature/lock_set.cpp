@@ -35,6 +35,7 @@ std::pair<LockSet, bool> read_lock_set(const Tree& tree) {
   set.below = read_covariance(tree.at("spread_below"), has_form);
   set.weight = exact_number(tree.at("weight"));
   set.level = exact_number(tree.at("level"));
+  set.decay = exact_number(tree.at("decay"));
   set.drift = exact_number(tree.at("drift"));
   set.deviation = exact_number(tree.at("noise_deviation"));
   set.walk = exact_number(tree.at("frequency_walk"));
@@ -51,10 +52,10 @@ std::string refusal_of(const LockSet& set, const Design& design, const GaussianN
   if (!positive_definite(set.centre) || !positive_definite(set.above) || !positive_definite(set.below)) {
     return "the matrices of the covariance's levels are not positive definite";
   }
-  if (!certainly_positive(set.weight) || !certainly_positive(set.level) ||
-      !certainly_not_negative(set.drift) || !certainly_positive(set.deviation) ||
-      !certainly_not_negative(set.walk)) {
-    return "weight, level, drift, noise or walk are out of range";
+  if (!certainly_positive(set.weight) || !certainly_positive(set.level) || !certainly_positive(set.decay) ||
+      !certainly_less(set.decay, one) || !certainly_not_negative(set.drift) ||
+      !certainly_positive(set.deviation) || !certainly_not_negative(set.walk)) {
+    return "weight, level, decay, drift, noise or walk are out of range";
   }
   if (!certainly_at_most(noise.deviation, set.deviation) || !certainly_at_most(noise.walk, set.walk)) {
     return "the set is for less noise, or for a slower walk of the frequency, than the design assumes";
@@ -63,7 +64,7 @@ std::string refusal_of(const LockSet& set, const Design& design, const GaussianN
     return "the rounding of a step in double precision is not within its room";
   }
   if (!drifts_slowly({design.q1, design.q2, design.r}, set, cells)) {
-    return "the expected value of W is not proved to rise by the drift at most";
+    return "the expected value of W is not proved to shrink but for the drift";
   }
   return {};
 }

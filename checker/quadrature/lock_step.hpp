@@ -19,7 +19,7 @@ namespace veritrack::checker {
 struct LockSet {
   Metric metric;                          ///< T
   Covariance<Ball> centre, above, below;  ///< P_0, D_h, D_l
-  Ball weight, level, drift;              ///< gamma, L, c_0
+  Ball weight, level, decay, drift;       ///< gamma, L, kappa, c_0
   Ball deviation, walk;                   ///< sigma of each channel; w, rad/sample
 };
 

@@ -133,15 +133,26 @@ std::string Guarantee::assumed_disturbance() const {
                                        : "");
 }
 
+bool Guarantee::frequency_walks() const {
+  const Tree* walk = design_.at("assume").find("frequency_walk");
+  return walk != nullptr && !is_zero(*walk);
+}
+
+/// Rounding is bounded while the frequency is within a bound, which a walk leaves in the end.
+std::string Guarantee::stretch_of_samples() const {
+  const std::string& samples = text_of(design_.at("assume").at("samples"));
+  return frequency_walks() ? "within " + samples + " samples"
+                           : "within any " + samples + " successive samples, however late";
+}
+
 std::string Guarantee::gaussian_disturbance() const {
   const Tree& assume = design_.at("assume");
   const Tree& noise = assume.at("noise");
-  const Tree* walk = assume.find("frequency_walk");
-  std::string text =
-      walk == nullptr || is_zero(*walk)
-          ? " and is constant"
-          : " at the start and walks in independent Gaussian steps of mean zero and deviation at most " +
-                text_of(*walk) + kPerSample;
+  std::string text = " and is constant";
+  if (frequency_walks()) {
+    text = " at the start and walks in independent Gaussian steps of mean zero and deviation at most " +
+           text_of(assume.at("frequency_walk")) + kPerSample;
+  }
   text +=
       ", with Gaussian measurement noise of mean zero, independent from sample to sample and from channel to "
       "channel, and ";
@@ -207,8 +218,7 @@ std::string Guarantee::short_text(const std::string& id) const {
            " per sample: a certified invariant set exists";
   }
   if (id == kLosingLock) {
-    return "the probability of losing lock within " + text_of(design_.at("assume").at("samples")) +
-           " samples is below " + losing_lock_->text;
+    return "the probability of losing lock is below " + losing_lock_->text + " " + stretch_of_samples();
   }
   return "under the assumed noise and slew, a certified invariant set contains frequency errors up to " +
          reach_->text + kPerSample;
@@ -355,8 +365,8 @@ Claim Guarantee::lock_sentence(const Tree& claim, const Promises& promises) cons
   found.verdict = proved_if(promises.losing_lock.has_value() && promises.lock_reach.has_value());
   found.evidence = {{"probability_of_losing_lock", of(promises.losing_lock), Sense::bounds_above},
                     {"lock_frequency_error", of(promises.lock_reach), Sense::bounds_above}};
-  found.statement = hypotheses(promises) + "the probability that the tracker loses lock within " +
-                    text_of(design_.at("assume").at("samples")) + " samples, its frequency error exceeding " +
+  found.statement = hypotheses(promises) + "the probability that the tracker loses its lock " +
+                    stretch_of_samples() + ", its frequency error exceeding " +
                     upper_decimal(high_of(evidence.at("lock_frequency_error"))) + kPerSample +
                     " at one of them, is at most " +
                     upper_decimal(high_of(evidence.at("probability_of_losing_lock"))) + ".";

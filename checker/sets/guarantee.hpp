@@ -88,6 +88,8 @@ class Guarantee {
   [[nodiscard]] Claim sentence(const Tree& claim, const Promises& promises) const;
   [[nodiscard]] Claim invariant_set(const Tree& claim, const Promises& promises) const;
   [[nodiscard]] Claim limits(const Tree& claim, const Promises& promises) const;
+  [[nodiscard]] bool frequency_walks() const;
+  [[nodiscard]] std::string stretch_of_samples() const;
   [[nodiscard]] std::string gaussian_disturbance() const;
   [[nodiscard]] Claim losing_lock(const Promises& promises) const;
   [[nodiscard]] Claim lock_sentence(const Tree& claim, const Promises& promises) const;

@@ -1,24 +1,9 @@
-// Does the expected value of W = exp(level) rise by at most the drift, wherever the level is at most L?
+// Does the expected value of W = exp(level) shrink, but for the drift, wherever the level is at most L?
 #pragma once
 
-#include <array>
-#include <optional>
-
-#include "analysis/quadrature/gaussian/drift_form.hpp"
+#include "analysis/quadrature/gaussian/level_cell.hpp"
 
 namespace veritrack::quadrature {
-
-/// A box of (u1, u2, u3, s), u = T e.
-struct LevelCell {
-  std::array<double, 4> low, high;
-};
-
-/// What the look at a cell found.
-struct CellDrift {
-  bool holds = false;  ///< true only when the inequality holds wherever in the cell the level is at most L
-  /// What each variable contributes to the spread, for the choice of where to bisect.
-  std::array<double, 4> influence{};
-};
 
 /// Looks at cells for one set. Every function needs the upward mode.
 class DriftInequality {
@@ -26,9 +11,7 @@ class DriftInequality {
   /// The set must have passed the checks of verify_lock_set on its ranges.
   DriftInequality(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set);
 
-  /// True only when no point of the cell has a level of at most L.
-  [[nodiscard]] bool outside(const LevelCell& cell) const;
-
+  /// `holds` is true only when (7) of docs/gaussian.md holds everywhere in the cell.
   [[nodiscard]] CellDrift check(const LevelCell& cell) const;
 
   /// How much of the inequality is left at a point, relative to 1 + twice its level; negative where it fails.
@@ -36,17 +19,8 @@ class DriftInequality {
   [[nodiscard]] double margin_at(const std::array<double, 4>& x) const;
 
  private:
-  struct CellStep;
-  struct ImageLevel;
-  /// True only when the level is one of the images everywhere in the cell: (3) of docs/gaussian.md.
-  [[nodiscard]] bool is_level(const CellStep& step, const ImageLevel& level) const;
-  [[nodiscard]] std::optional<ImageLevel> find_level(const CellStep& step) const;
-  /// A lower bound on the part of l that hardly changes.
-  [[nodiscard]] rigor::Interval constant_over(const LevelCell& cell) const;
-
   LockSet set_;
-  LockSetting<rigor::Interval> setting_;
-  LockSetting<double> rough_;
+  LockSettings settings_;
 };
 
 }  // namespace veritrack::quadrature

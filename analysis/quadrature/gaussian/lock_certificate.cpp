@@ -25,6 +25,8 @@ constexpr const char* kNone = "No set could be certified.";
 constexpr double kStartLevel = 8.0;
 /// c_0: more lets the inequality hold near the middle of the set, and costs its logarithm in L.
 constexpr double kDrift = 1.0;
+/// kappa: what the set forgets of a start, so that it holds as well long after it.
+constexpr double kDecay = 0.95;
 
 /// What is certain of the inputs: a search or a proof with others has no meaning.
 bool is_well_posed(const LockQuestion& question) {
@@ -41,9 +43,12 @@ LockRequest request_of(const LockQuestion& question) {
   request.design = {midpoint(d.q1), midpoint(d.q2), midpoint(d.r), 0.0};
   request.noise_deviation = question.noise_deviation.upper();
   request.frequency_walk = question.frequency_walk.upper();
+  request.decay = kDecay;
   request.drift = kDrift;
   request.level =
-      std::log((question.samples.upper() * kDrift + std::exp(kStartLevel)) / question.probability) + 1e-6;
+      std::log((question.samples.upper() * kDrift + std::exp(kStartLevel) + kDrift / (1.0 - kDecay)) /
+               question.probability) +
+      1e-6;
   return request;
 }
 
@@ -88,7 +93,8 @@ std::string db_of(const LockQuestion& question) {
 Condition drift(const LockQuestion& question, const std::optional<LockProposal>& proposal,
                 const LockVerification& verification) {
   Condition condition{
-      "drift", "E[W(k+1) \\mid k] \\le W(k) + c_0 \\text{ in the set}", Verdict::undecided, {}, {}, {}};
+      "drift", "E[W(k+1) \\mid k] \\le \\kappa W(k) + c_0 \\text{ in the set}", Verdict::undecided, {}, {},
+      {}};
   if (!proposal) {
     condition.reason =
         "there is no steady state to search about: the statement needs q1, q2, r and the noise to be "
@@ -132,9 +138,14 @@ Condition start_condition(const Interval& level, const LockSet& set) {
 
 }  // namespace
 
+Interval expected_weight(const LockSet& set, const Interval& start_level) {
+  return rigor::exp(start_level) + Interval(set.drift) / (Interval(1.0) - Interval(set.decay));
+}
+
 Interval losing_probability(const LockSet& set, const Interval& start_level, const Interval& samples) {
-  const Interval started = rigor::exp(start_level) + samples * Interval(set.drift);
-  return rigor::exp(-Interval(set.level)) * started + probability_beyond(samples);
+  return rigor::exp(-Interval(set.level)) *
+             (expected_weight(set, start_level) + samples * Interval(set.drift)) +
+         probability_beyond(samples);
 }
 
 LockCertificate certify_lock(const LockQuestion& question) {
@@ -182,8 +193,9 @@ LockCertificate certify_lock(const LockQuestion& question) {
           "signal, less 1, and the frequency error. s(P) says how far the covariance is from the filter's "
           "steady "
           "state. W = exp(|T e|^2/2 + gamma s(P)^2/2), and the set is where W is at most exp(L), L = " +
-          rigor::upper_decimal(Interval(set.level)) + ", c_0 = " + rigor::upper_decimal(Interval(set.drift)) +
-          ".");
+          rigor::upper_decimal(Interval(set.level)) +
+          ", kappa = " + rigor::upper_decimal(Interval(set.decay)) +
+          ", c_0 = " + rigor::upper_decimal(Interval(set.drift)) + ".");
       probability = losing_probability(set, level, question.samples);
       reach = largest_frequency_error(set);
     }
@@ -191,7 +203,7 @@ LockCertificate certify_lock(const LockQuestion& question) {
   theorems::conclude(derivation);
   theorems::add_quantity(
       derivation,
-      {"probability_of_losing_lock", "p", "e^{-L}(e^{l_0} + N c_0)", kSource,
+      {"probability_of_losing_lock", "p", "e^{-L}(e^{l_0} + c_0/(1 - \\kappa) + N c_0)", kSource,
        "probability of losing lock within the assumed number of samples", theorems::Sense::at_most},
       probability, kNone);
   theorems::add_quantity(derivation,

@@ -34,8 +34,11 @@ struct LockCertificate {
 /// Searches and verifies. Sets its own rounding mode.
 [[nodiscard]] LockCertificate certify_lock(const LockQuestion& question);
 
-/// exp(-L) (exp(start level) + N c_0) and what noise beyond 30 deviations adds: an upper bound on the
-/// probability that the program is outside the set at one of the first N samples (docs/gaussian.md, (5)).
+/// exp(start level) + c_0/(1 - kappa): an upper bound on E[W; lock] at every sample. Needs the upward mode.
+[[nodiscard]] rigor::Interval expected_weight(const LockSet& set, const rigor::Interval& start_level);
+
+/// exp(-L) (expected_weight + N c_0) and what noise beyond 30 deviations adds: an upper bound on the
+/// probability that the program leaves the set at one of any N successive samples (docs/gaussian.md, (5)).
 /// Needs the upward mode.
 [[nodiscard]] rigor::Interval losing_probability(const LockSet& set, const rigor::Interval& start_level,
                                                  const rigor::Interval& samples);

@@ -10,6 +10,7 @@
 
 #include "analysis/quadrature/contraction/covariance_proposal.hpp"
 #include "analysis/quadrature/gaussian/drift_inequality.hpp"
+#include "analysis/quadrature/gaussian/lock_samples.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/search/maximin.hpp"
 
@@ -17,7 +18,6 @@ namespace veritrack::quadrature {
 
 namespace {
 
-using LevelPoint = std::array<double, 4>;
 constexpr Eigen::Index kParameters = 13;
 
 /// A block matrix by its Cholesky factor [[a, 0, 0], [0, b, 0], [0, c, d]].
@@ -81,6 +81,7 @@ class Shapes {
     set.spread_below = pulled_back(root_, factor(8).product());
     set.weight = std::exp(x[12]);
     set.level = request_.level;
+    set.decay = request_.decay;
     set.drift = request_.drift;
     set.noise_deviation = request_.noise_deviation;
     set.frequency_walk = request_.frequency_walk;
@@ -93,54 +94,18 @@ class Shapes {
   Factor root_;
 };
 
-/// Directions in which points are looked at, evenly spread (Kronecker's sequence, by the normal quantiles'
-/// rough shape), with u3 and s not negative.
-std::vector<LevelPoint> directions(int count, int first) {
-  std::vector<LevelPoint> result;
-  result.reserve(static_cast<std::size_t>(count));
-  constexpr std::array<double, 4> kSteps{0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
-                                         0.5385972572236101};
-  for (int k = first; k < first + count; ++k) {
-    LevelPoint direction{};
-    double length = 0.0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      double part = 0.0;
-      const double uniform = 2.0 * std::modf(0.5 + k * kSteps[i], &part) - 1.0;
-      direction[i] = std::atanh(0.999 * uniform);
-      length += direction[i] * direction[i];
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      direction[i] = (i < 2 ? direction[i] : std::fabs(direction[i])) / std::sqrt(length);
-    }
-    result.push_back(direction);
-  }
-  return result;
-}
-
-/// The point of the set in this direction at a share of its level.
-LevelPoint point_at(const LockSet& set, const LevelPoint& direction, double share) {
-  const double radius = std::sqrt(2.0 * share * set.level);
-  return {radius * direction[0], radius * direction[1], radius * direction[2],
-          radius * direction[3] / std::sqrt(set.weight)};
-}
-
+/// Of the level.
 constexpr std::array<double, 7> kShares{1.0, 0.8, 0.5, 0.25, 0.1, 0.03, 0.003};
-
-/// A direction and a share of the level.
-struct Sample {
-  LevelPoint direction;
-  double share;
-};
 
 /// The margins of a set at these samples, in parallel.
 Eigen::VectorXd margins_of(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set,
-                           const std::vector<Sample>& samples) {
+                           const std::vector<LockSample>& samples) {
   const DriftInequality inequality(design, set);
   Eigen::VectorXd margins(static_cast<Eigen::Index>(samples.size()));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), 64), [&](const auto& range) {
     const rigor::UpwardRounding upward;
     for (std::size_t k = range.begin(); k < range.end(); ++k) {
-      const double margin = inequality.margin_at(point_at(set, samples[k].direction, samples[k].share));
+      const double margin = inequality.margin_at(point_at(set, samples[k]));
       margins[static_cast<Eigen::Index>(k)] = std::isnan(margin) ? -1.0 : margin;
     }
   });
@@ -159,15 +124,15 @@ std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
   const trackers::ToneModel<rigor::Interval> design{rigor::Interval(request.design.q1),
                                                     rigor::Interval(request.design.q2),
                                                     rigor::Interval(request.design.r), rigor::Interval(0.0)};
-  std::vector<Sample> all;
-  for (const LevelPoint& direction : directions(kAllDirections, 1)) {
+  std::vector<LockSample> all;
+  for (const LevelPoint& direction : sample_directions(kAllDirections)) {
     for (const double share : kShares) {
-      all.push_back({direction, share});
+      all.push_back({direction, share * request.level});
     }
   }
   // From less noise to that which is asked for: what is worst with less is nearly so with more.
   constexpr std::array<double, 4> kNoise{0.5, 0.7, 0.9, 1.0};
-  std::vector<Sample> looked_at(all.begin(), all.begin() + 200);
+  std::vector<LockSample> looked_at(all.begin(), all.begin() + 200);
   search::SearchSpace space = Shapes::space(request.evaluations);
   double least = -1.0;
   const Shapes shapes(request, *steady);

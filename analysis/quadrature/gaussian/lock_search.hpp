@@ -14,6 +14,7 @@ struct LockRequest {
   double noise_deviation = 0.0;        ///< of each channel, relative to the amplitude
   double frequency_walk = 0.0;         ///< deviation of the frequency's step, rad/sample
   double level = 27.63;                ///< L
+  double decay = 0.95;                 ///< kappa
   double drift = 1.0;                  ///< c_0
   int evaluations = 400;               ///< of the search a round; some hundred take a second
 };

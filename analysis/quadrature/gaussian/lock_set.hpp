@@ -16,9 +16,9 @@ namespace veritrack::quadrature {
 /// and the level of (e, P) is (|T e|^2 + gamma s^2)/2. The set is where that is at most `level`. All numbers
 /// are exact doubles: what is certified is the set that they describe.
 ///
-/// When verify_lock_set has certified it, W = exp(level of (e, P)) satisfies E[W(k+1) | k] <= W(k) + drift
-/// wherever the level of (e(k), P(k)) is at most `level`: docs/gaussian.md, condition (4); and so it does
-/// when the exact step is followed by a change that is small enough: lock_rounding.hpp.
+/// When verify_lock_set has certified it, W = exp(level of (e, P)) satisfies E[W(k+1) | k] <= decay W(k) +
+/// drift wherever the level of (e(k), P(k)) is at most `level`: docs/gaussian.md, condition (4); and so it
+/// does when the exact step is followed by a change that is small enough: lock_rounding.hpp.
 struct LockSet {
   BlockMetric<double> metric;            ///< T, invertible
   BlockCovariance<double> centre;        ///< P_0 > 0
@@ -26,6 +26,7 @@ struct LockSet {
   BlockCovariance<double> spread_below;  ///< D_l > 0
   double weight = 0.0;                   ///< gamma > 0
   double level = 0.0;                    ///< L > 0
+  double decay = 0.0;                    ///< kappa, 0 < kappa < 1
   double drift = 0.0;                    ///< c_0 >= 0
   double noise_deviation = 0.0;  ///< sigma of each channel, relative to the amplitude, > 0: an upper bound
   double frequency_walk = 0.0;   ///< deviation of the frequency's step, rad/sample, >= 0: an upper bound

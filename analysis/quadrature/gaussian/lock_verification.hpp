@@ -22,6 +22,6 @@ struct LockVerification {
 /// number of threads. At most `most_cells` in each of the parts that are looked at by themselves. Opens its
 /// own UpwardRounding scopes; never throws for odd numbers.
 [[nodiscard]] LockVerification verify_lock_set(const trackers::ToneModel<rigor::Interval>& design,
-                                               const LockSet& proposal, std::int64_t most_cells = 20'000);
+                                               const LockSet& proposal, std::int64_t most_cells = 60'000);
 
 }  // namespace veritrack::quadrature

@@ -181,7 +181,7 @@ inline bool is_proved_as_named(const std::string& subject, const Pointer& at) {
   static const std::set<std::string> settling{"settling_samples", "settled_frequency_error"};
   const std::string owner = at.back() == "lo" || at.back() == "hi" ? at.parent_pointer().back() : at.back();
   // The level of the starts is stated with a hundredth more, so that the checker's own bound is below it.
-  return settling.count(owner) != 0 || (subject == "lock" && owner == "start_level") ||
+  return settling.count(owner) != 0 || (subject == "lock" && (owner == "start_level" || owner == "lhs")) ||
          (subject == "kkl-observer" && bounds.count(owner) != 0 &&
           at.to_string().starts_with("/derivations/1/"));
 }

@@ -97,9 +97,10 @@ TEST_CASE("noise that is nothing is malformed") {
 TEST_CASE("the probability is that of the theorem, and of rounding") {
   LockSet set = lock_test::WrittenSet().set();
   set.level = Ball(27.0);
+  set.decay = half;
   set.drift = half;
   const Ball found = probability_of_leaving(set, Ball(9.0), Ball(1e6));
-  const double expected = std::exp(-18.0) + 5e5 * std::exp(-27.0);
+  const double expected = std::exp(-18.0) + (5e5 + 1.0) * std::exp(-27.0);
   CHECK(found.near() >= expected * (1.0 - 1e-14));
   CHECK(found.near() <= expected * (1.0 + 1e-12));
   // With a level far away, rounding alone is left.

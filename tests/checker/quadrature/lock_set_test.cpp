@@ -63,7 +63,7 @@ void check_words(const std::string& text, const std::string& words) {
 constexpr const char* kLockForm = "required form";
 constexpr const char* kDefinite = "not positive definite";
 constexpr const char* kLockRange = "out of range";
-constexpr const char* kDrift = "not proved to rise";
+constexpr const char* kDrift = "not proved to shrink";
 constexpr const char* kRounding = "rounding";
 constexpr const char* kLess = "for less noise";
 

@@ -37,6 +37,7 @@ struct WrittenSet {
                                           {"0x0p+0", "0x1.9e6a9c9c8602cp+4", "0x1.cd9cdf1c2647fp+6"}}}}};
   std::map<std::string, std::string> numbers{{"weight", "0x1.15e35e3d9af1bp+1"},
                                              {"level", "0x1.4p+2"},
+                                             {"decay", "0x1.f8p-1"},
                                              {"drift", "0x1p-1"},
                                              {"noise_deviation", "0x1.cc1fc5972b38ap-5"},
                                              {"frequency_walk", "0x1.d7dbf487fcb92p-9"}};
@@ -70,6 +71,7 @@ struct WrittenSet {
             covariance("spread_below"),
             number("weight"),
             number("level"),
+            number("decay"),
             number("drift"),
             number("noise_deviation"),
             number("frequency_walk")};
@@ -154,7 +156,8 @@ struct Textbook {
     const double next = level_of(after.covariance);
     const double weight = set.weight.near();
     const double level = 0.5 * e.dot(m * e) + 0.5 * weight * s * s;
-    return exponent + 0.5 * weight * next * next - level - std::log1p(set.drift.near() * std::exp(-level));
+    return exponent + 0.5 * weight * next * next - level -
+           std::log(set.decay.near() + set.drift.near() * std::exp(-level));
   }
 
   /// A random covariance of a level of at most s.

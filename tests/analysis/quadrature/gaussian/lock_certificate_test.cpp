@@ -58,7 +58,9 @@ TEST_CASE("a design with little noise has its probability, and it is the one tha
   CHECK(found.covariance_multiples.upper() > 1.1);
   // By the formula, with the level that is said.
   const double level = theorems::find_quantity(found.derivation, "start_level").value.upper();
-  CHECK(p == doctest::Approx(std::exp(-found.set->level) * (std::exp(level) + 1000.0 * found.set->drift)));
+  CHECK(p == doctest::Approx(std::exp(-found.set->level) *
+                             (std::exp(level) + found.set->drift / (1.0 - found.set->decay) +
+                              1000.0 * found.set->drift)));
   const double reach = theorems::find_quantity(found.derivation, "lock_frequency_error").value.upper();
   CHECK(reach == doctest::Approx(std::sqrt(2.0 * found.set->level) / found.set->metric.frequency));
 }

@@ -26,6 +26,7 @@ inline LockSet lock_set(std::size_t design, double decibels) {
                                  : BlockCovariance<double>{81.7628, 32.0706, 2.56431, 61.9756};
   set.weight = 4.0;
   set.level = 27.0;
+  set.decay = 0.99;
   set.drift = 0.37;
   set.noise_deviation = std::sqrt(0.5 * std::pow(10.0, -decibels / 10.0));
   return set;

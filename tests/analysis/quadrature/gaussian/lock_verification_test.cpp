@@ -48,6 +48,12 @@ TEST_CASE("sets whose numbers mean nothing are undecided, with the reason") {
   SUBCASE("a drift below zero") {
     set.drift = -1e-3;
   }
+  SUBCASE("a decay that is none") {
+    set.decay = 1.0;
+  }
+  SUBCASE("a decay that is not positive") {
+    set.decay = 0.0;
+  }
   CHECK(reason(set).find("ranges") != std::string::npos);
   set = good;
   set.metric.phase = 0.0;

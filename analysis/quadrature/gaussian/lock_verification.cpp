@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <vector>
 
 #include "analysis/rigor/decimal.hpp"
@@ -123,23 +124,11 @@ bool covers_set(const std::vector<LevelCell>& grid, const LockSet& set) {
          grid.front().low[2] == 0.0 && grid.front().low[3] == 0.0;
 }
 
-}  // namespace
-
-LockVerification verify_lock_set(const trackers::ToneModel<Interval>& design, const LockSet& proposal,
-                                 std::int64_t most_cells) {
-  const rigor::UpwardRounding upward;
-  LockVerification result;
-  result.reason = objection(design, proposal);
-  if (!result.reason.empty()) {
-    return result;
-  }
+/// Proves the inequality on all these cells; nothing when one is not proved with so many parts. How many it
+/// took.
+std::optional<std::int64_t> cells_of_proof(const DriftInequality& inequality,
+                                           const std::vector<LevelCell>& grid, std::int64_t most_cells) {
   constexpr int kDepth = 40;
-  const std::vector<LevelCell> grid = grid_of(proposal);
-  if (!covers_set(grid, proposal)) {
-    result.reason = "the numbers are too large to be covered by cells.";
-    return result;
-  }
-  const DriftInequality inequality(design, proposal);
   std::vector<std::int64_t> cells(grid.size(), 0);
   std::atomic<bool> failed = false;
   tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t k) {
@@ -153,17 +142,51 @@ LockVerification verify_lock_set(const trackers::ToneModel<Interval>& design, co
     }
     cells[k] = walk.cells;
   });
-  if (failed) {
+  return failed ? std::nullopt : std::optional(std::accumulate(cells.begin(), cells.end(), std::int64_t{0}));
+}
+
+}  // namespace
+
+LockVerification verify_lock_set(const trackers::ToneModel<Interval>& design, const LockSet& proposal,
+                                 std::int64_t most_cells) {
+  const rigor::UpwardRounding upward;
+  LockVerification result;
+  result.reason = objection(design, proposal);
+  if (!result.reason.empty()) {
+    return result;
+  }
+  const std::vector<LevelCell> grid = grid_of(proposal);
+  if (!covers_set(grid, proposal)) {
+    result.reason = "the numbers are too large to be covered by cells.";
+    return result;
+  }
+  const std::optional<std::int64_t> cells = cells_of_proof({design, proposal}, grid, most_cells);
+  if (!cells) {
     result.reason =
         "somewhere in the set the expected value of W could not be shown to rise by the drift at most.";
     return result;
   }
-  for (const std::int64_t count : cells) {
-    result.cells += count;
-  }
+  result.cells = *cells;
   result.verdict = Verdict::proved;
   result.reason = "the expected value of W rises by the drift at most.";
   return result;
+}
+
+std::optional<std::int64_t> expected_cells(const trackers::ToneModel<Interval>& design,
+                                           const LockSet& proposal, std::size_t every,
+                                           std::int64_t most_cells) {
+  const rigor::UpwardRounding upward;
+  if (!objection(design, proposal).empty()) {
+    return std::nullopt;
+  }
+  const std::vector<LevelCell> grid = grid_of(proposal);
+  std::vector<LevelCell> some;
+  for (std::size_t k = every / 2; k < grid.size(); k += every) {
+    some.push_back(grid[k]);
+  }
+  const std::optional<std::int64_t> cells = cells_of_proof({design, proposal}, some, most_cells);
+  return cells && !some.empty() ? std::optional(*cells * static_cast<std::int64_t>(grid.size() / some.size()))
+                                : std::nullopt;
 }
 
 }  // namespace veritrack::quadrature

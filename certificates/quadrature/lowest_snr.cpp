@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/quadrature/contraction/set_search.hpp"
+#include "analysis/quadrature/falsifier/drift_attack.hpp"
 #include "analysis/quadrature/falsifier/sampled_text.hpp"
 #include "analysis/quadrature/gaussian/lowest_snr.hpp"
 #include "analysis/rigor/decimal.hpp"
@@ -39,6 +40,11 @@ Assumptions with_snr(Assumptions assume, const std::string& decibels) {
   return assume;
 }
 
+trackers::ToneModel<double> nearest_design_of(const QuadratureEkfTables& tables) {
+  const rigor::NearestRounding nearest;
+  return nearest_at_unit_amplitude(tables);
+}
+
 /// Where the noise bound of the contraction certificate is exceeded so seldom: N exp(-V^2/(2 sigma^2)) = p.
 std::optional<double> union_bound_decibels(const quadrature::LockQuestion& question) {
   sets::ContractionQuestion bounded;
@@ -57,10 +63,9 @@ void add_comparison_by_simulation(Certificate& certificate, const quadrature::Lo
   QuadratureParticulars& particulars = quadrature_particulars(certificate);
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
   {
-    const rigor::NearestRounding nearest;
     const auto& walk = tables.assume.frequency_walk;
     particulars.lock_loss =
-        quadrature::simulate_lock_loss(nearest_at_unit_amplitude(tables), walk ? walk->nearest : 0.0);
+        quadrature::simulate_lock_loss(nearest_design_of(tables), walk ? walk->nearest : 0.0);
   }
   if (particulars.lock_loss->law) {
     const double rate = question.probability / question.samples.upper();
@@ -102,6 +107,13 @@ void add_lowest_snr(Certificate& certificate, const quadrature::LockQuestion& qu
   particulars.lowest_snr_set = lowest.set;
   if (lowest.set) {
     add_start_covariance(particulars.start_covariance, lowest.covariance_multiples, lowest.derivation);
+    const quadrature::DriftAttack attack =
+        quadrature::attack_drift(*lowest.set, nearest_design_of(quadrature_tables(certificate.design)));
+    quadrature::add_sampled(
+        lowest.derivation,
+        {"drift_excess",
+         "largest excess of the drift that ascent found in the set; above 0 would be an alarm"},
+        {"", "\\log E[W(k+1)] - \\log(W(k) + c_0)", kSource}, attack.closest);
   }
   add_comparison_by_simulation(certificate, question, lowest.derivation);
   if (const auto* decibels = theorems::applicable_quantity(lowest.derivation, "lowest_snr")) {

@@ -20,8 +20,6 @@ constexpr int kLeastQuarters = 0;
 constexpr int kMostQuarters = 200;
 /// With less left of the inequality at the sampled points, cells have to be too small for a proof in seconds.
 constexpr double kProvable = 0.022;
-/// In all of the set, about half a minute of one core; and in each part of it.
-constexpr std::int64_t kAffordableCells = 500'000;
 constexpr std::int64_t kMostCellsInPart = 60'000;
 
 /// dB, so that another program finds the ratio below what is said of it.
@@ -40,7 +38,9 @@ double deviation_at(int quarters) {
 /// Looks for the ratio, each time from the set for the last noise that was good.
 class SnrSearch {
  public:
-  SnrSearch(const LockQuestion& question, const std::optional<LockProposal>& known) : question_(question) {
+  SnrSearch(const LockQuestion& question, const std::optional<LockProposal>& known,
+            std::int64_t affordable_cells)
+      : question_(question), affordable_cells_(affordable_cells) {
     if (known) {
       shape_ = known->shape;
     }
@@ -116,10 +116,11 @@ class SnrSearch {
     const std::optional<LockProposal> found = propose(quarters);
     const std::optional<std::int64_t> cells =
         found ? expected_cells(question_.design, found->set, kEvery, kMostCellsInPart) : std::nullopt;
-    return cells && *cells <= kAffordableCells;
+    return cells && *cells <= affordable_cells_;
   }
 
   LockQuestion question_;
+  std::int64_t affordable_cells_;
   std::optional<LockShape> shape_;
 };
 
@@ -170,12 +171,13 @@ Interval decibels_of(const Interval& deviation) {
            rigor::log(Interval(10.0)));
 }
 
-LowestSnr certify_lowest_snr(const LockQuestion& question, const std::optional<LockProposal>& at_its_noise) {
+LowestSnr certify_lowest_snr(const LockQuestion& question, const std::optional<LockProposal>& at_its_noise,
+                             std::int64_t affordable_cells) {
   const rigor::UpwardRounding upward;
   if (!(question.design.epsilon == Interval(0.0)) || !is_well_posed(question)) {
     return as_lowest(certify_lock(question, std::nullopt));
   }
-  SnrSearch search(question, at_its_noise);
+  SnrSearch search(question, at_its_noise, affordable_cells);
   constexpr int kTries = 3;
   const double assumed = 4.0 * nearest_decibels(question.noise_deviation.upper());
   const int first =

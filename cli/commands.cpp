@@ -59,9 +59,10 @@ class ProgressLine {
   bool shown_;
 };
 
-certificates::Certificate certify_with_progress(const std::string& design_path, bool quiet) {
+certificates::Certificate certify_with_progress(const std::string& design_path, bool quiet,
+                                                certificates::Extent extent) {
   const ProgressLine line(quiet);
-  return certificates::certify_file(design_path, std::cref(line));
+  return certificates::certify_file(design_path, std::cref(line), extent);
 }
 
 /// Throws InputError: the design's tracker cannot do what the command is for.
@@ -77,7 +78,7 @@ certificates::Certificate certify_with_progress(const std::string& design_path, 
 /// One design file; what is wrong with it is told and noted, and the others are still checked.
 reports::CheckedDesign check_one(const std::string& path, bool quiet) {
   try {
-    return {path, certify_with_progress(path, quiet), {}, {}};
+    return {path, certify_with_progress(path, quiet, certificates::Extent::requirements), {}, {}};
   } catch (const certificates::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return {path, std::nullopt, error.message(), {error.line(), error.column()}};
@@ -138,7 +139,8 @@ ExitStatus run_certify(const CertifyOptions& options) {
   const bool by_name = options.directory.empty();
   const std::filesystem::path directory =
       by_name ? default_folder("certificates-out", options.design) : std::filesystem::path(options.directory);
-  certificates::Certificate certificate = certify_with_progress(options.design, options.quiet);
+  certificates::Certificate certificate =
+      certify_with_progress(options.design, options.quiet, certificates::Extent::everything);
   if (options.coq) {
     certificate.formal_proofs = certificates::coq_proofs(certificate);
   }

@@ -34,8 +34,15 @@ struct Claim {
   std::vector<std::pair<std::string, std::string>> values = {};
 };
 
+/// How much is looked for.
+enum class Extent {
+  everything,
+  requirements  ///< what decides [require], and not what takes long and is only told beside it
+};
+
 struct Certificate {
   Design design;
+  Extent extent = Extent::everything;
   std::string design_file;                        ///< its name, without folders
   std::string design_text;                        ///< as read
   std::vector<theorems::Derivation> derivations;  ///< what follows from what, by the kind of tracker
@@ -73,10 +80,12 @@ using CertifyProgress = std::function<void(const Progress&)>;
 /// Evaluates everything that can be said of the design. `design_text` is the file's text and `design_file`
 /// its name without folders, for the documents. Opens its own rounding scope.
 [[nodiscard]] Certificate certify(const Design& design, const std::string& design_file,
-                                  const std::string& design_text, const CertifyProgress& progress = {});
+                                  const std::string& design_text, const CertifyProgress& progress = {},
+                                  Extent extent = Extent::everything);
 
 /// Reads the design file at `path` and certifies it. Throws InputError.
 [[nodiscard]] Certificate certify_file(const std::filesystem::path& path,
-                                       const CertifyProgress& progress = {});
+                                       const CertifyProgress& progress = {},
+                                       Extent extent = Extent::everything);
 
 }  // namespace veritrack::certificates

@@ -10,6 +10,7 @@
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/lowest_snr.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/sets/gaussian_noise.hpp"
@@ -80,6 +81,8 @@ Claim probability_claim(const theorems::Derivation& derivation, const GuaranteeT
   return claim;
 }
 
+}  // namespace
+
 Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerms& terms) {
   const theorems::Quantity* probability =
       theorems::applicable_quantity(derivation, "probability_of_losing_lock");
@@ -107,8 +110,6 @@ Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerm
   return claim;
 }
 
-}  // namespace
-
 void add_lock(Certificate& certificate) {
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
   QuadratureParticulars& particulars = quadrature_particulars(certificate);
@@ -116,13 +117,14 @@ void add_lock(Certificate& certificate) {
     const rigor::NearestRounding nearest;
     particulars.start_covariance = start_covariance_text(tables);
   }
-  quadrature::LockCertificate found = quadrature::certify_lock(lock_question(tables));
+  const quadrature::LockQuestion question = lock_question(tables);
+  quadrature::LockCertificate found = quadrature::certify_lock(question);
   particulars.lock_set = found.set;
   if (found.set) {
     add_start_covariance(particulars.start_covariance, found.covariance_multiples, found.derivation);
   }
   certificate.derivations.push_back(std::move(found.derivation));
-  const theorems::Derivation& derivation = certificate.derivations.back();
+  const theorems::Derivation derivation = certificate.derivations.back();
   const GuaranteeTerms terms{tables.assume,
                              tables.require,
                              !tables.design.without_leak(),
@@ -134,6 +136,9 @@ void add_lock(Certificate& certificate) {
   }
   conclude_requirements(certificate);
   certificate.claims.push_back(lock_guarantee(derivation, terms));
+  if (certificate.extent == Extent::everything) {
+    add_lowest_snr(certificate, question, found, terms);
+  }
 }
 
 std::string lock_section(const Certificate& certificate) {

@@ -4,12 +4,16 @@
 #include <string>
 
 #include "certificates/document/certificate.hpp"
+#include "certificates/sets/guarantee_sentence.hpp"
 
 namespace veritrack::certificates {
 
 /// Adds the derivation "lock", the claim "ekf/probability-of-losing-lock" that [require] asks for, and the
 /// guarantee in one sentence. The design's noise must be Gaussian. Needs the upward mode.
 void add_lock(Certificate& certificate);
+
+/// The guarantee in one sentence: what a derivation like "lock" proves on these terms, or why nothing.
+[[nodiscard]] Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerms& terms);
 
 /// Its part of certificate.md.
 [[nodiscard]] std::string lock_section(const Certificate& certificate);

@@ -139,6 +139,9 @@ Json quadrature_evidence_json(const Certificate& certificate) {
   if (const auto& set = quadrature_particulars(certificate).lock_set) {
     json["lock_sets"] = Json::array({lock_set_json(*set)});
   }
+  if (const auto& set = quadrature_particulars(certificate).lowest_snr_set) {
+    json["lowest_snr_set"] = lock_set_json(*set);
+  }
   return json;
 }
 

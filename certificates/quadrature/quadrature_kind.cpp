@@ -11,6 +11,7 @@
 #include "certificates/quadrature/comparison_table.hpp"
 #include "certificates/quadrature/coq_theorem_2_9.hpp"
 #include "certificates/quadrature/lock.hpp"
+#include "certificates/quadrature/lowest_snr.hpp"
 #include "certificates/quadrature/markdown_other_results.hpp"
 #include "certificates/quadrature/markdown_theorem.hpp"
 #include "certificates/quadrature/quadrature_certificate.hpp"
@@ -76,7 +77,8 @@ std::string sections(const Certificate& certificate, const MarkdownOptions& opti
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
   if (tables.assume.gaussian) {
     return design_section(certificate) + assumptions_section(tables.assume) + lock_section(certificate) +
-           simulated_run_section(certificate, tables.simulate, options) + lock_coverage_section();
+           lowest_snr_section(certificate) + simulated_run_section(certificate, tables.simulate, options) +
+           lock_coverage_section();
   }
   return design_section(certificate) + assumptions_section(tables.assume) + contraction_section(certificate) +
          comparison_section(certificate) + simulated_run_section(certificate, tables.simulate, options) +

@@ -8,6 +8,7 @@
 #include "analysis/quadrature/capture/capture_basin.hpp"
 #include "analysis/quadrature/capture/capture_region.hpp"
 #include "analysis/quadrature/contraction/certified_set.hpp"
+#include "analysis/quadrature/falsifier/lock_loss.hpp"
 #include "analysis/quadrature/gaussian/lock_set.hpp"
 #include "analysis/theorems/audit.hpp"
 #include "certificates/document/certificate.hpp"
@@ -49,7 +50,10 @@ struct ComparedResult {
 struct QuadratureParticulars {
   StartCovarianceText start_covariance;
   std::vector<NamedSet> certified_sets;
-  std::optional<quadrature::LockSet> lock_set;    ///< for Gaussian noise
+  std::optional<quadrature::LockSet> lock_set;        ///< for Gaussian noise
+  std::optional<quadrature::LockSet> lowest_snr_set;  ///< for as much of it as could be proved
+  std::optional<quadrature::LockLoss> lock_loss;      ///< simulated
+  std::optional<double> union_bound_snr;              ///< dB; not in the evidence, so not proved
   std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
   std::vector<AuditedDerivation> audits;
   std::vector<ComparedResult> comparison;

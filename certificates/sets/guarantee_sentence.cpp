@@ -184,7 +184,7 @@ std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTer
 
 std::string guarantee_section(const Certificate& certificate) {
   std::string text;
-  for (const char* id : {kGuarantee, "ekf/invariant-set", "ekf/limits"}) {
+  for (const char* id : {kGuarantee, "ekf/invariant-set", "ekf/limits", "ekf/lowest-snr"}) {
     if (const Claim* claim = find_claim(certificate, id)) {
       text += fmt::format("{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement);
       if (!claim->reason.empty()) {

@@ -6,6 +6,7 @@
 #include "checker/quadrature/contraction.hpp"
 #include "checker/quadrature/lock.hpp"
 #include "checker/quadrature/lock_set.hpp"
+#include "checker/quadrature/lowest_snr.hpp"
 #include "checker/quadrature/steady_contraction.hpp"
 #include "checker/sets/guarantee.hpp"
 #include "checker/theorems/proof_gaps.hpp"
@@ -46,6 +47,7 @@ class QuadratureVerifier {
       add("certified set " + set.at("purpose").text(), objections);
     }
     check_lock_sets();
+    check_set_for_lowest_snr();
     for (const Tree& derivation : certificate_.at("derivations").elements()) {
       check_one(derivation);
     }
@@ -80,6 +82,17 @@ class QuadratureVerifier {
     add("lock set", objections);
   }
 
+  void check_set_for_lowest_snr() {
+    const Tree* set = certificate_.find("lowest_snr_set");
+    if (set == nullptr || !noise_) {
+      return;
+    }
+    Objections objections;
+    const LockSet found = check_lowest_snr_set(*set, design_, *noise_, result_.cells, objections);
+    lowest_snr_set_ = objections.empty() ? std::optional(found) : std::nullopt;
+    add("set for the lowest SNR", objections);
+  }
+
   void check_one(const Tree& derivation) {
     const std::string& id = derivation.at("id").text();
     Objections objections;
@@ -87,10 +100,12 @@ class QuadratureVerifier {
     if (derivations_.count(id) != 0) {
       objections.emplace_back("a second derivation of this id");
     }
-    if (noise_.has_value() != (id == "lock")) {
+    if (noise_.has_value() != (id == "lock" || id == "lowest-snr")) {
       objections.emplace_back("this is for noise of another kind");
     } else if (id == "lock") {
       promises_ = check_lock(derivation, design_, *noise_, lock_set_, objections);
+    } else if (id == "lowest-snr") {
+      check_lowest_snr(derivation, design_, *noise_, lowest_snr_set_, promises_, objections);
     } else if (id == "theorem-2.9/printed") {
       title = check_theorem_2_9(derivation, design_, Reading::printed, objections);
     } else if (id == "theorem-2.9/errata") {
@@ -168,8 +183,9 @@ class QuadratureVerifier {
   Design design_;
   bool leaks_ = false;  ///< then the contraction is that about a biased steady state
   std::vector<CertifiedSet> sets_;
-  std::optional<GaussianNoise> noise_;  ///< in place of a bound
-  std::optional<LockSet> lock_set_;     ///< proved
+  std::optional<GaussianNoise> noise_;     ///< in place of a bound
+  std::optional<LockSet> lock_set_;        ///< proved
+  std::optional<LockSet> lowest_snr_set_;  ///< likewise
   std::map<std::string, Known> derivations_;
   std::map<std::string, Captured> captured_;  ///< of the derivations that are verified
   Promises promises_;

@@ -21,6 +21,7 @@ const std::string kReach = "ekf/frequency-error-radius";
 const std::string kSet = "ekf/invariant-set";
 const std::string kLimits = "ekf/limits";
 const std::string kLosingLock = "ekf/probability-of-losing-lock";
+const std::string kLowestSnr = "ekf/lowest-snr";
 const std::string kPerSample = " rad/sample";
 
 bool is_zero(const Tree& number) {
@@ -29,6 +30,12 @@ bool is_zero(const Tree& number) {
 
 Ball of(const std::optional<Ball>& value) {
   return value.value_or(Ball::everything());
+}
+
+/// " an SNR of at least ... dB": with the deviation that this is at amplitude 1.
+std::string snr_words(const std::string& decibels, const Ball& deviation) {
+  return "an SNR of at least " + decibels + " dB (a deviation of at most " + lower_decimal(deviation) +
+         " of the amplitude in each channel)";
 }
 
 std::vector<Quantity> settling_evidence(const Promises& promises) {
@@ -112,7 +119,8 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
 }
 
 bool Guarantee::is_guarantee(const std::string& id) {
-  const std::array ids{kBound, kSettling, kSentence, kNoise, kSlew, kReach, kSet, kLimits, kLosingLock};
+  const std::array ids{kBound, kSettling, kSentence, kNoise,      kSlew,
+                       kReach, kSet,      kLimits,   kLosingLock, kLowestSnr};
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
@@ -156,9 +164,12 @@ std::string Guarantee::gaussian_disturbance() const {
   text +=
       ", with Gaussian measurement noise of mean zero, independent from sample to sample and from channel to "
       "channel, and ";
+  if (!other_snr_.empty()) {
+    const Ball exponent = -(from_decimal(other_snr_) / Ball(20.0)) * log(Ball(10.0));
+    return text + snr_words(other_snr_, exp(exponent) / sqrt(two));
+  }
   if (const Tree* decibels = noise.find("snr_db")) {
-    return text + "an SNR of at least " + text_of(*decibels) + " dB (a deviation of at most " +
-           lower_decimal(*wording_.deviation) + " of the amplitude in each channel)";
+    return text + snr_words(text_of(*decibels), *wording_.deviation);
   }
   return text + "a deviation of at most " + text_of(noise.at("deviation")) + " in each channel";
 }
@@ -373,9 +384,26 @@ Claim Guarantee::lock_sentence(const Tree& claim, const Promises& promises) cons
   return found;
 }
 
+/// The sentence at the lowest SNR for which there is a set.
+Claim Guarantee::lowest_snr(const Tree& claim, const Promises& promises) const {
+  constexpr int kDigits = 4;
+  Guarantee there(*this);
+  there.other_snr_ = upper_decimal(high_of(claim.at("evidence").at("lowest_snr")), kDigits);
+  Promises at_lowest;
+  at_lowest.losing_lock = promises.losing_lock_at_lowest_snr;
+  at_lowest.lock_reach = promises.reach_at_lowest_snr;
+  at_lowest.covariance = promises.covariance_at_lowest_snr;
+  Claim found = there.lock_sentence(claim, at_lowest);
+  if (!promises.lowest_snr) {
+    found.verdict = Verdict::undecided;
+  }
+  found.evidence.push_back({"lowest_snr", of(promises.lowest_snr), Sense::bounds_above});
+  return found;
+}
+
 Claim Guarantee::check(const Tree& claim, const Promises& promises, Objections& objections) const {
   const std::string& id = claim.at("id").text();
-  const bool asked = id == kSentence || id == kSet || id == kLimits ||
+  const bool asked = id == kSentence || id == kSet || id == kLimits || id == kLowestSnr ||
                      std::any_of(required_.begin(), required_.end(),
                                  [&](const Requirement& requirement) { return requirement.claim == id; });
   if (!asked) {
@@ -383,13 +411,19 @@ Claim Guarantee::check(const Tree& claim, const Promises& promises, Objections& 
     return {};
   }
   if (wording_.deviation) {
-    if (id != kSentence && id != kLosingLock) {
+    if (id != kSentence && id != kLosingLock && id != kLowestSnr) {
       objections.emplace_back("this is for noise with a bound");
       return {};
     }
-    Claim gaussian = id == kSentence ? lock_sentence(claim, promises) : losing_lock(promises);
+    Claim gaussian = id == kSentence    ? lock_sentence(claim, promises)
+                     : id == kLowestSnr ? lowest_snr(claim, promises)
+                                        : losing_lock(promises);
     check_claim(claim, gaussian, objections);
     return gaussian;
+  }
+  if (id == kLowestSnr) {
+    objections.emplace_back("this is for Gaussian noise");
+    return {};
   }
   Claim found = id == kBound      ? frequency_error(promises)
                 : id == kSettling ? settling(promises)

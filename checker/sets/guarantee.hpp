@@ -31,6 +31,9 @@ struct Promises {
   /// With Gaussian noise: of losing lock within the assumed samples, and |frequency error| until then. Upper
   /// bounds.
   std::optional<Ball> losing_lock, lock_reach;
+  /// The same at the lowest SNR for which there is a set, and that SNR, dB. Upper bounds. For which P(0|0).
+  std::optional<Ball> lowest_snr, losing_lock_at_lowest_snr, reach_at_lowest_snr;
+  std::string covariance_at_lowest_snr;
   bool about_steady_state = false;  ///< the reach is measured from a biased steady state
   /// For which P(0|0) all this is true, as the sentences say it: "and with P(0|0) = ...".
   std::string covariance;
@@ -93,6 +96,7 @@ class Guarantee {
   [[nodiscard]] std::string gaussian_disturbance() const;
   [[nodiscard]] Claim losing_lock(const Promises& promises) const;
   [[nodiscard]] Claim lock_sentence(const Tree& claim, const Promises& promises) const;
+  [[nodiscard]] Claim lowest_snr(const Tree& claim, const Promises& promises) const;
 
   const Tree& design_;
   Wording wording_;
@@ -100,6 +104,7 @@ class Guarantee {
   std::optional<Number> frequency_error_below_, settles_within_, settled_below_, noise_, slew_, reach_,
       losing_lock_;
   Ball amplitude_, assumed_noise_, start_error_;
+  std::string other_snr_;  ///< dB, that sentences are about in place of the assumed noise; or empty
 };
 
 }  // namespace veritrack::checker

@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "certificates/quadrature/guarantee.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/quadrature/tube.hpp"
 #include "reports/gnuplot.hpp"
+#include "reports/quadrature/lock_figures.hpp"
 #include "reports/quadrature/region_map.hpp"
 #include "reports/simulated_run.hpp"
 
@@ -145,6 +147,9 @@ std::vector<Figure> draw_quadrature_figures(const Certificate& certificate) {
   std::vector<Figure> figures = {frequency_figure(certificate), error_figure(certificate)};
   if (const auto tube = certificates::certified_tube(certificate)) {
     figures.push_back(tube_figure(certificate, *tube));
+  }
+  for (Figure& figure : draw_lock_figures(certificate)) {
+    figures.push_back(std::move(figure));
   }
   const auto& followed_starts = certificates::quadrature_particulars(certificate).followed_starts;
   if (followed_starts && followed_starts->region.cells.size() > 1) {

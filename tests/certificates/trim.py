@@ -29,8 +29,9 @@ steady-state      its bias and Proposition 1
 frozen-filter     its frozen filter, alone
 From tests/certificates/phases.toml, the single-channel tracker at one frequency:
 phases            its sets over all phases, and the claims that rest on them
-From tests/certificates/lock.toml, as it is:
+From tests/certificates/lock.toml:
 lock              the probability of losing lock in Gaussian noise
+lowest-snr        the same set as one for the lowest signal-to-noise ratio: checked fast
 From tests/certificates/steady-set.toml, the quadrature tracker with a leak in a narrow band:
 steady-set        the contraction with two levels, and the set for the largest noise
 """
@@ -226,6 +227,22 @@ def steady_set(certificate):
         claim["evidence"] = {name: quantities[name] for name in claim["evidence"]}
 
 
+def lock(certificate):
+    keep(certificate, ["lock"], ["ekf/probability-of-losing-lock", "ekf/guarantee"])
+    certificate.pop("lowest_snr_set", None)
+
+
+def lowest_snr(certificate):
+    lock(certificate)
+    keep(certificate, ["lock"], ["ekf/guarantee"])
+    drop_requirements(certificate)
+    derivation, claim = certificate["derivations"][0], certificate["claims"][0]
+    derivation["id"], claim["id"] = "lowest-snr", "ekf/lowest-snr"
+    for values in (derivation["quantities"], claim["evidence"]):
+        values["lowest_snr"] = at_most(26.000001)
+    certificate["lowest_snr_set"] = certificate.pop("lock_sets")[0]
+
+
 KINDS = {
     "theorem-2.9": without_sets(lambda name: name in ("theorem-2.9/printed", "theorem-2.9/errata")),
     "published": without_sets(is_published),
@@ -243,7 +260,8 @@ KINDS = {
     "kkl-paper": kkl_paper,
     "kkl-close-rates": lambda certificate: None,
     "kkl-wide-rates": lambda certificate: None,
-    "lock": lambda certificate: None,
+    "lock": lock,
+    "lowest-snr": lowest_snr,
     "steady-state": steady_state,
     "frozen-filter": lambda certificate: keep(certificate, ["single-channel/transfer-function"], []),
     "phases": phases,

@@ -4,8 +4,6 @@
 #include <utility>
 
 #include "analysis/quadrature/gaussian/lock_rounding.hpp"
-#include "analysis/quadrature/gaussian/lock_search.hpp"
-#include "analysis/quadrature/gaussian/lock_verification.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -27,30 +25,6 @@ constexpr double kStartLevel = 8.0;
 constexpr double kDrift = 1.0;
 /// kappa: what the set forgets of a start, so that it holds as well long after it.
 constexpr double kDecay = 0.95;
-
-/// What is certain of the inputs: a search or a proof with others has no meaning.
-bool is_well_posed(const LockQuestion& question) {
-  return certainly_positive(question.design.q1) && certainly_positive(question.design.q2) &&
-         certainly_positive(question.design.r) && certainly_positive(question.noise_deviation) &&
-         certainly_not_negative(question.frequency_walk) &&
-         certainly_less_equal(Interval(1.0), question.samples) && question.probability > 0.0 &&
-         question.probability < 1.0;
-}
-
-LockRequest request_of(const LockQuestion& question) {
-  LockRequest request;
-  const auto& d = question.design;
-  request.design = {midpoint(d.q1), midpoint(d.q2), midpoint(d.r), 0.0};
-  request.noise_deviation = question.noise_deviation.upper();
-  request.frequency_walk = question.frequency_walk.upper();
-  request.decay = kDecay;
-  request.drift = kDrift;
-  request.level =
-      std::log((question.samples.upper() * kDrift + std::exp(kStartLevel) + kDrift / (1.0 - kDecay)) /
-               question.probability) +
-      1e-6;
-  return request;
-}
 
 /// The widest of these ranges of multiples that costs no more than the starts may.
 constexpr std::array<std::array<double, 2>, 4> kMultiples{{{0.5, 2.0}, {0.7, 1.5}, {0.8, 1.25}, {0.9, 1.1}}};
@@ -142,6 +116,29 @@ Interval expected_weight(const LockSet& set, const Interval& start_level) {
   return rigor::exp(start_level) + Interval(set.drift) / (Interval(1.0) - Interval(set.decay));
 }
 
+bool is_well_posed(const LockQuestion& question) {
+  return certainly_positive(question.design.q1) && certainly_positive(question.design.q2) &&
+         certainly_positive(question.design.r) && certainly_positive(question.noise_deviation) &&
+         certainly_not_negative(question.frequency_walk) &&
+         certainly_less_equal(Interval(1.0), question.samples) && question.probability > 0.0 &&
+         question.probability < 1.0;
+}
+
+LockRequest proposal_request(const LockQuestion& question) {
+  LockRequest request;
+  const auto& d = question.design;
+  request.design = {midpoint(d.q1), midpoint(d.q2), midpoint(d.r), 0.0};
+  request.noise_deviation = question.noise_deviation.upper();
+  request.frequency_walk = question.frequency_walk.upper();
+  request.decay = kDecay;
+  request.drift = kDrift;
+  request.level =
+      std::log((question.samples.upper() * kDrift + std::exp(kStartLevel) + kDrift / (1.0 - kDecay)) /
+               question.probability) +
+      1e-6;
+  return request;
+}
+
 Interval losing_probability(const LockSet& set, const Interval& start_level, const Interval& samples) {
   return rigor::exp(-Interval(set.level)) *
              (expected_weight(set, start_level) + samples * Interval(set.drift)) +
@@ -149,21 +146,25 @@ Interval losing_probability(const LockSet& set, const Interval& start_level, con
 }
 
 LockCertificate certify_lock(const LockQuestion& question) {
+  const rigor::UpwardRounding upward;
+  const bool sensible = question.design.epsilon == Interval(0.0) && is_well_posed(question);
+  return certify_lock(question, sensible ? propose_lock_set(proposal_request(question)) : std::nullopt);
+}
+
+LockCertificate certify_lock(const LockQuestion& question, const std::optional<LockProposal>& proposal,
+                             std::int64_t most_cells) {
   LockCertificate result;
+  result.proposal = proposal;
   result.covariance_multiples = question.starts.covariance.multiples;
   theorems::Derivation& derivation = result.derivation;
   derivation.id = "lock";
   derivation.title = "Gaussian noise: the probability of losing lock";
-  std::optional<LockProposal> proposal;
   LockVerification verification;
   const rigor::UpwardRounding upward;
   derivation.conditions.push_back(leak(question.design.epsilon));
   const bool leaks = derivation.conditions.back().verdict != Verdict::proved;
-  if (!leaks && is_well_posed(question)) {
-    proposal = propose_lock_set(request_of(question));
-    if (proposal && proposal->margin > 0.0) {
-      verification = verify_lock_set(question.design, proposal->set);
-    }
+  if (!leaks && is_well_posed(question) && proposal && proposal->margin > 0.0) {
+    verification = verify_lock_set(question.design, proposal->set, most_cells);
   }
   Interval probability;
   Interval reach;

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "analysis/quadrature/gaussian/lock_search.hpp"
 #include "analysis/quadrature/gaussian/lock_start.hpp"
+#include "analysis/quadrature/gaussian/lock_verification.hpp"
 #include "analysis/quadrature/rounding/step_rounding.hpp"
 #include "analysis/theorems/derivation.hpp"
 
@@ -26,6 +28,8 @@ struct LockCertificate {
   theorems::Derivation derivation;
   /// The set, when everything is proved of it.
   std::optional<LockSet> set;
+  /// What the search found, proved or not.
+  std::optional<LockProposal> proposal;
   std::int64_t cells = 0;
   /// Multiples of the start covariance for which the result holds; those of the question, or more.
   rigor::Interval covariance_multiples;
@@ -33,6 +37,19 @@ struct LockCertificate {
 
 /// Searches and verifies. Sets its own rounding mode.
 [[nodiscard]] LockCertificate certify_lock(const LockQuestion& question);
+
+/// The same without a search: for this proposal, with as many cells in each part (verify_lock_set). Sets its
+/// own rounding mode.
+[[nodiscard]] LockCertificate certify_lock(const LockQuestion& question,
+                                           const std::optional<LockProposal>& proposal,
+                                           std::int64_t most_cells = kMostLockCells);
+
+/// True only when nothing of the question is out of range; for others nothing is proposed. Needs the upward
+/// mode.
+[[nodiscard]] bool is_well_posed(const LockQuestion& question);
+
+/// What is asked of a proposal that is to answer the question. Needs the upward mode.
+[[nodiscard]] LockRequest proposal_request(const LockQuestion& question);
 
 /// exp(start level) + c_0/(1 - kappa): an upper bound on E[W; lock] at every sample. Needs the upward mode.
 [[nodiscard]] rigor::Interval expected_weight(const LockSet& set, const rigor::Interval& start_level);

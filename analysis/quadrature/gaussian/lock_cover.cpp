@@ -89,8 +89,8 @@ bool covers_set(const std::vector<LevelCell>& grid, const LockSet& set) {
 
 }  // namespace
 
-std::optional<std::int64_t> cells_of_proof(const LockSet& set, const CellLook& look,
-                                           std::int64_t most_cells) {
+std::optional<std::int64_t> cells_of_proof(const LockSet& set, const CellLook& look, std::int64_t most_cells,
+                                           std::size_t every) {
   constexpr int kDepth = 40;
   const std::vector<LevelCell> grid = grid_of(set);
   if (!covers_set(grid, set)) {
@@ -99,7 +99,7 @@ std::optional<std::int64_t> cells_of_proof(const LockSet& set, const CellLook& l
   std::vector<std::int64_t> cells(grid.size(), 0);
   std::atomic<bool> failed = false;
   tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t k) {
-    if (failed) {
+    if (failed || k % every != every / 2) {
       return;
     }
     const rigor::UpwardRounding upward_here;

@@ -18,7 +18,7 @@ namespace veritrack::quadrature {
 
 namespace {
 
-constexpr Eigen::Index kParameters = 13;
+constexpr Eigen::Index kParameters = std::tuple_size_v<LockShape>;
 
 /// A block matrix by its Cholesky factor [[a, 0, 0], [0, b, 0], [0, c, d]].
 struct Factor {
@@ -131,13 +131,16 @@ std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
     }
   }
   // From less noise to that which is asked for: what is worst with less is nearly so with more.
-  constexpr std::array<double, 4> kNoise{0.5, 0.7, 0.9, 1.0};
+  const std::vector<double> parts = request.near ? std::vector{1.0} : std::vector{0.5, 0.7, 0.9, 1.0};
   std::vector<LockSample> looked_at(all.begin(), all.begin() + 200);
   search::SearchSpace space = Shapes::space(request.evaluations);
+  if (request.near) {
+    space.start = Eigen::Map<const Eigen::VectorXd>(request.near->data(), kParameters);
+  }
   double least = -1.0;
   const Shapes shapes(request, *steady);
   LockSet set;
-  for (const double part : kNoise) {
+  for (const double part : parts) {
     const auto set_at = [&](const Eigen::VectorXd& x) {
       LockSet easier = shapes.set(x);
       easier.noise_deviation *= part;
@@ -165,7 +168,9 @@ std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
       }
     }
   }
-  return LockProposal{set, least};
+  LockProposal proposal{set, least};
+  std::copy(space.start.begin(), space.start.end(), proposal.shape.begin());
+  return proposal;
 }
 
 }  // namespace veritrack::quadrature

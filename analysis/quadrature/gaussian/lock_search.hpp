@@ -1,12 +1,17 @@
 // Which set might the noise leave seldom? Proposals in floating point; nothing here is evidence.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "analysis/quadrature/gaussian/lock_set.hpp"
 #include "trackers/tone_model.hpp"
 
 namespace veritrack::quadrature {
+
+/// The numbers that are searched: T, D_h, D_l, four each, and gamma, in coordinates in which good sets of all
+/// noise levels look alike.
+using LockShape = std::array<double, 13>;
 
 /// What is asked of a proposal, for a signal of amplitude 1.
 struct LockRequest {
@@ -17,6 +22,7 @@ struct LockRequest {
   double decay = 0.95;                 ///< kappa
   double drift = 1.0;                  ///< c_0
   int evaluations = 400;               ///< of the search a round; some hundred take a second
+  std::optional<LockShape> near;       ///< of a set for nearly the same noise: to start from, which is faster
 };
 
 /// A proposal, and by how much the drift inequality holds at the sampled points of the set:
@@ -24,6 +30,7 @@ struct LockRequest {
 struct LockProposal {
   LockSet set;
   double margin = 0.0;
+  LockShape shape{};
 };
 
 /// The set with the largest margin that was found: over all its thirteen shape parameters, points at which

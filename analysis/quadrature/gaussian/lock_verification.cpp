@@ -72,4 +72,17 @@ LockVerification verify_lock_set(const trackers::ToneModel<Interval>& design, co
   return result;
 }
 
+std::optional<std::int64_t> expected_cells(const trackers::ToneModel<Interval>& design,
+                                           const LockSet& proposal, std::size_t every,
+                                           std::int64_t most_cells) {
+  const rigor::UpwardRounding upward;
+  if (!objection(design, proposal).empty()) {
+    return std::nullopt;
+  }
+  const DriftInequality inequality(design, proposal);
+  const auto cells = cells_of_proof(
+      proposal, [&](const LevelCell& cell) { return inequality.check(cell); }, most_cells, every);
+  return cells ? std::optional(*cells * static_cast<std::int64_t>(every)) : std::nullopt;
+}
+
 }  // namespace veritrack::quadrature

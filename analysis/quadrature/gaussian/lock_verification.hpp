@@ -2,13 +2,18 @@
 // proposal.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "analysis/quadrature/gaussian/drift_inequality.hpp"
 #include "analysis/rigor/verdict.hpp"
 
 namespace veritrack::quadrature {
+
+/// In each of the parts of a set that are looked at by themselves.
+inline constexpr std::int64_t kMostLockCells = 60'000;
 
 /// What verify_lock_set found.
 struct LockVerification {
@@ -22,6 +27,14 @@ struct LockVerification {
 /// number of threads. At most `most_cells` in each of the parts that are looked at by themselves. Opens its
 /// own UpwardRounding scopes; never throws for odd numbers.
 [[nodiscard]] LockVerification verify_lock_set(const trackers::ToneModel<rigor::Interval>& design,
-                                               const LockSet& proposal, std::int64_t most_cells = 60'000);
+                                               const LockSet& proposal,
+                                               std::int64_t most_cells = kMostLockCells);
+
+/// About how many cells verify_lock_set needs, from one in `every` of the parts of the set; nothing when one
+/// of these needs more than `most_cells`, or the proposal is out of range. Opens its own UpwardRounding
+/// scopes.
+[[nodiscard]] std::optional<std::int64_t> expected_cells(const trackers::ToneModel<rigor::Interval>& design,
+                                                         const LockSet& proposal, std::size_t every,
+                                                         std::int64_t most_cells);
 
 }  // namespace veritrack::quadrature

@@ -142,7 +142,7 @@ struct Textbook {
     return {turn * (predicted - gain * h * predicted) * turn.transpose(), turn * (error - gain * (h * error)),
             turn * gain, moved.head<2>()};
   }
-  /// log E[W(k+1)] - log(W(k) + c_0), from a covariance of this level.
+  /// log E[W(k+1)] - log(kappa W(k) + c_0), from a covariance of this level.
   [[nodiscard]] double excess(const Vector& e, const Matrix& p, double s) const {
     const Step after = step(e, p);
     const Vector e3(0.0, 0.0, 1.0);

@@ -43,7 +43,7 @@ struct Oracle {
         largest(Matrix(p.inverse()) - Matrix(whole(set.centre).inverse()), whole(set.spread_below));
     return std::max({0.0, above, below});
   }
-  /// log E[W(k+1)] - log(W(k) + c_0).
+  /// log E[W(k+1)] - log(kappa W(k) + c_0).
   [[nodiscard]] double excess(const Eigen::Vector3d& e, const Matrix& p) const {
     Matrix f = Matrix::Identity();
     f(0, 2) = -e[1];

@@ -155,25 +155,26 @@ std::string lock_section(const Certificate& certificate) {
 }
 
 std::string lock_coverage_section() {
-  return "## What this certificate covers, and what it does not\n\n- Covered: every signal and every start "
-         "that "
-         "satisfy the assumptions, and every noise that is independent, of mean zero and sub-Gaussian with "
-         "the "
-         "stated deviation: Gaussian noise, bounded noise, and the error of a quantiser with dither are "
-         "such. "
-         "Noise that is coloured, or has a mean, is not covered.\n- *Losing lock* means that the errors "
-         "leave a "
-         "set in which the frequency error is at most the stated bound. Outside nothing is claimed: the "
-         "tracker "
-         "may come back.\n- It covers a signal of constant amplitude.\n- Every constant was computed with "
-         "outward-rounded interval arithmetic from the design values. UNDECIDED means that nothing could be "
-         "shown.\n- The tracker is covered as it runs in double precision: IEEE 754, rounding to nearest, "
-         "sine "
-         "and cosine of the C library within 1 ulp, without -ffast-math. What rounding adds to a step is "
-         "bounded "
-         "and is within the room that the inequality leaves (docs/gaussian.md, section 7).\n- Figures show "
-         "one "
-         "simulated run in double precision, which proves nothing.\n\n";
+  return "## What this certificate covers, and what it does not\n"
+         "\n"
+         "- Covered: every signal and every start that satisfy the assumptions, and every noise that is "
+         "independent, of mean zero and sub-Gaussian with the stated deviation: Gaussian noise, bounded "
+         "noise, and the error of a quantiser with dither are such. Noise that is coloured, or has a mean, "
+         "is not covered.\n"
+         "- *Losing lock* means that the errors leave a set in which the frequency error is at most the "
+         "stated bound. Outside nothing is claimed: the tracker may come back. A sample whose noise is "
+         "beyond 30 deviations counts as a loss as well.\n"
+         "- *Any successive samples, however late*: the bound is on the probability that the tracker is in "
+         "lock when they begin and loses lock in them. For a frequency that walks only the first samples "
+         "are spoken of.\n"
+         "- It covers a signal of constant amplitude.\n"
+         "- Every constant was computed with outward-rounded interval arithmetic from the design values. "
+         "UNDECIDED means that nothing could be shown.\n"
+         "- The tracker is covered as it runs in double precision: IEEE 754, rounding to nearest, sine and "
+         "cosine of the C library within 1 ulp, without -ffast-math. What rounding adds to a step is "
+         "bounded and is within the room that the inequality leaves (docs/gaussian.md, section 7).\n"
+         "- Figures show one simulated run in double precision, which proves nothing.\n"
+         "\n";
 }
 
 }  // namespace veritrack::certificates

@@ -36,6 +36,7 @@ quadrature::LockQuestion lock_question(const QuadratureEkfTables& tables) {
   question.starts = {assume.initial_amplitude_error.value / amplitude, assume.initial_phase_error.value,
                      assume.initial_frequency_error.value, start_covariance(tables)};
   question.signal.amplitude = amplitude;
+  question.frequencies = hull(assume.frequency[0].value, assume.frequency[1].value);
   for (const Number& end : assume.frequency) {
     question.signal.largest_frequency =
         std::max(question.signal.largest_frequency, rigor::magnitude(end.value));
@@ -117,8 +118,8 @@ void add_lock(Certificate& certificate) {
     particulars.start_covariance = start_covariance_text(tables);
   }
   quadrature::LockCertificate found = quadrature::certify_lock(lock_question(tables));
-  particulars.lock_set = found.set;
-  if (found.set) {
+  particulars.lock_sets = found.sets;
+  if (!found.sets.empty()) {
     add_start_covariance(particulars.start_covariance, found.covariance_multiples, found.derivation);
   }
   certificate.derivations.push_back(std::move(found.derivation));

@@ -49,7 +49,7 @@ struct ComparedResult {
 struct QuadratureParticulars {
   StartCovarianceText start_covariance;
   std::vector<NamedSet> certified_sets;
-  std::optional<quadrature::LockSet> lock_set;    ///< for Gaussian noise
+  std::vector<quadrature::LockSet> lock_sets;     ///< for Gaussian noise
   std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
   std::vector<AuditedDerivation> audits;
   std::vector<ComparedResult> comparison;

@@ -1,5 +1,6 @@
 #include "checker/quadrature/lock_set.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "checker/document/evidence.hpp"
@@ -25,7 +26,7 @@ Covariance<Ball> read_covariance(const Tree& tree, bool& has_form) {
 }
 
 /// The set, and whether its matrices have their form.
-std::pair<LockSet, bool> read_lock_set(const Tree& tree) {
+std::pair<LockSet, bool> read_lock_set(const Tree& tree, bool leaks) {
   LockSet set;
   const Matrix3 metric = exact_matrix(tree.at("metric"));
   bool has_form = amplitude_is_apart(metric) && certainly_equal(metric[2][1], zero);
@@ -38,6 +39,16 @@ std::pair<LockSet, bool> read_lock_set(const Tree& tree) {
   set.drift = exact_number(tree.at("drift"));
   set.deviation = exact_number(tree.at("noise_deviation"));
   set.walk = exact_number(tree.at("frequency_walk"));
+  if (leaks) {
+    const std::vector<Tree>& bias = tree.at("bias").elements();
+    const std::vector<Tree>& frequencies = tree.at("frequencies").elements();
+    has_form = has_form && bias.size() == set.bias.size() && frequencies.size() == 2;
+    if (has_form) {
+      std::transform(bias.begin(), bias.end(), set.bias.begin(), exact_number);
+      set.lowest_frequency = exact_number(frequencies.front());
+      set.highest_frequency = exact_number(frequencies.back());
+    }
+  }
   return {set, has_form};
 }
 
@@ -59,10 +70,14 @@ std::string refusal_of(const LockSet& set, const Design& design, const GaussianN
   if (!certainly_at_most(noise.deviation, set.deviation) || !certainly_at_most(noise.walk, set.walk)) {
     return "the set is for less noise, or for a slower walk of the frequency, than the design assumes";
   }
+  if (!certainly_at_most(set.lowest_frequency, set.highest_frequency) ||
+      (!design.without_leak() && !certainly_equal(set.walk, zero))) {
+    return "with a leak a set is for a range of constant frequencies";
+  }
   if (!has_room_for_rounding(set, design, noise.samples)) {
     return "the rounding of a step in double precision is not within its room";
   }
-  if (!drifts_slowly({design.q1, design.q2, design.r}, set, cells)) {
+  if (!drifts_slowly({design.q1, design.q2, design.r, design.epsilon}, set, cells)) {
     return "the expected value of W is not proved to rise by the drift at most";
   }
   return {};
@@ -79,12 +94,13 @@ Rounding rounding_between(const LockSet& set, const Design& design, const Ball& 
   const Ball radius = root_of_non_negative(two * set.level - set.weight * square(from));
   const std::array<Ball, 3> rows = inverse_rows(set.metric);
   Held held;
-  held.z = one + radius * sqrt(square(rows[0]) + square(rows[1]));
-  held.frequency =
-      max(design.largest_frequency, pi()) + radius * rows[2] + kMostDeviations * set.walk * sqrt(samples);
+  held.z = one + sqrt(square(set.bias[0]) + square(set.bias[1])) +
+           radius * sqrt(square(rows[0]) + square(rows[1]));
+  held.frequency = max(design.largest_frequency, pi()) + abs(set.bias[2]) + radius * rows[2] +
+                   kMostDeviations * set.walk * sqrt(samples);
   held.measurement = one + kMostDeviations * sqrt(two) * set.deviation;
   add_covariance(whole(lower_covariance(set, to)), whole(upper_covariance(set, to)), held);
-  return rounded_step({design.q1, design.q2, design.r, zero, design.amplitude}, held);
+  return rounded_step({design.q1, design.q2, design.r, design.epsilon, design.amplitude}, held);
 }
 
 }  // namespace
@@ -115,16 +131,27 @@ bool has_room_for_rounding(const LockSet& set, const Design& design, const Ball&
   return true;
 }
 
+bool cover_the_band(const std::vector<LockSet>& sets, const Design& design) {
+  Ball covered = design.lowest_frequency;
+  for (const LockSet& set : sets) {
+    if (!certainly_at_most(set.lowest_frequency, covered)) {
+      return false;
+    }
+    covered = set.highest_frequency;
+  }
+  return !sets.empty() && certainly_at_most(design.highest_frequency, covered);
+}
+
 LockSet check_lock_set(const Tree& tree, const Design& design, const GaussianNoise& noise,
                        std::int64_t& cells, Objections& objections) {
-  const auto [set, has_form] = read_lock_set(tree);
-  const bool applies = design.without_leak() && certainly_equal(design.slew, zero) &&
-                       certainly_not_negative(design.q1) && certainly_positive(design.q2) &&
-                       certainly_positive(design.r);
-  const std::string refusal = !applies
-                                  ? "sets for Gaussian noise are for epsilon = 0, slew = 0, q2 > 0, r > 0"
-                              : !has_form ? "the matrices do not have the required form"
-                                          : refusal_of(set, design, noise, cells);
+  const auto [set, has_form] = read_lock_set(tree, !design.without_leak());
+  const bool applies = certainly_not_negative(design.epsilon) && certainly_less(design.epsilon, one) &&
+                       certainly_equal(design.slew, zero) && certainly_not_negative(design.q1) &&
+                       certainly_positive(design.q2) && certainly_positive(design.r);
+  const std::string refusal =
+      !applies    ? "sets for Gaussian noise are for 0 <= epsilon < 1, slew = 0, q2 > 0, r > 0"
+      : !has_form ? "the matrices do not have the required form"
+                  : refusal_of(set, design, noise, cells);
   if (!refusal.empty()) {
     objections.push_back(refusal);
   }

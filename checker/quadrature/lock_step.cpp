@@ -58,16 +58,16 @@ struct Place {
   }
 };
 
-/// F P F', F = [[1, 0, -z2], [0, 1, z1], [0, 0, 1]].
-Lower3<Chord> carried(const Covariance<Ball>& p, const Place& at) {
+/// F P F', F = [[1, 0, -z2], [0, 1, z1], [0, 0, kept]].
+Lower3<Chord> carried(const Covariance<Ball>& p, const Place& at, const Ball& kept) {
   const Chord across = p.p33 * at.z1 + p.p23;
   Lower3<Chord> x;
   x[0][0] = p.p33 * at.z2_squared + p.p11;
   x[1][0] = -(p.p33 * at.z1_z2 + p.p23 * at.z2);
   x[1][1] = p.p33 * at.z1_squared + (two * p.p23) * at.z1 + p.p22;
-  x[2][0] = -(p.p33 * at.z2);
-  x[2][1] = across;
-  x[2][2] = p.p33;
+  x[2][0] = -((kept * p.p33) * at.z2);
+  x[2][1] = kept * across;
+  x[2][2] = square(kept) * p.p33;
   return x;
 }
 
@@ -81,8 +81,9 @@ struct Image {
 
 Image image_of(const LockFilter& f, const Covariance<Ball>& p, const Covariance<Ball>& d, const Place& at) {
   const auto narrow = [&](const Chord& number) { return at.narrowed(number); };
-  const Lower3<Chord> x = carried(p, at);
-  const Lower3<Chord> y = carried(d, at);
+  const Ball kept = one - f.epsilon;
+  const Lower3<Chord> x = carried(p, at, kept);
+  const Lower3<Chord> y = carried(d, at, kept);
   const Chord s11 = x[0][0] + (f.q1 + f.r);
   const Chord s22 = x[1][1] + (f.q1 + f.r);
   const Chord over = narrow(f.r * reciprocal(narrow(s11 * s22 - square(x[1][0]))));
@@ -155,9 +156,10 @@ LockStep lock_step(const LockFilter& filter, const LockSet& set, const std::arra
     half_widths[k] = abs(u[k].range - u[k].centre).upper();
   }
   const Metric& t = set.metric;
-  const Chord frequency = (one / t.frequency) * u[2];
-  const Chord e2 = (one / t.phase) * (u[1] - t.coupling * frequency);
-  const Chord z1 = (one / t.amplitude) * u[0] + one;
+  const Chord e3 = (one / t.frequency) * u[2];
+  const Chord frequency = e3 + set.bias[2];
+  const Chord e2 = (one / t.phase) * (u[1] - t.coupling * e3) + set.bias[1];
+  const Chord z1 = (one / t.amplitude) * u[0] + (one + set.bias[0]);
   const Place at{z1, e2, square(z1), square(e2), z1 * e2, half_widths};
   const Covariance<Ball> low = lower_covariance(set, level);
   const Image lower = image_of(filter, low, slope_of_inverse(low, set.below), at);
@@ -183,9 +185,12 @@ LockStep lock_step(const LockFilter& filter, const LockSet& set, const std::arra
   }
   const std::array<Chord, 2> mean = turned(at.narrowed(weight[0] * d1 + weight[1] * d2),
                                            at.narrowed(weight[1] * d1 + weight[2] * d2), turn);
-  step.mean = {mean[0], mean[1],
-               frequency - half * ((lower.frequency[0] + upper.frequency[0]) * d1 +
-                                   (lower.frequency[1] + upper.frequency[1]) * d2)};
+  // The leak takes a share of the frequency itself, whichever of the set's it is.
+  const Ball taken = filter.epsilon * Ball::hull(set.lowest_frequency, set.highest_frequency);
+  step.mean = {mean[0] - set.bias[0], mean[1] - set.bias[1],
+               (one - filter.epsilon) * frequency - (taken + set.bias[2]) -
+                   half * ((lower.frequency[0] + upper.frequency[0]) * d1 +
+                           (lower.frequency[1] + upper.frequency[1]) * d2)};
   return step;
 }
 

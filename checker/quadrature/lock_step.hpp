@@ -1,4 +1,4 @@
-// One step of the quadrature tracker without a leak in the frame of the true phase, for an estimate whose
+// One step of the quadrature tracker in the frame of the true phase, for an estimate whose
 // covariance is known up to a level: the checker's own formulas for docs/gaussian.md, sections 1, 3 and 5.
 //
 // A covariance of level s or less lies between lo(s) and hi(s), so its image lies between their images, which
@@ -21,11 +21,15 @@ struct LockSet {
   Covariance<Ball> centre, above, below;  ///< P_0, D_h, D_l
   Ball weight, level, drift;              ///< gamma, L, c_0
   Ball deviation, walk;                   ///< sigma of each channel; w, rad/sample
+  /// With a leak. e_0, of which the errors e are differences; and the frequencies of the signal, rad/sample.
+  std::array<Ball, 3> bias = {};
+  Ball lowest_frequency = {}, highest_frequency = {};
 };
 
-/// The filter at a signal of amplitude 1, epsilon = 0.
+/// The filter at a signal of amplitude 1, 0 <= epsilon < 1.
 struct LockFilter {
   Ball q1, q2, r;
+  Ball epsilon = {};
 };
 
 /// Room for the rounding of a step: what it may change in |T e|, and in the level of the covariance.
@@ -62,7 +66,7 @@ Lower3<S> transformed(const Metric& t, const Lower3<S>& x) {
 struct LockStep {
   Lower3<Chord> lower, upper;              ///< Psi
   Lower3<Chord> lower_slope, upper_slope;  ///< d Psi / d s
-  std::array<Chord, 3> mean;               ///< m for the image halfway between, at s_0
+  std::array<Chord, 3> mean;               ///< m - e_0 for the image halfway between, at s_0
   std::array<Chord, 2> prediction;         ///< p_z
 };
 

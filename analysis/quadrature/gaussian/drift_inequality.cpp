@@ -46,7 +46,8 @@ LevelStep<double> rough(const LevelStep<Scalar>& step, const Part& part) {
 }
 
 template <typename Scalar>
-LockSetting<Scalar> setting_of(const trackers::ToneModel<Scalar>& design, const LockSet& set) {
+LockSetting<Scalar> setting_of(const trackers::ToneModel<Scalar>& design, const LockSet& set,
+                               const Scalar& frequency) {
   const auto block = [](const BlockCovariance<double>& p) {
     return BlockCovariance<Scalar>{Scalar(p.p11), Scalar(p.p22), Scalar(p.p23), Scalar(p.p33)};
   };
@@ -62,7 +63,9 @@ LockSetting<Scalar> setting_of(const trackers::ToneModel<Scalar>& design, const 
           Scalar(set.weight),
           deviation,
           deviation * deviation,
-          walk * walk};
+          walk * walk,
+          frequency,
+          {Scalar(set.bias[0]), Scalar(set.bias[1]), Scalar(set.bias[2])}};
 }
 
 /// An upper bound on the level anywhere in the cell, at most that of the set.
@@ -137,10 +140,10 @@ rigor::LowerTriangle<5, Scalar> without_last(const DriftForm<Scalar>& form) {
 
 DriftInequality::DriftInequality(const trackers::ToneModel<Interval>& design, const LockSet& set)
     : set_(set),
-      setting_(setting_of(design, set)),
-      rough_(setting_of(
-          trackers::ToneModel<double>{midpoint(design.q1), midpoint(design.q2), midpoint(design.r), 0.0},
-          set)) {}
+      setting_(setting_of(design, set, Interval::from_bounds(set.lowest_frequency, set.highest_frequency))),
+      rough_(setting_of(trackers::ToneModel<double>{midpoint(design.q1), midpoint(design.q2),
+                                                    midpoint(design.r), midpoint(design.epsilon)},
+                        set, 0.5 * (set.lowest_frequency + set.highest_frequency))) {}
 
 bool DriftInequality::outside(const LevelCell& cell) const {
   Interval twice(0.0);
@@ -318,14 +321,24 @@ CellDrift DriftInequality::check(const LevelCell& cell) const {
 double DriftInequality::margin_at(const std::array<double, 4>& x) const {
   const LevelStep<double> step = level_step(rough_, std::array<double, 3>{x[0], x[1], x[2]}, x[3]);
   const LevelSlope level = propose_level(rough_, step, {});
-  const LevelImages<double> images = images_at(step, 0.0, rough_.design.r);
+  LevelImages<double> images = images_at(step, 0.0, rough_.design.r);
   if (!std::isfinite(level.level)) {
     return -1.0;
   }
   const double twice = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + set_.weight * x[3] * x[3];
   const double left = twice - set_.weight * std::max(0.0, level.level) * level.level +
                       2.0 * std::log1p(set_.drift * std::exp(-0.5 * twice));
-  const double rest = choose_multiplier(rough_, images, left).left;
+  double rest = std::numeric_limits<double>::infinity();
+  // The error is affine in the frequency: one end of its range or the other is worst.
+  const double middle = images.error[2];
+  const double reach = 0.5 * rough_.design.epsilon * (set_.highest_frequency - set_.lowest_frequency);
+  for (const double way : {reach, -reach}) {
+    images.error[2] = middle + way;
+    rest = std::min(rest, choose_multiplier(rough_, images, left).left);
+    if (reach == 0.0) {
+      break;
+    }
+  }
   return std::isfinite(rest) ? rest / (1.0 + twice) : -1.0;
 }
 

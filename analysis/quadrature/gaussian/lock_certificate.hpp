@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <vector>
 
 #include "analysis/quadrature/gaussian/lock_start.hpp"
 #include "analysis/quadrature/rounding/step_rounding.hpp"
@@ -16,6 +16,8 @@ struct LockQuestion {
   rigor::Interval noise_deviation;  ///< sigma of each channel, relative to the amplitude
   rigor::Interval frequency_walk;   ///< deviation of the frequency's step, rad/sample
   rigor::Interval samples;          ///< N
+  /// Of the signal, rad/sample; a leak needs them.
+  rigor::Interval frequencies = rigor::Interval(0.0);
   LockStarts starts;
   TrackedSignal signal;       ///< for what rounding depends on
   double probability = 1e-6;  ///< which the search is to reach
@@ -24,8 +26,9 @@ struct LockQuestion {
 struct LockCertificate {
   /// "lock": the conditions, and what follows from them.
   theorems::Derivation derivation;
-  /// The set, when everything is proved of it.
-  std::optional<LockSet> set;
+  /// When everything is proved of them: one set, or with a leak one for each piece of the band of
+  /// frequencies.
+  std::vector<LockSet> sets;
   std::int64_t cells = 0;
   /// Multiples of the start covariance for which the result holds; those of the question, or more.
   rigor::Interval covariance_multiples;

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <vector>
 
-#include "analysis/quadrature/contraction/covariance_proposal.hpp"
 #include "analysis/quadrature/gaussian/drift_inequality.hpp"
+#include "analysis/quadrature/gaussian/lock_centre.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/search/maximin.hpp"
 
@@ -50,8 +50,8 @@ BlockCovariance<double> pulled_back(const Factor& c, const BlockCovariance<doubl
 /// a matrix: logarithms of a, b, d, and c.
 class Shapes {
  public:
-  Shapes(const LockRequest& request, const BlockCovariance<double>& steady)
-      : request_(request), steady_(steady), root_(factor_of(steady)) {}
+  Shapes(const LockRequest& request, const LockCentre& centre)
+      : request_(request), centre_(centre), root_(factor_of(centre.covariance)) {}
 
   /// What good sets of the designs of La Scala's Table 3.2 have in common.
   [[nodiscard]] static search::SearchSpace space(int evaluations) {
@@ -76,7 +76,10 @@ class Shapes {
         factor_of({scale * weight.p11, scale * weight.p22, scale * weight.p23, scale * weight.p33});
     // M = T'T with an upper triangular T.
     set.metric = {metric.a, metric.b, metric.c, metric.d};
-    set.centre = steady_;
+    set.centre = centre_.covariance;
+    set.bias = centre_.errors;
+    set.lowest_frequency = request_.lowest_frequency;
+    set.highest_frequency = request_.highest_frequency;
     set.spread_above = times(root_, factor(4)).product();
     set.spread_below = pulled_back(root_, factor(8).product());
     set.weight = std::exp(x[12]);
@@ -89,7 +92,7 @@ class Shapes {
 
  private:
   const LockRequest& request_;
-  BlockCovariance<double> steady_;
+  LockCentre centre_;
   Factor root_;
 };
 
@@ -150,19 +153,24 @@ Eigen::VectorXd margins_of(const trackers::ToneModel<rigor::Interval>& design, c
 }  // namespace
 
 std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
-  const auto steady = steady_covariance(request.design);
-  if (!steady) {
+  const bool leaks = request.design.epsilon != 0.0;
+  const auto centre =
+      lock_centre(request.design, 0.5 * (request.lowest_frequency + request.highest_frequency));
+  if (!centre) {
     return std::nullopt;
   }
   constexpr int kAllDirections = 1200;
   constexpr std::size_t kAdded = 24;
-  const trackers::ToneModel<rigor::Interval> design{rigor::Interval(request.design.q1),
-                                                    rigor::Interval(request.design.q2),
-                                                    rigor::Interval(request.design.r), rigor::Interval(0.0)};
+  const trackers::ToneModel<rigor::Interval> design{
+      rigor::Interval(request.design.q1), rigor::Interval(request.design.q2),
+      rigor::Interval(request.design.r), rigor::Interval(request.design.epsilon)};
   std::vector<Sample> all;
   for (const LevelPoint& direction : directions(kAllDirections, 1)) {
     for (const double share : kShares) {
       all.push_back({direction, share});
+      if (leaks) {
+        all.push_back({{direction[0], direction[1], -direction[2], direction[3]}, share});
+      }
     }
   }
   // From less noise to that which is asked for: what is worst with less is nearly so with more.
@@ -170,7 +178,7 @@ std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
   std::vector<Sample> looked_at(all.begin(), all.begin() + 200);
   search::SearchSpace space = Shapes::space(request.evaluations);
   double least = -1.0;
-  const Shapes shapes(request, *steady);
+  const Shapes shapes(request, *centre);
   LockSet set;
   for (const double part : kNoise) {
     const auto set_at = [&](const Eigen::VectorXd& x) {

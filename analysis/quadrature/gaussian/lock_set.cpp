@@ -37,7 +37,8 @@ IntervalMatrix<3> lower_covariance(const LockSet& set, const Interval& s) {
 }
 
 Interval largest_frequency_error(const LockSet& set) {
-  return rigor::sqrt(Interval(2.0) * Interval(set.level)) / Interval(set.metric.frequency);
+  return abs(Interval(set.bias[2])) +
+         rigor::sqrt(Interval(2.0) * Interval(set.level)) / Interval(set.metric.frequency);
 }
 
 }  // namespace veritrack::quadrature

@@ -2,6 +2,8 @@
 // only when the noise is Gaussian.
 #pragma once
 
+#include <array>
+
 #include "analysis/quadrature/contraction/correction.hpp"
 #include "analysis/quadrature/contraction/gain_spread.hpp"
 #include "analysis/rigor/interval.hpp"
@@ -29,6 +31,10 @@ struct LockSet {
   double drift = 0.0;                    ///< c_0 >= 0
   double noise_deviation = 0.0;  ///< sigma of each channel, relative to the amplitude, > 0: an upper bound
   double frequency_walk = 0.0;   ///< deviation of the frequency's step, rad/sample, >= 0: an upper bound
+  /// With a leak. e_0, of which the errors are differences: e = (Re delta, Im delta, nu) - e_0.
+  std::array<double, 3> bias{};
+  /// The signal's frequencies for which this is said, rad/sample; of no effect without a leak.
+  double lowest_frequency = 0.0, highest_frequency = 0.0;
 };
 
 /// eta of docs/gaussian.md, section 7: what the inequality has left for rounding.
@@ -41,7 +47,7 @@ inline constexpr double kRoundingRoom = 0x1p-14;
 [[nodiscard]] rigor::IntervalMatrix<3> upper_covariance(const LockSet& set, const rigor::Interval& s);
 [[nodiscard]] rigor::IntervalMatrix<3> lower_covariance(const LockSet& set, const rigor::Interval& s);
 
-/// An upper bound on |nu| in the set, rad/sample: sqrt(2 L)/t33. Needs the upward mode.
+/// An upper bound on |nu| in the set, rad/sample: |e_03| + sqrt(2 L)/t33. Needs the upward mode.
 [[nodiscard]] rigor::Interval largest_frequency_error(const LockSet& set);
 
 }  // namespace veritrack::quadrature

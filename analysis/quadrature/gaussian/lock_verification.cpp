@@ -28,8 +28,13 @@ std::string objection(const trackers::ToneModel<Interval>& design, const LockSet
   if (!certainly_positive(design.r) || !certainly_positive(design.q2) || !certainly_not_negative(design.q1)) {
     return "the design is not one with q1 >= 0, q2 > 0 and r > 0.";
   }
-  if (!(design.epsilon == Interval(0.0))) {
-    return "this certificate is for epsilon = 0.";
+  if (!certainly_not_negative(design.epsilon) || !certainly_less(design.epsilon, Interval(1.0))) {
+    return "the leak is not one with 0 <= epsilon < 1.";
+  }
+  if (!(set.lowest_frequency <= set.highest_frequency) || !std::isfinite(set.lowest_frequency) ||
+      !std::isfinite(set.highest_frequency) || !std::isfinite(set.bias[0]) || !std::isfinite(set.bias[1]) ||
+      !std::isfinite(set.bias[2])) {
+    return "the frequencies or the errors about which the set lies are outside their ranges.";
   }
   if (!certainly_positive(Interval(set.metric.amplitude)) ||
       !certainly_positive(Interval(set.metric.phase)) ||
@@ -83,21 +88,26 @@ struct Walk {
   }
 };
 
-/// A grid over (u1, u2, u3, s), u3 >= 0: the mirror image (e2, nu, P12, P13, v2, w) -> -(...) commutes with
-/// the step and maps the set to itself.
-std::vector<LevelCell> grid_of(const LockSet& set) {
-  constexpr std::array<int, 4> kParts{8, 8, 4, 6};
+/// True only when the mirror image (e2, nu, P12, P13, v2, w) -> -(...) commutes with the step and maps the
+/// set to itself.
+bool has_mirror_image(const trackers::ToneModel<Interval>& design, const LockSet& set) {
+  return design.epsilon == Interval(0.0) && set.bias[1] == 0.0 && set.bias[2] == 0.0;
+}
+
+/// A grid over (u1, u2, u3, s); where the mirror image covers the other half, with u3 >= 0.
+std::vector<LevelCell> grid_of(const LockSet& set, bool half) {
+  const std::array<int, 4> parts{8, 8, half ? 4 : 8, 6};
   // A hair more than enough.
   const double radius = 1.000001 * std::sqrt(2.0 * set.level);
-  const std::array<double, 4> low{-radius, -radius, 0.0, 0.0};
+  const std::array<double, 4> low{-radius, -radius, half ? 0.0 : -radius, 0.0};
   const std::array<double, 4> high{radius, radius, radius, radius / std::sqrt(set.weight)};
   std::vector<LevelCell> cells{{}};
   for (std::size_t i = 0; i < 4; ++i) {
     std::vector<LevelCell> next;
-    const auto node = [&](int k) { return low[i] + (high[i] - low[i]) * k / kParts[i]; };
-    next.reserve(cells.size() * static_cast<std::size_t>(kParts[i]));
+    const auto node = [&](int k) { return low[i] + (high[i] - low[i]) * k / parts[i]; };
+    next.reserve(cells.size() * static_cast<std::size_t>(parts[i]));
     for (const LevelCell& cell : cells) {
-      for (int k = 0; k < kParts[i]; ++k) {
+      for (int k = 0; k < parts[i]; ++k) {
         LevelCell part = cell;
         part.low[i] = node(k);
         part.high[i] = node(k + 1);
@@ -110,7 +120,7 @@ std::vector<LevelCell> grid_of(const LockSet& set) {
 }
 
 /// True only when every point with a level of at most that of the set has its |u_i| and s within the grid.
-bool covers_set(const std::vector<LevelCell>& grid, const LockSet& set) {
+bool covers_set(const std::vector<LevelCell>& grid, const LockSet& set, bool half) {
   const Interval most = Interval(2.0) * Interval(set.level);
   const LevelCell& last = grid.back();
   for (std::size_t i = 0; i < 4; ++i) {
@@ -120,7 +130,7 @@ bool covers_set(const std::vector<LevelCell>& grid, const LockSet& set) {
     }
   }
   return grid.front().low[0] == -last.high[0] && grid.front().low[1] == -last.high[1] &&
-         grid.front().low[2] == 0.0 && grid.front().low[3] == 0.0;
+         grid.front().low[2] == (half ? 0.0 : -last.high[2]) && grid.front().low[3] == 0.0;
 }
 
 }  // namespace
@@ -134,8 +144,9 @@ LockVerification verify_lock_set(const trackers::ToneModel<Interval>& design, co
     return result;
   }
   constexpr int kDepth = 40;
-  const std::vector<LevelCell> grid = grid_of(proposal);
-  if (!covers_set(grid, proposal)) {
+  const bool half = has_mirror_image(design, proposal);
+  const std::vector<LevelCell> grid = grid_of(proposal, half);
+  if (!covers_set(grid, proposal, half)) {
     result.reason = "the numbers are too large to be covered by cells.";
     return result;
   }

@@ -31,4 +31,24 @@ inline LockSet lock_set(std::size_t design, double decibels) {
   return set;
 }
 
+/// Figure 3.4's design with its leak.
+inline constexpr trackers::ToneModel<double> kLeakingDesign{0.0013, 0.0013, 0.01, 0.01};
+
+/// A set for it at 24 dB, from the search, and a level that makes it small.
+inline LockSet leaking_set() {
+  LockSet set;
+  set.metric = {16.92711, 18.46067, -15.22689, 31.15116};
+  set.centre = {0.003046134, 0.006000013, 0.002205306, 0.003407049};
+  set.spread_above = {0.003232077, 0.001654278, 0.001011668, 0.001283472};
+  set.spread_below = {294.7268, 81.95477, -5.073968, 92.91476};
+  set.weight = 4.572852;
+  set.level = 10.0;
+  set.drift = 1.0;
+  set.noise_deviation = 0.0446;
+  set.bias = {0.002076551, -0.02650165, -0.03968453};
+  set.lowest_frequency = 1.4;
+  set.highest_frequency = 1.6;
+  return set;
+}
+
 }  // namespace veritrack::quadrature::test_sets

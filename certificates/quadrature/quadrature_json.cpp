@@ -95,8 +95,10 @@ Json block_json(double a, double b, double c, double d, double e) {
 }
 
 Json lock_set_json(const quadrature::LockSet& set, bool leaks) {
-  const auto covariance = [](const quadrature::BlockCovariance<double>& p) {
-    return block_json(p.p11, p.p22, p.p23, p.p23, p.p33);
+  const auto covariance = [](const quadrature::LevelCovariance<double>& p) {
+    Eigen::Matrix3d matrix;
+    matrix << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
+    return matrix_json(matrix);
   };
   Json json{{"metric", block_json(set.metric.amplitude, set.metric.phase, set.metric.coupling, 0.0,
                                   set.metric.frequency)},

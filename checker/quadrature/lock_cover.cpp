@@ -50,6 +50,11 @@ bool is_proved(const LockInequality& inequality, const LockCell& cell, int depth
 /// The mirror image under (e2, nu, P12, P13, v2, w) -> -(...) commutes with the step and leaves the set as it
 /// is.
 bool has_mirror_image(const LockFilter& filter, const LockSet& set) {
+  for (const LockCovariance* p : {&set.centre, &set.above, &set.below}) {
+    if (!certainly_equal(p->p12, zero) || !certainly_equal(p->p13, zero)) {
+      return false;
+    }
+  }
   return certainly_equal(filter.epsilon, zero) && certainly_equal(set.bias[1], zero) &&
          certainly_equal(set.bias[2], zero);
 }

@@ -18,11 +18,11 @@ bool amplitude_is_apart(const Matrix3& m) {
          certainly_equal(m[2][0], zero);
 }
 
-/// A symmetric matrix with 12 = 13 = 0. Adds to `has_form` whether it is one.
-Covariance<Ball> read_covariance(const Tree& tree, bool& has_form) {
+/// A symmetric matrix, without a leak with 12 = 13 = 0. Adds to `has_form` whether it is one.
+LockCovariance read_covariance(const Tree& tree, bool leaks, bool& has_form) {
   const Matrix3 p = exact_matrix(tree);
-  has_form = has_form && amplitude_is_apart(p) && symmetric(p);
-  return {p[0][0], p[1][1], p[1][2], p[2][2]};
+  has_form = has_form && (leaks || amplitude_is_apart(p)) && symmetric(p);
+  return lock_covariance(p);
 }
 
 /// The set, and whether its matrices have their form.
@@ -31,9 +31,9 @@ std::pair<LockSet, bool> read_lock_set(const Tree& tree, bool leaks) {
   const Matrix3 metric = exact_matrix(tree.at("metric"));
   bool has_form = amplitude_is_apart(metric) && certainly_equal(metric[2][1], zero);
   set.metric = {metric[0][0], metric[1][1], metric[1][2], metric[2][2]};
-  set.centre = read_covariance(tree.at("centre"), has_form);
-  set.above = read_covariance(tree.at("spread_above"), has_form);
-  set.below = read_covariance(tree.at("spread_below"), has_form);
+  set.centre = read_covariance(tree.at("centre"), leaks, has_form);
+  set.above = read_covariance(tree.at("spread_above"), leaks, has_form);
+  set.below = read_covariance(tree.at("spread_below"), leaks, has_form);
   set.weight = exact_number(tree.at("weight"));
   set.level = exact_number(tree.at("level"));
   set.drift = exact_number(tree.at("drift"));
@@ -59,7 +59,7 @@ std::string refusal_of(const LockSet& set, const Design& design, const GaussianN
       !certainly_positive(set.metric.frequency)) {
     return "the metric is not one with positive numbers on its diagonal";
   }
-  if (!positive_definite(set.centre) || !positive_definite(set.above) || !positive_definite(set.below)) {
+  if (!definite(whole(set.centre)) || !definite(whole(set.above)) || !definite(whole(set.below))) {
     return "the matrices of the covariance's levels are not positive definite";
   }
   if (!certainly_positive(set.weight) || !certainly_positive(set.level) ||
@@ -108,8 +108,8 @@ Rounding rounding_between(const LockSet& set, const Design& design, const Ball& 
 bool has_room_for_rounding(const LockSet& set, const Design& design, const Ball& samples) {
   // The drift inequality bounds the level of the image.
   const Ball next = sqrt(two * (set.level + log(one + set.drift)) / set.weight);
-  const Covariance<Ball> low = lower_covariance(set, next);
-  const Covariance<Ball> high = upper_covariance(set, next);
+  const LockCovariance low = lower_covariance(set, next);
+  const LockCovariance high = upper_covariance(set, next);
   constexpr int kPieces = 16;
   const Ball most = sqrt(two * set.level / set.weight);
   for (int k = 0; k < kPieces; ++k) {
@@ -123,8 +123,8 @@ bool has_room_for_rounding(const LockSet& set, const Design& design, const Ball&
     // In the frame of the true phase nothing is turned by rounding.
     const Ball share =
         rounding_share(whole(low), {zero, zero, zero, rounding.p_zz, rounding.p_z3, rounding.p_33}).upper();
-    if (!certainly_less(share, one) || !positive_definite(lock_room() * set.above - share * high) ||
-        !positive_definite(lock_room() * set.below - share / (one - share) * inverse(low))) {
+    if (!certainly_less(share, one) || !definite(whole(lock_room() * set.above + (-share) * high)) ||
+        !definite(whole(lock_room() * set.below + (-(share / (one - share))) * inverse(low)))) {
       return false;
     }
   }

@@ -14,13 +14,19 @@
 
 namespace veritrack::checker {
 
+/// A symmetric matrix; 12 and 13 are zero without a leak.
+struct LockCovariance {
+  Ball p11, p22, p23, p33;
+  Ball p12 = {}, p13 = {};
+};
+
 /// What a certificate of the probability of losing lock rests on, docs/gaussian.md, section 4, at a signal of
 /// amplitude 1. The level of (e, P) is (|T e|^2 + gamma s^2)/2, s the level of P.
 struct LockSet {
-  Metric metric;                          ///< T
-  Covariance<Ball> centre, above, below;  ///< P_0, D_h, D_l
-  Ball weight, level, drift;              ///< gamma, L, c_0
-  Ball deviation, walk;                   ///< sigma of each channel; w, rad/sample
+  Metric metric;                        ///< T
+  LockCovariance centre, above, below;  ///< P_0, D_h, D_l
+  Ball weight, level, drift;            ///< gamma, L, c_0
+  Ball deviation, walk;                 ///< sigma of each channel; w, rad/sample
   /// With a leak. e_0, of which the errors e are differences; and the frequencies of the signal, rad/sample.
   std::array<Ball, 3> bias = {};
   Ball lowest_frequency = {}, highest_frequency = {};
@@ -40,12 +46,15 @@ const Ball& lock_room();
 template <typename S>
 using Lower3 = std::array<std::array<S, 3>, 3>;
 
-Covariance<Ball> operator+(const Covariance<Ball>& x, const Covariance<Ball>& y);
-Covariance<Ball> operator*(const Ball& factor, const Covariance<Ball>& x);
-Covariance<Ball> inverse(const Covariance<Ball>& p);
+LockCovariance operator+(const LockCovariance& x, const LockCovariance& y);
+LockCovariance operator*(const Ball& factor, const LockCovariance& x);
+LockCovariance inverse(const LockCovariance& p);
+Matrix3 whole(const LockCovariance& p);
+/// Its lower triangle counts.
+LockCovariance lock_covariance(const Matrix3& p);
 /// hi(s) = P_0 + s D_h, and lo(s) = (P_0^-1 + s D_l)^-1.
-Covariance<Ball> upper_covariance(const LockSet& set, const Ball& s);
-Covariance<Ball> lower_covariance(const LockSet& set, const Ball& s);
+LockCovariance upper_covariance(const LockSet& set, const Ball& s);
+LockCovariance lower_covariance(const LockSet& set, const Ball& s);
 
 /// T X T'.
 template <typename S>

@@ -48,18 +48,15 @@ LevelStep<double> rough(const LevelStep<Scalar>& step, const Part& part) {
 template <typename Scalar>
 LockSetting<Scalar> setting_of(const trackers::ToneModel<Scalar>& design, const LockSet& set,
                                const Scalar& frequency) {
-  const auto block = [](const BlockCovariance<double>& p) {
-    return BlockCovariance<Scalar>{Scalar(p.p11), Scalar(p.p22), Scalar(p.p23), Scalar(p.p33)};
-  };
   const Scalar deviation(set.noise_deviation);
   const Scalar walk(set.frequency_walk);
   return {design,
           {Scalar(set.metric.amplitude), Scalar(set.metric.phase), Scalar(set.metric.coupling),
            Scalar(set.metric.frequency)},
-          block(set.centre),
-          inverse(block(set.centre)),
-          block(set.spread_above),
-          block(set.spread_below),
+          level_covariance<Scalar>(set.centre),
+          inverse(level_covariance<Scalar>(set.centre)),
+          level_covariance<Scalar>(set.spread_above),
+          level_covariance<Scalar>(set.spread_below),
           Scalar(set.weight),
           deviation,
           deviation * deviation,

@@ -29,7 +29,7 @@ template <typename Scalar>
 struct LockSetting {
   trackers::ToneModel<Scalar> design;  ///< 0 <= epsilon < 1
   BlockMetric<Scalar> metric;
-  BlockCovariance<Scalar> centre, centre_inverse, spread_above, spread_below;
+  LevelCovariance<Scalar> centre, centre_inverse, spread_above, spread_below;
   Scalar weight;          ///< gamma
   Scalar deviation;       ///< sigma
   Scalar noise_variance;  ///< sigma^2
@@ -39,45 +39,16 @@ struct LockSetting {
   std::array<Scalar, 3> bias{Scalar(0.0), Scalar(0.0), Scalar(0.0)};
 };
 
-/// [[p11, 0, 0], [0, p22, p23], [0, p23, p33]]^-1.
-template <typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> inverse(const BlockCovariance<Scalar>& p) {
-  using trackers::detail::square;
-  const Scalar one(1.0);
-  const Scalar reciprocal = one / (p.p22 * p.p33 - square(p.p23));
-  return {one / p.p11, p.p33 * reciprocal, -(p.p23 * reciprocal), p.p22 * reciprocal};
-}
-
-/// p + s d.
-template <typename Constant, typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> moved(const BlockCovariance<Constant>& p, const Scalar& s,
-                                            const BlockCovariance<Constant>& d) {
-  return {p.p11 + s * d.p11, p.p22 + s * d.p22, p.p23 + s * d.p23, p.p33 + s * d.p33};
-}
-
 /// hi(s) and lo(s).
 template <typename Constant, typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> upper_covariance(const LockSetting<Constant>& setting,
+[[nodiscard]] LevelCovariance<Scalar> upper_covariance(const LockSetting<Constant>& setting,
                                                        const Scalar& s) {
   return moved(setting.centre, s, setting.spread_above);
 }
 template <typename Constant, typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> lower_covariance(const LockSetting<Constant>& setting,
+[[nodiscard]] LevelCovariance<Scalar> lower_covariance(const LockSetting<Constant>& setting,
                                                        const Scalar& s) {
   return inverse(moved(setting.centre_inverse, s, setting.spread_below));
-}
-
-/// -x d x: the slope of lo(s) where it is x.
-template <typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> lower_slope(const BlockCovariance<Scalar>& x,
-                                                  const BlockCovariance<Scalar>& d) {
-  using trackers::detail::square;
-  const Scalar row2 = x.p22 * d.p22 + x.p23 * d.p23;
-  const Scalar row3 = x.p22 * d.p23 + x.p23 * d.p33;
-  const Scalar last2 = x.p23 * d.p22 + x.p33 * d.p23;
-  const Scalar last3 = x.p23 * d.p23 + x.p33 * d.p33;
-  return {-(square(x.p11) * d.p11), -(row2 * x.p22 + row3 * x.p23), -(row2 * x.p23 + row3 * x.p33),
-          -(last2 * x.p23 + last3 * x.p33)};
 }
 
 /// A symmetric 3x3 matrix, its lower triangle.
@@ -85,9 +56,9 @@ template <typename Scalar>
 using SymmetricMatrix = rigor::LowerTriangle<3, Scalar>;
 
 template <typename Scalar>
-[[nodiscard]] SymmetricMatrix<Scalar> symmetric_of(const BlockCovariance<Scalar>& p) {
+[[nodiscard]] SymmetricMatrix<Scalar> symmetric_of(const LevelCovariance<Scalar>& p) {
   const Scalar none(0.0);
-  return {{{p.p11, none, none}, {none, p.p22, none}, {none, p.p23, p.p33}}};
+  return {{{p.p11, none, none}, {p.p12, p.p22, none}, {p.p13, p.p23, p.p33}}};
 }
 
 /// x - y.
@@ -148,12 +119,12 @@ template <typename Scalar>
 }  // namespace detail
 
 /// The image of p at the errors e, with its derivative in the direction d: A d A', A = U (I - K H) F. The
-/// formulas are those of trackers/quadrature/quadrature_rotating_frame.hpp for P12 = P13 = 0 and omega = 0,
-/// to which a test ties them.
+/// formulas are those of trackers/quadrature/quadrature_rotating_frame.hpp for omega = 0, to which a
+/// test ties them.
 template <typename Constant, typename Scalar>
 [[nodiscard]] LevelImage<Scalar> covariance_image(const trackers::ToneModel<Constant>& design,
-                                                  const BlockCovariance<Constant>& p,
-                                                  const BlockCovariance<Constant>& d,
+                                                  const LevelCovariance<Constant>& p,
+                                                  const LevelCovariance<Constant>& d,
                                                   const std::array<Scalar, 3>& e) {
   using trackers::detail::sin_cos;
   using trackers::detail::square;
@@ -164,12 +135,18 @@ template <typename Constant, typename Scalar>
   const Scalar& z2 = e[1];
   const auto [sine, cosine] = sin_cos(e[2]);
   // F p F'.
-  const auto predicted = [&](const BlockCovariance<Constant>& x) {
+  const auto predicted = [&](const LevelCovariance<Constant>& x) {
     const Scalar across = z1 * x.p33 + x.p23;
-    return SymmetricMatrix<Scalar>{
+    SymmetricMatrix<Scalar> result{
         {{square(z2) * x.p33 + x.p11, none, none},
          {-(z2 * across), z1 * (across + x.p23) + x.p22, none},
          {-(z2 * (retention * x.p33)), across * retention, Scalar(x.p33 * square(retention))}}};
+    if (!x.apart) {
+      result[0][0] = result[0][0] - z2 * (x.p13 + x.p13);
+      result[1][0] = result[1][0] + (z1 * x.p13 + x.p12);
+      result[2][0] = result[2][0] + retention * x.p13;
+    }
+    return result;
   };
   const SymmetricMatrix<Scalar> before = predicted(p);
   const SymmetricMatrix<Scalar> change = predicted(d);
@@ -231,7 +208,7 @@ template <typename Constant, typename Scalar>
   for (std::size_t i = 0; i < 3; ++i) {
     e[i] = e[i] + setting.bias[i];
   }
-  const BlockCovariance<Constant> low = lower_covariance(setting, s);
+  const LevelCovariance<Constant> low = lower_covariance(setting, s);
   LevelStep<Scalar> step;
   step.lower = covariance_image(setting.design, low, lower_slope(low, setting.spread_below), e);
   step.upper = covariance_image(setting.design, upper_covariance(setting, s), setting.spread_above, e);

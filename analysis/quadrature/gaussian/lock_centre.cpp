@@ -16,7 +16,7 @@ std::optional<LockCentre> lock_centre(const trackers::ToneModel<double>& design,
     return std::nullopt;
   }
   if (design.epsilon == 0.0) {
-    return LockCentre{{}, *start};
+    return LockCentre{{}, level_covariance(*start)};
   }
   constexpr double kWay = 0.05;
   constexpr int kMostSteps = 20000;
@@ -38,7 +38,7 @@ std::optional<LockCentre> lock_centre(const trackers::ToneModel<double>& design,
     }
   }
   return LockCentre{{x(kDeltaInPhase), x(kDeltaQuadrature), x(kFrequencyError)},
-                    {x(kP11), x(kP22), x(kP23), x(kP33)}};
+                    {x(kP11), x(kP22), x(kP23), x(kP33), x(kP12), x(kP13), false}};
 }
 
 }  // namespace veritrack::quadrature

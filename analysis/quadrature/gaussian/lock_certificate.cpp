@@ -52,7 +52,8 @@ LockRequest request_of(const LockQuestion& question) {
   request.frequency_walk = question.frequency_walk.upper();
   request.drift = question.design.epsilon == Interval(0.0) ? kDrift : kDriftWithLeak;
   request.level =
-      std::log((question.samples.upper() * request.drift + std::exp(kStartLevel)) / question.probability) + 1e-6;
+      std::log((question.samples.upper() * request.drift + std::exp(kStartLevel)) / question.probability) +
+      1e-6;
   request.lowest_frequency = question.frequencies.lower();
   request.highest_frequency = question.frequencies.upper();
   return request;

@@ -3,6 +3,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -23,9 +25,9 @@ constexpr Eigen::Index kParameters = 13;
 /// A block matrix by its Cholesky factor [[a, 0, 0], [0, b, 0], [0, c, d]].
 struct Factor {
   double a, b, c, d;
-  [[nodiscard]] BlockCovariance<double> product() const { return {a * a, b * b, b * c, c * c + d * d}; }
+  [[nodiscard]] LevelCovariance<double> product() const { return {a * a, b * b, b * c, c * c + d * d}; }
 };
-Factor factor_of(const BlockCovariance<double>& p) {
+Factor factor_of(const LevelCovariance<double>& p) {
   const double b = std::sqrt(p.p22);
   const double c = p.p23 / b;
   return {std::sqrt(p.p11), b, c, std::sqrt(p.p33 - c * c)};
@@ -38,7 +40,7 @@ Factor inverse(const Factor& c) {
   return {1.0 / c.a, 1.0 / c.b, -c.c / (c.b * c.d), 1.0 / c.d};
 }
 /// C^-T X C^-1.
-BlockCovariance<double> pulled_back(const Factor& c, const BlockCovariance<double>& x) {
+LevelCovariance<double> pulled_back(const Factor& c, const LevelCovariance<double>& x) {
   const Factor i = inverse(c);
   const double row = x.p23 * i.d;
   const double last = x.p33 * i.d;
@@ -46,12 +48,24 @@ BlockCovariance<double> pulled_back(const Factor& c, const BlockCovariance<doubl
           i.b * row + i.c * last, last * i.d};
 }
 
+Eigen::Matrix3d whole(const LevelCovariance<double>& p) {
+  Eigen::Matrix3d matrix;
+  matrix << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
+  return matrix;
+}
+LevelCovariance<double> symmetric(const Eigen::Matrix3d& p) {
+  return {p(0, 0), p(1, 1), p(1, 2), p(2, 2), p(0, 1), p(0, 2), false};
+}
+
 /// In coordinates in which the steady state is the identity and the noise is that of the model. Four numbers
 /// a matrix: logarithms of a, b, d, and c.
 class Shapes {
  public:
   Shapes(const LockRequest& request, const LockCentre& centre)
-      : request_(request), centre_(centre), root_(factor_of(centre.covariance)) {}
+      : request_(request),
+        centre_(centre),
+        root_(factor_of(centre.covariance)),
+        whole_root_(whole(centre.covariance).llt().matrixL()) {}
 
   /// What good sets of the designs of La Scala's Table 3.2 have in common.
   [[nodiscard]] static search::SearchSpace space(int evaluations) {
@@ -71,7 +85,7 @@ class Shapes {
     };
     LockSet set;
     const double scale = request_.design.r / (request_.noise_deviation * request_.noise_deviation);
-    BlockCovariance<double> weight = pulled_back(root_, factor(0).product());
+    LevelCovariance<double> weight = pulled_back(root_, factor(0).product());
     const Factor metric =
         factor_of({scale * weight.p11, scale * weight.p22, scale * weight.p23, scale * weight.p33});
     // M = T'T with an upper triangular T.
@@ -82,6 +96,11 @@ class Shapes {
     set.highest_frequency = request_.highest_frequency;
     set.spread_above = times(root_, factor(4)).product();
     set.spread_below = pulled_back(root_, factor(8).product());
+    if (!centre_.covariance.apart) {
+      set.spread_above = symmetric(whole_root_ * whole(factor(4).product()) * whole_root_.transpose());
+      const Eigen::Matrix3d back = whole_root_.inverse();
+      set.spread_below = symmetric(back.transpose() * whole(factor(8).product()) * back);
+    }
     set.weight = std::exp(x[12]);
     set.level = request_.level;
     set.drift = request_.drift;
@@ -94,6 +113,7 @@ class Shapes {
   const LockRequest& request_;
   LockCentre centre_;
   Factor root_;
+  Eigen::Matrix3d whole_root_;  ///< with the entries 12 and 13
 };
 
 /// Directions in which points are looked at, evenly spread (Kronecker's sequence, by the normal quantiles'

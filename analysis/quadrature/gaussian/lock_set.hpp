@@ -5,7 +5,7 @@
 #include <array>
 
 #include "analysis/quadrature/contraction/correction.hpp"
-#include "analysis/quadrature/contraction/gain_spread.hpp"
+#include "analysis/quadrature/gaussian/level_covariance.hpp"
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/matrix.hpp"
 
@@ -23,9 +23,9 @@ namespace veritrack::quadrature {
 /// when the exact step is followed by a change that is small enough: lock_rounding.hpp.
 struct LockSet {
   BlockMetric<double> metric;            ///< T, invertible
-  BlockCovariance<double> centre;        ///< P_0 > 0
-  BlockCovariance<double> spread_above;  ///< D_h > 0
-  BlockCovariance<double> spread_below;  ///< D_l > 0
+  LevelCovariance<double> centre;        ///< P_0 > 0
+  LevelCovariance<double> spread_above;  ///< D_h > 0
+  LevelCovariance<double> spread_below;  ///< D_l > 0
   double weight = 0.0;                   ///< gamma > 0
   double level = 0.0;                    ///< L > 0
   double drift = 0.0;                    ///< c_0 >= 0
@@ -41,7 +41,7 @@ struct LockSet {
 inline constexpr double kRoundingRoom = 0x1p-14;
 
 /// As a 3x3 matrix.
-[[nodiscard]] rigor::IntervalMatrix<3> enclosed(const BlockCovariance<double>& p);
+[[nodiscard]] rigor::IntervalMatrix<3> enclosed(const LevelCovariance<double>& p);
 
 /// hi(s) and lo(s). Need the upward mode.
 [[nodiscard]] rigor::IntervalMatrix<3> upper_covariance(const LockSet& set, const rigor::Interval& s);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::quadrature {
@@ -18,9 +19,11 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-bool certainly_definite(const BlockCovariance<double>& p) {
-  return certainly_positive(Interval(p.p11)) && certainly_positive(Interval(p.p22)) &&
-         certainly_positive(Interval(p.p22) * Interval(p.p33) - rigor::square(Interval(p.p23)));
+bool certainly_definite(const LevelCovariance<double>& p) {
+  return rigor::is_positive_definite(enclosed(p)) == Verdict::proved;
+}
+bool is_apart(const LevelCovariance<double>& p) {
+  return p.p12 == 0.0 && p.p13 == 0.0;
 }
 
 /// The first hypothesis on the inputs that does not hold, as a sentence; empty when all hold.
@@ -91,7 +94,8 @@ struct Walk {
 /// True only when the mirror image (e2, nu, P12, P13, v2, w) -> -(...) commutes with the step and maps the
 /// set to itself.
 bool has_mirror_image(const trackers::ToneModel<Interval>& design, const LockSet& set) {
-  return design.epsilon == Interval(0.0) && set.bias[1] == 0.0 && set.bias[2] == 0.0;
+  return design.epsilon == Interval(0.0) && set.bias[1] == 0.0 && set.bias[2] == 0.0 &&
+         is_apart(set.centre) && is_apart(set.spread_above) && is_apart(set.spread_below);
 }
 
 /// A grid over (u1, u2, u3, s); where the mirror image covers the other half, with u3 >= 0.

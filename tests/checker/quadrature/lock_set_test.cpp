@@ -122,7 +122,7 @@ TEST_CASE("of sets that are accepted, whatever is changed in them, the textbook 
     }
     variances.r *= std::exp(random.uniform(-0.4, 0.4));
     std::int64_t cells = 0;
-    if (!positive_definite(set.centre) || !drifts_slowly(variances.filter(), set, cells)) {
+    if (!definite(whole(set.centre)) || !drifts_slowly(variances.filter(), set, cells)) {
       ++refused;
       continue;
     }

@@ -62,7 +62,8 @@ struct WrittenSet {
       return from_hexadecimal(matrices.at(name)[i][j]);
     };
     const auto covariance = [&](const char* name) {
-      return Covariance<Ball>{entry(name, 0, 0), entry(name, 1, 1), entry(name, 1, 2), entry(name, 2, 2)};
+      return LockCovariance{entry(name, 0, 0), entry(name, 1, 1), entry(name, 1, 2),
+                            entry(name, 2, 2), entry(name, 0, 1), entry(name, 0, 2)};
     };
     const auto number = [&](const char* name) { return from_hexadecimal(numbers.at(name)); };
     return {{entry("metric", 0, 0), entry("metric", 1, 1), entry("metric", 1, 2), entry("metric", 2, 2)},
@@ -86,9 +87,10 @@ struct Variances {
 using Matrix = Eigen::Matrix3d;
 using Vector = Eigen::Vector3d;
 
-inline Matrix in_double(const Covariance<Ball>& p) {
+inline Matrix in_double(const LockCovariance& p) {
   Matrix m;
-  m << p.p11.near(), 0.0, 0.0, 0.0, p.p22.near(), p.p23.near(), 0.0, p.p23.near(), p.p33.near();
+  m << p.p11.near(), p.p12.near(), p.p13.near(), p.p12.near(), p.p22.near(), p.p23.near(), p.p13.near(),
+      p.p23.near(), p.p33.near();
   return m;
 }
 
@@ -184,6 +186,12 @@ inline constexpr double kLeak = 0.01;
 inline LockSet leaking_set() {
   LockSet set = WrittenSet().set();
   set.walk = zero;
+  // As the covariance of the steady state there.
+  for (LockCovariance* p : {&set.centre, &set.above}) {
+    p->p12 = Ball(0.06) * sqrt(p->p11 * p->p22);
+    p->p13 = Ball(0.05) * sqrt(p->p11 * p->p33);
+  }
+  set.below.p12 = Ball(-0.06) * sqrt(set.below.p11 * set.below.p22);
   set.bias = {Ball(0.002), Ball(-0.0265), Ball(-0.04)};
   set.lowest_frequency = Ball(1.4);
   set.highest_frequency = Ball(1.6);

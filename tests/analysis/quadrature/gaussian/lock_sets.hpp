@@ -19,11 +19,11 @@ inline LockSet lock_set(std::size_t design, double decibels) {
   LockSet set;
   set.metric = design == 0 ? BlockMetric<double>{10.573, 12.196, -18.779, 25.173}
                            : BlockMetric<double>{10.83, 12.125, -19.295, 26.112};
-  set.centre = *steady_covariance(kDesigns[design]);
-  set.spread_above = design == 0 ? BlockCovariance<double>{0.00206937, 0.0020926, 0.00113445, 0.000974987}
-                                 : BlockCovariance<double>{0.0102071, 0.0103345, 0.00544712, 0.00452148};
-  set.spread_below = design == 0 ? BlockCovariance<double>{377.239, 152.682, 13.7852, 287.319}
-                                 : BlockCovariance<double>{81.7628, 32.0706, 2.56431, 61.9756};
+  set.centre = level_covariance(*steady_covariance(kDesigns[design]));
+  set.spread_above = design == 0 ? LevelCovariance<double>{0.00206937, 0.0020926, 0.00113445, 0.000974987}
+                                 : LevelCovariance<double>{0.0102071, 0.0103345, 0.00544712, 0.00452148};
+  set.spread_below = design == 0 ? LevelCovariance<double>{377.239, 152.682, 13.7852, 287.319}
+                                 : LevelCovariance<double>{81.7628, 32.0706, 2.56431, 61.9756};
   set.weight = 4.0;
   set.level = 27.0;
   set.drift = 0.37;

@@ -19,9 +19,9 @@ namespace {
 using rigor::Interval;
 using Matrix = Eigen::Matrix3d;
 
-Matrix matrix_of_block(const BlockCovariance<double>& p) {
+Matrix matrix_of_block(const LevelCovariance<double>& p) {
   Matrix m;
-  m << p.p11, 0.0, 0.0, 0.0, p.p22, p.p23, 0.0, p.p23, p.p33;
+  m << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
   return m;
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("the program leaves the set no more often than is proved") {
   constexpr int kSamples = 100;
   constexpr double kDecibels = 18.0;
   const trackers::ToneModel<double>& d = test_sets::kDesigns[1];
-  const Matrix steady = matrix_of_block(*steady_covariance(d));
+  const Matrix steady = matrix_of_block(level_covariance(*steady_covariance(d)));
   const double deviation = std::sqrt(0.5 * std::pow(10.0, -kDecibels / 10.0));
   LockQuestion question;
   {

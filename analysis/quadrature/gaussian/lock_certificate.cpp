@@ -27,7 +27,7 @@ constexpr const char* kDriftInequality = "E[W(k+1) \\mid k] \\le W(k) + c_0 \\te
 constexpr const char* kIllPosed =
     "there is no steady state to search about: the statement needs q1, q2, r and the noise to be "
     "certainly positive.";
-/// What the starts may add to the probability, next to the samples: exp of that level.
+/// What the starts may add to the probability, next to the samples: c_0 times exp of that level.
 constexpr double kStartLevel = 8.0;
 /// c_0: more lets the inequality hold near the middle of the set, and costs its logarithm in L.
 constexpr double kDrift = 1.0;
@@ -52,7 +52,7 @@ LockRequest request_of(const LockQuestion& question) {
   request.frequency_walk = question.frequency_walk.upper();
   request.drift = question.design.epsilon == Interval(0.0) ? kDrift : kDriftWithLeak;
   request.level =
-      std::log((question.samples.upper() * request.drift + std::exp(kStartLevel)) / question.probability) +
+      std::log((question.samples.upper() + std::exp(kStartLevel)) * request.drift / question.probability) +
       1e-6;
   request.lowest_frequency = question.frequencies.lower();
   request.highest_frequency = question.frequencies.upper();
@@ -220,7 +220,7 @@ LockCertificate certify_lock(const LockQuestion& question) {
   Interval level;
   if (!sets.empty()) {
     LockStarts starts = question.starts;
-    starts.covariance.multiples = widest_multiples(sets, starts, kStartLevel);
+    starts.covariance.multiples = widest_multiples(sets, starts, kStartLevel + std::log(sets.front().drift));
     result.covariance_multiples = starts.covariance.multiples;
     // A little more, so that another program finds it below this.
     level = Interval((start_level(sets, starts) * Interval(1.01) + Interval(0.01)).upper());

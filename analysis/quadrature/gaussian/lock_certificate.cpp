@@ -29,6 +29,9 @@ constexpr const char* kIllPosed =
     "certainly positive.";
 /// What the starts may add to the probability, next to the samples: c_0 times exp of that level.
 constexpr double kStartLevel = 8.0;
+/// What is added to the level of the starts.
+constexpr double kLevelFactor = 1.01;
+constexpr double kLevelRoom = 0.01;
 /// c_0: more lets the inequality hold near the middle of the set, and costs its logarithm in L.
 constexpr double kDrift = 1.0;
 /// With a leak the middle of the set is not where the tracker settles at every frequency of the piece, and it
@@ -220,10 +223,11 @@ LockCertificate certify_lock(const LockQuestion& question) {
   Interval level;
   if (!sets.empty()) {
     LockStarts starts = question.starts;
-    starts.covariance.multiples = widest_multiples(sets, starts, kStartLevel + std::log(sets.front().drift));
+    starts.covariance.multiples = widest_multiples(
+        sets, starts, (kStartLevel + std::log(sets.front().drift) - kLevelRoom) / kLevelFactor);
     result.covariance_multiples = starts.covariance.multiples;
     // A little more, so that another program finds it below this.
-    level = Interval((start_level(sets, starts) * Interval(1.01) + Interval(0.01)).upper());
+    level = Interval((start_level(sets, starts) * Interval(kLevelFactor) + Interval(kLevelRoom)).upper());
     bool has_room = true;
     bool tolerates = true;
     for (const LockSet& set : sets) {

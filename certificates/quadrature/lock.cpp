@@ -37,6 +37,7 @@ quadrature::LockQuestion lock_question(const QuadratureEkfTables& tables) {
   question.starts = {assume.initial_amplitude_error.value / amplitude, assume.initial_phase_error.value,
                      assume.initial_frequency_error.value, start_covariance(tables)};
   question.signal.amplitude = amplitude;
+  question.frequencies = hull(assume.frequency[0].value, assume.frequency[1].value);
   for (const Number& end : assume.frequency) {
     question.signal.largest_frequency =
         std::max(question.signal.largest_frequency, rigor::magnitude(end.value));
@@ -119,8 +120,8 @@ void add_lock(Certificate& certificate) {
   }
   const quadrature::LockQuestion question = lock_question(tables);
   quadrature::LockCertificate found = quadrature::certify_lock(question);
-  particulars.lock_set = found.set;
-  if (found.set) {
+  particulars.lock_sets = found.sets;
+  if (!found.sets.empty()) {
     add_start_covariance(particulars.start_covariance, found.covariance_multiples, found.derivation);
   }
   certificate.derivations.push_back(std::move(found.derivation));

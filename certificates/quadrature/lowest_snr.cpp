@@ -97,7 +97,7 @@ void add_lowest_snr(Certificate& certificate, const quadrature::LockQuestion& qu
     return;
   }
   quadrature::LockQuestion asked = question;
-  if (found.set) {
+  if (!found.sets.empty()) {
     // The same starts as those of the guarantee.
     asked.starts.covariance.multiples = found.covariance_multiples;
     asked.starts.covariance.is_given = true;

@@ -94,21 +94,32 @@ Json block_json(double a, double b, double c, double d, double e) {
   return matrix_json(matrix);
 }
 
-Json lock_set_json(const quadrature::LockSet& set) {
-  const auto covariance = [](const quadrature::BlockCovariance<double>& p) {
-    return block_json(p.p11, p.p22, p.p23, p.p23, p.p33);
+Json lock_set_json(const quadrature::LockSet& set, bool leaks) {
+  const auto covariance = [](const quadrature::LevelCovariance<double>& p) {
+    Eigen::Matrix3d matrix;
+    matrix << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
+    return matrix_json(matrix);
   };
-  return {{"metric", block_json(set.metric.amplitude, set.metric.phase, set.metric.coupling, 0.0,
-                                set.metric.frequency)},
-          {"centre", covariance(set.centre)},
-          {"spread_above", covariance(set.spread_above)},
-          {"spread_below", covariance(set.spread_below)},
-          {"weight", rigor::to_hexadecimal(set.weight)},
-          {"level", rigor::to_hexadecimal(set.level)},
-          {"decay", rigor::to_hexadecimal(set.decay)},
-          {"drift", rigor::to_hexadecimal(set.drift)},
-          {"noise_deviation", rigor::to_hexadecimal(set.noise_deviation)},
-          {"frequency_walk", rigor::to_hexadecimal(set.frequency_walk)}};
+  Json json{{"metric", block_json(set.metric.amplitude, set.metric.phase, set.metric.coupling, 0.0,
+                                  set.metric.frequency)},
+            {"centre", covariance(set.centre)},
+            {"spread_above", covariance(set.spread_above)},
+            {"spread_below", covariance(set.spread_below)},
+            {"weight", rigor::to_hexadecimal(set.weight)},
+            {"level", rigor::to_hexadecimal(set.level)},
+            {"decay", rigor::to_hexadecimal(set.decay)},
+            {"drift", rigor::to_hexadecimal(set.drift)},
+            {"noise_deviation", rigor::to_hexadecimal(set.noise_deviation)},
+            {"frequency_walk", rigor::to_hexadecimal(set.frequency_walk)}};
+  if (leaks) {
+    json["bias"] = Json::array();
+    for (const double error : set.bias) {
+      json["bias"].push_back(rigor::to_hexadecimal(error));
+    }
+    json["frequencies"] = Json::array(
+        {rigor::to_hexadecimal(set.lowest_frequency), rigor::to_hexadecimal(set.highest_frequency)});
+  }
+  return json;
 }
 
 }  // namespace
@@ -136,11 +147,12 @@ Json quadrature_evidence_json(const Certificate& certificate) {
     sets.push_back(certified_set_json(set));
   }
   Json json{{"certified_sets", sets}};
-  if (const auto& set = quadrature_particulars(certificate).lock_set) {
-    json["lock_sets"] = Json::array({lock_set_json(*set)});
+  for (const quadrature::LockSet& set : quadrature_particulars(certificate).lock_sets) {
+    json["lock_sets"].push_back(
+        lock_set_json(set, !quadrature_tables(certificate.design).design.without_leak()));
   }
   if (const auto& set = quadrature_particulars(certificate).lowest_snr_set) {
-    json["lowest_snr_set"] = lock_set_json(*set);
+    json["lowest_snr_set"] = lock_set_json(*set, false);
   }
   return json;
 }

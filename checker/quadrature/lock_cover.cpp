@@ -47,13 +47,24 @@ bool is_proved(const LockInequality& inequality, const LockCell& cell, int depth
   return is_proved(inequality, first, depth - 1, cells) && is_proved(inequality, second, depth - 1, cells);
 }
 
-/// A grid over |u1|, |u2| <= R, 0 <= u3 <= R, 0 <= s <= R/sqrt(gamma), R^2 = 2 L: it covers the set and its
-/// mirror image under (e2, nu, P12, P13, v2, w) -> -(...), which commutes with the step and leaves the set as
-/// it is. Nothing where the numbers are no doubles.
-std::vector<Part> cover_of(const LockSet& set) {
+/// The mirror image under (e2, nu, P12, P13, v2, w) -> -(...) commutes with the step and leaves the set as it
+/// is.
+bool has_mirror_image(const LockFilter& filter, const LockSet& set) {
+  for (const LockCovariance* p : {&set.centre, &set.above, &set.below}) {
+    if (!certainly_equal(p->p12, zero) || !certainly_equal(p->p13, zero)) {
+      return false;
+    }
+  }
+  return certainly_equal(filter.epsilon, zero) && certainly_equal(set.bias[1], zero) &&
+         certainly_equal(set.bias[2], zero);
+}
+
+/// A grid over |u1|, |u2|, |u3| <= R, 0 <= s <= R/sqrt(gamma), R^2 = 2 L, which covers the set; with u3 >= 0
+/// where the mirror image covers the rest. Nothing where the numbers are no doubles.
+std::vector<Part> cover_of(const LockSet& set, bool halved) {
   const double radius = sqrt(two * set.level).upper_double();
   const double most = sqrt(two * set.level / set.weight).upper_double();
-  const std::array<double, 4> low{-radius, -radius, 0.0, 0.0};
+  const std::array<double, 4> low{-radius, -radius, halved ? 0.0 : -radius, 0.0};
   const std::array<double, 4> high{radius, radius, radius, most};
   if (!std::isfinite(radius) || !std::isfinite(most) ||
       !certainly_at_most(two * set.level, square(Ball(radius))) ||
@@ -139,7 +150,7 @@ class Workers {
 }  // namespace
 
 bool drifts_slowly(const LockFilter& filter, const LockSet& set, std::int64_t& cells) {
-  std::vector<Part> parts = cover_of(set);
+  std::vector<Part> parts = cover_of(set, has_mirror_image(filter, set));
   const LockInequality inequality(filter, set);
   Workers(inequality, parts).run();
   for (const Part& part : parts) {

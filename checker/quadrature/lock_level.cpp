@@ -11,23 +11,20 @@ namespace {
 namespace proposal = lock_proposal;
 
 /// T P T'.
-Covariance<Ball> transformed(const Metric& t, const Covariance<Ball>& p) {
-  const Ball row2 = t.phase * p.p22 + t.coupling * p.p23;
-  const Ball row3 = t.phase * p.p23 + t.coupling * p.p33;
-  return {square(t.amplitude) * p.p11, t.phase * row2 + t.coupling * row3, t.frequency * row3,
-          square(t.frequency) * p.p33};
+LockCovariance transformed(const Metric& t, const LockCovariance& p) {
+  Matrix3 metric = diagonal(t.amplitude, t.phase, t.frequency);
+  metric[1][2] = t.coupling;
+  return lock_covariance(congruent(metric, whole(p)));
 }
 
 /// T'^-1 D T^-1.
-Covariance<Ball> transformed_back(const Metric& t, const Covariance<Ball>& d) {
-  const Ball a = one / t.phase;
-  const Ball c = one / t.frequency;
-  const Ball b = -(t.coupling * a * c);
-  return {d.p11 / square(t.amplitude), square(a) * d.p22, a * (b * d.p22 + c * d.p23),
-          square(b) * d.p22 + two * b * c * d.p23 + square(c) * d.p33};
+LockCovariance transformed_back(const Metric& t, const LockCovariance& d) {
+  Matrix3 back = diagonal(one / t.amplitude, one / t.phase, one / t.frequency);
+  back[2][1] = -(t.coupling / (t.phase * t.frequency));
+  return lock_covariance(congruent(back, whole(d)));
 }
 
-proposal::Matrix3 rough(const Covariance<Ball>& p) {
+proposal::Matrix3 rough(const LockCovariance& p) {
   return proposal::near(whole(p));
 }
 
@@ -75,8 +72,8 @@ LockLevels::LockLevels(const LockSet& set, const Metric& next)
 // chords along u, are affine in (u, s) but for -lo(t), which is concave in t. So the corners decide.
 bool LockLevels::is_level(const SquareMatrix<3>& upper, const SquareMatrix<3>& lower,
                           const Ball& level) const {
-  const Covariance<Ball> high = centre_ + level * above_;
-  const Covariance<Ball> low = inverse(centre_inverse_ + level * below_);
+  const LockCovariance high = centre_ + level * above_;
+  const LockCovariance low = inverse(centre_inverse_ + level * below_);
   return certainly_not_negative(level) && definite(difference(whole(high), upper)) &&
          definite(difference(lower, whole(low)));
 }

@@ -39,7 +39,7 @@ class LockLevels {
 
   Metric next_;
   // In the coordinates next e: P_0, D_h, P_0^-1, D_l.
-  Covariance<Ball> centre_, above_, centre_inverse_, below_;
+  LockCovariance centre_, above_, centre_inverse_, below_;
   lock_proposal::LevelOf level_of_;
 };
 

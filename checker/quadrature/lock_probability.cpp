@@ -58,7 +58,7 @@ Ball probability_of_leaving(const LockSet& set, const Ball& start, const Ball& s
 }
 
 Ball largest_frequency_error(const LockSet& set) {
-  return (sqrt(two * set.level) / set.metric.frequency).upper();
+  return (abs(set.bias[2]) + sqrt(two * set.level) / set.metric.frequency).upper();
 }
 
 }  // namespace veritrack::checker

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "checker/document/json_tree.hpp"
 #include "checker/quadrature/lock_probability.hpp"
@@ -17,6 +18,10 @@ namespace veritrack::checker {
 /// nothing is said of the set. `cells` counts the cells that were looked at. Throws OutOfBudget.
 LockSet check_lock_set(const Tree& tree, const Design& design, const GaussianNoise& noise,
                        std::int64_t& cells, Objections& objections);
+
+/// Sets for pieces of the band of frequencies, in their order: each begins where the one before ends, or
+/// before that, and together they cover the band that the design assumes.
+bool cover_the_band(const std::vector<LockSet>& sets, const Design& design);
 
 /// The number of deviations within which rounding is bounded.
 inline const Ball kMostDeviations(30.0);

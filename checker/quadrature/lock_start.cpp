@@ -40,15 +40,17 @@ Ball level_above(const Matrix3& x, const Matrix3& d) {
 }
 
 /// An upper bound on |T e|^2 for these phase errors.
-Ball largest_square(const Metric& t, const LockStart& start, const Ball& sine, const Ball& cosine) {
+Ball largest_square(const LockSet& set, const LockStart& start, const Ball& sine, const Ball& cosine) {
+  const Metric& t = set.metric;
+  const std::array<Ball, 3>& bias = set.bias;
   Ball most;
   // Convex in the errors of amplitude and frequency: their ends decide.
   for (const double sign : {-1.0, 1.0}) {
     const Ball length = one + Ball(sign) * start.amplitude;
-    const Ball e1 = length * cosine - one;
-    const Ball e2 = length * sine;
+    const Ball e1 = length * cosine - one - bias[0];
+    const Ball e2 = length * sine - bias[1];
     for (const double side : {-1.0, 1.0}) {
-      const Ball e3 = Ball(side) * start.frequency;
+      const Ball e3 = Ball(side) * start.frequency - bias[2];
       const Ball squared =
           square(t.amplitude * e1) + square(t.phase * e2 + t.coupling * e3) + square(t.frequency * e3);
       most = max(most, squared).upper();
@@ -76,7 +78,7 @@ Ball start_level(const LockSet& set, const LockStart& start, const StartCovarian
     const Ball above = level_above(turned(covariance.highest, sine, cosine) - centre, whole(set.above));
     const Ball below = level_above(turned(lowest_inverse, sine, cosine) - centre_inverse, whole(set.below));
     const Ball level =
-        half * (largest_square(set.metric, start, sine, cosine) + set.weight * square(max(above, below)));
+        half * (largest_square(set, start, sine, cosine) + set.weight * square(max(above, below)));
     // cannot bind (above, below): the maximum is not finite where they are not.
     if (!level.finite()) {
       return Ball::everything();

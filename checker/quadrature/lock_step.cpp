@@ -7,34 +7,49 @@ const Ball& lock_room() {
   return room;
 }
 
-Covariance<Ball> operator+(const Covariance<Ball>& x, const Covariance<Ball>& y) {
-  return {x.p11 + y.p11, x.p22 + y.p22, x.p23 + y.p23, x.p33 + y.p33};
+LockCovariance operator+(const LockCovariance& x, const LockCovariance& y) {
+  return {x.p11 + y.p11, x.p22 + y.p22, x.p23 + y.p23, x.p33 + y.p33, x.p12 + y.p12, x.p13 + y.p13};
 }
-Covariance<Ball> operator*(const Ball& factor, const Covariance<Ball>& x) {
-  return {factor * x.p11, factor * x.p22, factor * x.p23, factor * x.p33};
+LockCovariance operator*(const Ball& factor, const LockCovariance& x) {
+  return {factor * x.p11, factor * x.p22, factor * x.p23, factor * x.p33, factor * x.p12, factor * x.p13};
 }
-Covariance<Ball> inverse(const Covariance<Ball>& p) {
-  const Ball over = one / (p.p22 * p.p33 - square(p.p23));
-  return {one / p.p11, over * p.p33, -(over * p.p23), over * p.p22};
+LockCovariance inverse(const LockCovariance& p) {
+  // By cofactors.
+  const Ball c11 = p.p22 * p.p33 - square(p.p23);
+  const Ball c12 = p.p13 * p.p23 - p.p12 * p.p33;
+  const Ball c13 = p.p12 * p.p23 - p.p13 * p.p22;
+  const Ball over = one / (p.p11 * c11 + p.p12 * c12 + p.p13 * c13);
+  return {over * c11,
+          over * (p.p11 * p.p33 - square(p.p13)),
+          over * (p.p12 * p.p13 - p.p11 * p.p23),
+          over * (p.p11 * p.p22 - square(p.p12)),
+          over * c12,
+          over * c13};
 }
 
-Covariance<Ball> upper_covariance(const LockSet& set, const Ball& s) {
+Matrix3 whole(const LockCovariance& p) {
+  Matrix3 m = diagonal(p.p11, p.p22, p.p33);
+  m[0][1] = m[1][0] = p.p12;
+  m[0][2] = m[2][0] = p.p13;
+  m[1][2] = m[2][1] = p.p23;
+  return m;
+}
+LockCovariance lock_covariance(const Matrix3& p) {
+  return {p[0][0], p[1][1], p[2][1], p[2][2], p[1][0], p[2][0]};
+}
+
+LockCovariance upper_covariance(const LockSet& set, const Ball& s) {
   return set.centre + s * set.above;
 }
-Covariance<Ball> lower_covariance(const LockSet& set, const Ball& s) {
+LockCovariance lower_covariance(const LockSet& set, const Ball& s) {
   return inverse(inverse(set.centre) + s * set.below);
 }
 
 namespace {
 
 /// -x d x: the slope of (... + s d)^-1 where it is x.
-Covariance<Ball> slope_of_inverse(const Covariance<Ball>& x, const Covariance<Ball>& d) {
-  const Ball a = x.p22 * d.p22 + x.p23 * d.p23;
-  const Ball b = x.p22 * d.p23 + x.p23 * d.p33;
-  const Ball c = x.p23 * d.p22 + x.p33 * d.p23;
-  const Ball e = x.p23 * d.p23 + x.p33 * d.p33;
-  return {-(square(x.p11) * d.p11), -(a * x.p22 + b * x.p23), -(a * x.p23 + b * x.p33),
-          -(c * x.p23 + e * x.p33)};
+LockCovariance slope_of_inverse(const LockCovariance& x, const LockCovariance& d) {
+  return Ball(-1.0) * lock_covariance(congruent(whole(x), whole(d)));
 }
 
 /// The prediction z = (1 + e1, e2), seen from the true phase; the half widths of the box.
@@ -58,20 +73,25 @@ struct Place {
   }
 };
 
-/// F P F', F = [[1, 0, -z2], [0, 1, z1], [0, 0, 1]].
-Lower3<Chord> carried(const Covariance<Ball>& p, const Place& at) {
+/// F P F', F = [[1, 0, -z2], [0, 1, z1], [0, 0, kept]].
+Lower3<Chord> carried(const LockCovariance& p, const Place& at, const Ball& kept) {
   const Chord across = p.p33 * at.z1 + p.p23;
   Lower3<Chord> x;
   x[0][0] = p.p33 * at.z2_squared + p.p11;
   x[1][0] = -(p.p33 * at.z1_z2 + p.p23 * at.z2);
   x[1][1] = p.p33 * at.z1_squared + (two * p.p23) * at.z1 + p.p22;
-  x[2][0] = -(p.p33 * at.z2);
-  x[2][1] = across;
-  x[2][2] = p.p33;
+  x[2][0] = -((kept * p.p33) * at.z2);
+  x[2][1] = kept * across;
+  x[2][2] = square(kept) * p.p33;
+  if (!certainly_equal(p.p12, zero) || !certainly_equal(p.p13, zero)) {
+    x[0][0] = x[0][0] - (two * p.p13) * at.z2;
+    x[1][0] = x[1][0] + p.p13 * at.z1 + p.p12;
+    x[2][0] = x[2][0] + kept * p.p13;
+  }
   return x;
 }
 
-/// Of a covariance with P12 = P13 = 0, before the frame is turned to the next phase.
+/// Of a covariance, before the frame is turned to the next phase.
 struct Image {
   std::array<Chord, 3> weight;     ///< r S^-1 = I - Phi_zz/r: 11, 12, 22
   std::array<Chord, 2> frequency;  ///< S^-1 Phi_z3 of the prediction = Phi_z3/r
@@ -79,10 +99,11 @@ struct Image {
   Lower3<Chord> slope;             ///< A d A', A = (I - K H) F
 };
 
-Image image_of(const LockFilter& f, const Covariance<Ball>& p, const Covariance<Ball>& d, const Place& at) {
+Image image_of(const LockFilter& f, const LockCovariance& p, const LockCovariance& d, const Place& at) {
   const auto narrow = [&](const Chord& number) { return at.narrowed(number); };
-  const Lower3<Chord> x = carried(p, at);
-  const Lower3<Chord> y = carried(d, at);
+  const Ball kept = one - f.epsilon;
+  const Lower3<Chord> x = carried(p, at, kept);
+  const Lower3<Chord> y = carried(d, at, kept);
   const Chord s11 = x[0][0] + (f.q1 + f.r);
   const Chord s22 = x[1][1] + (f.q1 + f.r);
   const Chord over = narrow(f.r * reciprocal(narrow(s11 * s22 - square(x[1][0]))));
@@ -155,11 +176,12 @@ LockStep lock_step(const LockFilter& filter, const LockSet& set, const std::arra
     half_widths[k] = abs(u[k].range - u[k].centre).upper();
   }
   const Metric& t = set.metric;
-  const Chord frequency = (one / t.frequency) * u[2];
-  const Chord e2 = (one / t.phase) * (u[1] - t.coupling * frequency);
-  const Chord z1 = (one / t.amplitude) * u[0] + one;
+  const Chord e3 = (one / t.frequency) * u[2];
+  const Chord frequency = e3 + set.bias[2];
+  const Chord e2 = (one / t.phase) * (u[1] - t.coupling * e3) + set.bias[1];
+  const Chord z1 = (one / t.amplitude) * u[0] + (one + set.bias[0]);
   const Place at{z1, e2, square(z1), square(e2), z1 * e2, half_widths};
-  const Covariance<Ball> low = lower_covariance(set, level);
+  const LockCovariance low = lower_covariance(set, level);
   const Image lower = image_of(filter, low, slope_of_inverse(low, set.below), at);
   const Image upper = image_of(filter, upper_covariance(set, level), set.above, at);
   const Chord sine = sin(frequency);
@@ -183,9 +205,12 @@ LockStep lock_step(const LockFilter& filter, const LockSet& set, const std::arra
   }
   const std::array<Chord, 2> mean = turned(at.narrowed(weight[0] * d1 + weight[1] * d2),
                                            at.narrowed(weight[1] * d1 + weight[2] * d2), turn);
-  step.mean = {mean[0], mean[1],
-               frequency - half * ((lower.frequency[0] + upper.frequency[0]) * d1 +
-                                   (lower.frequency[1] + upper.frequency[1]) * d2)};
+  // The leak takes a share of the frequency itself, whichever of the set's it is.
+  const Ball taken = filter.epsilon * Ball::hull(set.lowest_frequency, set.highest_frequency);
+  step.mean = {mean[0] - set.bias[0], mean[1] - set.bias[1],
+               (one - filter.epsilon) * frequency - (taken + set.bias[2]) -
+                   half * ((lower.frequency[0] + upper.frequency[0]) * d1 +
+                           (lower.frequency[1] + upper.frequency[1]) * d2)};
   return step;
 }
 

@@ -1,4 +1,4 @@
-// One step of the quadrature tracker without a leak in the frame of the true phase, for an estimate whose
+// One step of the quadrature tracker in the frame of the true phase, for an estimate whose
 // covariance is known up to a level: the checker's own formulas for docs/gaussian.md, sections 1, 3 and 5.
 //
 // A covariance of level s or less lies between lo(s) and hi(s), so its image lies between their images, which
@@ -14,18 +14,28 @@
 
 namespace veritrack::checker {
 
+/// A symmetric matrix; 12 and 13 are zero without a leak.
+struct LockCovariance {
+  Ball p11, p22, p23, p33;
+  Ball p12 = {}, p13 = {};
+};
+
 /// What a certificate of the probability of losing lock rests on, docs/gaussian.md, section 4, at a signal of
 /// amplitude 1. The level of (e, P) is (|T e|^2 + gamma s^2)/2, s the level of P.
 struct LockSet {
-  Metric metric;                          ///< T
-  Covariance<Ball> centre, above, below;  ///< P_0, D_h, D_l
-  Ball weight, level, decay, drift;       ///< gamma, L, kappa, c_0
-  Ball deviation, walk;                   ///< sigma of each channel; w, rad/sample
+  Metric metric;                        ///< T
+  LockCovariance centre, above, below;  ///< P_0, D_h, D_l
+  Ball weight, level, decay, drift;     ///< gamma, L, kappa, c_0
+  Ball deviation, walk;                 ///< sigma of each channel; w, rad/sample
+  /// With a leak. e_0, of which the errors e are differences; and the frequencies of the signal, rad/sample.
+  std::array<Ball, 3> bias = {};
+  Ball lowest_frequency = {}, highest_frequency = {};
 };
 
-/// The filter at a signal of amplitude 1, epsilon = 0.
+/// The filter at a signal of amplitude 1, 0 <= epsilon < 1.
 struct LockFilter {
   Ball q1, q2, r;
+  Ball epsilon = {};
 };
 
 /// Room for the rounding of a step: what it may change in |T e|, and in the level of the covariance.
@@ -36,12 +46,15 @@ const Ball& lock_room();
 template <typename S>
 using Lower3 = std::array<std::array<S, 3>, 3>;
 
-Covariance<Ball> operator+(const Covariance<Ball>& x, const Covariance<Ball>& y);
-Covariance<Ball> operator*(const Ball& factor, const Covariance<Ball>& x);
-Covariance<Ball> inverse(const Covariance<Ball>& p);
+LockCovariance operator+(const LockCovariance& x, const LockCovariance& y);
+LockCovariance operator*(const Ball& factor, const LockCovariance& x);
+LockCovariance inverse(const LockCovariance& p);
+Matrix3 whole(const LockCovariance& p);
+/// Its lower triangle counts.
+LockCovariance lock_covariance(const Matrix3& p);
 /// hi(s) = P_0 + s D_h, and lo(s) = (P_0^-1 + s D_l)^-1.
-Covariance<Ball> upper_covariance(const LockSet& set, const Ball& s);
-Covariance<Ball> lower_covariance(const LockSet& set, const Ball& s);
+LockCovariance upper_covariance(const LockSet& set, const Ball& s);
+LockCovariance lower_covariance(const LockSet& set, const Ball& s);
 
 /// T X T'.
 template <typename S>
@@ -62,7 +75,7 @@ Lower3<S> transformed(const Metric& t, const Lower3<S>& x) {
 struct LockStep {
   Lower3<Chord> lower, upper;              ///< Psi
   Lower3<Chord> lower_slope, upper_slope;  ///< d Psi / d s
-  std::array<Chord, 3> mean;               ///< m for the image halfway between, at s_0
+  std::array<Chord, 3> mean;               ///< m - e_0 for the image halfway between, at s_0
   std::array<Chord, 2> prediction;         ///< p_z
 };
 

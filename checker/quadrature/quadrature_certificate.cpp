@@ -72,12 +72,20 @@ class QuadratureVerifier {
       return;
     }
     Objections objections;
-    if (sets->elements().size() != 1) {
+    if (!leaks_ && sets->elements().size() != 1) {
       objections.emplace_back("more or less than one set");
-    } else {
-      const LockSet set =
-          check_lock_set(sets->elements().front(), design_, *noise_, result_.cells, objections);
-      lock_set_ = objections.empty() ? std::optional(set) : std::nullopt;
+    }
+    std::vector<LockSet> found;
+    for (const Tree& set : sets->elements()) {
+      if (objections.empty()) {
+        found.push_back(check_lock_set(set, design_, *noise_, result_.cells, objections));
+      }
+    }
+    if (leaks_ && objections.empty() && !cover_the_band(found, design_)) {
+      objections.emplace_back("the sets do not cover the band of frequencies");
+    }
+    if (objections.empty()) {
+      lock_sets_ = std::move(found);
     }
     add("lock set", objections);
   }
@@ -103,7 +111,7 @@ class QuadratureVerifier {
     if (noise_.has_value() != (id == "lock" || id == "lowest-snr")) {
       objections.emplace_back("this is for noise of another kind");
     } else if (id == "lock") {
-      promises_ = check_lock(derivation, design_, *noise_, lock_set_, objections);
+      promises_ = check_lock(derivation, design_, *noise_, lock_sets_, objections);
     } else if (id == "lowest-snr") {
       check_lowest_snr(derivation, design_, *noise_, lowest_snr_set_, promises_, objections);
     } else if (id == "theorem-2.9/printed") {
@@ -184,7 +192,7 @@ class QuadratureVerifier {
   bool leaks_ = false;  ///< then the contraction is that about a biased steady state
   std::vector<CertifiedSet> sets_;
   std::optional<GaussianNoise> noise_;     ///< in place of a bound
-  std::optional<LockSet> lock_set_;        ///< proved
+  std::vector<LockSet> lock_sets_;         ///< proved
   std::optional<LockSet> lowest_snr_set_;  ///< likewise
   std::map<std::string, Known> derivations_;
   std::map<std::string, Captured> captured_;  ///< of the derivations that are verified

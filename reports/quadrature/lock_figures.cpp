@@ -137,7 +137,9 @@ std::vector<Figure> draw_lock_figures(const Certificate& certificate) {
   }
   const certificates::QuadratureEkfTables& tables = certificates::quadrature_tables(certificate.design);
   const auto& required = tables.require.probability_of_losing_lock_below;
-  const LockCurves curves{certified_lock(certificate, "lock", particulars.lock_set),
+  const auto& sets = particulars.lock_sets;
+  const LockCurves curves{
+      certified_lock(certificate, "lock", sets.empty() ? std::nullopt : std::optional(sets.front())),
                           *lowest,
                           *particulars.lock_loss,
                           particulars.union_bound_snr,

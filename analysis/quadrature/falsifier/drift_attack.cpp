@@ -17,9 +17,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Matrix3d matrix_of(const BlockCovariance<double>& p) {
+Matrix3d matrix_of(const LevelCovariance<double>& p) {
   Matrix3d m;
-  m << p.p11, 0.0, 0.0, 0.0, p.p22, p.p23, 0.0, p.p23, p.p33;
+  m << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
   return m;
 }
 

@@ -50,7 +50,7 @@ template <typename Constant, typename Scalar>
 template <typename Scalar>
 struct LevelImages {
   SymmetricMatrix<Scalar> mean, half_spread;  ///< (Psi_hi + Psi_lo)/2, (Psi_hi - Psi_lo)/2
-  std::array<Scalar, 3> error;                ///< m at the mean image
+  std::array<Scalar, 3> error;                ///< m - e_0 at the mean image
   std::array<Scalar, 2> prediction_error;
 };
 template <typename Constant, typename Scalar>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/quadrature/gaussian/drift_elimination.hpp"
 #include "analysis/quadrature/gaussian/level_proposal.hpp"
@@ -61,13 +62,24 @@ double DriftInequality::margin_at(const std::array<double, 4>& x) const {
   const LockSetting<double>& rough = settings_.rough;
   const LevelStep<double> step = level_step(rough, std::array<double, 3>{x[0], x[1], x[2]}, x[3]);
   const LevelSlope level = propose_level(rough, step, {});
+  LevelImages<double> images = images_at(step, 0.0, rough.design.r);
   if (!std::isfinite(level.level)) {
     return -1.0;
   }
   const double twice = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + set_.weight * x[3] * x[3];
   const double left = twice - set_.weight * std::max(0.0, level.level) * level.level +
                       2.0 * std::log(set_.decay + set_.drift * std::exp(-0.5 * twice));
-  const double rest = choose_multiplier(rough, images_at(step, 0.0, rough.design.r), left).left;
+  double rest = std::numeric_limits<double>::infinity();
+  // The error is affine in the frequency: one end of its range or the other is worst.
+  const double middle = images.error[2];
+  const double reach = 0.5 * rough.design.epsilon * (set_.highest_frequency - set_.lowest_frequency);
+  for (const double way : {reach, -reach}) {
+    images.error[2] = middle + way;
+    rest = std::min(rest, choose_multiplier(rough, images, left).left);
+    if (reach == 0.0) {
+      break;
+    }
+  }
   return std::isfinite(rest) ? rest / (1.0 + twice) : -1.0;
 }
 

@@ -35,23 +35,23 @@ LevelStep<double> rough(const LevelStep<Scalar>& step, const Part& part) {
 }
 
 template <typename Scalar>
-LockSetting<Scalar> setting_of(const trackers::ToneModel<Scalar>& design, const LockSet& set) {
-  const auto block = [](const BlockCovariance<double>& p) {
-    return BlockCovariance<Scalar>{Scalar(p.p11), Scalar(p.p22), Scalar(p.p23), Scalar(p.p33)};
-  };
+LockSetting<Scalar> setting_of(const trackers::ToneModel<Scalar>& design, const LockSet& set,
+                               const Scalar& frequency) {
   const Scalar deviation(set.noise_deviation);
   const Scalar walk(set.frequency_walk);
   return {design,
           {Scalar(set.metric.amplitude), Scalar(set.metric.phase), Scalar(set.metric.coupling),
            Scalar(set.metric.frequency)},
-          block(set.centre),
-          inverse(block(set.centre)),
-          block(set.spread_above),
-          block(set.spread_below),
+          level_covariance<Scalar>(set.centre),
+          inverse(level_covariance<Scalar>(set.centre)),
+          level_covariance<Scalar>(set.spread_above),
+          level_covariance<Scalar>(set.spread_below),
           Scalar(set.weight),
           deviation,
           deviation * deviation,
-          walk * walk};
+          walk * walk,
+          frequency,
+          {Scalar(set.bias[0]), Scalar(set.bias[1]), Scalar(set.bias[2])}};
 }
 
 double middle_of(const Interval& x) {
@@ -87,10 +87,10 @@ bool is_level(const LockSetting<Interval>& setting, const CellStep& step, const 
 }  // namespace
 
 LockSettings::LockSettings(const trackers::ToneModel<Interval>& design, const LockSet& set)
-    : enclosed(setting_of(design, set)),
-      rough(setting_of(
-          trackers::ToneModel<double>{midpoint(design.q1), midpoint(design.q2), midpoint(design.r), 0.0},
-          set)) {}
+    : enclosed(setting_of(design, set, Interval::from_bounds(set.lowest_frequency, set.highest_frequency))),
+      rough(setting_of(trackers::ToneModel<double>{midpoint(design.q1), midpoint(design.q2),
+                                                   midpoint(design.r), midpoint(design.epsilon)},
+                       set, 0.5 * (set.lowest_frequency + set.highest_frequency))) {}
 
 CellStep::CellStep(const LockSetting<Interval>& setting, const LevelCell& cell)
     : level_middle(0.5 * (cell.low[3] + cell.high[3])),

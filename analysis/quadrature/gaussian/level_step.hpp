@@ -27,54 +27,28 @@ namespace veritrack::quadrature {
 /// The design and a LockSet over a scalar.
 template <typename Scalar>
 struct LockSetting {
-  trackers::ToneModel<Scalar> design;  ///< epsilon = 0
+  trackers::ToneModel<Scalar> design;  ///< 0 <= epsilon < 1
   BlockMetric<Scalar> metric;
-  BlockCovariance<Scalar> centre, centre_inverse, spread_above, spread_below;
+  LevelCovariance<Scalar> centre, centre_inverse, spread_above, spread_below;
   Scalar weight;          ///< gamma
   Scalar deviation;       ///< sigma
   Scalar noise_variance;  ///< sigma^2
   Scalar walk_variance;   ///< w^2
+  /// With a leak: omega, over intervals all of them; and e_0.
+  Scalar frequency = Scalar(0.0);
+  std::array<Scalar, 3> bias{Scalar(0.0), Scalar(0.0), Scalar(0.0)};
 };
-
-/// [[p11, 0, 0], [0, p22, p23], [0, p23, p33]]^-1.
-template <typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> inverse(const BlockCovariance<Scalar>& p) {
-  using trackers::detail::square;
-  const Scalar one(1.0);
-  const Scalar reciprocal = one / (p.p22 * p.p33 - square(p.p23));
-  return {one / p.p11, p.p33 * reciprocal, -(p.p23 * reciprocal), p.p22 * reciprocal};
-}
-
-/// p + s d.
-template <typename Constant, typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> moved(const BlockCovariance<Constant>& p, const Scalar& s,
-                                            const BlockCovariance<Constant>& d) {
-  return {p.p11 + s * d.p11, p.p22 + s * d.p22, p.p23 + s * d.p23, p.p33 + s * d.p33};
-}
 
 /// hi(s) and lo(s).
 template <typename Constant, typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> upper_covariance(const LockSetting<Constant>& setting,
+[[nodiscard]] LevelCovariance<Scalar> upper_covariance(const LockSetting<Constant>& setting,
                                                        const Scalar& s) {
   return moved(setting.centre, s, setting.spread_above);
 }
 template <typename Constant, typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> lower_covariance(const LockSetting<Constant>& setting,
+[[nodiscard]] LevelCovariance<Scalar> lower_covariance(const LockSetting<Constant>& setting,
                                                        const Scalar& s) {
   return inverse(moved(setting.centre_inverse, s, setting.spread_below));
-}
-
-/// -x d x: the slope of lo(s) where it is x.
-template <typename Scalar>
-[[nodiscard]] BlockCovariance<Scalar> lower_slope(const BlockCovariance<Scalar>& x,
-                                                  const BlockCovariance<Scalar>& d) {
-  using trackers::detail::square;
-  const Scalar row2 = x.p22 * d.p22 + x.p23 * d.p23;
-  const Scalar row3 = x.p22 * d.p23 + x.p23 * d.p33;
-  const Scalar last2 = x.p23 * d.p22 + x.p33 * d.p23;
-  const Scalar last3 = x.p23 * d.p23 + x.p33 * d.p33;
-  return {-(square(x.p11) * d.p11), -(row2 * x.p22 + row3 * x.p23), -(row2 * x.p23 + row3 * x.p33),
-          -(last2 * x.p23 + last3 * x.p33)};
 }
 
 /// A symmetric 3x3 matrix, its lower triangle.
@@ -82,9 +56,9 @@ template <typename Scalar>
 using SymmetricMatrix = rigor::LowerTriangle<3, Scalar>;
 
 template <typename Scalar>
-[[nodiscard]] SymmetricMatrix<Scalar> symmetric_of(const BlockCovariance<Scalar>& p) {
+[[nodiscard]] SymmetricMatrix<Scalar> symmetric_of(const LevelCovariance<Scalar>& p) {
   const Scalar none(0.0);
-  return {{{p.p11, none, none}, {none, p.p22, none}, {none, p.p23, p.p33}}};
+  return {{{p.p11, none, none}, {p.p12, p.p22, none}, {p.p13, p.p23, p.p33}}};
 }
 
 /// x - y.
@@ -145,26 +119,34 @@ template <typename Scalar>
 }  // namespace detail
 
 /// The image of p at the errors e, with its derivative in the direction d: A d A', A = U (I - K H) F. The
-/// formulas are those of trackers/quadrature/quadrature_rotating_frame.hpp for P12 = P13 = 0, to which a test
-/// ties them.
+/// formulas are those of trackers/quadrature/quadrature_rotating_frame.hpp for omega = 0, to which a
+/// test ties them.
 template <typename Constant, typename Scalar>
 [[nodiscard]] LevelImage<Scalar> covariance_image(const trackers::ToneModel<Constant>& design,
-                                                  const BlockCovariance<Constant>& p,
-                                                  const BlockCovariance<Constant>& d,
+                                                  const LevelCovariance<Constant>& p,
+                                                  const LevelCovariance<Constant>& d,
                                                   const std::array<Scalar, 3>& e) {
   using trackers::detail::sin_cos;
   using trackers::detail::square;
   const Constant& r = design.r;
+  const Constant retention = Constant(1.0) - design.epsilon;
   const Scalar none(0.0);
   const Scalar z1 = e[0] + Constant(1.0);
   const Scalar& z2 = e[1];
   const auto [sine, cosine] = sin_cos(e[2]);
-  // F p F' without the rows and columns that F leaves.
-  const auto predicted = [&](const BlockCovariance<Constant>& x) {
+  // F p F'.
+  const auto predicted = [&](const LevelCovariance<Constant>& x) {
     const Scalar across = z1 * x.p33 + x.p23;
-    return SymmetricMatrix<Scalar>{{{square(z2) * x.p33 + x.p11, none, none},
-                                    {-(z2 * across), z1 * (across + x.p23) + x.p22, none},
-                                    {-(z2 * x.p33), across, Scalar(x.p33)}}};
+    SymmetricMatrix<Scalar> result{
+        {{square(z2) * x.p33 + x.p11, none, none},
+         {-(z2 * across), z1 * (across + x.p23) + x.p22, none},
+         {-(z2 * (retention * x.p33)), across * retention, Scalar(x.p33 * square(retention))}}};
+    if (!x.apart) {
+      result[0][0] = result[0][0] - z2 * (x.p13 + x.p13);
+      result[1][0] = result[1][0] + (z1 * x.p13 + x.p12);
+      result[2][0] = result[2][0] + retention * x.p13;
+    }
+    return result;
   };
   const SymmetricMatrix<Scalar> before = predicted(p);
   const SymmetricMatrix<Scalar> change = predicted(d);
@@ -184,12 +166,13 @@ template <typename Constant, typename Scalar>
   LevelImage<Scalar> image;
   image.mean = {-((innovation[0] * cosine - innovation[1] * sine) * r),
                 -((innovation[0] * sine + innovation[1] * cosine) * r),
-                e[2] + before[2][0] * innovation[0] + before[2][1] * innovation[1]};
+                e[2] * retention + before[2][0] * innovation[0] + before[2][1] * innovation[1]};
   const Constant r2 = square(r);
   image.covariance = detail::turned<Scalar>(
       {{{r - i11 * r2, none, none},
         {-(i12 * r2), r - i22 * r2, none},
-        {gain[0] * r, gain[1] * r, p.p33 + design.q2 - (before[2][0] * gain[0] + before[2][1] * gain[1])}}},
+        {gain[0] * r, gain[1] * r,
+         before[2][2] + design.q2 - (before[2][0] * gain[0] + before[2][1] * gain[1])}}},
       sine, cosine);
   // (I - K H) change (I - K H)'.
   const std::array<Scalar, 2> pulled{change[0][0] * gain[0] + change[1][0] * gain[1],
@@ -199,13 +182,13 @@ template <typename Constant, typename Scalar>
   const std::array<Scalar, 2> last = weighted(change[2][0] - pulled[0], change[2][1] - pulled[1]);
   const auto row1 = weighted(column1[0], column2[0]);
   const auto row2 = weighted(column1[1], column2[1]);
-  image.slope =
-      detail::turned<Scalar>({{{row1[0] * r2, none, none},
-                               {row2[0] * r2, row2[1] * r2, none},
-                               {last[0] * r, last[1] * r,
-                                d.p33 - Scalar(2.0) * (change[2][0] * gain[0] + change[2][1] * gain[1]) +
-                                    (pulled[0] * gain[0] + pulled[1] * gain[1])}}},
-                             sine, cosine);
+  image.slope = detail::turned<Scalar>(
+      {{{row1[0] * r2, none, none},
+        {row2[0] * r2, row2[1] * r2, none},
+        {last[0] * r, last[1] * r,
+         change[2][2] - Scalar(2.0) * (change[2][0] * gain[0] + change[2][1] * gain[1]) +
+             (pulled[0] * gain[0] + pulled[1] * gain[1])}}},
+      sine, cosine);
   return image;
 }
 
@@ -216,16 +199,26 @@ struct LevelStep {
   std::array<Scalar, 2> prediction_error;
 };
 
-/// At u = T e and the level s.
+/// At u = T e and the level s; `mean` is m - e_0.
 template <typename Constant, typename Scalar>
 [[nodiscard]] LevelStep<Scalar> level_step(const LockSetting<Constant>& setting,
                                            const std::array<Scalar, 3>& u, const Constant& s) {
   using trackers::detail::sin_cos;
-  const std::array<Scalar, 3> e = errors_of(setting.metric, u);
-  const BlockCovariance<Constant> low = lower_covariance(setting, s);
+  std::array<Scalar, 3> e = errors_of(setting.metric, u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    e[i] = e[i] + setting.bias[i];
+  }
+  const LevelCovariance<Constant> low = lower_covariance(setting, s);
   LevelStep<Scalar> step;
   step.lower = covariance_image(setting.design, low, lower_slope(low, setting.spread_below), e);
   step.upper = covariance_image(setting.design, upper_covariance(setting, s), setting.spread_above, e);
+  // What the leak takes from the frequency; and the errors are differences from e_0.
+  const Constant taken = setting.design.epsilon * setting.frequency;
+  for (LevelImage<Scalar>* image : {&step.lower, &step.upper}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      image->mean[i] = image->mean[i] - (i == 2 ? setting.bias[i] + taken : setting.bias[i]);
+    }
+  }
   const auto [sine, cosine] = sin_cos(e[2]);
   const Scalar along = e[0] + Constant(1.0);
   step.prediction_error = {along * cosine - e[1] * sine - Constant(1.0), along * sine + e[1] * cosine};

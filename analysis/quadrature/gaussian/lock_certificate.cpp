@@ -1,8 +1,10 @@
 #include "analysis/quadrature/gaussian/lock_certificate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "analysis/quadrature/gaussian/lock_band.hpp"
 #include "analysis/quadrature/gaussian/lock_rounding.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
@@ -19,17 +21,40 @@ using theorems::Condition;
 
 constexpr const char* kSource = "docs/gaussian.md";
 constexpr const char* kNone = "No set could be certified.";
-/// What the starts may add to the probability, next to the samples: exp of that level.
+constexpr const char* kDriftInequality = "E[W(k+1) \\mid k] \\le \\kappa W(k) + c_0 \\text{ in the set}";
+constexpr const char* kIllPosed =
+    "there is no steady state to search about: the statement needs q1, q2, r and the noise to be "
+    "certainly positive.";
+/// What the starts may add to the probability, next to the samples: c_0 times exp of that level.
 constexpr double kStartLevel = 8.0;
+/// What is added to the level of the starts.
+constexpr double kLevelFactor = 1.01;
+constexpr double kLevelRoom = 0.01;
 /// c_0: more lets the inequality hold near the middle of the set, and costs its logarithm in L.
 constexpr double kDrift = 1.0;
 /// kappa: what the set forgets of a start, so that it holds as well long after it.
 constexpr double kDecay = 0.95;
+/// With a leak the middle of the set is not where the tracker settles at every frequency of the piece, and it
+/// is there that the inequality is closest.
+constexpr double kDriftWithLeak = 10.0;
 
 /// The widest of these ranges of multiples that costs no more than the starts may.
 constexpr std::array<std::array<double, 2>, 4> kMultiples{{{0.5, 2.0}, {0.7, 1.5}, {0.8, 1.25}, {0.9, 1.1}}};
 
-Interval widest_multiples(const LockSet& set, LockStarts starts, double most) {
+/// The largest level that a start has in one of the sets.
+Interval start_level(const std::vector<LockSet>& sets, const LockStarts& starts) {
+  Interval worst(0.0);
+  for (const LockSet& set : sets) {
+    const Interval level = start_level(set, starts);
+    if (is_empty(level)) {
+      return level;
+    }
+    worst = max(worst, level);
+  }
+  return worst;
+}
+
+Interval widest_multiples(const std::vector<LockSet>& sets, LockStarts starts, double most) {
   if (starts.covariance.is_given) {
     return starts.covariance.multiples;
   }
@@ -37,7 +62,7 @@ Interval widest_multiples(const LockSet& set, LockStarts starts, double most) {
   for (const auto& [from, to] : kMultiples) {
     starts.covariance.multiples = Interval::from_bounds(from, to);
     if (from <= widest.lower() && widest.upper() <= to &&
-        certainly_less_equal(start_level(set, starts), Interval(most))) {
+        certainly_less_equal(start_level(sets, starts), Interval(most))) {
       widest = starts.covariance.multiples;
       break;
     }
@@ -45,15 +70,26 @@ Interval widest_multiples(const LockSet& set, LockStarts starts, double most) {
   return widest;
 }
 
-Condition leak(const Interval& epsilon) {
-  const bool none = epsilon == Interval(0.0);
-  return {"leak",
-          "\\epsilon = 0",
-          none ? Verdict::proved : Verdict::undecided,
-          epsilon,
-          Interval(0.0),
-          none ? "there is no leak, so the errors do not depend on the frequency."
-               : "with a leak no probability is certified yet; a design with epsilon = 0 may have one."};
+Condition leak(const LockQuestion& question) {
+  const Interval none(0.0);
+  if (question.design.epsilon == none) {
+    return {"leak",
+            "\\epsilon = 0",
+            Verdict::proved,
+            none,
+            none,
+            "there is no leak, so the errors do not depend on the frequency."};
+  }
+  const bool constant = question.frequency_walk == none;
+  return {"constant-frequency",
+          "w = 0",
+          constant ? Verdict::proved : Verdict::undecided,
+          question.frequency_walk,
+          none,
+          constant
+              ? "the frequency is constant, so that each piece of the band may have a set of its own."
+              : "with a leak the errors depend on the frequency, and no probability is certified yet for "
+                "one that walks."};
 }
 
 std::string db_of(const LockQuestion& question) {
@@ -66,13 +102,9 @@ std::string db_of(const LockQuestion& question) {
 
 Condition drift(const LockQuestion& question, const std::optional<LockProposal>& proposal,
                 const LockVerification& verification) {
-  Condition condition{
-      "drift", "E[W(k+1) \\mid k] \\le \\kappa W(k) + c_0 \\text{ in the set}", Verdict::undecided, {}, {},
-      {}};
+  Condition condition{"drift", kDriftInequality, Verdict::undecided, {}, {}, {}};
   if (!proposal) {
-    condition.reason =
-        "there is no steady state to search about: the statement needs q1, q2, r and the noise to be "
-        "certainly positive.";
+    condition.reason = kIllPosed;
     return condition;
   }
   condition.verdict = verification.verdict;
@@ -87,15 +119,28 @@ Condition drift(const LockQuestion& question, const std::optional<LockProposal>&
   return condition;
 }
 
-Condition rounding_condition(const LockRounding& rounding) {
+Condition drift_over_band(const LockQuestion& question, const LockBand& band) {
+  const bool proved = !band.sets.empty();
+  return {"drift",
+          kDriftInequality,
+          proved ? Verdict::proved : Verdict::undecided,
+          Interval::empty(),
+          Interval::empty(),
+          proved ? "it is proved in " + std::to_string(band.cells) + " cells that cover " +
+                       (band.sets.size() == 1
+                            ? "the set, for all frequencies of the band."
+                            : "the sets of " + std::to_string(band.sets.size()) + " pieces of the band.")
+                 : "at " + db_of(question) + ", " + band.reason};
+}
+
+Condition rounding_condition(bool has_room) {
   return {"rounding",
           "\\varrho \\le \\eta,\\ \\mu\\,hi \\le \\eta D_h,\\ \\mu\\,lo^{-1} \\le (1 - \\mu)\\,\\eta D_l",
-          rounding.has_room ? Verdict::proved : Verdict::undecided,
+          has_room ? Verdict::proved : Verdict::undecided,
           Interval::empty(),
           Interval::empty(),
-          rounding.has_room
-              ? "what a step in double precision adds is within the room that the inequality leaves."
-              : "what a step in double precision adds could not be shown to be small enough."};
+          has_room ? "what a step in double precision adds is within the room that the inequality leaves."
+                   : "what a step in double precision adds could not be shown to be small enough."};
 }
 
 Condition start_condition(const Interval& level, const LockSet& set) {
@@ -127,15 +172,16 @@ bool is_well_posed(const LockQuestion& question) {
 LockRequest proposal_request(const LockQuestion& question) {
   LockRequest request;
   const auto& d = question.design;
-  request.design = {midpoint(d.q1), midpoint(d.q2), midpoint(d.r), 0.0};
+  request.design = {midpoint(d.q1), midpoint(d.q2), midpoint(d.r), midpoint(d.epsilon)};
   request.noise_deviation = question.noise_deviation.upper();
   request.frequency_walk = question.frequency_walk.upper();
   request.decay = kDecay;
-  request.drift = kDrift;
-  request.level =
-      std::log((question.samples.upper() * kDrift + std::exp(kStartLevel) + kDrift / (1.0 - kDecay)) /
-               question.probability) +
-      1e-6;
+  request.drift = question.design.epsilon == Interval(0.0) ? kDrift : kDriftWithLeak;
+  request.level = std::log((question.samples.upper() + std::exp(kStartLevel) + 1.0 / (1.0 - kDecay)) *
+                           request.drift / question.probability) +
+                  1e-6;
+  request.lowest_frequency = question.frequencies.lower();
+  request.highest_frequency = question.frequencies.upper();
   return request;
 }
 
@@ -159,35 +205,53 @@ LockCertificate certify_lock(const LockQuestion& question, const std::optional<L
   theorems::Derivation& derivation = result.derivation;
   derivation.id = "lock";
   derivation.title = "Gaussian noise: the probability of losing lock";
-  LockVerification verification;
   const rigor::UpwardRounding upward;
-  derivation.conditions.push_back(leak(question.design.epsilon));
-  const bool leaks = derivation.conditions.back().verdict != Verdict::proved;
-  if (!leaks && is_well_posed(question) && proposal && proposal->margin > 0.0) {
-    verification = verify_lock_set(question.design, proposal->set, most_cells);
+  derivation.conditions.push_back(leak(question));
+  const bool leaks = !(question.design.epsilon == Interval(0.0));
+  const bool sensible = derivation.conditions.back().verdict == Verdict::proved;
+  std::vector<LockSet> sets;
+  if (sensible && !leaks) {
+    LockVerification verification;
+    if (is_well_posed(question) && proposal && proposal->margin > 0.0) {
+      verification = verify_lock_set(question.design, proposal->set, most_cells);
+    }
+    derivation.conditions.push_back(drift(question, proposal, verification));
+    if (verification.verdict == Verdict::proved) {
+      sets = {proposal->set};
+      result.cells = verification.cells;
+    }
+  } else if (sensible) {
+    const LockBand band = is_well_posed(question)
+                              ? prove_lock_band(question.design, proposal_request(question))
+                              : LockBand{{}, 0, kIllPosed};
+    derivation.conditions.push_back(drift_over_band(question, band));
+    sets = band.sets;
+    result.cells = band.cells;
   }
   Interval probability;
   Interval reach;
   Interval level;
-  if (!leaks) {
-    derivation.conditions.push_back(drift(question, proposal, verification));
-  }
-  if (verification.verdict == Verdict::proved) {
-    const LockSet& set = proposal->set;
-    const LockRounding rounding = lock_rounding(question.design, question.signal, set, question.samples);
+  if (!sets.empty()) {
     LockStarts starts = question.starts;
-    starts.covariance.multiples = widest_multiples(set, starts, kStartLevel);
+    starts.covariance.multiples = widest_multiples(
+        sets, starts, (kStartLevel + std::log(sets.front().drift) - kLevelRoom) / kLevelFactor);
     result.covariance_multiples = starts.covariance.multiples;
     // A little more, so that another program finds it below this.
-    level = Interval((start_level(set, starts) * Interval(1.01) + Interval(0.01)).upper());
-    derivation.conditions.push_back(rounding_condition(rounding));
+    level = Interval((start_level(sets, starts) * Interval(kLevelFactor) + Interval(kLevelRoom)).upper());
+    bool has_room = true;
+    bool tolerates = true;
+    for (const LockSet& set : sets) {
+      has_room = has_room && lock_rounding(question.design, question.signal, set, question.samples).has_room;
+      // What the set says it tolerates is at least what is assumed.
+      tolerates = tolerates &&
+                  certainly_less_equal(question.noise_deviation, Interval(set.noise_deviation)) &&
+                  certainly_less_equal(question.frequency_walk, Interval(set.frequency_walk));
+    }
+    const LockSet& set = sets.front();
+    derivation.conditions.push_back(rounding_condition(has_room));
     derivation.conditions.push_back(start_condition(level, set));
-    result.cells = verification.cells;
-    // What the set says it tolerates is at least what is assumed.
-    const bool tolerates = certainly_less_equal(question.noise_deviation, Interval(set.noise_deviation)) &&
-                           certainly_less_equal(question.frequency_walk, Interval(set.frequency_walk));
-    if (tolerates && rounding.has_room && certainly_less_equal(level, Interval(set.level))) {
-      result.set = set;
+    if (tolerates && has_room && certainly_less_equal(level, Interval(set.level))) {
+      result.sets = sets;
       derivation.notes.push_back(
           "e is the error in the frame of the true phase: real and imaginary part of the estimate relative "
           "to the "
@@ -196,9 +260,17 @@ LockCertificate certify_lock(const LockQuestion& question, const std::optional<L
           "state. W = exp(|T e|^2/2 + gamma s(P)^2/2), and the set is where W is at most exp(L), L = " +
           rigor::upper_decimal(Interval(set.level)) +
           ", kappa = " + rigor::upper_decimal(Interval(set.decay)) +
-          ", c_0 = " + rigor::upper_decimal(Interval(set.drift)) + ".");
-      probability = losing_probability(set, level, question.samples);
-      reach = largest_frequency_error(set);
+          ", c_0 = " + rigor::upper_decimal(Interval(set.drift)) + "." +
+          (leaks
+               ? " With a leak e is that error less the one at which the tracker settles in the middle of a "
+                 "piece of the band of frequencies; each of the " +
+                     std::to_string(sets.size()) + " pieces has a set of its own."
+               : ""));
+      probability = reach = Interval(0.0);
+      for (const LockSet& each : sets) {
+        probability = max(probability, losing_probability(each, level, question.samples));
+        reach = max(reach, largest_frequency_error(each));
+      }
     }
   }
   theorems::conclude(derivation);
@@ -208,13 +280,14 @@ LockCertificate certify_lock(const LockQuestion& question, const std::optional<L
        "probability of losing lock within the assumed number of samples", theorems::Sense::at_most},
       probability, kNone);
   theorems::add_quantity(derivation,
-                         {"lock_frequency_error", "B", "\\sqrt{2L}\\,|e_3'T^{-1}|", kSource,
-                          "frequency error while in lock, rad/sample", theorems::Sense::at_most},
+                         {"lock_frequency_error", "B",
+                          leaks ? "\\max(|e_{03}| + \\sqrt{2L}\\,|e_3'T^{-1}|)" : "\\sqrt{2L}\\,|e_3'T^{-1}|",
+                          kSource, "frequency error while in lock, rad/sample", theorems::Sense::at_most},
                          reach, kNone);
   theorems::add_quantity(derivation,
                          {"start_level", "l_0", "\\max\\tfrac12|Te|^2 + \\tfrac12\\gamma s(P)^2", kSource,
                           "how far out in the set the assumed starts lie", theorems::Sense::at_most},
-                         result.set ? level : Interval(), kNone);
+                         result.sets.empty() ? Interval() : level, kNone);
   return result;
 }
 

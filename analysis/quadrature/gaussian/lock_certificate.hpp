@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "analysis/quadrature/gaussian/lock_search.hpp"
 #include "analysis/quadrature/gaussian/lock_start.hpp"
@@ -18,6 +19,8 @@ struct LockQuestion {
   rigor::Interval noise_deviation;  ///< sigma of each channel, relative to the amplitude
   rigor::Interval frequency_walk;   ///< deviation of the frequency's step, rad/sample
   rigor::Interval samples;          ///< N
+  /// Of the signal, rad/sample; a leak needs them.
+  rigor::Interval frequencies = rigor::Interval(0.0);
   LockStarts starts;
   TrackedSignal signal;       ///< for what rounding depends on
   double probability = 1e-6;  ///< which the search is to reach
@@ -26,9 +29,10 @@ struct LockQuestion {
 struct LockCertificate {
   /// "lock": the conditions, and what follows from them.
   theorems::Derivation derivation;
-  /// The set, when everything is proved of it.
-  std::optional<LockSet> set;
-  /// What the search found, proved or not.
+  /// When everything is proved of them: one set, or with a leak one for each piece of the band of
+  /// frequencies.
+  std::vector<LockSet> sets;
+  /// Without a leak: what the search found, proved or not.
   std::optional<LockProposal> proposal;
   std::int64_t cells = 0;
   /// Multiples of the start covariance for which the result holds; those of the question, or more.

@@ -17,6 +17,10 @@ namespace {
 
 using rigor::Interval;
 
+bool is_apart(const LevelCovariance<double>& p) {
+  return p.p12 == 0.0 && p.p13 == 0.0;
+}
+
 /// Bisects a cell until the inequality is proved on all parts.
 struct Walk {
   const LockSet& set;
@@ -47,21 +51,20 @@ struct Walk {
   }
 };
 
-/// A grid over (u1, u2, u3, s), u3 >= 0: the mirror image (e2, nu, P12, P13, v2, w) -> -(...) commutes with
-/// the step and maps the set to itself.
-std::vector<LevelCell> grid_of(const LockSet& set) {
-  constexpr std::array<int, 4> kParts{8, 8, 4, 6};
+/// A grid over (u1, u2, u3, s); where the mirror image covers the other half, with u3 >= 0.
+std::vector<LevelCell> grid_of(const LockSet& set, bool half) {
+  const std::array<int, 4> parts{8, 8, half ? 4 : 8, 6};
   // A hair more than enough.
   const double radius = 1.000001 * std::sqrt(2.0 * set.level);
-  const std::array<double, 4> low{-radius, -radius, 0.0, 0.0};
+  const std::array<double, 4> low{-radius, -radius, half ? 0.0 : -radius, 0.0};
   const std::array<double, 4> high{radius, radius, radius, radius / std::sqrt(set.weight)};
   std::vector<LevelCell> cells{{}};
   for (std::size_t i = 0; i < 4; ++i) {
     std::vector<LevelCell> next;
-    const auto node = [&](int k) { return low[i] + (high[i] - low[i]) * k / kParts[i]; };
-    next.reserve(cells.size() * static_cast<std::size_t>(kParts[i]));
+    const auto node = [&](int k) { return low[i] + (high[i] - low[i]) * k / parts[i]; };
+    next.reserve(cells.size() * static_cast<std::size_t>(parts[i]));
     for (const LevelCell& cell : cells) {
-      for (int k = 0; k < kParts[i]; ++k) {
+      for (int k = 0; k < parts[i]; ++k) {
         LevelCell part = cell;
         part.low[i] = node(k);
         part.high[i] = node(k + 1);
@@ -74,7 +77,7 @@ std::vector<LevelCell> grid_of(const LockSet& set) {
 }
 
 /// True only when every point with a level of at most that of the set has its |u_i| and s within the grid.
-bool covers_set(const std::vector<LevelCell>& grid, const LockSet& set) {
+bool covers_set(const std::vector<LevelCell>& grid, const LockSet& set, bool half) {
   const Interval most = Interval(2.0) * Interval(set.level);
   const LevelCell& last = grid.back();
   for (std::size_t i = 0; i < 4; ++i) {
@@ -84,16 +87,21 @@ bool covers_set(const std::vector<LevelCell>& grid, const LockSet& set) {
     }
   }
   return grid.front().low[0] == -last.high[0] && grid.front().low[1] == -last.high[1] &&
-         grid.front().low[2] == 0.0 && grid.front().low[3] == 0.0;
+         grid.front().low[2] == (half ? 0.0 : -last.high[2]) && grid.front().low[3] == 0.0;
 }
 
 }  // namespace
 
-std::optional<std::int64_t> cells_of_proof(const LockSet& set, const CellLook& look, std::int64_t most_cells,
+bool has_mirror_image(const trackers::ToneModel<Interval>& design, const LockSet& set) {
+  return design.epsilon == Interval(0.0) && set.bias[1] == 0.0 && set.bias[2] == 0.0 &&
+         is_apart(set.centre) && is_apart(set.spread_above) && is_apart(set.spread_below);
+}
+
+std::optional<std::int64_t> cells_of_proof(const LockSet& set, bool half, const CellLook& look, std::int64_t most_cells,
                                            std::size_t every) {
   constexpr int kDepth = 40;
-  const std::vector<LevelCell> grid = grid_of(set);
-  if (!covers_set(grid, set)) {
+  const std::vector<LevelCell> grid = grid_of(set, half);
+  if (!covers_set(grid, set, half)) {
     return std::nullopt;
   }
   std::vector<std::int64_t> cells(grid.size(), 0);

@@ -32,14 +32,15 @@ LockRounding lock_rounding(const trackers::ToneModel<Interval>& design, const Tr
                          rigor::sqrt(one + rigor::square(Interval(t.coupling) / Interval(t.frequency)));
   const Interval frequency = radius / Interval(t.frequency);
   const Interval most(kMostDeviations);
-  const Interval held_frequency = Interval(signal.largest_frequency) + frequency +
-                                  most * Interval(set.frequency_walk) * rigor::sqrt(samples);
+  const Interval held_frequency = Interval(signal.largest_frequency) + abs(Interval(set.bias[2])) +
+                                  frequency + most * Interval(set.frequency_walk) * rigor::sqrt(samples);
   const Interval measurement = one + most * rigor::sqrt(two) * Interval(set.noise_deviation);
   const Interval weight(set.weight);
   const Interval largest = rigor::sqrt(twice / weight);
   const StateDifference difference = step_rounding(
       {design, signal.amplitude, upper_or_infinite(measurement), upper_or_infinite(held_frequency)},
-      {one + rigor::symmetric(upper_or_infinite(amplitude)), rigor::symmetric(upper_or_infinite(phase)),
+      {one + Interval(set.bias[0]) + rigor::symmetric(upper_or_infinite(amplitude)),
+       Interval(set.bias[1]) + rigor::symmetric(upper_or_infinite(phase)),
        lower_covariance(set, Interval(largest.upper())), upper_covariance(set, Interval(largest.upper()))});
   LockRounding found;
   const Interval z(difference.z);

@@ -3,13 +3,15 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
-#include "analysis/quadrature/contraction/covariance_proposal.hpp"
 #include "analysis/quadrature/gaussian/drift_inequality.hpp"
+#include "analysis/quadrature/gaussian/lock_centre.hpp"
 #include "analysis/quadrature/gaussian/lock_samples.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/search/maximin.hpp"
@@ -23,9 +25,9 @@ constexpr Eigen::Index kParameters = std::tuple_size_v<LockShape>;
 /// A block matrix by its Cholesky factor [[a, 0, 0], [0, b, 0], [0, c, d]].
 struct Factor {
   double a, b, c, d;
-  [[nodiscard]] BlockCovariance<double> product() const { return {a * a, b * b, b * c, c * c + d * d}; }
+  [[nodiscard]] LevelCovariance<double> product() const { return {a * a, b * b, b * c, c * c + d * d}; }
 };
-Factor factor_of(const BlockCovariance<double>& p) {
+Factor factor_of(const LevelCovariance<double>& p) {
   const double b = std::sqrt(p.p22);
   const double c = p.p23 / b;
   return {std::sqrt(p.p11), b, c, std::sqrt(p.p33 - c * c)};
@@ -38,7 +40,7 @@ Factor inverse(const Factor& c) {
   return {1.0 / c.a, 1.0 / c.b, -c.c / (c.b * c.d), 1.0 / c.d};
 }
 /// C^-T X C^-1.
-BlockCovariance<double> pulled_back(const Factor& c, const BlockCovariance<double>& x) {
+LevelCovariance<double> pulled_back(const Factor& c, const LevelCovariance<double>& x) {
   const Factor i = inverse(c);
   const double row = x.p23 * i.d;
   const double last = x.p33 * i.d;
@@ -46,12 +48,24 @@ BlockCovariance<double> pulled_back(const Factor& c, const BlockCovariance<doubl
           i.b * row + i.c * last, last * i.d};
 }
 
+Eigen::Matrix3d whole(const LevelCovariance<double>& p) {
+  Eigen::Matrix3d matrix;
+  matrix << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
+  return matrix;
+}
+LevelCovariance<double> symmetric(const Eigen::Matrix3d& p) {
+  return {p(0, 0), p(1, 1), p(1, 2), p(2, 2), p(0, 1), p(0, 2), false};
+}
+
 /// In coordinates in which the steady state is the identity and the noise is that of the model. Four numbers
 /// a matrix: logarithms of a, b, d, and c.
 class Shapes {
  public:
-  Shapes(const LockRequest& request, const BlockCovariance<double>& steady)
-      : request_(request), steady_(steady), root_(factor_of(steady)) {}
+  Shapes(const LockRequest& request, const LockCentre& centre)
+      : request_(request),
+        centre_(centre),
+        root_(factor_of(centre.covariance)),
+        whole_root_(whole(centre.covariance).llt().matrixL()) {}
 
   /// What good sets of the designs of La Scala's Table 3.2 have in common.
   [[nodiscard]] static search::SearchSpace space(int evaluations) {
@@ -71,14 +85,22 @@ class Shapes {
     };
     LockSet set;
     const double scale = request_.design.r / (request_.noise_deviation * request_.noise_deviation);
-    BlockCovariance<double> weight = pulled_back(root_, factor(0).product());
+    LevelCovariance<double> weight = pulled_back(root_, factor(0).product());
     const Factor metric =
         factor_of({scale * weight.p11, scale * weight.p22, scale * weight.p23, scale * weight.p33});
     // M = T'T with an upper triangular T.
     set.metric = {metric.a, metric.b, metric.c, metric.d};
-    set.centre = steady_;
+    set.centre = centre_.covariance;
+    set.bias = centre_.errors;
+    set.lowest_frequency = request_.lowest_frequency;
+    set.highest_frequency = request_.highest_frequency;
     set.spread_above = times(root_, factor(4)).product();
     set.spread_below = pulled_back(root_, factor(8).product());
+    if (!centre_.covariance.apart) {
+      set.spread_above = symmetric(whole_root_ * whole(factor(4).product()) * whole_root_.transpose());
+      const Eigen::Matrix3d back = whole_root_.inverse();
+      set.spread_below = symmetric(back.transpose() * whole(factor(8).product()) * back);
+    }
     set.weight = std::exp(x[12]);
     set.level = request_.level;
     set.decay = request_.decay;
@@ -90,8 +112,9 @@ class Shapes {
 
  private:
   const LockRequest& request_;
-  BlockCovariance<double> steady_;
+  LockCentre centre_;
   Factor root_;
+  Eigen::Matrix3d whole_root_;  ///< with the entries 12 and 13
 };
 
 /// Of the level.
@@ -115,19 +138,24 @@ Eigen::VectorXd margins_of(const trackers::ToneModel<rigor::Interval>& design, c
 }  // namespace
 
 std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
-  const auto steady = steady_covariance(request.design);
-  if (!steady) {
+  const bool leaks = request.design.epsilon != 0.0;
+  const auto centre =
+      lock_centre(request.design, 0.5 * (request.lowest_frequency + request.highest_frequency));
+  if (!centre) {
     return std::nullopt;
   }
   constexpr int kAllDirections = 1200;
   constexpr std::size_t kAdded = 24;
-  const trackers::ToneModel<rigor::Interval> design{rigor::Interval(request.design.q1),
-                                                    rigor::Interval(request.design.q2),
-                                                    rigor::Interval(request.design.r), rigor::Interval(0.0)};
+  const trackers::ToneModel<rigor::Interval> design{
+      rigor::Interval(request.design.q1), rigor::Interval(request.design.q2),
+      rigor::Interval(request.design.r), rigor::Interval(request.design.epsilon)};
   std::vector<LockSample> all;
   for (const LevelPoint& direction : sample_directions(kAllDirections)) {
     for (const double share : kShares) {
       all.push_back({direction, share * request.level});
+      if (leaks) {
+        all.push_back({{direction[0], direction[1], -direction[2], direction[3]}, share * request.level});
+      }
     }
   }
   // From less noise to that which is asked for: what is worst with less is nearly so with more.
@@ -138,7 +166,7 @@ std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
     space.start = Eigen::Map<const Eigen::VectorXd>(request.near->data(), kParameters);
   }
   double least = -1.0;
-  const Shapes shapes(request, *steady);
+  const Shapes shapes(request, *centre);
   LockSet set;
   for (const double part : parts) {
     const auto set_at = [&](const Eigen::VectorXd& x) {

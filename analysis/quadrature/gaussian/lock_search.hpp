@@ -15,7 +15,7 @@ using LockShape = std::array<double, 13>;
 
 /// What is asked of a proposal, for a signal of amplitude 1.
 struct LockRequest {
-  trackers::ToneModel<double> design;  ///< epsilon = 0
+  trackers::ToneModel<double> design;  ///< 0 <= epsilon < 1
   double noise_deviation = 0.0;        ///< of each channel, relative to the amplitude
   double frequency_walk = 0.0;         ///< deviation of the frequency's step, rad/sample
   double level = 27.63;                ///< L
@@ -23,6 +23,8 @@ struct LockRequest {
   double drift = 1.0;                  ///< c_0
   int evaluations = 400;               ///< of the search a round; some hundred take a second
   std::optional<LockShape> near;       ///< of a set for nearly the same noise: to start from, which is faster
+  /// With a leak: the signal's frequencies, rad/sample.
+  double lowest_frequency = 0.0, highest_frequency = 0.0;
 };
 
 /// A proposal, and by how much the drift inequality holds at the sampled points of the set:

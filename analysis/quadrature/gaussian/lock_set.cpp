@@ -10,34 +10,31 @@ using rigor::IntervalMatrix;
 
 namespace {
 
-BlockCovariance<Interval> enclosed_block(const BlockCovariance<double>& p) {
-  return {Interval(p.p11), Interval(p.p22), Interval(p.p23), Interval(p.p33)};
-}
-
-IntervalMatrix<3> whole_matrix(const BlockCovariance<Interval>& p) {
+IntervalMatrix<3> whole_matrix(const LevelCovariance<Interval>& p) {
   IntervalMatrix<3> matrix;
-  const Interval none(0.0);
-  matrix << p.p11, none, none, none, p.p22, p.p23, none, p.p23, p.p33;
+  matrix << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
   return matrix;
 }
 
 }  // namespace
 
-IntervalMatrix<3> enclosed(const BlockCovariance<double>& p) {
-  return whole_matrix(enclosed_block(p));
+IntervalMatrix<3> enclosed(const LevelCovariance<double>& p) {
+  return whole_matrix(level_covariance<Interval>(p));
 }
 
 IntervalMatrix<3> upper_covariance(const LockSet& set, const Interval& s) {
-  return whole_matrix(moved(enclosed_block(set.centre), s, enclosed_block(set.spread_above)));
+  return whole_matrix(
+      moved(level_covariance<Interval>(set.centre), s, level_covariance<Interval>(set.spread_above)));
 }
 
 IntervalMatrix<3> lower_covariance(const LockSet& set, const Interval& s) {
-  return whole_matrix(
-      inverse(moved(inverse(enclosed_block(set.centre)), s, enclosed_block(set.spread_below))));
+  return whole_matrix(inverse(moved(inverse(level_covariance<Interval>(set.centre)), s,
+                                    level_covariance<Interval>(set.spread_below))));
 }
 
 Interval largest_frequency_error(const LockSet& set) {
-  return rigor::sqrt(Interval(2.0) * Interval(set.level)) / Interval(set.metric.frequency);
+  return abs(Interval(set.bias[2])) +
+         rigor::sqrt(Interval(2.0) * Interval(set.level)) / Interval(set.metric.frequency);
 }
 
 }  // namespace veritrack::quadrature

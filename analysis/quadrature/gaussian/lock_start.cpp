@@ -67,7 +67,7 @@ Interval start_level(const LockSet& set, const LockStarts& starts) {
     return Interval::empty();
   }
   const Interval length = one + rigor::symmetric(starts.amplitude_error.upper());
-  const Interval frequency = rigor::symmetric(starts.frequency_error.upper());
+  const Interval frequency = rigor::symmetric(starts.frequency_error.upper()) - Interval(set.bias[2]);
   Interval worst(0.0);
   for (int k = 0; k < kCells; ++k) {
     // Neighbours share their ends, and the last end is the widest phase error.
@@ -77,8 +77,8 @@ Interval start_level(const LockSet& set, const LockStarts& starts) {
     const Interval s = covariance_level(set, most, IntervalMatrix<3>(u * lowest * u.transpose()),
                                         IntervalMatrix<3>(u * highest * u.transpose()));
     const auto [sine, cosine] = rigor::sin_cos(phase);
-    const Interval real = length * cosine - one;
-    const Interval imaginary = length * sine;
+    const Interval real = length * cosine - one - Interval(set.bias[0]);
+    const Interval imaginary = length * sine - Interval(set.bias[1]);
     const BlockMetric<double>& t = set.metric;
     const Interval level =
         Interval(0.5) *

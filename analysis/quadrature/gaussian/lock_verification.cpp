@@ -2,6 +2,7 @@
 
 #include "analysis/quadrature/gaussian/drift_inequality.hpp"
 #include "analysis/quadrature/gaussian/lock_cover.hpp"
+#include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::quadrature {
@@ -11,9 +12,8 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-bool certainly_definite(const BlockCovariance<double>& p) {
-  return certainly_positive(Interval(p.p11)) && certainly_positive(Interval(p.p22)) &&
-         certainly_positive(Interval(p.p22) * Interval(p.p33) - rigor::square(Interval(p.p23)));
+bool certainly_definite(const LevelCovariance<double>& p) {
+  return rigor::is_positive_definite(enclosed(p)) == Verdict::proved;
 }
 
 /// The first hypothesis on the inputs that does not hold, as a sentence; empty when all hold.
@@ -21,8 +21,13 @@ std::string objection(const trackers::ToneModel<Interval>& design, const LockSet
   if (!certainly_positive(design.r) || !certainly_positive(design.q2) || !certainly_not_negative(design.q1)) {
     return "the design is not one with q1 >= 0, q2 > 0 and r > 0.";
   }
-  if (!(design.epsilon == Interval(0.0))) {
-    return "this certificate is for epsilon = 0.";
+  if (!certainly_not_negative(design.epsilon) || !certainly_less(design.epsilon, Interval(1.0))) {
+    return "the leak is not one with 0 <= epsilon < 1.";
+  }
+  if (!(set.lowest_frequency <= set.highest_frequency) || !std::isfinite(set.lowest_frequency) ||
+      !std::isfinite(set.highest_frequency) || !std::isfinite(set.bias[0]) || !std::isfinite(set.bias[1]) ||
+      !std::isfinite(set.bias[2])) {
+    return "the frequencies or the errors about which the set lies are outside their ranges.";
   }
   if (!certainly_positive(Interval(set.metric.amplitude)) ||
       !certainly_positive(Interval(set.metric.phase)) ||
@@ -60,7 +65,7 @@ LockVerification verify_lock_set(const trackers::ToneModel<Interval>& design, co
   }
   const DriftInequality inequality(design, proposal);
   const auto cells = cells_of_proof(
-      proposal, [&](const LevelCell& cell) { return inequality.check(cell); }, most_cells);
+      proposal, has_mirror_image(design, proposal), [&](const LevelCell& cell) { return inequality.check(cell); }, most_cells);
   if (!cells) {
     result.reason =
         "somewhere in the set the expected value of W could not be shown to shrink but for the drift.";
@@ -81,7 +86,7 @@ std::optional<std::int64_t> expected_cells(const trackers::ToneModel<Interval>& 
   }
   const DriftInequality inequality(design, proposal);
   const auto cells = cells_of_proof(
-      proposal, [&](const LevelCell& cell) { return inequality.check(cell); }, most_cells, every);
+      proposal, has_mirror_image(design, proposal), [&](const LevelCell& cell) { return inequality.check(cell); }, most_cells, every);
   return cells ? std::optional(*cells * static_cast<std::int64_t>(every)) : std::nullopt;
 }
 

@@ -151,14 +151,17 @@ LowestSnr as_lowest(LockCertificate found) {
       {"lowest_snr", "\\mathrm{SNR}", "-10\\log_{10}(2\\sigma^2)", "docs/gaussian.md",
        "lowest signal-to-noise ratio for which the required probability is certified, dB",
        theorems::Sense::at_most},
-      found.set ? decibels_of(Interval(found.set->noise_deviation)) + Interval(kRoom) : Interval(),
+      found.sets.empty() ? Interval()
+                         : decibels_of(Interval(found.sets.front().noise_deviation)) + Interval(kRoom),
       "No set could be certified.");
   for (theorems::Quantity& quantity :
        kept(found.derivation.quantities, [](const theorems::Quantity& quantity) { return quantity.name; },
             {"probability_of_losing_lock", "lock_frequency_error", "start_level"})) {
     derivation.quantities.push_back(std::move(quantity));
   }
-  result.set = found.set;
+  if (!found.sets.empty()) {
+    result.set = found.sets.front();
+  }
   result.cells = found.cells;
   result.covariance_multiples = found.covariance_multiples;
   return result;
@@ -187,7 +190,7 @@ LowestSnr certify_lowest_snr(const LockQuestion& question, const std::optional<L
   for (int k = 0; lowest && k < kTries; ++k) {
     LockCertificate found =
         certify_lock(search.question_at(*lowest + k), search.propose(*lowest + k), kMostCellsInPart);
-    if (found.set) {
+    if (!found.sets.empty()) {
       return as_lowest(std::move(found));
     }
   }

@@ -45,6 +45,33 @@ TEST_CASE("a set is proved and refused as the textbook says") {
   }
 }
 
+TEST_CASE("with a leak the set has no mirror image, and its bias and frequencies count") {
+  const LockFilter filter = lock_test::leaking_variances().filter();
+  const LockSet set = lock_test::leaking_set();
+  std::int64_t cells = 0;
+  CHECK(drifts_slowly(filter, set, cells));
+  std::int64_t half_as_many = 0;
+  CHECK(drifts_slowly(lock_test::Variances().filter(), lock_test::WrittenSet().set(), half_as_many));
+  CHECK(cells > half_as_many);
+  LockSet other = set;
+  SUBCASE("the frequencies of the mirror image") {
+    other.lowest_frequency = Ball(-1.6);
+    other.highest_frequency = Ball(-1.4);
+    CHECK_FALSE(drifts_slowly(filter, other, cells));
+    other.bias[1] = -set.bias[1];
+    other.bias[2] = -set.bias[2];
+    CHECK(drifts_slowly(filter, other, cells));
+  }
+  SUBCASE("more frequencies") {
+    other.highest_frequency = Ball(30.0);
+    CHECK_FALSE(drifts_slowly(filter, other, cells));
+  }
+  SUBCASE("another bias") {
+    other.bias[2] = Ball(0.25);
+    CHECK_FALSE(drifts_slowly(filter, other, cells));
+  }
+}
+
 TEST_CASE("a set whose numbers are no doubles is covered by nothing, which proves nothing") {
   std::int64_t cells = 0;
   LockSet set = lock_test::WrittenSet().set();

@@ -7,6 +7,7 @@
 
 using namespace veritrack;
 using namespace veritrack::checker;
+using lock_test::Matrix;
 using lock_test::Textbook;
 
 namespace {
@@ -63,6 +64,32 @@ TEST_CASE("where a cell is proved, the Gaussian integral of the textbook filter 
       CHECK(4 * proved > count);
     }
   }
+}
+
+TEST_CASE("with a leak a proved cell is one for all frequencies of the set") {
+  test::Random random(5312);
+  const LockSet set = lock_test::leaking_set();
+  const Textbook book{lock_test::leaking_variances(), set};
+  const LockInequality inequality(book.design.filter(), set);
+  int proved = 0;
+  const auto count = test::effort(40);
+  for (std::int64_t k = 0; k < count; ++k) {
+    const LockCell cell = around(lock_test::somewhere(set, random), 0.1);
+    if (!inequality.look(cell).proved) {
+      continue;
+    }
+    ++proved;
+    for (int l = 0; l < 20; ++l) {
+      std::array<double, 4> x{};
+      for (std::size_t i = 0; i < 4; ++i) {
+        x[i] = random.uniform(cell.low[i], cell.high[i]);
+      }
+      const Matrix p = book.covariance_of_level(x[3], random);
+      CHECK(book.excess(errors_at(book, x), p, x[3], l % 2 == 0 ? 1.4 : 1.6) <= 0.0);
+    }
+  }
+  MESSAGE(proved << " of " << count << " cells proved");
+  CHECK(4 * proved > count);
 }
 
 TEST_CASE("a cell with a point where the integral grows is not proved") {

@@ -122,7 +122,7 @@ TEST_CASE("of sets that are accepted, whatever is changed in them, the textbook 
     }
     variances.r *= std::exp(random.uniform(-0.4, 0.4));
     std::int64_t cells = 0;
-    if (!positive_definite(set.centre) || !drifts_slowly(variances.filter(), set, cells)) {
+    if (!definite(whole(set.centre)) || !drifts_slowly(variances.filter(), set, cells)) {
       ++refused;
       continue;
     }
@@ -155,11 +155,8 @@ TEST_CASE("a filter other than the one that the set is for is refused") {
   check_words(lock_refusal({}, design), kDrift);
 }
 
-TEST_CASE("a leak and a slew are refused") {
+TEST_CASE("a slew is refused, and a design that is none") {
   Design design = lock_design();
-  SUBCASE("a leak") {
-    design.epsilon = Ball(1e-9);
-  }
   SUBCASE("a slew") {
     design.slew = Ball(1e-9);
   }
@@ -172,7 +169,7 @@ TEST_CASE("a leak and a slew are refused") {
   SUBCASE("negative process noise") {
     design.q1 = Ball(-1e-9);
   }
-  check_words(lock_refusal({}, design), "epsilon = 0");
+  check_words(lock_refusal({}, design), "epsilon < 1");
 }
 
 TEST_CASE("more noise in the design than the set is for is refused") {
@@ -281,4 +278,60 @@ TEST_CASE("the rounding is refused in the set as well") {
   Design design = lock_design();
   design.amplitude = Ball(0x1p70);
   check_words(lock_refusal({}, design), kRounding);
+}
+
+TEST_CASE("with a leak a set has its bias and its frequencies, and the frequency is constant") {
+  Design design = lock_design();
+  design.epsilon = Ball(lock_test::kLeak);
+  const GaussianNoise noise{Ball(0.056), zero, Ball(1e6)};
+  const auto refusal = [&](const std::string& walk, const std::string& more) {
+    WrittenSet written;
+    written.numbers.at("frequency_walk") = walk;
+    std::string text = written.text();
+    text.pop_back();
+    const Tree tree = read_json(text + more + "}");
+    std::int64_t cells = 0;
+    Objections objections;
+    const LockSet set = check_lock_set(tree, design, noise, cells, objections);
+    return objections.empty() ? std::string() : objections.front();
+  };
+  const std::string good =
+      R"(, "bias": ["0x1p-9", "-0x1.b2p-6", "-0x1.47p-5"], "frequencies": ["0x1.6p+0", "0x1.9p+0"])";
+  CHECK(refusal("0x0p+0", good).empty());
+  check_words(refusal("0x1p-20", good), "constant");
+  check_words(refusal("0x0p+0", R"(, "bias": ["0x0p+0", "0x0p+0"], "frequencies": ["0x1p+0", "0x1p+0"])"),
+              kLockForm);
+  check_words(refusal("0x0p+0", R"(, "bias": ["0x0p+0", "0x0p+0", "0x0p+0"], "frequencies": ["0x1p+0"])"),
+              kLockForm);
+  check_words(refusal("0x0p+0",
+                      R"(, "bias": ["0x0p+0", "0x0p+0", "0x0p+0"], "frequencies": ["0x1.9p+0", "0x1.6p+0"])"),
+              "range");
+  CHECK_THROWS((void)refusal("0x0p+0", ""));
+  for (const double epsilon : {-0.01, 1.0}) {
+    design.epsilon = Ball(epsilon);
+    check_words(refusal("0x0p+0", good), "epsilon < 1");
+  }
+  CHECK_THROWS((void)refusal("0x0p+0", R"(, "bias": ["0x0p+0", "0x0p+0", "0x0p+0"])"));
+}
+
+TEST_CASE("sets cover a band when each begins where the one before ends, and no sooner") {
+  Design design = lock_design();
+  design.lowest_frequency = Ball(0.5);
+  design.highest_frequency = Ball(2.0);
+  LockSet first;
+  first.lowest_frequency = Ball(0.5);
+  first.highest_frequency = Ball(1.0);
+  LockSet second;
+  second.lowest_frequency = Ball(1.0);
+  second.highest_frequency = Ball(2.0);
+  CHECK(cover_the_band({first, second}, design));
+  CHECK_FALSE(cover_the_band({}, design));
+  CHECK_FALSE(cover_the_band({first}, design));
+  CHECK_FALSE(cover_the_band({second}, design));
+  CHECK_FALSE(cover_the_band({second, first}, design));
+  LockSet later = second;
+  later.lowest_frequency = Ball(0x1.0000000000001p+0);
+  CHECK_FALSE(cover_the_band({first, later}, design));
+  design.highest_frequency = Ball(2.0) + Ball::within(Ball(1e-15));
+  CHECK_FALSE(cover_the_band({first, second}, design));
 }

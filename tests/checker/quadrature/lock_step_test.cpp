@@ -45,10 +45,13 @@ Matrix middles_of(const Lower3<Chord>& x) {
 
 TEST_CASE(
     "images of the bounds, the error and the prediction are those of the textbook, everywhere in a box") {
-  const Textbook book{{}, lock_test::WrittenSet().set()};
   test::Random random(5340);
-  for (std::int64_t k = 0; k < test::effort(60); ++k) {
+  for (std::int64_t k = 0; k < test::effort(120); ++k) {
     CAPTURE(k);
+    const bool leaks = k % 2 == 1;
+    const Textbook book{leaks ? lock_test::leaking_variances() : lock_test::Variances(),
+                        leaks ? lock_test::leaking_set() : lock_test::WrittenSet().set()};
+    const double frequency = leaks ? random.uniform(1.4, 1.6) : 0.0;
     const std::array<double, 4> x = lock_test::somewhere(book.set, random);
     const double half_width = k % 3 == 0 ? 0.0 : random.uniform(0.0, 0.5);
     const LockStep step =
@@ -60,8 +63,8 @@ TEST_CASE(
       }
       const lock_test::Vector e =
           book.metric().inverse() * lock_test::Vector(x[0] + way[0], x[1] + way[1], x[2] + way[2]);
-      const auto low = book.step(e, book.low(x[3]));
-      const auto high = book.step(e, book.high(x[3]));
+      const auto low = book.step(e, book.low(x[3]), frequency);
+      const auto high = book.step(e, book.high(x[3]), frequency);
       const double h = 1e-5;
       const Matrix low_slope =
           (book.step(e, book.low(x[3] + h)).covariance - book.step(e, book.low(x[3] - h)).covariance) /

@@ -42,7 +42,8 @@ struct WrittenSet {
                                              {"noise_deviation", "0x1.cc1fc5972b38ap-5"},
                                              {"frequency_walk", "0x1.d7dbf487fcb92p-9"}};
 
-  [[nodiscard]] Tree tree() const {
+  [[nodiscard]] Tree tree() const { return read_json(text()); }
+  [[nodiscard]] std::string text() const {
     std::string text;
     for (const auto& [name, rows] : matrices) {
       text += (text.empty() ? "{\"" : ", \"") + name + "\": [";
@@ -55,14 +56,15 @@ struct WrittenSet {
     for (const auto& [name, number] : numbers) {
       text += ", \"" + name + "\": \"" + number + "\"";
     }
-    return read_json(text + "}");
+    return text + "}";
   }
   [[nodiscard]] LockSet set() const {
     const auto entry = [&](const char* name, std::size_t i, std::size_t j) {
       return from_hexadecimal(matrices.at(name)[i][j]);
     };
     const auto covariance = [&](const char* name) {
-      return Covariance<Ball>{entry(name, 0, 0), entry(name, 1, 1), entry(name, 1, 2), entry(name, 2, 2)};
+      return LockCovariance{entry(name, 0, 0), entry(name, 1, 1), entry(name, 1, 2),
+                            entry(name, 2, 2), entry(name, 0, 1), entry(name, 0, 2)};
     };
     const auto number = [&](const char* name) { return from_hexadecimal(numbers.at(name)); };
     return {{entry("metric", 0, 0), entry("metric", 1, 1), entry("metric", 1, 2), entry("metric", 2, 2)},
@@ -80,16 +82,17 @@ struct WrittenSet {
 
 /// Variances of the filter.
 struct Variances {
-  double q1 = 0.0013, q2 = 0.0013, r = 0.01;
-  [[nodiscard]] LockFilter filter() const { return {Ball(q1), Ball(q2), Ball(r)}; }
+  double q1 = 0.0013, q2 = 0.0013, r = 0.01, epsilon = 0.0;
+  [[nodiscard]] LockFilter filter() const { return {Ball(q1), Ball(q2), Ball(r), Ball(epsilon)}; }
 };
 
 using Matrix = Eigen::Matrix3d;
 using Vector = Eigen::Vector3d;
 
-inline Matrix in_double(const Covariance<Ball>& p) {
+inline Matrix in_double(const LockCovariance& p) {
   Matrix m;
-  m << p.p11.near(), 0.0, 0.0, 0.0, p.p22.near(), p.p23.near(), 0.0, p.p23.near(), p.p33.near();
+  m << p.p11.near(), p.p12.near(), p.p13.near(), p.p12.near(), p.p22.near(), p.p23.near(), p.p13.near(),
+      p.p23.near(), p.p33.near();
   return m;
 }
 
@@ -119,12 +122,16 @@ struct Textbook {
 
   struct Step {
     Matrix covariance;                 ///< Psi
-    Vector mean;                       ///< m
+    Vector mean;                       ///< m less the bias
     Eigen::Matrix<double, 3, 2> gain;  ///< K
     Eigen::Vector2d prediction;        ///< p_z
   };
-  [[nodiscard]] Step step(const Vector& e, const Matrix& p) const {
+  [[nodiscard]] Vector bias() const { return {set.bias[0].near(), set.bias[1].near(), set.bias[2].near()}; }
+  /// From errors away from the bias.
+  [[nodiscard]] Step step(const Vector& away, const Matrix& p, double frequency = 0.0) const {
+    const Vector e = away + bias();
     Matrix f = Matrix::Identity();
+    f(2, 2) = 1.0 - design.epsilon;
     f(0, 2) = -e[1];
     f(1, 2) = 1.0 + e[0];
     const Matrix predicted =
@@ -133,18 +140,19 @@ struct Textbook {
     h(0, 0) = h(1, 1) = 1.0;
     const Eigen::Matrix2d s = h * predicted * h.transpose() + design.r * Eigen::Matrix2d::Identity();
     const Eigen::Matrix<double, 3, 2> gain = predicted * h.transpose() * s.inverse();
-    const Vector error(1.0 + e[0] - std::cos(e[2]), e[1] + std::sin(e[2]), e[2]);
+    const Vector error(1.0 + e[0] - std::cos(e[2]), e[1] + std::sin(e[2]),
+                       (1.0 - design.epsilon) * e[2] - design.epsilon * frequency);
     Matrix turn = Matrix::Identity();
     turn(0, 0) = turn(1, 1) = std::cos(e[2]);
     turn(1, 0) = std::sin(e[2]);
     turn(0, 1) = -turn(1, 0);
     const Vector moved = turn * error;
-    return {turn * (predicted - gain * h * predicted) * turn.transpose(), turn * (error - gain * (h * error)),
-            turn * gain, moved.head<2>()};
+    return {turn * (predicted - gain * h * predicted) * turn.transpose(),
+            turn * (error - gain * (h * error)) - bias(), turn * gain, moved.head<2>()};
   }
   /// log E[W(k+1)] - log(kappa W(k) + c_0), from a covariance of this level.
-  [[nodiscard]] double excess(const Vector& e, const Matrix& p, double s) const {
-    const Step after = step(e, p);
+  [[nodiscard]] double excess(const Vector& e, const Matrix& p, double s, double frequency = 0.0) const {
+    const Step after = step(e, p, frequency);
     const Vector e3(0.0, 0.0, 1.0);
     const double deviation = set.deviation.near();
     const double walk = set.walk.near();
@@ -175,6 +183,28 @@ struct Textbook {
                                           solver.eigenvectors().transpose() * root.transpose();
   }
 };
+
+/// The same set with a leak, for frequencies about 1.5 rad/sample, and its filter.
+inline constexpr double kLeak = 0.01;
+inline LockSet leaking_set() {
+  LockSet set = WrittenSet().set();
+  set.walk = zero;
+  // As the covariance of the steady state there.
+  for (LockCovariance* p : {&set.centre, &set.above}) {
+    p->p12 = Ball(0.06) * sqrt(p->p11 * p->p22);
+    p->p13 = Ball(0.05) * sqrt(p->p11 * p->p33);
+  }
+  set.below.p12 = Ball(-0.06) * sqrt(set.below.p11 * set.below.p22);
+  set.bias = {Ball(0.002), Ball(-0.0265), Ball(-0.04)};
+  set.lowest_frequency = Ball(1.4);
+  set.highest_frequency = Ball(1.6);
+  return set;
+}
+inline Variances leaking_variances() {
+  Variances variances;
+  variances.epsilon = kLeak;
+  return variances;
+}
 
 /// A point (u, s) of the set.
 inline std::array<double, 4> somewhere(const LockSet& set, test::Random& random) {

@@ -31,8 +31,8 @@ Draw draw(test::Random& random) {
   const double r = std::exp(random.uniform(std::log(5e-3), std::log(5e-2)));
   result.design = {q1, q2, r, 0.0};
   LockSet& set = result.set;
-  set.centre = *steady_covariance(result.design);
-  const BlockCovariance<double>& p = set.centre;
+  set.centre = level_covariance(*steady_covariance(result.design));
+  const LevelCovariance<double>& p = set.centre;
   set.spread_above = {p.p11, p.p22, p.p23, p.p33};
   const double determinant = p.p22 * p.p33 - p.p23 * p.p23;
   set.spread_below = {1.0 / p.p11, p.p33 / determinant, -p.p23 / determinant, p.p22 / determinant};

@@ -16,9 +16,9 @@ namespace {
 using rigor::Interval;
 using Matrix = Eigen::Matrix3d;
 
-Matrix whole_block(const BlockCovariance<double>& p) {
+Matrix whole_block(const LevelCovariance<double>& p) {
   Matrix m;
-  m << p.p11, 0.0, 0.0, 0.0, p.p22, p.p23, 0.0, p.p23, p.p33;
+  m << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
   return m;
 }
 

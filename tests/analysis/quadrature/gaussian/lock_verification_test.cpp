@@ -64,9 +64,44 @@ TEST_CASE("sets whose numbers mean nothing are undecided, with the reason") {
   set = good;
   set.frequency_walk = 0.1;
   CHECK(reason(set).find("walks") != std::string::npos);
-  trackers::ToneModel<Interval> leaking = design();
-  leaking.epsilon = Interval(0.01);
-  CHECK(verify_lock_set(leaking, good).reason.find("epsilon") != std::string::npos);
+  set = good;
+  set.lowest_frequency = 0.1;
+  CHECK(reason(set).find("frequencies") != std::string::npos);
+  set = good;
+  set.bias[1] = std::nan("");
+  CHECK(reason(set).find("errors about which") != std::string::npos);
+  for (const double epsilon : {-0.01, 1.0}) {
+    trackers::ToneModel<Interval> leaking = design();
+    leaking.epsilon = Interval(epsilon);
+    CHECK(verify_lock_set(leaking, good).reason.find("epsilon") != std::string::npos);
+  }
+}
+
+TEST_CASE("with a leak a set is proved for its frequencies, about the errors there") {
+  const trackers::ToneModel<double>& d = test_sets::kLeakingDesign;
+  const trackers::ToneModel<Interval> leaking{Interval(d.q1), Interval(d.q2), Interval(d.r),
+                                              Interval(d.epsilon)};
+  const LockSet good = test_sets::leaking_set();
+  CHECK(verify_lock_set(leaking, good).verdict == Verdict::proved);
+  SUBCASE("frequencies at which the tracker settles elsewhere") {
+    LockSet wide = good;
+    wide.highest_frequency = 30.0;
+    CHECK(verify_lock_set(leaking, wide, 2000).verdict == Verdict::undecided);
+  }
+  SUBCASE("errors at which it does not settle") {
+    LockSet aside = good;
+    aside.bias[2] = 0.3;
+    CHECK(verify_lock_set(leaking, aside, 2000).verdict == Verdict::undecided);
+  }
+  SUBCASE("only where the frequency error is negative: there is no mirror image") {
+    // At these frequencies the tracker settles at the mirror image of the errors.
+    LockSet mirrored = good;
+    mirrored.lowest_frequency = -good.highest_frequency;
+    mirrored.highest_frequency = -good.lowest_frequency;
+    CHECK(verify_lock_set(leaking, mirrored, 2000).verdict == Verdict::undecided);
+    mirrored.bias = {good.bias[0], -good.bias[1], -good.bias[2]};
+    CHECK(verify_lock_set(leaking, mirrored).verdict == Verdict::proved);
+  }
 }
 
 }  // namespace veritrack::quadrature

@@ -41,13 +41,14 @@ std::pair<LockSet, bool> read_lock_set(const Tree& tree, bool leaks) {
   set.deviation = exact_number(tree.at("noise_deviation"));
   set.walk = exact_number(tree.at("frequency_walk"));
   if (leaks) {
-    const std::vector<Tree>& bias = tree.at("bias").elements();
-    const std::vector<Tree>& frequencies = tree.at("frequencies").elements();
-    has_form = has_form && bias.size() == set.bias.size() && frequencies.size() == 2;
+    const Tree* bias = tree.find("bias");
+    const Tree* frequencies = tree.find("frequencies");
+    has_form = has_form && bias != nullptr && frequencies != nullptr &&
+               bias->elements().size() == set.bias.size() && frequencies->elements().size() == 2;
     if (has_form) {
-      std::transform(bias.begin(), bias.end(), set.bias.begin(), exact_number);
-      set.lowest_frequency = exact_number(frequencies.front());
-      set.highest_frequency = exact_number(frequencies.back());
+      std::transform(bias->elements().begin(), bias->elements().end(), set.bias.begin(), exact_number);
+      set.lowest_frequency = exact_number(frequencies->elements().front());
+      set.highest_frequency = exact_number(frequencies->elements().back());
     }
   }
   return {set, has_form};

@@ -6,7 +6,8 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <numeric>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "analysis/rigor/decimal.hpp"
@@ -124,12 +125,13 @@ bool covers_set(const std::vector<LevelCell>& grid, const LockSet& set) {
          grid.front().low[2] == 0.0 && grid.front().low[3] == 0.0;
 }
 
-/// Proves the inequality on all these cells; nothing when one is not proved with so many parts. How many it
-/// took.
+/// Proves the inequality on all these cells; nothing when one is not proved with so many parts, or all with
+/// so many together. How many it took.
 std::optional<std::int64_t> cells_of_proof(const DriftInequality& inequality,
-                                           const std::vector<LevelCell>& grid, std::int64_t most_cells) {
+                                           const std::vector<LevelCell>& grid, std::int64_t most_cells,
+                                           std::int64_t most_together) {
   constexpr int kDepth = 40;
-  std::vector<std::int64_t> cells(grid.size(), 0);
+  std::atomic<std::int64_t> cells = 0;
   std::atomic<bool> failed = false;
   tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t k) {
     if (failed) {
@@ -137,12 +139,11 @@ std::optional<std::int64_t> cells_of_proof(const DriftInequality& inequality,
     }
     const rigor::UpwardRounding upward_here;
     Walk walk{inequality, most_cells};
-    if (!walk.proves(grid[k], kDepth)) {
+    if (!walk.proves(grid[k], kDepth) || (cells += walk.cells) > most_together) {
       failed = true;
     }
-    cells[k] = walk.cells;
   });
-  return failed ? std::nullopt : std::optional(std::accumulate(cells.begin(), cells.end(), std::int64_t{0}));
+  return failed ? std::nullopt : std::optional(cells.load());
 }
 
 }  // namespace
@@ -160,7 +161,8 @@ LockVerification verify_lock_set(const trackers::ToneModel<Interval>& design, co
     result.reason = "the numbers are too large to be covered by cells.";
     return result;
   }
-  const std::optional<std::int64_t> cells = cells_of_proof({design, proposal}, grid, most_cells);
+  const std::optional<std::int64_t> cells =
+      cells_of_proof({design, proposal}, grid, most_cells, std::numeric_limits<std::int64_t>::max());
   if (!cells) {
     result.reason =
         "somewhere in the set the expected value of W could not be shown to rise by the drift at most.";
@@ -172,21 +174,20 @@ LockVerification verify_lock_set(const trackers::ToneModel<Interval>& design, co
   return result;
 }
 
-std::optional<std::int64_t> expected_cells(const trackers::ToneModel<Interval>& design,
-                                           const LockSet& proposal, std::size_t every,
-                                           std::int64_t most_cells) {
+bool expects_cells(const trackers::ToneModel<Interval>& design, const LockSet& proposal, std::size_t every,
+                   std::int64_t most_cells) {
   const rigor::UpwardRounding upward;
   if (!objection(design, proposal).empty()) {
-    return std::nullopt;
+    return false;
   }
   const std::vector<LevelCell> grid = grid_of(proposal);
   std::vector<LevelCell> some;
   for (std::size_t k = every / 2; k < grid.size(); k += every) {
     some.push_back(grid[k]);
   }
-  const std::optional<std::int64_t> cells = cells_of_proof({design, proposal}, some, most_cells);
-  return cells && !some.empty() ? std::optional(*cells * static_cast<std::int64_t>(grid.size() / some.size()))
-                                : std::nullopt;
+  const std::int64_t share =
+      most_cells * static_cast<std::int64_t>(some.size()) / static_cast<std::int64_t>(grid.size());
+  return cells_of_proof({design, proposal}, some, share, share).has_value();
 }
 
 }  // namespace veritrack::quadrature

@@ -20,7 +20,7 @@ constexpr int kLeastQuarters = 0;
 constexpr int kMostQuarters = 200;
 /// With less left of the inequality at the sampled points, cells have to be too small for a proof in seconds.
 constexpr double kProvable = 0.022;
-constexpr std::int64_t kMostCellsInPart = 60'000;
+constexpr std::int64_t kMostCellsInPart = 100'000;
 
 /// dB, so that another program finds the ratio below what is said of it.
 constexpr double kRoom = 1e-9;
@@ -114,9 +114,7 @@ class SnrSearch {
   bool is_affordable(int quarters) {
     constexpr std::size_t kEvery = 13;
     const std::optional<LockProposal> found = propose(quarters);
-    const std::optional<std::int64_t> cells =
-        found ? expected_cells(question_.design, found->set, kEvery, kMostCellsInPart) : std::nullopt;
-    return cells && *cells <= affordable_cells_;
+    return found && expects_cells(question_.design, found->set, kEvery, affordable_cells_);
   }
 
   LockQuestion question_;

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
@@ -97,30 +96,26 @@ bool has_mirror_image(const trackers::ToneModel<Interval>& design, const LockSet
          is_apart(set.centre) && is_apart(set.spread_above) && is_apart(set.spread_below);
 }
 
-std::optional<std::int64_t> cells_of_proof(const LockSet& set, bool half, const CellLook& look, std::int64_t most_cells,
-                                           std::size_t every) {
+std::optional<std::int64_t> cells_of_proof(const LockSet& set, bool half, const CellLook& look,
+                                           const CoverLimits& limits) {
   constexpr int kDepth = 40;
   const std::vector<LevelCell> grid = grid_of(set, half);
   if (!covers_set(grid, set, half)) {
     return std::nullopt;
   }
-  std::vector<std::int64_t> cells(grid.size(), 0);
+  std::atomic<std::int64_t> cells = 0;
   std::atomic<bool> failed = false;
   tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t k) {
-    if (failed || k % every != every / 2) {
+    if (failed || k % limits.every != limits.every / 2) {
       return;
     }
     const rigor::UpwardRounding upward_here;
-    Walk walk{set, look, most_cells};
-    if (!walk.proves(grid[k], kDepth)) {
+    Walk walk{set, look, limits.cells_in_part};
+    if (!walk.proves(grid[k], kDepth) || (cells += walk.cells) > limits.cells) {
       failed = true;
     }
-    cells[k] = walk.cells;
   });
-  if (failed) {
-    return std::nullopt;
-  }
-  return std::accumulate(cells.begin(), cells.end(), std::int64_t{0});
+  return failed ? std::nullopt : std::optional(cells.load());
 }
 
 }  // namespace veritrack::quadrature

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "analysis/quadrature/gaussian/level_cell.hpp"
@@ -15,13 +16,19 @@ using CellLook = std::function<CellDrift(const LevelCell&)>;
 /// set to itself.
 [[nodiscard]] bool has_mirror_image(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set);
 
+/// How much is looked at.
+struct CoverLimits {
+  std::int64_t cells_in_part = 0;  ///< at most, in each of the parts that are looked at by themselves
+  std::int64_t cells = std::numeric_limits<std::int64_t>::max();  ///< at most, together
+  /// More than 1: only one in so many parts, which proves nothing and says how long a proof may take.
+  std::size_t every = 1;
+};
+
 /// The number of cells that were looked at, when together they cover all (u, s) whose level is at most L and
-/// `look` holds in each that is not outside the set. With `half` only those with u3 >= 0, the mirror image being
-/// good for the others.
-/// Nothing when a part takes more than `most_cells`. Where `every` is more than 1 this looks only at every so
-/// many parts, which proves nothing and says how long a proof may take. In parallel; the result does not
-/// depend on the number of threads. Needs the upward mode.
+/// `look` holds in each that is not outside the set. With `half` only those with u3 >= 0, the mirror image
+/// being good for the others. Nothing when the limits do not suffice. In parallel; the result does not depend
+/// on the number of threads. Needs the upward mode.
 [[nodiscard]] std::optional<std::int64_t> cells_of_proof(const LockSet& set, bool half, const CellLook& look,
-                                                         std::int64_t most_cells, std::size_t every = 1);
+                                                         const CoverLimits& limits);
 
 }  // namespace veritrack::quadrature

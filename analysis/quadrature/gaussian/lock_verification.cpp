@@ -64,8 +64,11 @@ LockVerification verify_lock_set(const trackers::ToneModel<Interval>& design, co
     return result;
   }
   const DriftInequality inequality(design, proposal);
+  CoverLimits limits;
+  limits.cells_in_part = most_cells;
   const auto cells = cells_of_proof(
-      proposal, has_mirror_image(design, proposal), [&](const LevelCell& cell) { return inequality.check(cell); }, most_cells);
+      proposal, has_mirror_image(design, proposal),
+      [&](const LevelCell& cell) { return inequality.check(cell); }, limits);
   if (!cells) {
     result.reason =
         "somewhere in the set the expected value of W could not be shown to shrink but for the drift.";
@@ -77,17 +80,19 @@ LockVerification verify_lock_set(const trackers::ToneModel<Interval>& design, co
   return result;
 }
 
-std::optional<std::int64_t> expected_cells(const trackers::ToneModel<Interval>& design,
-                                           const LockSet& proposal, std::size_t every,
-                                           std::int64_t most_cells) {
+bool expects_cells(const trackers::ToneModel<Interval>& design, const LockSet& proposal, std::size_t every,
+                   std::int64_t most_cells) {
   const rigor::UpwardRounding upward;
   if (!objection(design, proposal).empty()) {
-    return std::nullopt;
+    return false;
   }
   const DriftInequality inequality(design, proposal);
-  const auto cells = cells_of_proof(
-      proposal, has_mirror_image(design, proposal), [&](const LevelCell& cell) { return inequality.check(cell); }, most_cells, every);
-  return cells ? std::optional(*cells * static_cast<std::int64_t>(every)) : std::nullopt;
+  const CoverLimits limits{most_cells / static_cast<std::int64_t>(every),
+                           most_cells / static_cast<std::int64_t>(every), every};
+  return cells_of_proof(
+             proposal, has_mirror_image(design, proposal),
+             [&](const LevelCell& cell) { return inequality.check(cell); }, limits)
+      .has_value();
 }
 
 }  // namespace veritrack::quadrature

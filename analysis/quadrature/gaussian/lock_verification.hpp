@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "analysis/quadrature/gaussian/drift_inequality.hpp"
@@ -30,11 +29,9 @@ struct LockVerification {
                                                const LockSet& proposal,
                                                std::int64_t most_cells = kMostLockCells);
 
-/// About how many cells verify_lock_set needs, from one in `every` of the parts of the set; nothing when one
-/// of these needs more than `most_cells`, or the proposal is out of range. Opens its own UpwardRounding
-/// scopes.
-[[nodiscard]] std::optional<std::int64_t> expected_cells(const trackers::ToneModel<rigor::Interval>& design,
-                                                         const LockSet& proposal, std::size_t every,
-                                                         std::int64_t most_cells);
+/// Does verify_lock_set need about so many cells at most, judging by one in `every` of the parts of the set?
+/// No when the proposal is out of range. Opens its own UpwardRounding scopes.
+[[nodiscard]] bool expects_cells(const trackers::ToneModel<rigor::Interval>& design, const LockSet& proposal,
+                                 std::size_t every, std::int64_t most_cells);
 
 }  // namespace veritrack::quadrature

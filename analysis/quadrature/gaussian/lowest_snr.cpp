@@ -20,7 +20,7 @@ constexpr int kLeastQuarters = 0;
 constexpr int kMostQuarters = 200;
 /// With less left of the inequality at the sampled points, cells have to be too small for a proof in seconds.
 constexpr double kProvable = 0.022;
-constexpr std::int64_t kMostCellsInPart = 90'000;
+constexpr std::int64_t kMostCellsInPart = 100'000;
 
 /// dB, so that another program finds the ratio below what is said of it.
 constexpr double kRoom = 1e-9;
@@ -114,9 +114,7 @@ class SnrSearch {
   bool is_affordable(int quarters) {
     constexpr std::size_t kEvery = 13;
     const std::optional<LockProposal> found = propose(quarters);
-    const std::optional<std::int64_t> cells =
-        found ? expected_cells(question_.design, found->set, kEvery, kMostCellsInPart) : std::nullopt;
-    return cells && *cells <= affordable_cells_;
+    return found && expects_cells(question_.design, found->set, kEvery, affordable_cells_);
   }
 
   LockQuestion question_;
@@ -146,14 +144,14 @@ LowestSnr as_lowest(LockCertificate found) {
       kept(found.derivation.conditions, [](const theorems::Condition& condition) { return condition.id; },
            {"leak", "drift", "rounding", "start-in-set"});
   theorems::conclude(derivation);
-  theorems::add_quantity(
-      derivation,
-      {"lowest_snr", "\\mathrm{SNR}", "-10\\log_{10}(2\\sigma^2)", "docs/gaussian.md",
-       "lowest signal-to-noise ratio for which the required probability is certified, dB",
-       theorems::Sense::at_most},
-      found.sets.empty() ? Interval()
-                         : decibels_of(Interval(found.sets.front().noise_deviation)) + Interval(kRoom),
-      "No set could be certified.");
+  theorems::add_quantity(derivation,
+                         {"lowest_snr", "\\mathrm{SNR}", "-10\\log_{10}(2\\sigma^2)", "docs/gaussian.md",
+                          "lowest signal-to-noise ratio for which the required probability is certified, dB",
+                          theorems::Sense::at_most},
+                         found.sets.empty()
+                             ? Interval()
+                             : decibels_of(Interval(found.sets.front().noise_deviation)) + Interval(kRoom),
+                         "No set could be certified.");
   for (theorems::Quantity& quantity :
        kept(found.derivation.quantities, [](const theorems::Quantity& quantity) { return quantity.name; },
             {"probability_of_losing_lock", "lock_frequency_error", "start_level"})) {

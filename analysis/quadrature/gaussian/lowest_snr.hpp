@@ -23,7 +23,7 @@ struct LowestSnr {
 /// search. Deterministic. Sets its own rounding mode.
 [[nodiscard]] LowestSnr certify_lowest_snr(const LockQuestion& question,
                                            const std::optional<LockProposal>& at_its_noise,
-                                           std::int64_t affordable_cells = 500'000);
+                                           std::int64_t affordable_cells = 600'000);
 
 /// The signal-to-noise ratio in dB of a deviation in each channel, at amplitude 1: -10 log10(2 sigma^2).
 /// Needs the upward mode.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -175,7 +176,10 @@ Interval decibels_of(const Interval& deviation) {
 LowestSnr certify_lowest_snr(const LockQuestion& question, const std::optional<LockProposal>& at_its_noise,
                              std::int64_t affordable_cells) {
   const rigor::UpwardRounding upward;
-  if (!(question.design.epsilon == Interval(0.0)) || !is_well_posed(question)) {
+  if (!(question.design.epsilon == Interval(0.0))) {
+    throw std::invalid_argument("the lowest signal-to-noise ratio is for a tracker without a leak");
+  }
+  if (!is_well_posed(question)) {
     return as_lowest(certify_lock(question, std::nullopt));
   }
   SnrSearch search(question, at_its_noise, affordable_cells);

@@ -20,7 +20,7 @@ struct LowestSnr {
 /// sampled points in steps of a quarter of a decibel, and proves one for that noise or, if it cannot, for
 /// little less: for which about so many cells suffice, half a minute of one core. Samples, starts, walk and
 /// probability are the question's, its noise is not: `at_its_noise`, a proposal for that, only helps the
-/// search. Deterministic. Sets its own rounding mode.
+/// search. Deterministic. Sets its own rounding mode. Throws std::invalid_argument for a design with a leak.
 [[nodiscard]] LowestSnr certify_lowest_snr(const LockQuestion& question,
                                            const std::optional<LockProposal>& at_its_noise,
                                            std::int64_t affordable_cells = 600'000);

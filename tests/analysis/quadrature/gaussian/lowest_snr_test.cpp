@@ -67,14 +67,12 @@ TEST_CASE(
 TEST_CASE("where nothing can be certified there is no ratio") {
   LockQuestion leaking = short_question(20.0);
   leaking.design.epsilon = Interval(0.01);
-  LowestSnr found = certify_lowest_snr(leaking, std::nullopt);
-  CHECK_FALSE(found.set.has_value());
-  CHECK(found.derivation.verdict == Verdict::undecided);
-  CHECK(theorems::applicable_quantity(found.derivation, "lowest_snr") == nullptr);
+  CHECK_THROWS_AS((void)certify_lowest_snr(leaking, std::nullopt), std::invalid_argument);
   LockQuestion undriven = short_question(20.0);
   undriven.design.q1 = Interval(0.0);
-  found = certify_lowest_snr(undriven, std::nullopt);
+  const LowestSnr found = certify_lowest_snr(undriven, std::nullopt);
   CHECK_FALSE(found.set.has_value());
+  CHECK(found.derivation.verdict == Verdict::undecided);
   CHECK(theorems::applicable_quantity(found.derivation, "lowest_snr") == nullptr);
 }
 

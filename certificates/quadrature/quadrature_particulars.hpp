@@ -50,7 +50,7 @@ struct ComparedResult {
 struct QuadratureParticulars {
   StartCovarianceText start_covariance;
   std::vector<NamedSet> certified_sets;
-  std::vector<quadrature::LockSet> lock_sets;             ///< for Gaussian noise
+  std::vector<quadrature::LockSet> lock_sets;         ///< for Gaussian noise
   std::optional<quadrature::LockSet> lowest_snr_set;  ///< for as much of it as could be proved
   std::optional<quadrature::LockLoss> lock_loss;      ///< simulated
   std::optional<double> union_bound_snr;              ///< dB; not in the evidence, so not proved

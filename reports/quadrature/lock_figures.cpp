@@ -140,11 +140,11 @@ std::vector<Figure> draw_lock_figures(const Certificate& certificate) {
   const auto& sets = particulars.lock_sets;
   const LockCurves curves{
       certified_lock(certificate, "lock", sets.empty() ? std::nullopt : std::optional(sets.front())),
-                          *lowest,
-                          *particulars.lock_loss,
-                          particulars.union_bound_snr,
-                          tables.assume.samples.value().nearest,
-                          required ? required->nearest : 1e-6};
+      *lowest,
+      *particulars.lock_loss,
+      particulars.union_bound_snr,
+      tables.assume.samples.value().nearest,
+      required ? required->nearest : 1e-6};
   return {{"lock-snr.svg",
            "Probability of losing lock per sample (within the assumed samples, divided by their number) over "
            "the signal-to-noise ratio: certified from the lowest ratio on (black; dots where a set is in the "

@@ -16,8 +16,8 @@ struct DriftPoint {
   Eigen::Matrix3d covariance;
 };
 
-/// log E[W(k+1)] - log(kappa W(k) + c_0) from this state, by (2) of docs/gaussian.md and the textbook's filter: not
-/// positive where the inequality is true, +infinity where the expected value is infinite. In
+/// log E[W(k+1)] - log(kappa W(k) + c_0) from this state, by (2) of docs/gaussian.md and the textbook's
+/// filter: not positive where the inequality is true, +infinity where the expected value is infinite. In
 /// round-to-nearest.
 [[nodiscard]] double drift_excess(const LockSet& set, const trackers::ToneModel<double>& design,
                                   const DriftPoint& point);

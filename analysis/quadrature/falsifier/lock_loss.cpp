@@ -43,7 +43,8 @@ struct NoisyRun {
       const double angle =
           std::atan2(state(trackers::kDeltaQuadrature), 1.0 + state(trackers::kDeltaInPhase));
       phase += std::remainder(angle - phase, 2.0 * kHalfTurn);
-      if (!(std::fabs(state(trackers::kFrequencyError)) <= 0.5 * kHalfTurn && std::fabs(phase) <= 2.0 * kHalfTurn)) {
+      if (!(std::fabs(state(trackers::kFrequencyError)) <= 0.5 * kHalfTurn &&
+            std::fabs(phase) <= 2.0 * kHalfTurn)) {
         ++lost;
         state = steady;
         phase = 0.0;

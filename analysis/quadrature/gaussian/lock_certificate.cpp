@@ -45,7 +45,7 @@ constexpr std::array<std::array<double, 2>, 4> kMultiples{{{0.5, 2.0}, {0.7, 1.5
 Interval start_level(const std::vector<LockSet>& sets, const LockStarts& starts) {
   Interval worst(0.0);
   for (const LockSet& set : sets) {
-    const Interval level = start_level(set, starts);
+    Interval level = start_level(set, starts);
     if (is_empty(level)) {
       return level;
     }

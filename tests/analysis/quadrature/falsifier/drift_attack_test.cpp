@@ -105,7 +105,8 @@ TEST_CASE("the Gaussian integral is the mean over steps of the program, for rand
     const double now = level_of(set, at.point.covariance);
     const double level = half_square(set, at.point.error) + 0.5 * set.weight * now * now;
     const double simulated = mean * std::exp(0.5 * set.weight * next_level * next_level);
-    const double formula = std::exp(drift_excess(set, at.design, at.point)) * (set.decay * std::exp(level) + set.drift);
+    const double formula =
+        std::exp(drift_excess(set, at.design, at.point)) * (set.decay * std::exp(level) + set.drift);
     CHECK(formula / simulated == doctest::Approx(1.0).epsilon(5.0 * error / mean));
   }
 }

@@ -76,7 +76,7 @@ struct Oracle {
     const double next = level_of(turn * filtered * turn.transpose());
     const double now = level_of(p);
     const double level = 0.5 * away.dot(m * away) + 0.5 * set.weight * now * now;
-    return exponent + 0.5 * set.weight * next * next - level - 
+    return exponent + 0.5 * set.weight * next * next - level -
            std::log(set.decay + set.drift * std::exp(-level));
   }
 };

@@ -20,7 +20,7 @@ using certificates::Certificate;
 struct CertifiedLock {
   double decibels = 0.0;
   double probability = 0.0;  ///< within the assumed samples
-  double at_once = 0.0;      ///< exp(l_0 - L): of it, what does not grow with the samples
+  double at_once = 0.0;      ///< of it, what does not grow with the samples
 };
 
 std::optional<CertifiedLock> certified_lock(const Certificate& certificate, const char* derivation_id,
@@ -34,8 +34,9 @@ std::optional<CertifiedLock> certified_lock(const Certificate& certificate, cons
   if (probability == nullptr || level == nullptr) {
     return std::nullopt;
   }
-  return CertifiedLock{-10.0 * std::log10(2.0 * set->noise_deviation * set->noise_deviation),
-                       probability->value.upper(), std::exp(level->value.upper() - set->level)};
+  return CertifiedLock{
+      -10.0 * std::log10(2.0 * set->noise_deviation * set->noise_deviation), probability->value.upper(),
+      (std::exp(level->value.upper()) + set->drift / (1.0 - set->decay)) * std::exp(-set->level)};
 }
 
 /// Everything that is drawn.

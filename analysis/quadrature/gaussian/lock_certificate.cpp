@@ -277,7 +277,8 @@ LockCertificate certify_lock(const LockQuestion& question, const std::optional<L
   theorems::add_quantity(
       derivation,
       {"probability_of_losing_lock", "p", "e^{-L}(e^{l_0} + c_0/(1 - \\kappa) + N c_0)", kSource,
-       "probability of losing lock within the assumed number of samples", theorems::Sense::at_most},
+       "probability of losing lock within the assumed number of successive samples",
+       theorems::Sense::at_most},
       probability, kNone);
   theorems::add_quantity(derivation,
                          {"lock_frequency_error", "B",

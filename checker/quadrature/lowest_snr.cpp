@@ -12,6 +12,10 @@ Ball decibels_of(const Ball& deviation) {
 
 LockSet check_lowest_snr_set(const Tree& tree, const Design& design, const GaussianNoise& noise,
                              std::int64_t& cells, Objections& objections) {
+  if (!design.without_leak()) {
+    // There each set is for a part of the band only.
+    objections.emplace_back("a set for the lowest SNR is for a design without a leak");
+  }
   GaussianNoise at_set = noise;
   at_set.deviation = exact_number(tree.at("noise_deviation"));
   return check_lock_set(tree, design, at_set, cells, objections);

@@ -46,4 +46,19 @@ TEST_CASE("a set for another noise is proved for its own, whatever the design as
   CHECK(objections.size() == 1);
 }
 
+TEST_CASE("with a leak a set is for a part of the band, and none is for the lowest ratio") {
+  const lock_test::WrittenSet written;
+  Design design;
+  design.q1 = design.q2 = design.r = design.epsilon = from_decimal("0.01");
+  design.slew = zero;
+  design.amplitude = one;
+  design.largest_frequency = Ball(3.0);
+  const GaussianNoise noise{Ball(0.01), zero, Ball(1000.0)};
+  std::int64_t cells = 0;
+  Objections objections;
+  static_cast<void>(check_lowest_snr_set(written.tree(), design, noise, cells, objections));
+  REQUIRE_FALSE(objections.empty());
+  CHECK(objections.front().find("without a leak") != std::string::npos);
+}
+
 }  // namespace veritrack::checker

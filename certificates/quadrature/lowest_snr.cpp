@@ -130,8 +130,7 @@ void add_lowest_snr(Certificate& certificate, const quadrature::LockQuestion& qu
     claim.id = "ekf/lowest-snr";
     claim.reason =
         "The same for more noise, or less, than is assumed: a set for the lowest signal-to-noise ratio at "
-        "which "
-        "the search, in steps of 0.25 dB, found one that can be proved in a minute.";
+        "which the search, in steps of 0.25 dB, found one that can be proved in a minute.";
     claim.evidence.push_back(*decibels);
     certificate.claims.push_back(std::move(claim));
   }

@@ -10,7 +10,8 @@ namespace veritrack::quadrature {
 
 /// A multiplier mu, and what elimination leaves of l with it, the determinant taken off.
 struct MultiplierChoice {
-  double multiplier = 0.0, left;
+  double multiplier = 0.0;
+  double left = 0.0;
 };
 /// The multiplier away from all limits, as a cell needs it. In floating point: for proposals. `next` has the
 /// metric in which the next error is measured.

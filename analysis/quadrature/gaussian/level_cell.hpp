@@ -26,7 +26,6 @@ using CellDerivatives = rigor::Dual<rigor::Interval, 3>;
 struct LockSettings {
   LockSettings(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set);
 
-  LockSettings() = default;
   LockSetting<rigor::Interval> enclosed;
   LockSetting<double> rough;
 };

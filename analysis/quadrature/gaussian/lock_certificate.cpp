@@ -254,10 +254,9 @@ LockCertificate certify_lock(const LockQuestion& question, const std::optional<L
       result.sets = sets;
       derivation.notes.push_back(
           "e is the error in the frame of the true phase: real and imaginary part of the estimate relative "
-          "to the "
-          "signal, less 1, and the frequency error. s(P) says how far the covariance is from the filter's "
-          "steady "
-          "state. W = exp(|T e|^2/2 + gamma s(P)^2/2), and the set is where W is at most exp(L), L = " +
+          "to the signal, less 1, and the frequency error. s(P) says how far the covariance is from the "
+          "filter's steady state. W = exp(|T e|^2/2 + gamma s(P)^2/2), and the set is where W is at most "
+          "exp(L), L = " +
           rigor::upper_decimal(Interval(set.level)) +
           ", kappa = " + rigor::upper_decimal(Interval(set.decay)) +
           ", c_0 = " + rigor::upper_decimal(Interval(set.drift)) + "." +

@@ -37,8 +37,8 @@ CellDrift DriftInequality::check(const LevelCell& cell) const {
   }
   const Interval core = core_over(set_, cell);
   const Interval& weight = settings_.enclosed.weight;
-  // s^2 is at least its tangent, and -t^2 is concave. So with one multiplier for both, what holds at the two
-  // ends holds in between.
+  // |u|^2 and s^2 are at least their tangents, and -t^2 is concave. So with one multiplier for both, what
+  // holds at the two ends of s holds in between.
   const auto left = [&]<typename Scalar>(const std::array<Scalar, 3>& u, const Scalar& t,
                                          const Interval& away) {
     using rigor::square;
@@ -50,7 +50,7 @@ CellDrift DriftInequality::check(const LevelCell& cell) const {
   CellLeft l;
   for (std::size_t end = 0; end < 2; ++end) {
     l.at[end] = left(step.middle, level->at[end], step.ends[end]);
-    l.over[end] = left(step.range, level->over[end], step.ends[end]);
+    l.over[end] = left(step.tangent, level->over[end], step.ends[end]);
   }
   std::array<double, 3> influence{};
   found.holds = certainly_left_over(settings_, step, l, influence);

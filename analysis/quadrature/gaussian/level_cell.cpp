@@ -102,6 +102,7 @@ CellStep::CellStep(const LockSetting<Interval>& setting, const LevelCell& cell)
     unit.fill(Interval(0.0));
     unit[i] = Interval(1.0);
     range[i] = CellDerivatives(Interval::from_bounds(cell.low[i], cell.high[i]), unit);
+    tangent[i] = CellDerivatives(middle[i], unit);
     half_widths[i] =
         std::max((Interval(cell.high[i]) - middle[i]).upper(), (middle[i] - Interval(cell.low[i])).upper());
   }

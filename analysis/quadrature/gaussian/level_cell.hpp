@@ -39,6 +39,8 @@ struct CellStep {
 
   std::array<rigor::Interval, 3> middle;
   std::array<CellDerivatives, 3> range;
+  /// The middle, with derivatives: of a convex function of these the tangent, which is below it in the cell.
+  std::array<CellDerivatives, 3> tangent;
   std::array<double, 3> half_widths{};
   rigor::Interval level_middle;
   std::array<rigor::Interval, 2> ends;  ///< of the level, from its middle

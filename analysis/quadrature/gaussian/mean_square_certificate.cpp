@@ -1,0 +1,108 @@
+#include "analysis/quadrature/gaussian/mean_square_certificate.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "analysis/quadrature/gaussian/mean_square_search.hpp"
+#include "analysis/quadrature/gaussian/mean_square_verification.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "analysis/theorems/derivation_builder.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+/// Of the mean square that sampled points need: the less is added, the smaller cells have to be.
+constexpr std::array<double, 5> kFactors{1.08, 1.16, 1.3, 1.5, 2.0};
+constexpr std::int64_t kAffordableCells = 700'000;
+
+/// A form that is proved for a set, with its cells.
+struct ProvedForm {
+  LockMeanSquare form;
+  std::int64_t cells;
+};
+
+std::optional<ProvedForm> proved_form(const LockQuestion& question, const LockSet& set) {
+  constexpr std::size_t kEvery = 13;
+  const auto proposal = propose_mean_square(proposal_request(question).design, set);
+  if (!proposal) {
+    return std::nullopt;
+  }
+  for (const double factor : kFactors) {
+    LockMeanSquare form = proposal->mean_square;
+    form.bound *= factor;
+    if (expects_cells(question.design, set, form, kEvery, kAffordableCells)) {
+      const LockVerification found = verify_mean_square(question.design, set, form);
+      if (found.verdict == Verdict::proved) {
+        return ProvedForm{form, found.cells};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Interval root_mean_square(const LockSet& set, const LockMeanSquare& mean_square, const Interval& start_level,
+                          const Interval& samples) {
+  const Interval before = expected_form(set, mean_square, expected_weight(set, start_level));
+  return rigor::sqrt(Interval(mean_square.bound) + before / (Interval(mean_square.rate) * samples));
+}
+
+MeanSquareCertificate certify_mean_square(const LockQuestion& question, const LockCertificate& lock) {
+  MeanSquareCertificate result;
+  theorems::Derivation& derivation = result.derivation;
+  derivation.id = "mean-square";
+  derivation.title = "Gaussian noise: the mean square of the frequency error in lock";
+  const rigor::UpwardRounding upward;
+  const theorems::Quantity* start = theorems::applicable_quantity(lock.derivation, "start_level");
+  const bool in_lock = !lock.sets.empty() && start != nullptr;
+  derivation.conditions.push_back({"in-lock", "E[W(k+1) \\mid k] \\le \\kappa W(k) + c_0 \\text{ in the set}",
+                                   in_lock ? Verdict::proved : Verdict::undecided, Interval::empty(),
+                                   Interval::empty(),
+                                   in_lock ? "the probability of losing lock is certified."
+                                           : "no probability of losing lock is certified."});
+  std::vector<LockMeanSquare> forms;
+  if (in_lock) {
+    for (const LockSet& set : lock.sets) {
+      if (const auto found = proved_form(question, set)) {
+        forms.push_back(found->form);
+        result.cells += found->cells;
+      } else {
+        break;
+      }
+    }
+  }
+  const bool bounded = in_lock && forms.size() == lock.sets.size();
+  derivation.conditions.push_back(
+      {"mean-square", "E[U(k+1) \\mid k] \\le U(k) + h\\,(c - \\nu(k)^2) \\text{ in the set}",
+       bounded ? Verdict::proved : Verdict::undecided, Interval::empty(), Interval::empty(),
+       bounded ? "it is proved in " + std::to_string(result.cells) + " cells that cover the set."
+               : "no quadratic form was found for which it could be proved."});
+  Interval root;
+  if (bounded) {
+    result.mean_squares = forms;
+    root = Interval(0.0);
+    for (std::size_t k = 0; k < forms.size(); ++k) {
+      root = max(root, root_mean_square(lock.sets[k], forms[k], start->value, question.samples));
+    }
+    derivation.notes.push_back(
+        "U = |R e|^2 + g s(P)^2 + beta W, with e, s(P) and W as for the probability of losing lock. It grows "
+        "at "
+        "each sample by at most h (c - nu^2) on average while in lock, and is never negative.");
+  }
+  theorems::conclude(derivation);
+  theorems::add_quantity(derivation,
+                         {"rms_frequency_error", "\\mathrm{rms}", "\\sqrt{c + U_0/(hN)}", "docs/gaussian.md",
+                          "root mean square of the frequency error while in lock, over the assumed number of "
+                          "successive samples, rad/sample",
+                          theorems::Sense::at_most},
+                         root, "No quadratic form could be certified.");
+  return result;
+}
+
+}  // namespace veritrack::quadrature

@@ -1,0 +1,192 @@
+#include "analysis/quadrature/gaussian/mean_square_search.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "analysis/quadrature/gaussian/lock_samples.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "analysis/search/maximin.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+/// The filter linearised about lock: e+ = A e + K v - w e3, phase and frequency by themselves.
+struct LinearFilter {
+  Eigen::Matrix2d errors;  ///< of (e2, nu)
+  Eigen::Vector2d gain;
+};
+LinearFilter linear_filter(const trackers::ToneModel<double>& design, const LevelCovariance<double>& p) {
+  // F P F' + Q for F = [[1, 1], [0, 1]].
+  const double p22 = p.p22 + 2.0 * p.p23 + p.p33 + design.q1;
+  const double p23 = p.p23 + p.p33;
+  const double innovation = p22 + design.r;
+  const Eigen::Vector2d gain(p22 / innovation, p23 / innovation);
+  Eigen::Matrix2d errors;
+  errors << 1.0 - gain[0], 1.0 - gain[0], -gain[1], 1.0 - gain[1];
+  return {errors, gain};
+}
+
+/// N = A'NA + e2 e2': e'Ne is the sum of all later nu^2.
+std::optional<Eigen::Matrix2d> later_errors(const Eigen::Matrix2d& a) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  sum(1, 1) = 1.0;
+  Eigen::Matrix2d power = a;
+  // Doubling.
+  constexpr int kDoublings = 40;
+  for (int k = 0; k < kDoublings; ++k) {
+    sum = (sum + power.transpose() * sum * power).eval();
+    power = (power * power).eval();
+  }
+  return sum.allFinite() && power.norm() < 1e-9 ? std::optional(sum) : std::nullopt;
+}
+
+/// Six numbers: logarithms of the entries of a factor but the coupling, of g and of beta, in units in which
+/// the linear filter has 1.
+constexpr Eigen::Index kFormParameters = 6;
+
+class Forms {
+ public:
+  Forms(const Eigen::Matrix2d& later, double linear) : linear_(linear) {
+    constexpr double kRate = 0.01;
+    constexpr double kAmplitudeShare = 0.1;
+    rate_ = kRate / linear;
+    phase_ = std::sqrt(later(0, 0));
+    coupling_ = later(0, 1) / phase_;
+    frequency_ = std::sqrt(later(1, 1) - coupling_ * coupling_);
+    amplitude_ = std::sqrt(kAmplitudeShare * later(1, 1));
+  }
+
+  [[nodiscard]] static search::SearchSpace space(int evaluations) {
+    search::SearchSpace space{
+        Eigen::VectorXd(kFormParameters), Eigen::VectorXd::Constant(kFormParameters, 0.1),
+        Eigen::VectorXd(kFormParameters), Eigen::VectorXd(kFormParameters), evaluations};
+    space.start << 0.35, 0.4, 0.6, 0.4, 4.5, -2.5;
+    space.lower << -0.2, -0.2, -1.0, -0.2, 2.0, -9.0;
+    space.upper << 3.0, 3.0, 3.0, 3.0, 8.0, 1.0;
+    return space;
+  }
+
+  [[nodiscard]] LockMeanSquare form(const Eigen::VectorXd& x) const {
+    const double root = std::sqrt(rate_);
+    LockMeanSquare form;
+    form.metric = {root * std::exp(x[0]) * amplitude_, root * std::exp(x[1]) * phase_,
+                   root * (std::exp(x[1]) * coupling_ + x[2] * frequency_),
+                   root * std::exp(x[3]) * frequency_};
+    form.weight = rate_ * linear_ * std::exp(x[4]);
+    form.share = rate_ * linear_ * std::exp(x[5]);
+    form.rate = rate_;
+    return form;
+  }
+
+ private:
+  double linear_, rate_;
+  double amplitude_, phase_, coupling_, frequency_;
+};
+
+constexpr std::array<double, 17> kLevels{0.003, 0.03, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 3.0,
+                                         4.0,   5.0,  6.0, 7.0, 8.5, 11., 16., 24.};
+
+/// Besides what the point needs: far out there is room, so that cells there need not be small.
+constexpr double kRoomPerLevel = 0.15;
+constexpr double kMostLevelWithRoom = 8.0;
+/// What the points need, in units of the linear variance.
+Eigen::VectorXd needs(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set,
+                      const LockMeanSquare& form, double linear, const std::vector<LockSample>& samples) {
+  const MeanSquareInequality inequality(design, set, form);
+  Eigen::VectorXd result(static_cast<Eigen::Index>(samples.size()));
+  constexpr std::size_t kGrain = 128;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), kGrain), [&](const auto& range) {
+    const rigor::UpwardRounding upward_here;
+    for (std::size_t k = range.begin(); k != range.end(); ++k) {
+      result[static_cast<Eigen::Index>(k)] = inequality.needed_at(point_at(set, samples[k])) / linear;
+    }
+  });
+  return result;
+}
+
+Eigen::VectorXd wanted(Eigen::VectorXd needed, const std::vector<LockSample>& samples) {
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    needed[static_cast<Eigen::Index>(k)] *=
+        1.0 + kRoomPerLevel * std::min(samples[k].level, kMostLevelWithRoom);
+  }
+  return needed;
+}
+
+}  // namespace
+
+std::optional<double> linear_frequency_variance(const trackers::ToneModel<double>& design,
+                                                const LockSet& set) {
+  const LinearFilter filter = linear_filter(design, set.centre);
+  const auto later = later_errors(filter.errors);
+  if (!later) {
+    return std::nullopt;
+  }
+  return set.noise_deviation * set.noise_deviation * filter.gain.dot(*later * filter.gain) +
+         set.frequency_walk * set.frequency_walk * (*later)(1, 1);
+}
+
+std::optional<MeanSquareProposal> propose_mean_square(const trackers::ToneModel<double>& design,
+                                                      const LockSet& set) {
+  const auto later = later_errors(linear_filter(design, set.centre).errors);
+  const auto linear = linear_frequency_variance(design, set);
+  if (!later || !(*linear > 0.0)) {
+    return std::nullopt;
+  }
+  constexpr int kAllDirections = 1200;
+  constexpr std::size_t kAdded = 40;
+  constexpr int kRounds = 8;
+  constexpr double kLeastNeed = 1e-3;
+  constexpr double kNearEnough = 0.005;
+  const trackers::ToneModel<rigor::Interval> enclosed{rigor::Interval(design.q1), rigor::Interval(design.q2),
+                                                      rigor::Interval(design.r),
+                                                      rigor::Interval(design.epsilon)};
+  std::vector<LockSample> all;
+  for (const LevelPoint& direction : sample_directions(kAllDirections)) {
+    for (const double level : kLevels) {
+      if (level < set.level) {
+        all.push_back({direction, level});
+      }
+    }
+  }
+  const Forms forms(*later, *linear);
+  std::vector<LockSample> looked_at(all.begin(), all.begin() + 17 * 12);
+  search::SearchSpace space = Forms::space(400);
+  double bound = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    const search::BestPoint best = search::climb_least(
+        [&](const Eigen::VectorXd& x) {
+          return Eigen::VectorXd(-wanted(needs(enclosed, set, forms.form(x), *linear, looked_at), looked_at)
+                                      .cwiseMax(kLeastNeed)
+                                      .array()
+                                      .log());
+        },
+        space);
+    space.start = best.point;
+    const Eigen::VectorXd needed = needs(enclosed, set, forms.form(space.start), *linear, all);
+    const Eigen::VectorXd worst = wanted(needed, all);
+    bound = needed.maxCoeff();
+    if (std::log(worst.maxCoeff()) <= -best.value + kNearEnough) {
+      break;
+    }
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return worst[static_cast<Eigen::Index>(a)] > worst[static_cast<Eigen::Index>(b)];
+    });
+    for (std::size_t k = 0; k < kAdded; ++k) {
+      looked_at.push_back(all[order[k]]);
+    }
+  }
+  MeanSquareProposal proposal{forms.form(space.start), *linear};
+  proposal.mean_square.bound = *linear * bound;
+  return proposal;
+}
+
+}  // namespace veritrack::quadrature

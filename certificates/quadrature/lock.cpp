@@ -11,6 +11,7 @@
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/quadrature/guarantee.hpp"
 #include "certificates/quadrature/lowest_snr.hpp"
+#include "certificates/quadrature/mean_square.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/sets/gaussian_noise.hpp"
@@ -84,7 +85,8 @@ Claim probability_claim(const theorems::Derivation& derivation, const GuaranteeT
 
 }  // namespace
 
-Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerms& terms) {
+Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerms& terms,
+                     const theorems::Quantity* rms) {
   const theorems::Quantity* probability =
       theorems::applicable_quantity(derivation, "probability_of_losing_lock");
   const theorems::Quantity* reach = theorems::applicable_quantity(derivation, "lock_frequency_error");
@@ -100,14 +102,24 @@ Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerm
   claim.statement += fmt::format(
       "the probability that the tracker loses its lock {}, its frequency error exceeding {} rad/sample at "
       "one "
-      "of them, is at most {}.",
+      "of them, is at most {}",
       stretch_of_samples(terms.assume), rigor::upper_decimal(reach->value, kShownDigits),
       rigor::upper_decimal(probability->value, kShownDigits));
+  if (rms != nullptr) {
+    claim.statement += fmt::format(
+        "; while it is in lock, the root mean square of its frequency error over them is at most {} "
+        "rad/sample",
+        rigor::upper_decimal(rms->value, kShownDigits));
+  }
+  claim.statement += ".";
   claim.reason =
       "All these starts lie in a set in which the expected value of a function of errors and covariance "
       "hardly "
       "rises from sample to sample, whatever the state; to leave the set it would have to become very large.";
   claim.evidence = {*probability, *reach};
+  if (rms != nullptr) {
+    claim.evidence.push_back(*rms);
+  }
   return claim;
 }
 
@@ -124,19 +136,28 @@ void add_lock(Certificate& certificate) {
   if (!found.sets.empty()) {
     add_start_covariance(particulars.start_covariance, found.covariance_multiples, found.derivation);
   }
-  certificate.derivations.push_back(std::move(found.derivation));
-  const theorems::Derivation derivation = certificate.derivations.back();
+  const theorems::Derivation derivation = found.derivation;
+  certificate.derivations.push_back(derivation);
   const GuaranteeTerms terms{tables.assume,
                              tables.require,
                              !tables.design.without_leak(),
                              true,
                              covariance_words(particulars.start_covariance, found.covariance_multiples),
                              kDoublePrecision};
+  if (certificate.extent == Extent::everything || tables.require.rms_frequency_error_below) {
+    add_mean_square(certificate, question, found);
+  }
   if (tables.require.probability_of_losing_lock_below) {
     certificate.claims.push_back(probability_claim(derivation, terms));
   }
+  if (tables.require.rms_frequency_error_below) {
+    certificate.claims.push_back(mean_square_claim(certificate, terms));
+  }
   conclude_requirements(certificate);
-  certificate.claims.push_back(lock_guarantee(derivation, terms));
+  const theorems::Derivation* mean_square = find_derivation(certificate, "mean-square");
+  certificate.claims.push_back(lock_guarantee(
+      derivation, terms,
+      mean_square == nullptr ? nullptr : theorems::applicable_quantity(*mean_square, "rms_frequency_error")));
   if (certificate.extent == Extent::everything) {
     add_lowest_snr(certificate, question, found, terms);
   }
@@ -168,6 +189,9 @@ std::string lock_coverage_section() {
          "- *Any successive samples, however late*: the bound is on the probability that the tracker is in "
          "lock when they begin and loses lock in them. For a frequency that walks only the first samples "
          "are spoken of.\n"
+         "- *The root mean square in lock*, where it is stated, is the root of the mean over those samples "
+         "of "
+         "the expected square of the frequency error, samples after a loss of lock counting nothing.\n"
          "- It covers a signal of constant amplitude.\n"
          "- Every constant was computed with outward-rounded interval arithmetic from the design values. "
          "UNDECIDED means that nothing could be shown.\n"

@@ -12,8 +12,10 @@ namespace veritrack::certificates {
 /// guarantee in one sentence. The design's noise must be Gaussian. Needs the upward mode.
 void add_lock(Certificate& certificate);
 
-/// The guarantee in one sentence: what a derivation like "lock" proves on these terms, or why nothing.
-[[nodiscard]] Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerms& terms);
+/// The guarantee in one sentence: what a derivation like "lock" proves on these terms, or why nothing; with
+/// the root mean square in lock when there is one.
+[[nodiscard]] Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerms& terms,
+                                   const theorems::Quantity* rms = nullptr);
 
 /// Its part of certificate.md.
 [[nodiscard]] std::string lock_section(const Certificate& certificate);

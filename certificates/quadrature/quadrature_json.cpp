@@ -94,14 +94,25 @@ Json block_json(double a, double b, double c, double d, double e) {
   return matrix_json(matrix);
 }
 
+Json metric_json(const quadrature::BlockMetric<double>& t) {
+  return block_json(t.amplitude, t.phase, t.coupling, 0.0, t.frequency);
+}
+
+Json mean_square_json(const quadrature::LockMeanSquare& form) {
+  return {{"metric", metric_json(form.metric)},
+          {"weight", rigor::to_hexadecimal(form.weight)},
+          {"share", rigor::to_hexadecimal(form.share)},
+          {"rate", rigor::to_hexadecimal(form.rate)},
+          {"bound", rigor::to_hexadecimal(form.bound)}};
+}
+
 Json lock_set_json(const quadrature::LockSet& set, bool leaks) {
   const auto covariance = [](const quadrature::LevelCovariance<double>& p) {
     Eigen::Matrix3d matrix;
     matrix << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
     return matrix_json(matrix);
   };
-  Json json{{"metric", block_json(set.metric.amplitude, set.metric.phase, set.metric.coupling, 0.0,
-                                  set.metric.frequency)},
+  Json json{{"metric", metric_json(set.metric)},
             {"centre", covariance(set.centre)},
             {"spread_above", covariance(set.spread_above)},
             {"spread_below", covariance(set.spread_below)},
@@ -147,9 +158,13 @@ Json quadrature_evidence_json(const Certificate& certificate) {
     sets.push_back(certified_set_json(set));
   }
   Json json{{"certified_sets", sets}};
+  const bool leaks = !quadrature_tables(certificate.design).design.without_leak();
   for (const quadrature::LockSet& set : quadrature_particulars(certificate).lock_sets) {
-    json["lock_sets"].push_back(
-        lock_set_json(set, !quadrature_tables(certificate.design).design.without_leak()));
+    json["lock_sets"].push_back(lock_set_json(set, leaks));
+  }
+  const auto& mean_squares = quadrature_particulars(certificate).lock_mean_squares;
+  for (std::size_t k = 0; k < mean_squares.size(); ++k) {
+    json["lock_sets"][k]["mean_square"] = mean_square_json(mean_squares[k]);
   }
   if (const auto& set = quadrature_particulars(certificate).lowest_snr_set) {
     json["lowest_snr_set"] = lock_set_json(*set, false);

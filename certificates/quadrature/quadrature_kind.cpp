@@ -14,6 +14,7 @@
 #include "certificates/quadrature/lowest_snr.hpp"
 #include "certificates/quadrature/markdown_other_results.hpp"
 #include "certificates/quadrature/markdown_theorem.hpp"
+#include "certificates/quadrature/mean_square.hpp"
 #include "certificates/quadrature/quadrature_certificate.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_json.hpp"
@@ -77,8 +78,8 @@ std::string sections(const Certificate& certificate, const MarkdownOptions& opti
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
   if (tables.assume.gaussian) {
     return design_section(certificate) + assumptions_section(tables.assume) + lock_section(certificate) +
-           lowest_snr_section(certificate) + simulated_run_section(certificate, tables.simulate, options) +
-           lock_coverage_section();
+           mean_square_section(certificate) + lowest_snr_section(certificate) +
+           simulated_run_section(certificate, tables.simulate, options) + lock_coverage_section();
   }
   return design_section(certificate) + assumptions_section(tables.assume) + contraction_section(certificate) +
          comparison_section(certificate) + simulated_run_section(certificate, tables.simulate, options) +

@@ -10,6 +10,7 @@
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/quadrature/falsifier/lock_loss.hpp"
 #include "analysis/quadrature/gaussian/lock_set.hpp"
+#include "analysis/quadrature/gaussian/mean_square_inequality.hpp"
 #include "analysis/theorems/audit.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/quadrature/start_covariance.hpp"
@@ -50,10 +51,11 @@ struct ComparedResult {
 struct QuadratureParticulars {
   StartCovarianceText start_covariance;
   std::vector<NamedSet> certified_sets;
-  std::vector<quadrature::LockSet> lock_sets;         ///< for Gaussian noise
-  std::optional<quadrature::LockSet> lowest_snr_set;  ///< for as much of it as could be proved
-  std::optional<quadrature::LockLoss> lock_loss;      ///< simulated
-  std::optional<double> union_bound_snr;              ///< dB; not in the evidence, so not proved
+  std::vector<quadrature::LockSet> lock_sets;                 ///< for Gaussian noise
+  std::vector<quadrature::LockMeanSquare> lock_mean_squares;  ///< one for each of these sets, or none
+  std::optional<quadrature::LockSet> lowest_snr_set;          ///< for as much of it as could be proved
+  std::optional<quadrature::LockLoss> lock_loss;              ///< simulated
+  std::optional<double> union_bound_snr;                      ///< dB; not in the evidence, so not proved
   std::optional<FollowedStarts> followed_starts;  ///< none when the certified set holds the assumed starts
   std::vector<AuditedDerivation> audits;
   std::vector<ComparedResult> comparison;

@@ -43,13 +43,15 @@ struct Assumptions {
 
 /// [require]: what CI must find PROVED.
 struct Requirements {
-  std::optional<Number> frequency_error_below;             ///< rad/sample, for ever
-  std::optional<Number> settles_within;                    ///< samples, after which the frequency error stays
-  std::optional<Number> settled_below;                     ///< below that many rad/sample
-  std::optional<Number> largest_noise_at_least;            ///< signal units, at a constant frequency
-  std::optional<Number> largest_slew_at_least;             ///< rad/sample per sample, without noise
-  std::optional<Number> frequency_error_radius_at_least;   ///< rad/sample, of an invariant set
-  std::optional<Number> probability_of_losing_lock_below;  ///< within the assumed samples, Gaussian noise
+  std::optional<Number> frequency_error_below;            ///< rad/sample, for ever
+  std::optional<Number> settles_within;                   ///< samples, after which the frequency error stays
+  std::optional<Number> settled_below;                    ///< below that many rad/sample
+  std::optional<Number> largest_noise_at_least;           ///< signal units, at a constant frequency
+  std::optional<Number> largest_slew_at_least;            ///< rad/sample per sample, without noise
+  std::optional<Number> frequency_error_radius_at_least;  ///< rad/sample, of an invariant set
+  // With Gaussian noise, within the assumed samples:
+  std::optional<Number> probability_of_losing_lock_below;
+  std::optional<Number> rms_frequency_error_below;  ///< rad/sample, while in lock
 };
 
 /// [simulate]: the run that the audit and the figures use.

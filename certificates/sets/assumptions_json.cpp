@@ -48,6 +48,7 @@ Json require_json(const Requirements& require) {
   add_number(json, "largest_slew_at_least", require.largest_slew_at_least);
   add_number(json, "frequency_error_radius_at_least", require.frequency_error_radius_at_least);
   add_number(json, "probability_of_losing_lock_below", require.probability_of_losing_lock_below);
+  add_number(json, "rms_frequency_error_below", require.rms_frequency_error_below);
   return json;
 }
 

@@ -50,7 +50,11 @@ constexpr std::array kRequireKeys{
                  real<&Require::frequency_error_radius_at_least, positive>, kOptional},
     Key<Require>{"probability_of_losing_lock_below", "a number above 0 and below 1",
                  real<&Require::probability_of_losing_lock_below, between_zero_and_one>, kOptional},
+    Key<Require>{"rms_frequency_error_below", kPositive, real<&Require::rms_frequency_error_below, positive>,
+                 kOptional},
 };
+
+constexpr std::size_t kKeysOfGaussianNoise = 2;  // the last ones
 
 using Simulate = SimulationSettings;
 
@@ -60,7 +64,7 @@ std::span<const Key<Requirements>> require_keys() {
   return kRequireKeys;
 }
 std::span<const Key<Requirements>> require_keys_of_bounded_noise() {
-  return require_keys().first(kRequireKeys.size() - 1);
+  return require_keys().first(kRequireKeys.size() - kKeysOfGaussianNoise);
 }
 
 std::optional<TableObjection> objection_to(const Assumptions& assume, const Requirements& require) {
@@ -71,11 +75,12 @@ std::optional<TableObjection> objection_to(const Assumptions& assume, const Requ
           "frequency_walk and samples go with Gaussian noise; allowed: noise = { snr_db = ... "
           "} or { deviation = ... }, or a slew without these keys"};
     }
-    return require.probability_of_losing_lock_below
+    return require.probability_of_losing_lock_below || require.rms_frequency_error_below
                ? std::optional(TableObjection{
                      "require",
-                     "probability_of_losing_lock_below goes with Gaussian noise: with a bound on the noise "
-                     "there are guarantees for ever; allowed: noise = { snr_db = ... } in [assume]"})
+                     "probability_of_losing_lock_below and rms_frequency_error_below go with Gaussian noise: "
+                     "with a bound on the noise there are guarantees for ever; allowed: noise = { snr_db = "
+                     "... } in [assume]"})
                : std::nullopt;
   }
   if (!assume.samples) {
@@ -95,7 +100,7 @@ std::optional<TableObjection> objection_to(const Assumptions& assume, const Requ
              ? std::optional(TableObjection{
                    "require",
                    "nothing holds for ever with Gaussian noise, which exceeds every bound some time; "
-                   "allowed: probability_of_losing_lock_below"})
+                   "allowed: probability_of_losing_lock_below, rms_frequency_error_below"})
              : std::nullopt;
 }
 

@@ -33,7 +33,7 @@ std::optional<ProvedForm> proved_form(const LockQuestion& question, const LockSe
     return std::nullopt;
   }
   for (const double factor : kFactors) {
-    LockMeanSquare form = proposal->mean_square;
+    LockMeanSquare form = *proposal;
     form.bound *= factor;
     if (expects_cells(question.design, set, form, kEvery, kAffordableCells)) {
       const LockVerification found = verify_mean_square(question.design, set, form);

@@ -3,12 +3,12 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
+#include "analysis/quadrature/gaussian/linear_filter.hpp"
 #include "analysis/quadrature/gaussian/lock_samples.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/search/maximin.hpp"
@@ -16,36 +16,6 @@
 namespace veritrack::quadrature {
 
 namespace {
-
-/// The filter linearised about lock: e+ = A e + K v - w e3, phase and frequency by themselves.
-struct LinearFilter {
-  Eigen::Matrix2d errors;  ///< of (e2, nu)
-  Eigen::Vector2d gain;
-};
-LinearFilter linear_filter(const trackers::ToneModel<double>& design, const LevelCovariance<double>& p) {
-  // F P F' + Q for F = [[1, 1], [0, 1]].
-  const double p22 = p.p22 + 2.0 * p.p23 + p.p33 + design.q1;
-  const double p23 = p.p23 + p.p33;
-  const double innovation = p22 + design.r;
-  const Eigen::Vector2d gain(p22 / innovation, p23 / innovation);
-  Eigen::Matrix2d errors;
-  errors << 1.0 - gain[0], 1.0 - gain[0], -gain[1], 1.0 - gain[1];
-  return {errors, gain};
-}
-
-/// N = A'NA + e2 e2': e'Ne is the sum of all later nu^2.
-std::optional<Eigen::Matrix2d> later_errors(const Eigen::Matrix2d& a) {
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  sum(1, 1) = 1.0;
-  Eigen::Matrix2d power = a;
-  // Doubling.
-  constexpr int kDoublings = 40;
-  for (int k = 0; k < kDoublings; ++k) {
-    sum = (sum + power.transpose() * sum * power).eval();
-    power = (power * power).eval();
-  }
-  return sum.allFinite() && power.norm() < 1e-9 ? std::optional(sum) : std::nullopt;
-}
 
 /// Six numbers: logarithms of the entries of a factor but the coupling, of g and of beta, in units in which
 /// the linear filter has 1.
@@ -121,24 +91,13 @@ Eigen::VectorXd wanted(Eigen::VectorXd needed, const std::vector<LockSample>& sa
 
 }  // namespace
 
-std::optional<double> linear_frequency_variance(const trackers::ToneModel<double>& design,
-                                                const LockSet& set) {
-  const LinearFilter filter = linear_filter(design, set.centre);
-  const auto later = later_errors(filter.errors);
-  if (!later) {
+std::optional<LockMeanSquare> propose_mean_square(const trackers::ToneModel<double>& design,
+                                                  const LockSet& set) {
+  const auto filter = linear_filter(design, set.centre);
+  if (!filter) {
     return std::nullopt;
   }
-  return set.noise_deviation * set.noise_deviation * filter.gain.dot(*later * filter.gain) +
-         set.frequency_walk * set.frequency_walk * (*later)(1, 1);
-}
-
-std::optional<MeanSquareProposal> propose_mean_square(const trackers::ToneModel<double>& design,
-                                                      const LockSet& set) {
-  const auto later = later_errors(linear_filter(design, set.centre).errors);
-  const auto linear = linear_frequency_variance(design, set);
-  if (!later || !(*linear > 0.0)) {
-    return std::nullopt;
-  }
+  const double linear = frequency_variance(*filter, set.noise_deviation, set.frequency_walk);
   constexpr int kAllDirections = 1200;
   constexpr std::size_t kAdded = 40;
   constexpr int kRounds = 8;
@@ -155,21 +114,21 @@ std::optional<MeanSquareProposal> propose_mean_square(const trackers::ToneModel<
       }
     }
   }
-  const Forms forms(*later, *linear);
+  const Forms forms(filter->later, linear);
   std::vector<LockSample> looked_at(all.begin(), all.begin() + 17 * 12);
   search::SearchSpace space = Forms::space(400);
   double bound = 0.0;
   for (int round = 0; round < kRounds; ++round) {
     const search::BestPoint best = search::climb_least(
         [&](const Eigen::VectorXd& x) {
-          return Eigen::VectorXd(-wanted(needs(enclosed, set, forms.form(x), *linear, looked_at), looked_at)
+          return Eigen::VectorXd(-wanted(needs(enclosed, set, forms.form(x), linear, looked_at), looked_at)
                                       .cwiseMax(kLeastNeed)
                                       .array()
                                       .log());
         },
         space);
     space.start = best.point;
-    const Eigen::VectorXd needed = needs(enclosed, set, forms.form(space.start), *linear, all);
+    const Eigen::VectorXd needed = needs(enclosed, set, forms.form(space.start), linear, all);
     const Eigen::VectorXd worst = wanted(needed, all);
     bound = needed.maxCoeff();
     if (std::log(worst.maxCoeff()) <= -best.value + kNearEnough) {
@@ -184,8 +143,8 @@ std::optional<MeanSquareProposal> propose_mean_square(const trackers::ToneModel<
       looked_at.push_back(all[order[k]]);
     }
   }
-  MeanSquareProposal proposal{forms.form(space.start), *linear};
-  proposal.mean_square.bound = *linear * bound;
+  LockMeanSquare proposal = forms.form(space.start);
+  proposal.bound = linear * bound;
   return proposal;
 }
 

@@ -1,0 +1,111 @@
+#include "certificates/quadrature/mean_square.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "analysis/quadrature/falsifier/sampled_text.hpp"
+#include "analysis/quadrature/gaussian/linear_filter.hpp"
+#include "analysis/quadrature/gaussian/mean_square_certificate.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "certificates/document/markdown_derivation.hpp"
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/sets/gaussian_noise.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using rigor::Verdict;
+
+constexpr int kShownRmsDigits = 3;
+constexpr const char* kId = "mean-square";
+constexpr const char* kRms = "rms_frequency_error";
+
+/// What the linearised filter and the best possible one would have.
+void add_linear(const quadrature::LockQuestion& question, const quadrature::LockSet& set,
+                theorems::Derivation& derivation) {
+  const rigor::NearestRounding nearest;
+  const auto& d = question.design;
+  const auto filter = quadrature::linear_filter(
+      {midpoint(d.q1), midpoint(d.q2), midpoint(d.r), midpoint(d.epsilon)}, set.centre);
+  if (filter) {
+    quadrature::add_sampled(
+        derivation,
+        {"linear_rms_frequency_error",
+         "the same of the filter linearised about lock, in floating point, rad/sample"},
+        {"", "", "docs/gaussian.md"},
+        std::sqrt(quadrature::frequency_variance(*filter, set.noise_deviation, set.frequency_walk)));
+  }
+  if (set.frequency_walk > 0.0) {
+    quadrature::add_sampled(
+        derivation,
+        {"least_rms_frequency_error",
+         "the posterior Cramér-Rao bound: no tracker has less, in floating point, rad/sample"},
+        {"", "", "docs/gaussian.md"},
+        std::sqrt(quadrature::least_frequency_variance(set.noise_deviation, set.frequency_walk)));
+  }
+}
+
+}  // namespace
+
+void add_mean_square(Certificate& certificate, const quadrature::LockQuestion& question,
+                     const quadrature::LockCertificate& found) {
+  quadrature::MeanSquareCertificate mean_square = quadrature::certify_mean_square(question, found);
+  if (!found.sets.empty() && question.design.epsilon == rigor::Interval(0.0)) {
+    add_linear(question, found.sets.front(), mean_square.derivation);
+  }
+  quadrature_particulars(certificate).lock_mean_squares = std::move(mean_square.mean_squares);
+  certificate.derivations.push_back(std::move(mean_square.derivation));
+}
+
+Claim mean_square_claim(const Certificate& certificate, const GuaranteeTerms& terms) {
+  const Number& required = terms.require.rms_frequency_error_below.value();
+  const theorems::Derivation* derivation = find_derivation(certificate, kId);
+  const theorems::Quantity* rms =
+      derivation == nullptr ? nullptr : theorems::applicable_quantity(*derivation, kRms);
+  Claim claim;
+  claim.id = "ekf/rms-frequency-error";
+  claim.requirement =
+      fmt::format("the root mean square of the frequency error in lock is below {} rad/sample {}",
+                  required.text, stretch_of_samples(terms.assume));
+  claim.statement = hypotheses(terms) + claim.requirement + ".";
+  claim.required = true;
+  claim.position = required.position;
+  if (rms == nullptr) {
+    claim.reason = "No mean square is certified for this design and start";
+    if (derivation != nullptr) {
+      for (const theorems::Condition& condition : derivation->conditions) {
+        if (condition.verdict != Verdict::proved) {
+          claim.reason += fmt::format(" ({}: {})", condition.id, condition.reason);
+          return claim;
+        }
+      }
+    }
+    claim.reason += ".";
+    return claim;
+  }
+  const bool below = rigor::certainly_less(rms->value, required.value);
+  claim.verdict = below ? Verdict::proved : Verdict::undecided;
+  claim.reason =
+      fmt::format("It is at most {} rad/sample{}.", rigor::upper_decimal(rms->value, kShownRmsDigits),
+                  below ? "" : ", which is not below what is required");
+  claim.evidence = {*rms};
+  return claim;
+}
+
+std::string mean_square_section(const Certificate& certificate) {
+  const theorems::Derivation* derivation = find_derivation(certificate, kId);
+  if (derivation == nullptr) {
+    return {};
+  }
+  return fmt::format("## The mean square of the frequency error in lock, {}\n\n{}.\n\n",
+                     markdown::verdict(derivation->verdict), derivation->title) +
+         markdown::conditions_table(*derivation) + "\n" + markdown::quantities_table(*derivation) + "\n" +
+         (derivation->notes.empty() ? "" : markdown::notes_list(*derivation) + "\n");
+}
+
+}  // namespace veritrack::certificates

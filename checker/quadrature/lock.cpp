@@ -37,6 +37,7 @@ Promises check_lock(const Tree& derivation, const Design& design, const Gaussian
             max(*promises.losing_lock, probability_of_leaving(set, level, noise.samples)).upper();
         promises.lock_reach = max(*promises.lock_reach, largest_frequency_error(set)).upper();
       }
+      promises.start_level = level;
       found.quantities = {{"probability_of_losing_lock", *promises.losing_lock, Sense::bounds_above},
                           {"lock_frequency_error", *promises.lock_reach, Sense::bounds_above},
                           {"start_level", level, Sense::bounds_above}};

@@ -149,9 +149,9 @@ class Workers {
 
 }  // namespace
 
-bool drifts_slowly(const LockFilter& filter, const LockSet& set, std::int64_t& cells) {
+bool holds_in_set(const LockFilter& filter, const LockSet& set, const LockLeft& left, std::int64_t& cells) {
   std::vector<Part> parts = cover_of(set, has_mirror_image(filter, set));
-  const LockInequality inequality(filter, set);
+  const LockInequality inequality(filter, set, left);
   Workers(inequality, parts).run();
   for (const Part& part : parts) {
     cells += part.cells;
@@ -160,6 +160,10 @@ bool drifts_slowly(const LockFilter& filter, const LockSet& set, std::int64_t& c
     }
   }
   return !parts.empty();
+}
+
+bool drifts_slowly(const LockFilter& filter, const LockSet& set, std::int64_t& cells) {
+  return holds_in_set(filter, set, left_of_drift(set), cells);
 }
 
 }  // namespace veritrack::checker

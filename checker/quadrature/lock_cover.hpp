@@ -1,4 +1,4 @@
-// Cells that cover a set, bisected until the drift inequality is proved in each.
+// Cells that cover a set, bisected until an inequality is proved in each.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,12 @@
 
 namespace veritrack::checker {
 
-/// True only when the drift inequality is proved wherever the level of (e, P) is at most L. `cells` counts
-/// the cells that were looked at. Cells are shared among threads; neither the verdict nor, where it is
+/// True only when the inequality of `left` is proved wherever the level of (e, P) is at most L. `cells`
+/// counts the cells that were looked at. Cells are shared among threads; neither the verdict nor, where it is
 /// proved, the count depends on how many there are. Throws OutOfBudget.
+bool holds_in_set(const LockFilter& filter, const LockSet& set, const LockLeft& left, std::int64_t& cells);
+
+/// The same for the drift inequality.
 bool drifts_slowly(const LockFilter& filter, const LockSet& set, std::int64_t& cells);
 
 }  // namespace veritrack::checker

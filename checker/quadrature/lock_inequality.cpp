@@ -58,16 +58,15 @@ struct LockInequality::Forms {
   proposal::Ends rough;
 };
 
-LockInequality::LockInequality(const LockFilter& filter, const LockSet& set)
+LockInequality::LockInequality(const LockFilter& filter, const LockSet& set, LockLeft left)
     : filter_(filter),
       set_(set),
-      next_{(one + lock_room()) * set.metric.amplitude, (one + lock_room()) * set.metric.phase,
-            (one + lock_room()) * set.metric.coupling, (one + lock_room()) * set.metric.frequency},
-      levels_(set, next_),
+      left_(std::move(left)),
+      levels_(set, with_lock_room(set.metric)),
       rough_deviation_(set.deviation.near()),
       rough_r_(filter.r.near()) {
-  // I - w^2 (T e3)(T e3)' in the rows of the error.
-  const std::array<Ball, 3> t3{zero, next_.coupling, next_.frequency};
+  // I - w^2 (S e3)(S e3)' in the rows of the error.
+  const std::array<Ball, 3> t3{zero, left_.next.coupling, left_.next.frequency};
   const Ball walked = square(set.walk);
   for (std::size_t i = 0; i < kRest; ++i) {
     constant_[i][i] = one;
@@ -90,35 +89,9 @@ bool LockInequality::outside(const LockCell& cell) const {
   return certainly_less(two * set_.level, twice);
 }
 
-LockInequality::Rests LockInequality::rests(const LockBox& box, const Rests& levels) const {
-  // 2 log(kappa W + c_0) is convex in (u, s), so that its tangent is below it; -t^2 is concave.
-  Ball twice = set_.weight * square(box.level);
-  for (const Ball& u : box.middle) {
-    twice += square(u);
-  }
-  const Ball over = set_.drift * exp(-(half * twice));
-  const Ball share = two * set_.decay / (set_.decay + over);
-  const Ball middle = twice + two * log(set_.decay + over) + walk_loss_ - two * lock_room();
-  Rests rest;
-  for (std::size_t k = 0; k < kLockCorners; ++k) {
-    Ball moved = set_.weight * box.level * box.ends[k / kCorners];
-    for (std::size_t i = 0; i < kSides; ++i) {
-      const Ball way = box.middle[i] * box.half_widths[i];
-      moved += ((k >> i) & 1U) != 0U ? way : -way;
-    }
-    rest[k] = middle + share * moved - set_.weight * square(levels[k] + lock_room());
-  }
-  return rest;
-}
-
 bool LockInequality::seems_to_fail(const LockBox& box, const LockStep& step, const Forms& forms) const {
-  double twice = set_.weight.near() * box.level.near() * box.level.near();
-  for (const Ball& u : box.middle) {
-    twice += u.near() * u.near();
-  }
-  const double level = levels_.near_middle(step);
-  const double rest = twice + 2.0 * std::log(set_.decay.near() + set_.drift.near() * std::exp(-0.5 * twice)) +
-                      walk_loss_.near() - set_.weight.near() * level * level;
+  const double twice = near_twice_level(set_, box);
+  const double rest = left_.near_middle(box, levels_.near_middle(step)) + walk_loss_.near();
   proposal::Ends middle{forms.rough.parts, {rest, rest}};
   for (std::size_t i = 0; i < kSize; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
@@ -144,13 +117,16 @@ LockLook LockInequality::look(const LockCell& cell) const {
   found.side = static_cast<std::size_t>(
       std::distance(influence.begin(), std::max_element(influence.begin(), influence.end())));
   const LockStep step = lock_step(filter_, set_, box.u, box.level);
-  Forms forms(box, step, next_, set_, filter_);
+  Forms forms(box, step, left_.next, set_, filter_);
   found.hopeless = seems_to_fail(box, step, forms);
-  Rests levels;
+  LockCorners levels;
   if (found.hopeless || !levels_.find(box, step, levels)) {
     return found;
   }
-  const Rests rest = rests(box, levels);
+  LockCorners rest = left_.at_corners(box, levels);
+  for (Ball& corner : rest) {
+    corner += walk_loss_;
+  }
   const auto middle_of = [&](std::size_t end) {
     double sum = 0.0;
     for (std::size_t corner = 0; corner < kCorners; ++corner) {

@@ -18,6 +18,14 @@ bool amplitude_is_apart(const Matrix3& m) {
          certainly_equal(m[2][0], zero);
 }
 
+}  // namespace
+
+bool has_form_of_metric(const Matrix3& metric) {
+  return amplitude_is_apart(metric) && certainly_equal(metric[2][1], zero);
+}
+
+namespace {
+
 /// A symmetric matrix, without a leak with 12 = 13 = 0. Adds to `has_form` whether it is one.
 LockCovariance read_covariance(const Tree& tree, bool leaks, bool& has_form) {
   const Matrix3 p = exact_matrix(tree);
@@ -29,7 +37,7 @@ LockCovariance read_covariance(const Tree& tree, bool leaks, bool& has_form) {
 std::pair<LockSet, bool> read_lock_set(const Tree& tree, bool leaks) {
   LockSet set;
   const Matrix3 metric = exact_matrix(tree.at("metric"));
-  bool has_form = amplitude_is_apart(metric) && certainly_equal(metric[2][1], zero);
+  bool has_form = has_form_of_metric(metric);
   set.metric = {metric[0][0], metric[1][1], metric[1][2], metric[2][2]};
   set.centre = read_covariance(tree.at("centre"), leaks, has_form);
   set.above = read_covariance(tree.at("spread_above"), leaks, has_form);

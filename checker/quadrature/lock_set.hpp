@@ -19,6 +19,9 @@ namespace veritrack::checker {
 LockSet check_lock_set(const Tree& tree, const Design& design, const GaussianNoise& noise,
                        std::int64_t& cells, Objections& objections);
 
+/// Whether a matrix is [[a, 0, 0], [0, b, c], [0, 0, d]].
+bool has_form_of_metric(const Matrix3& metric);
+
 /// Sets for pieces of the band of frequencies, in their order: each begins where the one before ends, or
 /// before that, and together they cover the band that the design assumes.
 bool cover_the_band(const std::vector<LockSet>& sets, const Design& design);

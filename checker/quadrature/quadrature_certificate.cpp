@@ -7,6 +7,7 @@
 #include "checker/quadrature/lock.hpp"
 #include "checker/quadrature/lock_set.hpp"
 #include "checker/quadrature/lowest_snr.hpp"
+#include "checker/quadrature/mean_square.hpp"
 #include "checker/quadrature/steady_contraction.hpp"
 #include "checker/sets/guarantee.hpp"
 #include "checker/theorems/proof_gaps.hpp"
@@ -47,6 +48,7 @@ class QuadratureVerifier {
       add("certified set " + set.at("purpose").text(), objections);
     }
     check_lock_sets();
+    check_lock_mean_squares();
     check_set_for_lowest_snr();
     for (const Tree& derivation : certificate_.at("derivations").elements()) {
       check_one(derivation);
@@ -90,6 +92,26 @@ class QuadratureVerifier {
     add("lock set", objections);
   }
 
+  void check_lock_mean_squares() {
+    std::vector<LockMeanSquare> found;
+    Objections objections;
+    for (std::size_t k = 0; k < lock_sets_.size(); ++k) {
+      const Tree* form = certificate_.at("lock_sets").at(k).find("mean_square");
+      if (form == nullptr) {
+        return;
+      }
+      if (objections.empty()) {
+        found.push_back(check_lock_mean_square(*form, design_, lock_sets_[k], result_.cells, objections));
+      }
+    }
+    if (!lock_sets_.empty()) {
+      add("mean square in lock", objections);
+    }
+    if (objections.empty()) {
+      lock_mean_squares_ = std::move(found);
+    }
+  }
+
   void check_set_for_lowest_snr() {
     const Tree* set = certificate_.find("lowest_snr_set");
     if (set == nullptr || !noise_) {
@@ -108,10 +130,12 @@ class QuadratureVerifier {
     if (derivations_.count(id) != 0) {
       objections.emplace_back("a second derivation of this id");
     }
-    if (noise_.has_value() != (id == "lock" || id == "lowest-snr")) {
+    if (noise_.has_value() != (id == "lock" || id == "mean-square" || id == "lowest-snr")) {
       objections.emplace_back("this is for noise of another kind");
     } else if (id == "lock") {
       promises_ = check_lock(derivation, design_, *noise_, lock_sets_, objections);
+    } else if (id == "mean-square") {
+      check_mean_square(derivation, *noise_, lock_sets_, lock_mean_squares_, promises_, objections);
     } else if (id == "lowest-snr") {
       check_lowest_snr(derivation, design_, *noise_, lowest_snr_set_, promises_, objections);
     } else if (id == "theorem-2.9/printed") {
@@ -191,9 +215,10 @@ class QuadratureVerifier {
   Design design_;
   bool leaks_ = false;  ///< then the contraction is that about a biased steady state
   std::vector<CertifiedSet> sets_;
-  std::optional<GaussianNoise> noise_;     ///< in place of a bound
-  std::vector<LockSet> lock_sets_;         ///< proved
-  std::optional<LockSet> lowest_snr_set_;  ///< likewise
+  std::optional<GaussianNoise> noise_;             ///< in place of a bound
+  std::vector<LockSet> lock_sets_;                 ///< proved
+  std::vector<LockMeanSquare> lock_mean_squares_;  ///< likewise, one for each of them
+  std::optional<LockSet> lowest_snr_set_;          ///< likewise
   std::map<std::string, Known> derivations_;
   std::map<std::string, Captured> captured_;  ///< of the derivations that are verified
   Promises promises_;

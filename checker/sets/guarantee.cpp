@@ -21,6 +21,7 @@ const std::string kReach = "ekf/frequency-error-radius";
 const std::string kSet = "ekf/invariant-set";
 const std::string kLimits = "ekf/limits";
 const std::string kLosingLock = "ekf/probability-of-losing-lock";
+const std::string kMeanSquare = "ekf/rms-frequency-error";
 const std::string kLowestSnr = "ekf/lowest-snr";
 const std::string kPerSample = " rad/sample";
 
@@ -69,14 +70,15 @@ std::optional<Settled> settling_claim(const Tree& quantities) {
 
 Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections)
     : design_(design), wording_(std::move(wording)) {
-  const std::array<std::pair<std::string, std::optional<Number>*>, 7> keys{
+  const std::array<std::pair<std::string, std::optional<Number>*>, 8> keys{
       {{"frequency_error_below", &frequency_error_below_},
        {"settles_within", &settles_within_},
        {"settled_below", &settled_below_},
        {"largest_noise_at_least", &noise_},
        {"largest_slew_at_least", &slew_},
        {"frequency_error_radius_at_least", &reach_},
-       {"probability_of_losing_lock_below", &losing_lock_}}};
+       {"probability_of_losing_lock_below", &losing_lock_},
+       {"rms_frequency_error_below", &rms_}}};
   for (const auto& member : design.at("require").members()) {
     const std::string& name = member.first;
     const Tree& value = member.second;
@@ -108,7 +110,11 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
   require(slew_.has_value(), kSlew);
   require(reach_.has_value(), kReach);
   require(losing_lock_.has_value(), kLosingLock);
-  if (losing_lock_.has_value() != wording_.deviation.has_value() && !design.at("require").members().empty()) {
+  require(rms_.has_value(), kMeanSquare);
+  const bool of_gaussian = losing_lock_.has_value() || rms_.has_value();
+  const bool of_bounded =
+      required_.size() > std::size_t{losing_lock_.has_value()} + std::size_t{rms_.has_value()};
+  if (wording_.deviation ? of_bounded : of_gaussian) {
     objections.emplace_back(
         "[require] asks of Gaussian noise what is for bounded noise, or the other way round");
   }
@@ -119,8 +125,8 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
 }
 
 bool Guarantee::is_guarantee(const std::string& id) {
-  const std::array ids{kBound, kSettling, kSentence, kNoise,      kSlew,
-                       kReach, kSet,      kLimits,   kLosingLock, kLowestSnr};
+  const std::array ids{kBound, kSettling, kSentence,   kNoise,      kSlew,     kReach,
+                       kSet,   kLimits,   kLosingLock, kMeanSquare, kLowestSnr};
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
@@ -230,6 +236,10 @@ std::string Guarantee::short_text(const std::string& id) const {
   }
   if (id == kLosingLock) {
     return "the probability of losing lock is below " + losing_lock_->text + " " + stretch_of_samples();
+  }
+  if (id == kMeanSquare) {
+    return "the root mean square of the frequency error in lock is below " + rms_->text + kPerSample + " " +
+           stretch_of_samples();
   }
   return "under the assumed noise and slew, a certified invariant set contains frequency errors up to " +
          reach_->text + kPerSample;
@@ -368,6 +378,14 @@ Claim Guarantee::losing_lock(const Promises& promises) const {
   return found;
 }
 
+Claim Guarantee::mean_square(const Promises& promises) const {
+  Claim found;
+  found.statement = hypotheses(promises) + short_text(kMeanSquare) + ".";
+  found.verdict = proved_if(certainly_less(of(promises.rms), rms_->value));
+  found.evidence = {{"rms_frequency_error", of(promises.rms), Sense::bounds_above}};
+  return found;
+}
+
 /// With Gaussian noise: how probable it is that the tracker loses lock, and what that means.
 Claim Guarantee::lock_sentence(const Tree& claim, const Promises& promises) const {
   const Tree& evidence = claim.at("evidence");
@@ -380,7 +398,17 @@ Claim Guarantee::lock_sentence(const Tree& claim, const Promises& promises) cons
                     stretch_of_samples() + ", its frequency error exceeding " +
                     upper_decimal(high_of(evidence.at("lock_frequency_error"))) + kPerSample +
                     " at one of them, is at most " +
-                    upper_decimal(high_of(evidence.at("probability_of_losing_lock"))) + ".";
+                    upper_decimal(high_of(evidence.at("probability_of_losing_lock")));
+  if (const Tree* rms = evidence.find("rms_frequency_error")) {
+    found.statement +=
+        "; while it is in lock, the root mean square of its frequency error over them is at most " +
+        upper_decimal(high_of(*rms)) + kPerSample;
+    found.evidence.push_back({"rms_frequency_error", of(promises.rms), Sense::bounds_above});
+    if (!promises.rms) {
+      found.verdict = Verdict::undecided;
+    }
+  }
+  found.statement += ".";
   return found;
 }
 
@@ -411,13 +439,14 @@ Claim Guarantee::check(const Tree& claim, const Promises& promises, Objections& 
     return {};
   }
   if (wording_.deviation) {
-    if (id != kSentence && id != kLosingLock && id != kLowestSnr) {
+    if (id != kSentence && id != kLosingLock && id != kMeanSquare && id != kLowestSnr) {
       objections.emplace_back("this is for noise with a bound");
       return {};
     }
-    Claim gaussian = id == kSentence    ? lock_sentence(claim, promises)
-                     : id == kLowestSnr ? lowest_snr(claim, promises)
-                                        : losing_lock(promises);
+    Claim gaussian = id == kSentence     ? lock_sentence(claim, promises)
+                     : id == kLowestSnr  ? lowest_snr(claim, promises)
+                     : id == kMeanSquare ? mean_square(promises)
+                                         : losing_lock(promises);
     check_claim(claim, gaussian, objections);
     return gaussian;
   }

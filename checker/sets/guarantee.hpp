@@ -31,6 +31,10 @@ struct Promises {
   /// With Gaussian noise: of losing lock within the assumed samples, and |frequency error| until then. Upper
   /// bounds.
   std::optional<Ball> losing_lock, lock_reach;
+  /// The root mean square of the frequency error in lock over those samples, rad/sample: an upper bound.
+  std::optional<Ball> rms;
+  /// How far out in the set the starts lie (docs/gaussian.md, section 7): an upper bound.
+  std::optional<Ball> start_level;
   /// The same at the lowest SNR for which there is a set, and that SNR, dB. Upper bounds. For which P(0|0).
   std::optional<Ball> lowest_snr, losing_lock_at_lowest_snr, reach_at_lowest_snr;
   std::string covariance_at_lowest_snr;
@@ -95,6 +99,7 @@ class Guarantee {
   [[nodiscard]] std::string stretch_of_samples() const;
   [[nodiscard]] std::string gaussian_disturbance() const;
   [[nodiscard]] Claim losing_lock(const Promises& promises) const;
+  [[nodiscard]] Claim mean_square(const Promises& promises) const;
   [[nodiscard]] Claim lock_sentence(const Tree& claim, const Promises& promises) const;
   [[nodiscard]] Claim lowest_snr(const Tree& claim, const Promises& promises) const;
 
@@ -102,7 +107,7 @@ class Guarantee {
   Wording wording_;
   std::vector<Requirement> required_;
   std::optional<Number> frequency_error_below_, settles_within_, settled_below_, noise_, slew_, reach_,
-      losing_lock_;
+      losing_lock_, rms_;
   Ball amplitude_, assumed_noise_, start_error_;
   std::string other_snr_;  ///< dB, that sentences are about in place of the assumed noise; or empty
 };

@@ -39,7 +39,7 @@ TEST_CASE("where a cell is proved, the Gaussian integral of the textbook filter 
       LockSet set = lock_test::WrittenSet().set();
       set.deviation = Ball(deviation);
       const Textbook book{{}, set};
-      const LockInequality inequality(book.design.filter(), set);
+      const LockInequality inequality(book.design.filter(), set, left_of_drift(set));
       int proved = 0;
       double closest = -1e9;
       const auto count = test::effort(40);
@@ -70,7 +70,7 @@ TEST_CASE("with a leak a proved cell is one for all frequencies of the set") {
   test::Random random(5312);
   const LockSet set = lock_test::leaking_set();
   const Textbook book{lock_test::leaking_variances(), set};
-  const LockInequality inequality(book.design.filter(), set);
+  const LockInequality inequality(book.design.filter(), set, left_of_drift(set));
   int proved = 0;
   const auto count = test::effort(40);
   for (std::int64_t k = 0; k < count; ++k) {
@@ -101,7 +101,7 @@ TEST_CASE("a cell with a point where the integral grows is not proved") {
     set.level = Ball(level);
     set.deviation = Ball(deviation);
     const Textbook book{{}, set};
-    const LockInequality inequality(book.design.filter(), set);
+    const LockInequality inequality(book.design.filter(), set, left_of_drift(set));
     int grows = 0;
     int looked = 0;
     for (std::int64_t k = 0; k < test::effort(200); ++k) {
@@ -126,7 +126,7 @@ TEST_CASE("a drift, a walk, a noise or a level of the covariance that is worse u
   const LockSet set = lock_test::WrittenSet().set();
   const LockCell cell = around({1.5, 1.5, 1.5, 0.5}, 0.01);
   const auto proves = [&](const LockSet& other) {
-    return LockInequality(lock_test::Variances().filter(), other).look(cell).proved;
+    return LockInequality(lock_test::Variances().filter(), other, left_of_drift(other)).look(cell).proved;
   };
   CHECK(proves(set));
   const auto excess_of = [&](const LockSet& other) {
@@ -165,7 +165,7 @@ TEST_CASE("a drift, a walk, a noise or a level of the covariance that is worse u
 
 TEST_CASE("only cells beyond the level are left out") {
   const LockSet set = lock_test::WrittenSet().set();
-  const LockInequality inequality(lock_test::Variances().filter(), set);
+  const LockInequality inequality(lock_test::Variances().filter(), set, left_of_drift(set));
   // |u|^2 + 2.17 s^2 = 10 on the rim.
   CHECK(inequality.outside({{3.17, -0.1, 0.0, 0.0}, {3.2, 0.1, 0.1, 0.1}}));
   CHECK_FALSE(inequality.outside({{3.16, -0.1, 0.0, 0.0}, {3.2, 0.1, 0.1, 0.1}}));
@@ -176,7 +176,7 @@ TEST_CASE("only cells beyond the level are left out") {
 
 TEST_CASE("a cell that is no box is not proved") {
   const LockSet set = lock_test::WrittenSet().set();
-  const LockInequality inequality(lock_test::Variances().filter(), set);
+  const LockInequality inequality(lock_test::Variances().filter(), set, left_of_drift(set));
   const double nothing = std::nan("");
   CHECK_FALSE(inequality.look({{nothing, 0.0, 0.0, 0.0}, {0.1, 0.1, 0.1, 0.1}}).proved);
   CHECK_FALSE(inequality.look({{0.0, 0.0, 0.0, 0.0}, {0.1, HUGE_VAL, 0.1, 0.1}}).proved);

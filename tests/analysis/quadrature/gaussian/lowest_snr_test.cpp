@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "analysis/rigor/rounding.hpp"
-#include "tests/analysis/quadrature/gaussian/lock_sets.hpp"
+#include "tests/analysis/quadrature/gaussian/lock_question.hpp"
 
 namespace veritrack::quadrature {
 namespace {
@@ -15,23 +15,13 @@ using rigor::Verdict;
 
 constexpr std::int64_t kFewCells = 30'000;
 
-/// A hundred samples of Figure 3.5's design: a small set.
+/// A hundred samples: a small set.
 LockQuestion short_question(double decibels) {
-  const rigor::UpwardRounding upward;
-  const trackers::ToneModel<double>& d = test_sets::kDesigns[1];
-  const BlockCovariance<double> p = *steady_covariance(d);
-  Eigen::Matrix3d centre;
-  centre << p.p11, 0.0, 0.0, 0.0, p.p22, p.p23, 0.0, p.p23, p.p33;
-  LockQuestion result;
-  result.design = {Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(0.0)};
-  result.noise_deviation = Interval(std::sqrt(0.5 * std::pow(10.0, -decibels / 10.0)));
-  result.frequency_walk = Interval(0.0);
+  LockQuestion result = test_sets::question(decibels);
   result.samples = Interval(100.0);
   result.probability = 0.1;
-  result.starts = {Interval(0.01),
-                   Interval(0.02),
-                   Interval(0.01),
-                   {rigor::to_interval(centre), Interval::from_bounds(0.95, 1.05), true}};
+  result.starts.covariance.multiples = Interval::from_bounds(0.95, 1.05);
+  result.starts.covariance.is_given = true;
   return result;
 }
 

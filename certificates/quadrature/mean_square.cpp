@@ -12,6 +12,7 @@
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/sets/gaussian_noise.hpp"
 
@@ -54,7 +55,12 @@ void add_linear(const quadrature::LockQuestion& question, const quadrature::Lock
 
 void add_mean_square(Certificate& certificate, const quadrature::LockQuestion& question,
                      const quadrature::LockCertificate& found) {
-  quadrature::MeanSquareCertificate mean_square = quadrature::certify_mean_square(question, found);
+  quadrature::LockQuestion asked = question;
+  const auto& required = quadrature_tables(certificate.design).require.rms_frequency_error_below;
+  if (certificate.extent == Extent::requirements && required) {
+    asked.enough_rms = required->nearest;
+  }
+  quadrature::MeanSquareCertificate mean_square = quadrature::certify_mean_square(asked, found);
   if (!found.sets.empty() && question.design.epsilon == rigor::Interval(0.0)) {
     add_linear(question, found.sets.front(), mean_square.derivation);
   }

@@ -24,6 +24,8 @@ struct LockQuestion {
   LockStarts starts;
   TrackedSignal signal;       ///< for what rounding depends on
   double probability = 1e-6;  ///< which the search is to reach
+  /// Root mean square of the frequency error that is enough, rad/sample: found faster than the least.
+  std::optional<double> enough_rms;
 };
 
 struct LockCertificate {

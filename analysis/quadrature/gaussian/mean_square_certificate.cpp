@@ -26,15 +26,33 @@ struct ProvedForm {
   std::int64_t cells;
 };
 
-std::optional<ProvedForm> proved_form(const LockQuestion& question, const LockSet& set) {
+/// The bound with which the root mean square is nearly that which is enough.
+double enough_bound(const LockQuestion& question, const LockSet& set, const LockMeanSquare& form,
+                    const Interval& start_level) {
+  constexpr double kNearly = 0.99;
+  const double most = kNearly * question.enough_rms.value_or(0.0);
+  const Interval before =
+      expected_form(set, form, expected_weight(set, start_level)) / (Interval(form.rate) * question.samples);
+  return most * most - before.upper();
+}
+
+std::optional<ProvedForm> proved_form(const LockQuestion& question, const LockSet& set,
+                                      const Interval& start_level) {
   constexpr std::size_t kEvery = 13;
   const auto proposal = propose_mean_square(proposal_request(question).design, set);
   if (!proposal) {
     return std::nullopt;
   }
+  std::vector<double> bounds;
   for (const double factor : kFactors) {
+    bounds.push_back(factor * proposal->bound);
+  }
+  if (const double enough = enough_bound(question, set, *proposal, start_level); enough > bounds.front()) {
+    bounds.insert(bounds.begin(), enough);
+  }
+  for (const double bound : bounds) {
     LockMeanSquare form = *proposal;
-    form.bound *= factor;
+    form.bound = bound;
     if (expects_cells(question.design, set, form, kEvery, kAffordableCells)) {
       const LockVerification found = verify_mean_square(question.design, set, form);
       if (found.verdict == Verdict::proved) {
@@ -69,7 +87,7 @@ MeanSquareCertificate certify_mean_square(const LockQuestion& question, const Lo
   std::vector<LockMeanSquare> forms;
   if (in_lock) {
     for (const LockSet& set : lock.sets) {
-      if (const auto found = proved_form(question, set)) {
+      if (const auto found = proved_form(question, set, start->value)) {
         forms.push_back(found->form);
         result.cells += found->cells;
       } else {

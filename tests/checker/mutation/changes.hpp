@@ -45,7 +45,8 @@ inline constexpr std::array kSubjects{
     Subject{"settling", 4},     Subject{"capture", 4},         Subject{"contraction", 1},
     Subject{"published", 40},   Subject{"repaired", 40},       Subject{"kkl-observer", 8},
     Subject{"kkl-paper", 12},   Subject{"frozen-filter", 100}, Subject{"phases", 4},
-    Subject{"steady-state", 1}, Subject{"steady-set", 3},      Subject{"lock", 3}};
+    Subject{"steady-state", 1}, Subject{"steady-set", 3},      Subject{"lock", 3},
+    Subject{"mean-square", 2}};
 
 /// All values with the keys and indices on the way to them, outermost first.
 inline void collect(const Json& value, const Pointer& at, std::vector<Pointer>& found) {
@@ -181,7 +182,8 @@ inline bool is_proved_as_named(const std::string& subject, const Pointer& at) {
   static const std::set<std::string> settling{"settling_samples", "settled_frequency_error"};
   const std::string owner = at.back() == "lo" || at.back() == "hi" ? at.parent_pointer().back() : at.back();
   // The level of the starts is stated with a hundredth more, so that the checker's own bound is below it.
-  return settling.count(owner) != 0 || (subject == "lock" && (owner == "start_level" || owner == "lhs")) ||
+  return settling.count(owner) != 0 ||
+         ((subject == "lock" || subject == "mean-square") && (owner == "start_level" || owner == "lhs")) ||
          (subject == "kkl-observer" && bounds.count(owner) != 0 &&
           at.to_string().starts_with("/derivations/1/"));
 }

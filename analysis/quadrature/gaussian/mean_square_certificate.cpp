@@ -85,7 +85,8 @@ MeanSquareCertificate certify_mean_square(const LockQuestion& question, const Lo
                                    in_lock ? "the probability of losing lock is certified."
                                            : "no probability of losing lock is certified."});
   std::vector<LockMeanSquare> forms;
-  if (in_lock) {
+  const bool leaks = !(question.design.epsilon == Interval(0.0));
+  if (in_lock && !leaks) {
     for (const LockSet& set : lock.sets) {
       if (const auto found = proved_form(question, set, start->value)) {
         forms.push_back(found->form);
@@ -95,11 +96,12 @@ MeanSquareCertificate certify_mean_square(const LockQuestion& question, const Lo
       }
     }
   }
-  const bool bounded = in_lock && forms.size() == lock.sets.size();
+  const bool bounded = in_lock && !leaks && forms.size() == lock.sets.size();
   derivation.conditions.push_back(
       {"mean-square", "E[U(k+1) \\mid k] \\le U(k) + h\\,(c - \\nu(k)^2) \\text{ in the set}",
        bounded ? Verdict::proved : Verdict::undecided, Interval::empty(), Interval::empty(),
        bounded ? "it is proved in " + std::to_string(result.cells) + " cells that cover the set."
+       : leaks ? "with a leak, which biases the frequency, no mean square is certified yet."
                : "no quadratic form was found for which it could be proved."});
   Interval root;
   if (bounded) {

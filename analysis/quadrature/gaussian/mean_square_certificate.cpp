@@ -43,9 +43,9 @@ std::optional<ProvedForm> proved_form(const LockQuestion& question, const LockSe
   if (!proposal) {
     return std::nullopt;
   }
-  std::vector<double> bounds;
-  for (const double factor : kFactors) {
-    bounds.push_back(factor * proposal->bound);
+  std::vector<double> bounds(kFactors.begin(), kFactors.end());
+  for (double& bound : bounds) {
+    bound *= proposal->bound;
   }
   if (const double enough = enough_bound(question, set, *proposal, start_level); enough > bounds.front()) {
     bounds.insert(bounds.begin(), enough);

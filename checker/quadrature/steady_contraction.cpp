@@ -92,7 +92,7 @@ void add_whole(const SteadySet& whole, const std::optional<SteadyStart>& start, 
 Promises check_steady_contraction(const Tree& claimed, const Design& design, std::int64_t& cells,
                                   Objections& objections) {
   // Wide cells are few, narrow ones say more of the steady state.
-  const auto branch = steady_branch(design, 0.3, 1e-4);
+  const auto branch = steady_branch(design, 0.3, 3e-5);
   const auto fine = branch ? steady_branch(design, 0.05, 2e-5) : std::nullopt;
   const Tree* evidence = claimed.find("evidence");
   const std::optional<StartCovariance> covariance = read_start_covariance(claimed, design, objections);
@@ -110,7 +110,13 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
         objections.emplace_back("no set is for this purpose");
         continue;
       }
-      const SteadySet& set = sets.emplace_back(check_steady_set(item, design, *branch, cells, objections));
+      // A large set needs to know the steady state better.
+      Objections coarse;
+      SteadySet checked = check_steady_set(item, design, *branch, cells, coarse);
+      if (!checked.verified) {
+        checked = check_steady_set(item, design, *fine, cells, objections);
+      }
+      const SteadySet& set = sets.emplace_back(std::move(checked));
       if (set.verified) {
         improve(promises.noise, set.noise);
         improve(promises.slew, set.slew);

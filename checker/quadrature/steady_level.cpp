@@ -1,5 +1,6 @@
 #include "checker/quadrature/steady_level.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,14 +27,15 @@ Ball largest(const Chord& a, const Chord& b, const Chord& c, const Way& way) {
 /// What covariance and noise may add to a step under the mean gain: upper bounds over a cell.
 struct Added {
   bool meaningful = false;
-  Ball turn;  ///< on |arg z - arg of the mean z|/s
-  Ball gram_factor, gram_rest;
-  Ball noise_gain;  ///< on |T (e+ with v - e+ without)|/|v|
+  Ball turn;                  ///< on |arg z - arg of the mean z|/s
+  Ball eta_factor, eta_rest;  ///< |y|^2 <= eta_factor eta^2 + eta_rest, eta without noise
+  Ball remainder;             ///< on |T (J - J') (D y / r + K v / s)|, J' the Jacobian at the mean estimate
 };
 
-/// The corrected estimate is within `radius` of the mean one. Of the Jacobian of (|z|, arg z), averaged over
-/// the way, the rows are those at the mean estimate and up to half the radius times the bounds 1/|z| and
-/// 1/|z|^2 on their derivatives; and (X + Y)(X + Y)' <= (1 + theta) X X' + (1 + 1/theta) |Y|^2.
+/// The corrected estimate is within `radius` of the mean one, by what D y / r and K v / s do together, and
+/// the part across turns it. Of the Jacobian of (|z|, arg z), averaged over the way, the rows are those at
+/// the mean estimate and up to half the radius times the bounds 1/|z| and 1/|z|^2 on their derivatives. The
+/// length of y is up to eta + sqrt(spread) |v|, and (a + b)^2 <= (1 + theta) a^2 + (1 + 1/theta) b^2.
 Added added(const SteadySetting& setting, const SteadyLevel& level, const SteadyStep<Chord>& step,
             const Way& way) {
   const TriangularMetric& t = setting.metric;
@@ -53,32 +55,16 @@ Added added(const SteadySetting& setting, const SteadyLevel& level, const Steady
   if (!result.meaningful) {
     return result;
   }
-  result.turn = radius / (level.level * nearest);
+  const Ball across = root_of_non_negative(over(step.across, way)).upper();
+  result.turn = (across * eta / setting.r + gain * level.noise / level.level) / nearest;
   const Ball bend = half * radius / nearest;
   const Ball bent = (bend * (t.t11 + sqrt(square(t.t12) + square(t.t22)) / nearest)).upper();
-  const Ball rest = (square(bent / setting.r) * spread).upper();
-  Ball trace(0.0);
-  for (const Entry k : {k11, k22, k33}) {
-    trace += over(step.gram[k], way).upper();
-  }
-  const Ball theta(std::sqrt(std::fmax(rest.near(), 1e-30) / trace.near()));
-  result.gram_factor = one + theta;
-  result.gram_rest = (one + one / theta) * rest;
-  // T J K for the mean gain, and for its spread.
-  Ball a(0.0);
-  Ball b(0.0);
-  Ball c(0.0);
-  for (const std::array<Chord, 2>& line : step.noise) {
-    const Ball first = over(line[0], way);
-    const Ball second = over(line[1], way);
-    a += square(first);
-    b += first * second;
-    c += square(second);
-  }
-  result.noise_gain =
-      (root_of_non_negative(larger_eigenvalue(a, b, c)) + bent * gain +
-       level.level * root_of_non_negative((result.gram_factor * trace + result.gram_rest) * spread))
-          .upper();
+  result.remainder = bent * radius / level.level;
+  const Ball more = (spread * square(level.noise)).upper();
+  const double share = std::sqrt(more.near() / std::fmax(square(eta).near(), 1e-30));
+  const Ball theta(std::fmin(std::fmax(share, 1e-6), 100.0));
+  result.eta_factor = one + theta;
+  result.eta_rest = (one + one / theta) * more;
   return result;
 }
 
@@ -97,32 +83,36 @@ Symmetric<Ball> reach_of(const SteadyPlace<Chord>& place, const Symmetric<Chord>
                                       -(two * after[k12]), -after[k13], zero});
 }
 
-/// The variable whose slopes are known worst.
-std::size_t most_blurred(const Row<Chord>& row, const SteadySetting& setting, const Way& way) {
-  Row<double> size;
-  size.fill(1.0);
+/// Adds how badly slopes are known over a cell, in all three directions, when an entry counts so much.
+void add_blur(std::array<double, kSides>& blur, const Chord& entry, const Way& way, double weight) {
+  for (std::size_t k = 0; k < kSides; ++k) {
+    blur[k] += weight * mag_get_d(arb_radref(entry.by[k].raw())) * mag_get_d(arb_radref(way[k].raw()));
+  }
+}
+std::size_t most(const std::array<double, kSides>& blur) {
+  return static_cast<std::size_t>(std::max_element(blur.begin(), blur.end()) - blur.begin());
+}
+
+/// The direction in which the covariance is blurred the most, in units of its bounds.
+std::size_t most_blurred(const Symmetric<Chord>& low, const Symmetric<Chord>& high,
+                         const SteadySetting& setting, const Way& way) {
   constexpr std::array<std::array<Entry, 2>, 6> kDiagonal{
       {{k11, k11}, {k11, k22}, {k11, k33}, {k22, k22}, {k22, k33}, {k33, k33}}};
-  for (std::size_t i = 0; i < 6; ++i) {
+  std::array<double, kSides> blur{};
+  for (std::size_t i = 0; i < kDiagonal.size(); ++i) {
     const auto [first, second] = kDiagonal[i];
-    size[kLow + i] = std::sqrt(setting.below[first].near() * setting.below[second].near());
-    size[kHigh + i] = std::sqrt(setting.above[first].near() * setting.above[second].near());
-    size[kGram + i] = 0.1;
+    const auto weight = [&, i = first, j = second](const Symmetric<Ball>& bound) {
+      return 1.0 / std::sqrt(bound[i].near() * bound[j].near());
+    };
+    add_blur(blur, low[i], way, weight(setting.below));
+    add_blur(blur, high[i], way, weight(setting.above));
   }
-  std::size_t side = kX;
-  double most = 0.0;
-  for (std::size_t k = 0; k < kSides; ++k) {
-    double blur = 0.0;
-    for (std::size_t i = 0; i < kColumns; ++i) {
-      blur += mag_get_d(arb_radref(row[i].by[k].raw())) / size[i];
-    }
-    blur *= mag_get_d(arb_radref(way[k].raw()));
-    if (blur > most) {
-      most = blur;
-      side = k;
-    }
-  }
-  return side;
+  return most(blur);
+}
+
+/// Into how many parts turns of so many rad are cut.
+int parts_of(double reach) {
+  return reach < 0.02 ? 1 : reach < 0.1 ? 3 : 5;
 }
 
 /// A cell: all of it, its middle, and the way from there.
@@ -155,38 +145,87 @@ SteadyPlace<Chord> place_of(const SteadyLevel& level, const Whereabouts& where, 
   return place;
 }
 
-Row<Ball> centre_of(const Row<Chord>& row) {
-  Row<Ball> centre;
-  for (std::size_t i = 0; i < kColumns; ++i) {
+template <std::size_t N>
+std::array<Ball, N> centre_of(const std::array<Chord, N>& row) {
+  std::array<Ball, N> centre;
+  for (std::size_t i = 0; i < N; ++i) {
     centre[i] = row[i].centre;
   }
   return centre;
 }
 
-/// Is it true of the row at all corners of a cell, with whichever slopes there are?
-template <typename Predicate>
-bool all_corners(const Row<Chord>& row, const DiscCell& cell, const Way& middle, const Predicate& fits) {
-  std::array<Row<Ball>, 2> ends;
-  for (std::size_t end = 0; end < 2; ++end) {
-    const Ball offset = Ball(end == 0 ? cell.from : cell.to) - middle[kFrequency];
-    for (std::size_t i = 0; i < kColumns; ++i) {
-      ends[end][i] = row[i].centre + row[i].by[kFrequency] * offset;
-    }
-  }
+/// Ways from the middle of a cell to its corners.
+std::vector<Way> ways_to_corners(const DiscCell& cell, const Way& middle) {
+  std::vector<Way> ways;
   for (const Point& point : cell.corners()) {
-    const Ball x = Ball(point[0]) - middle[kX];
-    const Ball y = Ball(point[1]) - middle[kY];
-    std::array<Row<Ball>, 2> corner = ends;
-    for (std::size_t i = 0; i < kColumns; ++i) {
-      const Ball move = row[i].by[kX] * x + row[i].by[kY] * y;
-      corner[0][i] += move;
-      corner[1][i] += move;
-    }
-    if (!fits(corner[0]) || !fits(corner[1])) {
-      return false;
+    for (const double frequency : {cell.from, cell.to}) {
+      ways.push_back(
+          {Ball(point[0]) - middle[kX], Ball(point[1]) - middle[kY], Ball(frequency) - middle[kFrequency]});
     }
   }
-  return true;
+  return ways;
+}
+
+/// The values there, with whichever slopes there are.
+template <std::size_t N>
+std::array<Ball, N> moved_by(const std::array<Chord, N>& row, const Way& way) {
+  std::array<Ball, N> moved;
+  for (std::size_t i = 0; i < N; ++i) {
+    moved[i] = over(row[i], way);
+  }
+  return moved;
+}
+
+/// Takes S (x, y) from the row, with S the middles of the slopes of what is moved.
+void take_slopes(Row<Chord>& row, SteadyLimits& limits) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const std::size_t k : {kX, kY}) {
+      limits.slopes[i][k] = Ball(row[i].by[k].near());
+      row[i].by[k] = row[i].by[k] - limits.slopes[i][k];
+      row[i].centre = row[i].centre - limits.slopes[i][k] * limits.middle[k];
+    }
+  }
+}
+
+/// What is left of a rate for the errors of a cell decides about all of its (x, y), by one set of multipliers
+/// or another.
+struct ErrorCheck {
+  bool contracts = false;
+  bool hopeless = false;  ///< not even the middle of the cell does
+  std::size_t side = kX;  ///< where to cut the cell, when it does not
+};
+ErrorCheck check_errors(const Row<Chord>& row, const Way& way, const std::vector<Way>& corners,
+                        const SteadyLimits& limits, Multipliers& last) {
+  std::vector<Row<Ball>> rows;
+  rows.reserve(corners.size());
+  for (const Way& corner : corners) {
+    rows.push_back(moved_by(row, corner));
+  }
+  const auto contract = [&](const Multipliers& multipliers) {
+    const ErrorInequality inequality(limits, multipliers);
+    return std::all_of(rows.begin(), rows.end(),
+                       [&](const Row<Ball>& at) { return inequality.contracts(at); });
+  };
+  if (contract(last)) {
+    return {true};
+  }
+  Row<Ball> worst = centre_of(row);
+  worst[kEta] = over(row[kEta], way).upper();
+  const Proposal proposal = propose(worst, limits);
+  last = proposal.multipliers;
+  if (contract(last)) {
+    return {true};
+  }
+  SteadyLimits point = limits;
+  point.size_squared = zero;
+  const double middle = (square(limits.middle[kX]) + square(limits.middle[kY])).near();
+  const bool hopeless =
+      middle < 1.0 && propose(centre_of(row), point).rate_squared > limits.rate_squared.near();
+  std::array<double, kSides> blur{};
+  for (std::size_t i = 0; i < kColumns; ++i) {
+    add_blur(blur, row[i], way, std::fabs(proposal.weights[i]));
+  }
+  return {false, hopeless, most(blur)};
 }
 
 }  // namespace
@@ -228,44 +267,67 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
   const SteadyPlace<Chord> place = place_of(level, where, steady_);
   const SteadyStep<Chord> step = steady_step(setting_, place);
   const Added more = added(setting_, level, step, where.way);
+  side = cell.high[0] - cell.low[0] >= cell.high[1] - cell.low[1] ? kX : kY;
   if (!more.meaningful) {
-    side = cell.high[0] - cell.low[0] >= cell.high[1] - cell.low[1] ? kX : kY;
     return false;
   }
-  Chord turn = step.turn;
-  turn.range += Ball::within(more.turn);
-  const Symmetric<Chord> low = turned_deviation(place, step.low, turn);
-  const Symmetric<Chord> high = turned_deviation(place, step.high, turn);
-  const std::array<Symmetric<Ball>, 2> reach{reach_of(place, low, where.way, more.turn),
-                                             reach_of(place, high, where.way, more.turn)};
-  Row<Chord> row = row_of(step, low, high);
-  for (std::size_t i = kGram; i < kEta; ++i) {
-    row[i] = more.gram_factor * row[i];
-  }
-  for (const Entry k : {k11, k22, k33}) {
-    row[kGram + std::size_t{k}].centre += more.gram_rest;
-  }
-  side = most_blurred(row, setting_, where.way);
+  Row<Chord> row = row_of(step);
+  row[kEta] = more.eta_factor * row[kEta];
+  row[kEta].centre += more.eta_rest;
 
-  // What noise and slew leave of the level for the errors, and for the covariance.
-  const Ball left = (level.next - more.noise_gain * level.noise - level.motion) / level.level;
-  const Ball share = (level.next - level.covariance_motion) / level.level;
+  // What slew, rounding and the remainder leave of the level for the errors, and for the covariance.
+  const Ball left = level.error_rate - more.remainder;
+  const Ball& share = level.covariance_rate;
   // cannot bind (share): below zero it would ask for a lower bound above the upper one.
   if (!certainly_positive(left) || !certainly_positive(share)) {
     return false;
   }
-  const Ball limit = square(left);
-  const Row<Ball> centre = centre_of(row);
-  const Multipliers multipliers = propose(centre, limit);
-  const auto fits = [&](const Row<Ball>& point) {
-    return keeps_covariance(point, reach, setting_, share) && contracts(point, limit, multipliers);
-  };
-  if (!fits(centre)) {
-    constexpr double kSmall = 0.05;
-    hopeless_ = cell.high[0] - cell.low[0] < kSmall && cell.high[1] - cell.low[1] < kSmall;
-    return false;
+  SteadyLimits limits{square(left),
+                      square(level.noise / level.level).upper(),
+                      setting_.hidden(),
+                      {},
+                      {where.middle[kX], where.middle[kY]},
+                      (square(where.way[kX]) + square(where.way[kY])).upper()};
+  take_slopes(row, limits);
+  const std::vector<Way> corners = ways_to_corners(cell, where.middle);
+  // Smaller cells do not help where a small one fails in its middle, a point of the disc.
+  constexpr double kSmall = 0.02;
+  const bool small = cell.high[0] - cell.low[0] < kSmall && cell.high[1] - cell.low[1] < kSmall &&
+                     cell.to - cell.from < kSmall;
+  // The turns one part after the other, the middle first: an odd number of them.
+  const int parts = parts_of((level.level * more.turn).near());
+  const Ball half_part = more.turn / Ball(double(parts));
+  for (int part = 0; part < parts; ++part) {
+    const int away = part % 2 == 0 ? -part : part + 1;
+    const Ball shift = half_part * Ball(double(away));
+    Chord turn = step.turn;
+    turn.centre += shift;
+    turn.range += shift + Ball::within(half_part);
+    const Symmetric<Chord> low = turned_deviation(place, step.low, turn);
+    const Symmetric<Chord> high = turned_deviation(place, step.high, turn);
+    const std::array<Symmetric<Ball>, 2> reach{reach_of(place, low, where.way, half_part),
+                                               reach_of(place, high, where.way, half_part)};
+    if (part == 0) {
+      side = most_blurred(low, high, setting_, where.way);
+      if (!keeps_covariance(centre_of(low), centre_of(high), reach, setting_, share)) {
+        hopeless_ = small && certainly_less(square(limits.middle[kX]) + square(limits.middle[kY]), one);
+        return false;
+      }
+      const ErrorCheck errors = check_errors(row, where.way, corners, limits, multipliers_);
+      if (!errors.contracts) {
+        side = errors.side;
+        hopeless_ = small && errors.hopeless;
+        return false;
+      }
+    }
+    const bool kept = std::all_of(corners.begin(), corners.end(), [&](const Way& corner) {
+      return keeps_covariance(moved_by(low, corner), moved_by(high, corner), reach, setting_, share);
+    });
+    if (!kept) {
+      return false;
+    }
   }
-  return all_corners(row, cell, where.middle, fits);
+  return true;
 }
 
 }  // namespace veritrack::checker

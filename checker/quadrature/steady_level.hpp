@@ -10,13 +10,13 @@
 
 namespace veritrack::checker {
 
-/// A level and the next, and what acts on the tracker.
+/// A level, and what acts on the tracker.
 struct SteadyLevel {
-  Ball level, next;
+  Ball level;
+  /// Lower bounds on what slew and rounding leave of next level / level: for e+ - e* in the
+  /// metric, and for P+ - P* as a share of its bounds.
+  Ball error_rate, covariance_rate;
   Ball noise;  ///< |v| <= noise
-  /// Upper bounds on how far slew and rounding carry e+ - e*, in the metric, and P+ - P*, as a share of its
-  /// bounds.
-  Ball motion, covariance_motion;
 };
 
 /// Cells of (x, y) and of the frequencies of one cell of the branch.
@@ -24,7 +24,7 @@ class SteadyCover {
  public:
   SteadyCover(const SteadySetting& setting, const SteadyCell& steady) : setting_(setting), steady_(steady) {}
 
-  /// Proves it for all (x, y) of the unit disc and all frequencies of the cell.
+  /// Proves it for all (x, y) of the unit disc, and all frequencies of the cell.
   bool maps_into_next(const SteadyLevel& level);
   /// So far.
   [[nodiscard]] std::int64_t cells() const { return cells_; }
@@ -37,6 +37,7 @@ class SteadyCover {
   const SteadySetting& setting_;
   const SteadyCell& steady_;
   std::vector<DiscCell> proved_;  ///< of the level before: where to begin
+  Multipliers multipliers_;       ///< of the last cell: where to begin
   int levels_ = 0;
   std::int64_t cells_ = 0;
   bool hopeless_ = false;  ///< a small cell fails in its middle

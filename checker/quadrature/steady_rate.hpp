@@ -9,39 +9,70 @@
 
 namespace veritrack::checker {
 
-/// What they look at, in one row: constant (3), slope (9), gram (6), eta_squared, the deviations of the
-/// covariance from P* after the step, over s, low (6) and high (6).
-enum Column : std::size_t { kSlope = 3, kGram = 12, kEta = 18, kLow = 19, kHigh = 25, kColumns = 31 };
+/// What the errors' inequality looks at, in one row: moved - S (x, y) (3), gram (6), noise (6, line by line)
+/// and the bound on |y|^2.
+enum Column : std::size_t { kGram = 3, kNoise = 9, kEta = 15, kColumns = 16 };
 template <typename S>
 using Row = std::array<S, kColumns>;
 
+/// With S = 0.
 template <typename S>
-Row<S> row_of(const SteadyStep<S>& step, const Symmetric<S>& low, const Symmetric<S>& high) {
+Row<S> row_of(const SteadyStep<S>& step) {
   Row<S> row;
-  std::copy(step.constant.begin(), step.constant.end(), row.begin());
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::copy(step.slope[i].begin(), step.slope[i].end(), row.begin() + kSlope + 3 * i);
-  }
+  std::copy(step.moved.begin(), step.moved.end(), row.begin());
   std::copy(step.gram.begin(), step.gram.end(), row.begin() + kGram);
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::copy(step.noise[i].begin(), step.noise[i].end(), row.begin() + kNoise + 2 * i);
+  }
   row[kEta] = step.eta_squared;
-  std::copy(low.begin(), low.end(), row.begin() + kLow);
-  std::copy(high.begin(), high.end(), row.begin() + kHigh);
   return row;
 }
 
-/// lambda and mu of section 4: any positive ones will do.
-struct Multipliers {
-  double lambda = 0.0, mu = 0.0;
+/// What is left of the level, squared, and what does not change over a cell.
+struct SteadyLimits {
+  Ball rate_squared;
+  Ball noise_squared;  ///< of v / s
+  std::array<Ball, 3> hidden;
+  std::array<std::array<Ball, 2>, 3> slopes;  ///< S: any constants
+  std::array<Ball, 2> middle;                 ///< q, of (x, y)
+  Ball size_squared;                          ///< |(x, y) - q|^2 is at most that
 };
-/// Of an exact row, such that something is left of what there is to spare up to the square of a rate.
-Multipliers propose(const Row<Ball>& row, const Ball& rate_squared);
 
-/// constant constant'/h + slope slope'/mu + gram/lambda < I, h = rate^2 - mu - lambda eta^2 > 0, for certain.
+/// mu, lambda, sigma > 0 and tau >= 0 of section 4.
+struct Multipliers {
+  double hidden = 0.0, spread = 0.0, noise = 0.0, cell = 0.0;
+};
+
+/// The least rate of steps that multipliers prove, as far as double precision can tell, and these, moved to
+/// where something is left of what there is to spare.
+struct Proposal {
+  double rate_squared;
+  Multipliers multipliers;
+  Row<double> weights;  ///< the derivatives of the rate squared by the entries of the row
+};
+Proposal propose(const Row<Ball>& row, const SteadyLimits& limits);
+
+/// With multipliers and limits that do not change over a cell:
+///     p p'/h + S S'/(mu + tau) + hidden hidden'/mu + gram/lambda + noise noise'/sigma < I for certain,
+/// p = moved - S (x, y) + theta S q, theta = tau/(mu + tau), and
+///     h = rate^2 - mu + mu theta |q|^2 - tau size^2 - lambda eta^2 - sigma noise^2 > 0.
 /// For each vector the left side is convex in the row, so that it is enough to look at corners.
-bool contracts(const Row<Ball>& row, const Ball& rate_squared, const Multipliers& multipliers);
+class ErrorInequality {
+ public:
+  ErrorInequality(const SteadyLimits& limits, const Multipliers& multipliers);
+  [[nodiscard]] bool contracts(const Row<Ball>& row) const;
 
-/// -share below < low +- reach[0] and high +- reach[1] < share above, for certain: affine in the row.
-bool keeps_covariance(const Row<Ball>& row, const std::array<Symmetric<Ball>, 2>& reach,
-                      const SteadySetting& setting, const Ball& share);
+ private:
+  bool meaningful_;
+  Ball head_;  ///< h without eta
+  Ball lambda_, over_lambda_, over_sigma_;
+  std::array<Ball, 3> shift_;  ///< theta S q
+  Symmetric<Ball> gap_;        ///< I - S S'/(mu + tau) - hidden hidden'/mu
+};
+
+/// -share below < low +- reach[0] and high +- reach[1] < share above, for certain: affine in low and high.
+bool keeps_covariance(const Symmetric<Ball>& low, const Symmetric<Ball>& high,
+                      const std::array<Symmetric<Ball>, 2>& reach, const SteadySetting& setting,
+                      const Ball& share);
 
 }  // namespace veritrack::checker

@@ -1,39 +1,17 @@
 #include "checker/quadrature/steady_set.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "checker/document/evidence.hpp"
+#include "checker/numbers/threads.hpp"
 #include "checker/quadrature/rounded_step.hpp"
 #include "checker/quadrature/steady_level.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-/// Sets a11, a21, a22 such that A A' - M M' > 0 for the rows M = ((1,0,0), (0,1,1)) T^-1 of alpha and c: then
-/// every M u with |u| <= 1 is an A w with |w| <= 1.
-bool cover_directions(SteadySetting& setting) {
-  const auto inverse = setting.metric.inverse();
-  Ball m11(0.0);
-  Ball m12(0.0);
-  Ball m22(0.0);
-  for (std::size_t j = 0; j < 3; ++j) {
-    const Ball c = inverse[1][j] + inverse[2][j];
-    m11 += square(inverse[0][j]);
-    m12 += inverse[0][j] * c;
-    m22 += square(c);
-  }
-  const Ball margin(1.0 + 0x1p-30);
-  setting.a11 = (margin * sqrt(m11)).upper();
-  setting.a21 = (m12 / setting.a11).upper();
-  setting.a22 = (margin * sqrt(m22 - square(m12) / m11)).upper();
-  const Ball a = square(setting.a11) - m11;
-  const Ball b = setting.a11 * setting.a21 - m12;
-  const Ball c = square(setting.a21) + square(setting.a22) - m22;
-  // cannot bind (a): a11 is the upper end of a ball that contains margin sqrt(m11).
-  return certainly_positive(a) && certainly_positive(a * c - square(b));
-}
 
 /// A share l, no more than a twentieth above the least, with l bound - x > 0 and l bound + x > 0; everything
 /// when none is found.
@@ -171,7 +149,8 @@ std::string refusal_of(SteadySet& set, const std::vector<SteadyCell>& branch, co
   if (!fall_from_one(set.levels) || !certainly_not_negative(set.noise) || !certainly_not_negative(set.slew)) {
     return "levels, noise or slew are out of range";
   }
-  if (!definite(matrix_of(s.below)) || !definite(matrix_of(s.above)) || !cover_directions(s)) {
+  s.set_directions();
+  if (!definite(matrix_of(s.below)) || !definite(matrix_of(s.above)) || !certainly_positive(s.a11)) {
     return "the covariance bounds are not positive definite, or the metric has no inverse";
   }
   if (!stays_definite(s, branch)) {
@@ -185,19 +164,23 @@ std::string refusal_of(SteadySet& set, const std::vector<SteadyCell>& branch, co
   motion.errors += rounding.errors;
   motion.covariance += rounding.covariance;
   const std::size_t steps = std::max<std::size_t>(set.levels.size(), 2) - 1;
-  for (const SteadyCell& steady : branch) {
-    SteadyCover cover(s, steady);
+  std::atomic<std::int64_t> looked_at = 0;
+  const std::size_t failed = first_failure(branch.size(), [&](std::size_t k) {
+    SteadyCover cover(s, branch[k]);
     bool maps = true;
     for (std::size_t j = 0; j < steps && maps; ++j) {
+      const Ball& level = set.levels[j];
       const Ball& next = set.levels[std::min(j + 1, set.levels.size() - 1)];
-      maps = cover.maps_into_next({set.levels[j], next, set.noise, motion.errors, motion.covariance});
+      maps = cover.maps_into_next({level, ((next - motion.errors) / level).lower(),
+                                   ((next - motion.covariance) / level).lower(), set.noise});
     }
-    cells += cover.cells();
-    if (!maps) {
-      return "a step is not certain to end in the next level, for frequencies near " + steady.centre.text(4);
-    }
-  }
-  return {};
+    looked_at += cover.cells();
+    return maps;
+  });
+  cells += looked_at;
+  return failed == branch.size() ? std::string()
+                                 : "a step is not certain to end in the next level, for frequencies near " +
+                                       branch[failed].centre.text(4);
 }
 
 }  // namespace

@@ -11,6 +11,9 @@
 //     z - z* = s (alpha (1, 0) + K i' + mean H' i*/r),  z - f = z - z* - s c Q z*,
 // and |z| - |f|, arg z - arg f, arg z - arg z* are that times the rows of secant(f, z), secant(z*, z)
 // (step.hpp).
+//
+// (alpha, c) fixes two of three components of T b: the third is along T (0, -1, 1)', which changes m alone,
+// and m is kept but for the leak.
 #pragma once
 
 #include "checker/numbers/chord.hpp"
@@ -39,8 +42,32 @@ struct SteadySetting {
   Ball q1, q2, r, retention;
   TriangularMetric metric;
   Symmetric<Ball> below, above;
-  /// |T b| <= 1 implies alpha = a11 x, c = a21 x + a22 y with x^2 + y^2 <= 1.
-  Ball a11, a21, a22;
+  /// Of the orthonormal basis u1, u2, n of the space of T b, n along T (0, -1, 1)' and u1 along the first row
+  /// of T^-1: T b = x u1 + y u2 + t n has alpha = a11 x, c = a21 x + a22 y and m = m1 x + m2 y + m3 t.
+  Ball a11, a21, a22, m1, m2, m3;
+
+  /// Sets these; they are finite only if there is such a basis.
+  void set_directions() {
+    const std::array<Ball, 3> across = metric.image<Ball>(zero, Ball(-1.0), one);
+    m3 = one / sqrt(square(across[0]) + square(across[1]) + square(across[2]));
+    const std::array<Ball, 3> n{across[0] * m3, across[1] * m3, across[2] * m3};
+    const auto inverse = metric.inverse();
+    const std::array<Ball, 3>& alpha = inverse[0];
+    a11 = sqrt(square(alpha[0]) + square(alpha[1]) + square(alpha[2]));
+    const std::array<Ball, 3> u1{alpha[0] / a11, alpha[1] / a11, alpha[2] / a11};
+    const std::array<Ball, 3> u2{n[1] * u1[2] - n[2] * u1[1], n[2] * u1[0] - n[0] * u1[2],
+                                 n[0] * u1[1] - n[1] * u1[0]};
+    const auto of_c = [&](const std::array<Ball, 3>& u) {
+      return (inverse[1][0] + inverse[2][0]) * u[0] + (inverse[1][1] + inverse[2][1]) * u[1] +
+             (inverse[1][2] + inverse[2][2]) * u[2];
+    };
+    a21 = of_c(u1);
+    a22 = of_c(u2);
+    m1 = u1[2] * inverse[2][2];
+    m2 = u2[2] * inverse[2][2];
+  }
+  /// What a unit of t leaves after a step.
+  [[nodiscard]] std::array<Ball, 3> hidden() const { return metric.image<Ball>(zero, zero, retention * m3); }
 };
 
 /// Where: the level, (x, y), and the steady state there.
@@ -50,19 +77,19 @@ struct SteadyPlace {
   PolarState<S> steady;
 };
 
-/// (e+ - e*)/s = constant + slope b + J (D y / r + K v / s), D D' = spread, |y|^2 <= eta_squared: what there
-/// is under the mean gain K.
+/// T (e+ - e*)/s = moved + t hidden + T J (D y / r + K v / s), D D' = spread, |y|^2 <= (i + v)' spread (i +
+/// v): what there is under the mean gain K.
 template <typename S>
 struct SteadyStep {
-  std::array<S, 3> constant;              ///< T constant
-  std::array<std::array<S, 3>, 3> slope;  ///< T slope T^-1
+  std::array<S, 3> moved;                 ///< of the error with t = 0
   Symmetric<S> gram;                      ///< T J spread J' T' / r^2, J at the estimate
   std::array<std::array<S, 2>, 3> noise;  ///< T J K
   Symmetric<S> spread;
-  S eta_squared;
+  S eta_squared;             ///< of the innovation without noise
   std::array<S, 3> largest;  ///< of the largest gain of the plane: its entries 11, 12, 22
   S turn;                    ///< arg z - arg z* over s
   S distance;                ///< |z|
+  S across;                  ///< n' spread n, n the direction across z
   S swing;                   ///< s c, rad
   S forward, along;          ///< f . z and z* . z
   Symmetric<S> low, high;    ///< in the frame of the steady estimate
@@ -155,10 +182,12 @@ SteadyUpdate<S> steady_update(const SteadySetting& setting, const SteadyPlace<S>
   return update;
 }
 
-/// Where the mean gain takes the estimate: sets constant, slope, turn, forward and along. Returns z.
+/// Where the mean gain takes the estimate: sets moved, turn, forward and along. Returns z.
 template <typename S>
-std::array<S, 2> move_estimate(const SteadySetting& setting, const S& s, const SteadyTurn<S>& turn,
-                               const SteadyUpdate<S>& update, SteadyStep<S>& step) {
+std::array<S, 2> move_estimate(const SteadySetting& setting, const SteadyPlace<S>& place,
+                               const SteadyTurn<S>& turn, const SteadyUpdate<S>& update,
+                               SteadyStep<S>& step) {
+  const S& s = place.level;
   // (z - z*)/s and the correction of the frequency over s: what belongs to 1, to alpha and to c.
   const Ball over_r = one / setting.r;
   const Gain<S>& k = update.mean;
@@ -182,26 +211,14 @@ std::array<S, 2> move_estimate(const SteadySetting& setting, const S& s, const S
   step.turn = from_steady.angle[0] * moved_by[0] + from_steady.angle[1] * moved_by[1];
   step.along = from_steady.dot;
   const std::array<S, 2> away = turn.quarter(turn.estimate[0], turn.estimate[1]);
-  parts[2] = {parts[2][0] - away[0], parts[2][1] - away[1], parts[2][2]};
+  const std::array<S, 2> from_turned{moved_by[0] - turn.c * away[0], moved_by[1] - turn.c * away[1]};
   const Secant<S> rows =
       secant({turn.estimate[0] + turn.swing * away[0], turn.estimate[1] + turn.swing * away[1]}, z);
   step.forward = rows.dot;
-  std::array<std::array<S, 3>, 3> images;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::array<S, 3>& d = parts[i];
-    images[i] = setting.metric.image<S>(rows.length[0] * d[0] + rows.length[1] * d[1],
-                                        rows.angle[0] * d[0] + rows.angle[1] * d[1], d[2]);
-  }
-  step.constant = images[0];
-  // b = (alpha, psi, m) and c = psi + m; m itself is kept but for the leak.
-  const std::array<Ball, 3> kept = setting.metric.image<Ball>(zero, zero, setting.retention);
-  const std::array<std::array<Ball, 3>, 3> inverse = setting.metric.inverse();
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      step.slope[i][j] = inverse[0][j] * images[1][i] + (inverse[1][j] + inverse[2][j]) * images[2][i] +
-                         S(inverse[2][j] * kept[i]);
-    }
-  }
+  const S m = setting.m1 * place.x + setting.m2 * place.y;
+  step.moved = setting.metric.image<S>(rows.length[0] * from_turned[0] + rows.length[1] * from_turned[1],
+                                       rows.angle[0] * from_turned[0] + rows.angle[1] * from_turned[1],
+                                       total(2) + setting.retention * m);
   return z;
 }
 
@@ -217,7 +234,10 @@ void add_gains(const SteadySetting& setting, const std::array<S, 2>& z, const St
       setting.metric.image<S>(direction[0], -(direction[1] * over), none),
       setting.metric.image<S>(direction[1], direction[0] * over, none),
       setting.metric.image<S>(none, none, S(one))};
-  const Symmetric<S> m = scaled(square(one / setting.r), update.spread);
+  const Symmetric<S>& d = update.spread;
+  step.across = d[k11] * square(direction[1]) + d[k22] * square(direction[0]) -
+                two * (d[k12] * (direction[0] * direction[1]));
+  const Symmetric<S> m = scaled(square(one / setting.r), d);
   const Gain<S>& k = update.mean;
   std::array<std::array<S, 3>, 3> half_gram;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -251,7 +271,7 @@ SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& pl
   const Symmetric<S>& d = step.spread;
   step.eta_squared = d[k11] * square(innovation[0]) + d[k22] * square(innovation[1]) +
                      two * (d[k12] * (innovation[0] * innovation[1]));
-  add_gains(setting, move_estimate(setting, s, turn, update, step), update, step);
+  add_gains(setting, move_estimate(setting, place, turn, update, step), update, step);
   return step;
 }
 

@@ -1,10 +1,11 @@
 #include "analysis/quadrature/leak/steady_contraction.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "analysis/quadrature/leak/steady_rate.hpp"
+#include "analysis/quadrature/leak/steady_multipliers.hpp"
 #include "analysis/quadrature/leak/steady_setting.hpp"
 #include "analysis/rigor/decimal.hpp"
 
@@ -40,8 +41,7 @@ class Cover {
       return true;
     }
     const SteadyOrder& order = outcome.order;
-    const bool fails_inside =
-        order.hopeless || (order.kept && !may_contract(cell, square(outcome.left).lower()));
+    const bool fails_inside = order.hopeless || (order.kept && !may_contract(cell));
     const bool hopeless = depth == 0 || (fails_inside && std::hypot(cell.middle(kX), cell.middle(kY)) <= 1.0);
     if (hopeless) {
       reason_ = "at level " + rigor::to_decimal(level_, 3, rigor::Direction::up) +
@@ -49,7 +49,7 @@ class Cover {
                             : " of the set the covariance could not be proved to stay between its bounds.");
       return false;
     }
-    const auto [first, second] = halves(cell, order);
+    const auto [first, second] = halves(cell, order.kept ? outcome.blur : order.blur);
     return proves(first, depth - 1) && proves(second, depth - 1);
   }
 
@@ -57,7 +57,6 @@ class Cover {
     SteadyContraction over;
     over.proved = proved;
     over.reason = reason_;
-    over.noise_gain = noise_gain_;
     over.cells = cells_;
     return over;
   }
@@ -67,7 +66,8 @@ class Cover {
   struct CellOutcome {
     bool contracts = false;
     SteadyOrder order;
-    Interval left;  ///< what noise and slew leave of the rate
+    Interval left;  ///< what slew, rounding and the remainder of noise and gain leave of the rate
+    std::array<double, 2> blur{};  ///< of the image: the widths of its slopes
   };
 
   /// Does every step from the cell lead to the next level?
@@ -81,10 +81,14 @@ class Cover {
     const Interval level(level_);
     const SteadyBounds<Interval> bounds = steady_bounds(step, settings_.over_cell, level, disturbance_.noise);
     CellOutcome outcome;
-    outcome.left =
-        Interval((rate_ - (bounds.noise_gain * disturbance_.noise + disturbance_.motion) / level).lower());
+    outcome.left = Interval((rate_ - bounds.remainder - disturbance_.motion / level).lower());
     const Interval share((rate_ - disturbance_.covariance_motion / level).lower());
     outcome.order = keeps_covariance(settings_, corners, secants, level_, bounds.tangent_reach, share);
+    for (const std::size_t variable : {kX, kY}) {
+      for (const SteadySecant& entry : secants.image) {
+        outcome.blur[variable] += width(entry.slope(variable));
+      }
+    }
     // cannot bind (along, swing): in the middle of a level `along` is the component that least_along bounds,
     // and the step divides by it, so that it is zero nowhere in a level whose cells all hold; and where both
     // are positive the phase before a step, its turn and the phase after it differ by a multiple of a turn
@@ -92,18 +96,15 @@ class Cover {
     outcome.contracts = outcome.order.kept && certainly_positive(outcome.left) &&
                         certainly_positive(bounds.least_along) && certainly_positive(step.along) &&
                         certainly_less(abs(step.swing), Interval(1.5)) &&
-                        contracts_by(outcome.left, secants, step, bounds, corners);
-    if (outcome.contracts) {
-      noise_gain_ = std::max(noise_gain_, bounds.noise_gain.upper());
-    }
+                        contracts_by(square(outcome.left), secants, step, bounds, cell, corners);
     return outcome;
   }
 
-  /// Cut where the covariance is blurred the most, or else where the cell is widest.
-  static std::pair<SteadyCell, SteadyCell> halves(const SteadyCell& cell, const SteadyOrder& order) {
-    const double blur_x = order.blur[kX] * cell.width(kX);
-    const double blur_y = order.blur[kY] * cell.width(kY);
-    const bool known = std::isfinite(blur_x + blur_y);
+  /// Cut where the covariance, if it is what fails, or else the image is blurred the most.
+  static std::pair<SteadyCell, SteadyCell> halves(const SteadyCell& cell, const std::array<double, 2>& blur) {
+    const double blur_x = blur[kX] * cell.width(kX);
+    const double blur_y = blur[kY] * cell.width(kY);
+    const bool known = std::isfinite(blur_x + blur_y) && blur_x + blur_y > 0.0;
     const std::size_t side = (known ? blur_x >= blur_y : cell.width(kX) >= cell.width(kY)) ? kX : kY;
     std::pair<SteadyCell, SteadyCell> both{cell, cell};
     both.first.high[side] = both.second.low[side] = cell.middle(side);
@@ -111,46 +112,48 @@ class Cover {
   }
 
   /// By multipliers that have served another cell, or by new ones.
-  [[nodiscard]] bool contracts_by(const Interval& left, const SteadyStep<SteadySecant>& secants,
+  [[nodiscard]] bool contracts_by(const Interval& rate_squared, const SteadyStep<SteadySecant>& secants,
                                   const SteadyStep<Interval>& step, const SteadyBounds<Interval>& bounds,
-                                  const std::vector<SteadyOffset>& corners) {
-    const Interval rate_squared = square(left);
+                                  const SteadyCell& cell, const std::vector<SteadyOffset>& corners) {
     const auto contracts = [&] {
-      return certainly_contracts(secants, bounds, step.eta_squared, corners, rate_squared, multipliers_);
+      return certainly_contracts(secants, bounds, hidden_image(settings_.over_cell), cell,
+                                 square(disturbance_.noise / Interval(level_)), corners, rate_squared,
+                                 multipliers_);
     };
     if (contracts()) {
       return true;
     }
-    multipliers_ = propose_rate(worst_of(secants, step), worst_of(bounds), rate_squared.lower());
+    SteadyCellReach reach;
+    reach.reach = sample_of(cell).reach;
+    reach.reach.eta_squared = (bounds.eta_factor * step.eta_squared + bounds.eta_rest).upper();
+    const auto slopes = middle_slopes(secants);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      reach.slopes.row(i) << slopes[kX][k], slopes[kY][k];
+    }
+    reach.middle << cell.middle(kX), cell.middle(kY);
+    reach.size_squared = 0.25 * (cell.width(kX) * cell.width(kX) + cell.width(kY) * cell.width(kY));
+    multipliers_ = propose_cell_rate(reach, rate_squared.lower()).multipliers;
     return contracts();
   }
 
-  /// For proposals: what decides at the middle, and the largest eta.
-  static SteadyStep<double> worst_of(const SteadyStep<SteadySecant>& secants,
-                                     const SteadyStep<Interval>& step) {
-    SteadyStep<double> worst;
-    for (std::size_t i = 0; i < worst.slope.size(); ++i) {
-      worst.slope[i] = midpoint(secants.slope[i].center());
-    }
-    for (std::size_t i = 0; i < worst.constant.size(); ++i) {
-      worst.constant[i] = midpoint(secants.constant[i].center());
-    }
-    worst.eta_squared = step.eta_squared.upper();
-    return worst;
-  }
-  static SteadyBounds<double> worst_of(const SteadyBounds<Interval>& bounds) {
-    const Symmetric<Interval>& g = bounds.gram;
-    SteadyBounds<double> worst;
-    worst.gram = {g.p11.upper(), midpoint(g.p12), midpoint(g.p13),
-                  g.p22.upper(), midpoint(g.p23), g.p33.upper()};
-    return worst;
+  /// A step from the middle of a cell, in double.
+  struct Sample {
+    SteadyBounds<double> bounds;
+    SteadyReach reach;
+  };
+  [[nodiscard]] Sample sample_of(const SteadyCell& cell) const {
+    const SteadyStep<double> step = steady_step(middle_, {level_, cell.middle(kX), cell.middle(kY)});
+    const double noise = midpoint(disturbance_.noise);
+    const SteadyBounds<double> bounds = steady_bounds(step, middle_, level_, noise);
+    return {bounds, reach_of(step, bounds, middle_, level_, noise)};
   }
 
-  /// Do samples see a step from the middle contract?
-  [[nodiscard]] bool may_contract(const SteadyCell& cell, double rate_squared) const {
-    const SteadyStep<double> step = steady_step(middle_, {level_, cell.middle(kX), cell.middle(kY)});
-    const SteadyBounds<double> bounds = steady_bounds(step, middle_, level_, midpoint(disturbance_.noise));
-    return propose_rate(step, bounds, rate_squared).rate_squared <= rate_squared;
+  /// Does a sample see a step from the middle contract?
+  [[nodiscard]] bool may_contract(const SteadyCell& cell) const {
+    const Sample sample = sample_of(cell);
+    const double left = midpoint(rate_) - sample.bounds.remainder - midpoint(disturbance_.motion) / level_;
+    return left > 0.0 && propose_rate(sample.reach, 0.0).rate_squared <= left * left;
   }
 
   /// All values over the cell: from the middle, and by interval arithmetic.
@@ -170,8 +173,7 @@ class Cover {
   Interval rate_;
   SteadyDisturbance disturbance_;
   std::int64_t most_cells_;
-  SteadyRate multipliers_{};
-  double noise_gain_ = 0.0;
+  SteadyMultipliers multipliers_{};
   std::int64_t cells_ = 0;
   std::string reason_;
 };
@@ -180,7 +182,7 @@ class Cover {
 
 SteadyContraction prove_contraction(const SteadySettings& settings, double level, double next,
                                     const SteadyDisturbance& disturbance, std::int64_t most_cells) {
-  constexpr int kDepth = 12;
+  constexpr int kDepth = 18;
   rigor::require_upward_rounding();
   Cover cover(settings, level, next, disturbance, most_cells);
   const bool proved = cover.proves({{-1.0, -1.0}, {1.0, 1.0}}, kDepth);

@@ -11,9 +11,8 @@ namespace veritrack::quadrature {
 /// What the cells that cover a level say together.
 struct SteadyContraction {
   bool proved = false;
-  std::string reason;       ///< one sentence when not proved
-  double noise_gain = 0.0;  ///< L_v, an upper bound
-  std::int64_t cells = 0;   ///< examined
+  std::string reason;      ///< one sentence when not proved
+  std::int64_t cells = 0;  ///< examined
 };
 
 /// What acts on the tracker.

@@ -42,6 +42,13 @@ double blur_of(const Symmetric<SteadySecant>& image, const Symmetric<Interval>& 
          share(image.p22, d2 * d2) + share(image.p23, d2 * d3) + share(image.p33, d3 * d3);
 }
 
+/// Into how many parts turns of up to so many rad are cut, an odd number: slopes are known better for a part.
+int parts_of(double reach) {
+  constexpr double kLittle = 0.02;
+  constexpr double kMuch = 0.1;
+  return reach < kLittle ? 1 : reach < kMuch ? 3 : 5;
+}
+
 }  // namespace
 
 SteadyOrder keeps_covariance(const SteadySettings& settings, const std::vector<SteadyOffset>& corners,
@@ -49,27 +56,38 @@ SteadyOrder keeps_covariance(const SteadySettings& settings, const std::vector<S
                              const Interval& tangent_reach, const Interval& share) {
   const CovarianceBand<Interval>& band = settings.over_cell.band;
   const SteadySecant levels{Interval(level)};
-  const SteadySecant tangents = turn_tangent(settings.secants, step, levels) +
-                                SteadySecant(Interval(tangent_reach.upper())) *
-                                    SteadySecant::variable(rigor::symmetric(1.0), 0.0, kAcross);
-  const CovarianceStep<SteadySecant> image = covariance_step(settings.secants, step, levels, tangents);
-  SteadyOrder result;
-  for (const std::size_t variable : {kX, kY}) {
-    result.blur[variable] =
-        blur_of(image.low, band.below, variable) + blur_of(image.high, band.above, variable);
-  }
+  const SteadySecant mean_tangent = turn_tangent(settings.secants, step, levels);
+  const int parts = parts_of(level * tangent_reach.upper());
+  const Interval part = Interval(tangent_reach.upper()) / Interval(double(parts));
   SteadyOffset middle;
   middle.fill(Interval(0.0));
+  SteadyOrder result;
+  result.kept = certainly_positive(share);
   // cannot bind (share): below zero it would ask for a lower bound above the upper one.
-  result.hopeless = !certainly_positive(share) || !is_within(band, moved_by(image, middle), share);
-  // Positive definite matrices are a convex set: what is affine in the variables needs to be looked at in the
-  // corners only, with whichever slopes there are.
-  result.kept = !result.hopeless && std::all_of(corners.begin(), corners.end(), [&](SteadyOffset corner) {
-    return std::all_of(kEnds.begin(), kEnds.end(), [&](double across) {
-      corner[kAcross] = Interval(across);
-      return is_within(band, moved_by(image, corner), share);
-    });
-  });
+  result.hopeless = !result.kept;
+  for (int k = 0; k < parts && !result.hopeless; ++k) {
+    const SteadySecant tangents =
+        mean_tangent + SteadySecant(part * Interval(double(2 * k + 1 - parts))) +
+        SteadySecant(part) * SteadySecant::variable(rigor::symmetric(1.0), 0.0, kAcross);
+    const CovarianceStep<SteadySecant> image = covariance_step(settings.secants, step, levels, tangents);
+    bool known = true;
+    for (const std::size_t variable : {kX, kY}) {
+      const double blur =
+          blur_of(image.low, band.below, variable) + blur_of(image.high, band.above, variable);
+      known = known && std::isfinite(blur);
+      result.blur[variable] = std::max(result.blur[variable], blur);
+    }
+    result.hopeless = 2 * k + 1 == parts && known && !is_within(band, moved_by(image, middle), share);
+    // Positive definite matrices are a convex set: what is affine in the variables needs to be looked at in
+    // the corners only, with whichever slopes there are.
+    result.kept = result.kept && known && !result.hopeless &&
+                  std::all_of(corners.begin(), corners.end(), [&](SteadyOffset corner) {
+                    return std::all_of(kEnds.begin(), kEnds.end(), [&](double across) {
+                      corner[kAcross] = Interval(across);
+                      return is_within(band, moved_by(image, corner), share);
+                    });
+                  });
+  }
   return result;
 }
 

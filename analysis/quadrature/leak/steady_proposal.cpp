@@ -103,9 +103,9 @@ search::SearchSpace space_of(int evaluations) {
 
 }  // namespace
 
-std::optional<SteadyShape> propose_steady_shape(const SteadyRequest& request) {
+std::optional<SteadyShape> propose_steady_shape(const SteadyRequest& request, SteadyJudgement judgement) {
   const rigor::NearestRounding nearest;
-  const SteadySamples sampler(request);
+  const SteadySamples sampler(request, judgement);
   // With room for the proof first; where there is no such set, with less.
   for (const Strictness& strictness : {Strictness{0.9, 0.96}, Strictness{0.97, 0.985}}) {
     double guess = 1.0;
@@ -137,9 +137,9 @@ std::optional<SteadyShape> propose_steady_shape(const SteadyRequest& request) {
 }
 
 std::optional<SteadySet> propose_steady_set(const SteadyRequest& request, const SteadyShape& shape,
-                                            double fraction, bool invariance_only) {
+                                            double fraction, SteadyJudgement judgement) {
   const rigor::NearestRounding nearest;
-  const SteadySamples sampler(request);
+  const SteadySamples sampler(request, judgement);
   SteadySet set;
   set.metric = shape.metric / fraction;
   set.noise = request.noise;
@@ -163,10 +163,6 @@ std::optional<SteadySet> propose_steady_set(const SteadyRequest& request, const 
   set.below = settings.front().band.below.matrix();
   set.above = settings.front().band.above.matrix();
   set.levels = {1.0};
-  if (invariance_only) {
-    constexpr double kRoom = 0.96;
-    return at_high < kRoom ? std::optional<SteadySet>(set) : std::nullopt;
-  }
   // Down to where the noise holds the state, each step leaving a share of what samples gain to the proof.
   constexpr double kLowest = 0.01;
   constexpr double kSlowest = 0.96;

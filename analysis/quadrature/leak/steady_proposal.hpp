@@ -25,19 +25,23 @@ struct SteadyRequest {
   int evaluations = 60;
 };
 
+/// By which inequality samples judge a step: the one that the proof uses, or one that asks for more. Sets by
+/// the latter are smaller, contract faster, and are quick to verify.
+enum class SteadyJudgement { sharp, cautious };
+
 /// The metric in which sampling found the largest set, scaled to level 1.
 struct SteadyShape {
   rigor::Matrix<3> metric;
 };
 
 /// The best shape found; nothing when sampling finds no set at all. Deterministic.
-[[nodiscard]] std::optional<SteadyShape> propose_steady_shape(const SteadyRequest& request);
+[[nodiscard]] std::optional<SteadyShape> propose_steady_shape(const SteadyRequest& request,
+                                                              SteadyJudgement judgement);
 
 /// A set of this shape, smaller by `fraction`, with covariance bounds and rates that leave room for the
-/// verification; nothing when sampling finds that none is there. With `invariance_only` there is one
-/// level.
+/// verification; nothing when sampling finds that none is there.
 [[nodiscard]] std::optional<SteadySet> propose_steady_set(const SteadyRequest& request,
                                                           const SteadyShape& shape, double fraction,
-                                                          bool invariance_only);
+                                                          SteadyJudgement judgement);
 
 }  // namespace veritrack::quadrature

@@ -1,12 +1,14 @@
 #include "analysis/quadrature/leak/steady_rate.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "analysis/rigor/small_definiteness.hpp"
-#include "analysis/search/golden_section.hpp"
 
 namespace veritrack::quadrature {
 
@@ -16,108 +18,196 @@ using rigor::Interval;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// N N' of a matrix given row by row.
+/// N N' of a 3x2 matrix given row by row.
 template <typename Scalar>
-Symmetric<Scalar> row_products(const std::array<Scalar, 9>& n) {
+Symmetric<Scalar> row_products(const std::array<Scalar, 6>& n) {
   using trackers::detail::square;
   const auto dot = [&n](std::size_t i, std::size_t j) -> Scalar {
-    return n[3 * i] * n[3 * j] + n[3 * i + 1] * n[3 * j + 1] + n[3 * i + 2] * n[3 * j + 2];
+    return n[2 * i] * n[2 * j] + n[2 * i + 1] * n[2 * j + 1];
   };
-  const auto norm = [&n](std::size_t i) -> Scalar {
-    return square(n[3 * i]) + square(n[3 * i + 1]) + square(n[3 * i + 2]);
-  };
+  const auto norm = [&n](std::size_t i) -> Scalar { return square(n[2 * i]) + square(n[2 * i + 1]); };
   return {norm(0), dot(0, 1), dot(0, 2), norm(1), dot(1, 2), norm(2)};
 }
 
-/// mu + lambda eta^2 + c' (I - N N'/mu - G/lambda)^-1 c; infinity when the inverse is not positive definite.
-double rate_squared_with(const std::array<double, 3>& c, const Symmetric<double>& products,
-                         const Symmetric<double>& gram, double eta_squared, double lambda, double mu) {
-  const double a11 = 1.0 - products.p11 / mu - gram.p11 / lambda;
-  const double a12 = -products.p12 / mu - gram.p12 / lambda;
-  const double a13 = -products.p13 / mu - gram.p13 / lambda;
-  const double a22 = 1.0 - products.p22 / mu - gram.p22 / lambda;
-  const double a23 = -products.p23 / mu - gram.p23 / lambda;
-  const double a33 = 1.0 - products.p33 / mu - gram.p33 / lambda;
-  if (!(a11 > 0.0)) {
-    return kInfinity;
+using Multipliers = Eigen::Vector3d;
+
+/// The rate squared as a function of the logarithms of the multipliers, which is convex: sums of w_i mu_i and
+/// of c'(I - sum_i X_i/mu_i)^-1 c, in which the inverse is operator monotone and convex.
+class RateSquared {
+ public:
+  explicit RateSquared(const SteadyReach& reach)
+      : image_(reach.image[0], reach.image[1], reach.image[2]),
+        weights_(least(reach.hidden_squared), least(reach.eta_squared), least(reach.noise_squared)) {
+    const Eigen::Vector3d hidden(reach.hidden[0], reach.hidden[1], reach.hidden[2]);
+    gains_ << hidden * hidden.transpose(), reach.gram.matrix(), reach.noise.matrix();
   }
-  const double d2 = a22 - a12 * a12 / a11;
-  const double e23 = a23 - a12 * a13 / a11;
-  if (!(d2 > 0.0)) {
-    return kInfinity;
+
+  /// Multipliers for which I - sum X_i/mu_i is positive definite.
+  [[nodiscard]] Multipliers feasible() const {
+    constexpr double kRoom = 1.5;
+    Multipliers roots;
+    for (int i = 0; i < 3; ++i) {
+      roots[i] = std::sqrt(std::max(gain(i).trace(), 1e-300) / weights_[i]);
+    }
+    return (kRoom * roots.dot(weights_) * roots).array().log();
   }
-  const double d3 = a33 - a13 * a13 / a11 - e23 * e23 / d2;
-  if (!(d3 > 0.0)) {
-    return kInfinity;
+
+  /// Infinity where the inverse is not positive definite.
+  [[nodiscard]] double value(const Multipliers& logarithms) const {
+    const Multipliers mu = logarithms.array().exp();
+    const Eigen::LLT<Eigen::Matrix3d> gap(left_by(mu));
+    if (gap.info() != Eigen::Success) {
+      return kInfinity;
+    }
+    return weights_.dot(mu) + image_.dot(gap.solve(image_));
   }
-  const double y2 = c[1] - a12 / a11 * c[0];
-  const double y3 = c[2] - a13 / a11 * c[0] - e23 / d2 * y2;
-  return mu + lambda * eta_squared + c[0] * c[0] / a11 + y2 * y2 / d2 + y3 * y3 / d3;
-}
+
+  /// Newton's step down from there.
+  [[nodiscard]] Multipliers newton_step(const Multipliers& logarithms) const {
+    const Multipliers mu = logarithms.array().exp();
+    const Eigen::Matrix3d inverse = left_by(mu).inverse();
+    const Eigen::Vector3d y = inverse * image_;
+    Eigen::Matrix3d pushed;
+    for (int i = 0; i < 3; ++i) {
+      pushed.col(i) = gain(i) * y / mu[i];
+    }
+    const Eigen::Vector3d pulled = pushed.transpose() * y;
+    const Eigen::Vector3d held = weights_.cwiseProduct(mu);
+    Eigen::Matrix3d curvature = 2.0 * pushed.transpose() * inverse * pushed;
+    curvature.diagonal() += held + pulled;
+    return curvature.ldlt().solve(pulled - held);
+  }
+
+  [[nodiscard]] const Eigen::Vector3d& weights() const { return weights_; }
+
+ private:
+  static double least(double weight) { return std::max(weight, 1e-9); }
+  [[nodiscard]] Eigen::Matrix3d gain(Eigen::Index i) const { return gains_.middleCols<3>(3 * i); }
+  [[nodiscard]] Eigen::Matrix3d left_by(const Multipliers& mu) const {
+    return Eigen::Matrix3d::Identity() - gain(0) / mu[0] - gain(1) / mu[1] - gain(2) / mu[2];
+  }
+
+  Eigen::Vector3d image_, weights_;
+  Eigen::Matrix<double, 3, 9> gains_;  ///< X_0, X_1, X_2, side by side
+};
 
 }  // namespace
 
-SteadyRate propose_rate(const SteadyStep<double>& step, const SteadyBounds<double>& bounds,
-                        double target_squared) {
-  const Symmetric<double> products = row_products(step.slope);
-  const double eta_squared = std::max(step.eta_squared, 1e-300);
-  const double spread_trace = bounds.gram.p11 + bounds.gram.p22 + bounds.gram.p33;
-  // Of the whole, 1: the share x of lambda eta^2, the larger the smaller; mu takes what it needs.
-  const auto lambda = [&](double x) { return std::exp(x) * spread_trace; };
-  const auto mu = [](double x) { return std::exp(x); };
-  const auto cost = [&](double log_lambda, double log_mu) {
-    return rate_squared_with(step.constant, products, bounds.gram, eta_squared, lambda(log_lambda),
-                             mu(log_mu));
-  };
-  const auto best_mu = [&](double log_lambda) {
-    return search::golden_section(-3.0, 0.3, 9, [&](double log_mu) { return cost(log_lambda, log_mu); })
-        .point;
-  };
-  const double log_lambda =
-      search::golden_section(-0.2, 6.0, 9, [&](double x) { return cost(x, best_mu(x)); }).point;
-  const double log_mu = best_mu(log_lambda);
-  SteadyRate rate{cost(log_lambda, log_mu), lambda(log_lambda), mu(log_mu)};
-  const double left = target_squared - rate.rate_squared;
-  if (left > 0.0 && std::isfinite(rate.rate_squared)) {
-    rate.error_multiplier += 0.4 * left;
-    rate.spread_multiplier += std::min(0.3 * left / eta_squared, 3.0 * rate.spread_multiplier);
+SteadyReach reach_of(const SteadyStep<double>& step, const SteadyBounds<double>& bounds,
+                     const SteadySetting<double>& setting, double level, double noise) {
+  return {step.image,
+          hidden_image(setting),
+          step.gram,
+          row_products(step.noise),
+          step.hidden_squared,
+          bounds.eta_factor * step.eta_squared + bounds.eta_rest,
+          noise * noise / (level * level)};
+}
+
+SteadyRate propose_rate(const SteadyReach& reach, double target_squared) {
+  constexpr int kSteps = 12;
+  constexpr double kEnough = 1e-4;
+  constexpr double kLongest = 2.0;
+  const RateSquared rate_squared(reach);
+  Multipliers best = rate_squared.feasible();
+  double least = rate_squared.value(best);
+  if (!std::isfinite(least)) {
+    return {kInfinity, {1.0, 1.0, 1.0, 0.0}};
   }
-  return rate;
+  for (int i = 0; i < kSteps; ++i) {
+    Multipliers step = rate_squared.newton_step(best);
+    step *= std::min(1.0, kLongest / step.cwiseAbs().maxCoeff());
+    double trial = rate_squared.value(best + step);
+    for (int halving = 0; halving < 6 && !(trial < least); ++halving) {
+      step *= 0.5;
+      trial = rate_squared.value(best + step);
+    }
+    if (!(trial < least)) {
+      break;
+    }
+    const double gained = least - trial;
+    best += step;
+    least = trial;
+    if (gained < kEnough * least) {
+      break;
+    }
+  }
+  Multipliers mu = best.array().exp();
+  const double left = target_squared - least;
+  if (left > 0.0) {
+    constexpr double kShare = 0.22;  // of what is left, for each of the multipliers
+    for (int i = 0; i < 3; ++i) {
+      mu[i] += std::min(kShare * left / rate_squared.weights()[i], 3.0 * mu[i]);
+    }
+  }
+  return {least, {mu[0], mu[1], mu[2], 0.0}};
+}
+
+std::array<std::array<double, 3>, 2> middle_slopes(const SteadyStep<SteadySecant>& step) {
+  std::array<std::array<double, 3>, 2> slopes{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    slopes[kX][i] = midpoint(step.image[i].slope(kX));
+    slopes[kY][i] = midpoint(step.image[i].slope(kY));
+  }
+  return slopes;
 }
 
 bool certainly_contracts(const SteadyStep<SteadySecant>& step, const SteadyBounds<Interval>& bounds,
-                         const Interval& eta_squared, const std::vector<SteadyOffset>& corners,
+                         const std::array<Interval, 3>& hidden, const SteadyCell& cell,
+                         const Interval& noise_squared, const std::vector<SteadyOffset>& corners,
                          const Interval& rate_squared,
-                         const SteadyRate& multipliers VERITRACK_DECLARED_CALL_SITE) {
+                         const SteadyMultipliers& multipliers VERITRACK_DECLARED_CALL_SITE) {
   VERITRACK_MUTANT_RETURNS(true)
   const Interval one(1.0);
-  const Interval lambda(multipliers.spread_multiplier);
-  const Interval mu(multipliers.error_multiplier);
-  const Interval head_over_cell = rate_squared - mu - lambda * rigor::max(eta_squared, Interval(0.0));
-  if (!certainly_positive(lambda) || !certainly_positive(mu) || !certainly_positive(head_over_cell)) {
+  const Interval mu(multipliers.hidden);
+  const Interval lambda(multipliers.spread);
+  const Interval sigma(multipliers.noise);
+  const Interval tau(multipliers.cell);
+  if (!certainly_positive(mu) || !certainly_positive(lambda) || !certainly_positive(sigma) ||
+      !certainly_not_negative(tau)) {
     return false;
   }
+  const std::array<Interval, 2> middle{Interval(cell.middle(kX)), Interval(cell.middle(kY))};
+  const Interval size = square(cell.side(kX) - middle[kX]) + square(cell.side(kY) - middle[kY]);
+  // Of 1 - x^2 - y^2 the value in the middle stays here; what is linear and quadratic has its own rows.
   const SteadySecant head =
-      (SteadySecant(rate_squared - mu) - SteadySecant(lambda) * step.eta_squared).within(head_over_cell);
-  const SteadySecant over_head = SteadySecant(1.0) / head;
-  const SteadySecant over_mu(one / mu);
-  const SteadySecant over_lambda(bounds.gram_factor / lambda);
-  const SteadySecant diagonal(one - bounds.gram_rest / lambda);
-  const Symmetric<SteadySecant> products = row_products(step.slope);
+      SteadySecant(rate_squared - lambda * bounds.eta_rest - sigma * noise_squared -
+                   mu * (one - square(middle[kX]) - square(middle[kY])) - tau * Interval(size.upper())) -
+      SteadySecant(lambda * bounds.eta_factor) * step.eta_squared;
+  const SteadySecant over_lambda(one / lambda);
+  const SteadySecant over_sigma(one / sigma);
+  const Symmetric<SteadySecant> noise = row_products(step.noise);
   const auto& g = step.gram;
-  const auto& c = step.constant;
-  const auto sum = [&](const SteadySecant& product, const SteadySecant& spread,
-                       const SteadySecant& constants) {
-    return over_mu * product + over_lambda * spread + over_head * constants;
+  const auto gap = [&](std::size_t i, std::size_t j, const SteadySecant& spread,
+                       const SteadySecant& by_noise) {
+    const Interval diagonal = i == j ? one : Interval(0.0);
+    return SteadySecant(diagonal - hidden[i] * hidden[j] / mu) - over_lambda * spread - over_sigma * by_noise;
   };
-  const Symmetric<SteadySecant> gap{diagonal - sum(products.p11, g.p11, square(c[0])),
-                                    -sum(products.p12, g.p12, c[0] * c[1]),
-                                    -sum(products.p13, g.p13, c[0] * c[2]),
-                                    diagonal - sum(products.p22, g.p22, square(c[1])),
-                                    -sum(products.p23, g.p23, c[1] * c[2]),
-                                    diagonal - sum(products.p33, g.p33, square(c[2]))};
+  const Symmetric<SteadySecant> rest{gap(0, 0, g.p11, noise.p11), gap(0, 1, g.p12, noise.p12),
+                                     gap(0, 2, g.p13, noise.p13), gap(1, 1, g.p22, noise.p22),
+                                     gap(1, 2, g.p23, noise.p23), gap(2, 2, g.p33, noise.p33)};
+  const std::array<std::array<double, 3>, 2> slopes = middle_slopes(step);
   return std::all_of(corners.begin(), corners.end(), [&](const SteadyOffset& corner) {
-    return certainly_positive_definite(moved_by(gap, corner));
+    const Symmetric<Interval> p = moved_by(rest, corner);
+    rigor::LowerTriangle<6> a;
+    a[0][0] = p.p11;
+    a[1][0] = p.p12;
+    a[1][1] = p.p22;
+    a[2][0] = p.p13;
+    a[2][1] = p.p23;
+    a[2][2] = p.p33;
+    for (std::size_t i = 0; i < 3; ++i) {
+      // The image without the linear part that has rows of its own.
+      a[3][i] = Interval(slopes[kX][i]);
+      a[4][i] = Interval(slopes[kY][i]);
+      a[5][i] = step.image[i].moved_by(corner) - a[3][i] * corner[kX] - a[4][i] * corner[kY];
+    }
+    a[3][3] = a[4][4] = mu + tau;
+    a[4][3] = Interval(0.0);
+    a[5][3] = mu * middle[kX];
+    a[5][4] = mu * middle[kY];
+    a[5][5] = head.moved_by(corner);
+    return rigor::certainly_positive_definite<6>(a);
   });
 }
 

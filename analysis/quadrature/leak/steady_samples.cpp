@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "analysis/quadrature/leak/steady_cautious_rate.hpp"
 #include "analysis/quadrature/leak/steady_rate.hpp"
 #include "analysis/quadrature/leak/steady_setting.hpp"
 
@@ -42,34 +43,14 @@ bool usable(const Sample& sample) {
          std::fabs(sample.step.swing) < 1.4;
 }
 
-Sample sample_at(const SteadySetting<double>& setting, double level, double noise, double share, int angle,
-                 int angles) {
+SteadyPlace<double> place_at(double level, double share, int angle, int angles) {
   const double beta = 2.0 * std::numbers::pi * angle / angles;
-  const SteadyStep<double> step =
-      steady_step(setting, {level, share * std::cos(beta), share * std::sin(beta)});
-  return {step, steady_bounds(step, setting, level, noise)};
+  return {level, share * std::cos(beta), share * std::sin(beta)};
 }
 
-/// Calls `use` with (P+ - P*)/s of both bounds for samples on the boundary, a few inside and the middle, at
-/// both ends of the turn.
-template <typename Use>
-bool for_each_image(const SteadySetting<double>& setting, double level, double noise, int angles,
-                    const Use& use) {
-  const int inside = angles / 4;
-  for (int j = 0; j <= angles + inside; ++j) {
-    const double share = j < angles ? 1.0 : j < angles + inside ? 0.5 : 0.0;
-    const Sample sample = sample_at(setting, level, noise, share, j, j < angles ? angles : inside);
-    if (!usable(sample)) {
-      return false;
-    }
-    const double tangent = turn_tangent(setting, sample.step, level);
-    for (const double side : {-1.0, 1.0}) {
-      const auto image =
-          covariance_step(setting, sample.step, level, tangent + side * sample.bounds.tangent_reach);
-      use(image.low.matrix(), image.high.matrix());
-    }
-  }
-  return true;
+Sample sample_at(const SteadySetting<double>& setting, const SteadyPlace<double>& place, double noise) {
+  const SteadyStep<double> step = steady_step(setting, place);
+  return {step, steady_bounds(step, setting, place.level, noise)};
 }
 
 /// bound + the positive part of (x - bound).
@@ -85,7 +66,8 @@ void grow(Matrix<3>& bound, const Matrix<3>& x) {
 
 }  // namespace
 
-SteadySamples::SteadySamples(const SteadyRequest& request) : request_(request) {
+SteadySamples::SteadySamples(const SteadyRequest& request, SteadyJudgement judgement)
+    : request_(request), judgement_(judgement) {
   const auto& middle = request.steady[request.steady.size() / 2].covariance;
   root_ = Eigen::LLT<Matrix<3>>(middle.matrix()).matrixL();
   inverse_root_ = root_.inverse();
@@ -100,10 +82,6 @@ rigor::Matrix<3> SteadySamples::metric(const Eigen::VectorXd& x) const {
 }
 
 std::vector<SteadySetting<double>> SteadySamples::settings(const Matrix<3>& t) const {
-  const Matrix<3> inverse = t.inverse();
-  Eigen::Matrix<double, 2, 3> rows;
-  rows << inverse.row(0), inverse.row(1) + inverse.row(2);
-  const Eigen::Matrix2d directions = Eigen::LLT<Eigen::Matrix2d>(rows * rows.transpose()).matrixL();
   std::vector<SteadySetting<double>> result;
   result.reserve(request_.steady.size());
   for (const auto& steady : request_.steady) {
@@ -111,9 +89,7 @@ std::vector<SteadySetting<double>> SteadySamples::settings(const Matrix<3>& t) c
     setting.design = request_.design;
     setting.steady = steady;
     setting.metric = {t(0, 0), t(0, 1), t(0, 2), t(1, 1), t(1, 2), t(2, 2)};
-    setting.a11 = directions(0, 0);
-    setting.a21 = directions(1, 0);
-    setting.a22 = directions(1, 1);
+    setting.directions = directions_of(setting.metric);
     fill_turns(setting);
     result.push_back(setting);
   }
@@ -167,15 +143,14 @@ double SteadySamples::rate(const std::vector<SteadySetting<double>>& settings, d
   double worst = 0.0;
   for (std::size_t k = 0; k < settings.size(); ++k) {
     const auto& setting = settings[k];
+    const double slew = request_.slew > 0.0 && !request_.slopes.empty() ? motion_of(setting, k) : 0.0;
     for (int j = 0; j < angles; ++j) {
-      for (const double share : {1.0, 0.5}) {
-        const Sample sample = sample_at(setting, level, noise, share, j, angles);
-        if (!usable(sample)) {
-          return kInfinity;
+      for (const double share : {1.0, 0.5, 0.0}) {
+        if (share == 0.0 && (j > 0 || judgement_ == SteadyJudgement::cautious)) {
+          continue;
         }
-        const double motion = request_.slew > 0.0 && !request_.slopes.empty() ? motion_of(setting, k) : 0.0;
-        worst = std::max(worst, std::sqrt(propose_rate(sample.step, sample.bounds, 0.0).rate_squared) +
-                                    (1.1 * sample.bounds.noise_gain * noise + motion) / level);
+        const auto errors = error_share(setting, place_at(level, share, j, angles), noise);
+        worst = std::max(worst, errors.value_or(kInfinity) + slew / level);
         if (!(worst < 2.0)) {
           return kInfinity;
         }
@@ -195,6 +170,42 @@ double SteadySamples::rate(const std::vector<SteadySetting<double>>& settings, d
     }
   }
   return worst;
+}
+
+std::optional<double> SteadySamples::error_share(const SteadySetting<double>& setting,
+                                                 const SteadyPlace<double>& place, double noise) const {
+  const Sample sample = sample_at(setting, place, noise);
+  if (!usable(sample)) {
+    return std::nullopt;
+  }
+  if (judgement_ == SteadyJudgement::cautious) {
+    return cautious_rate(setting, place, sample.step, sample.bounds, noise);
+  }
+  const SteadyReach reach = reach_of(sample.step, sample.bounds, setting, place.level, noise);
+  return std::sqrt(propose_rate(reach, 0.0).rate_squared) + sample.bounds.remainder;
+}
+
+template <typename Use>
+bool SteadySamples::for_each_image(const SteadySetting<double>& setting, double level, double noise,
+                                   int angles, const Use& use) const {
+  const int inside = angles / 4;
+  for (int j = 0; j <= angles + inside; ++j) {
+    const double share = j < angles ? 1.0 : j < angles + inside ? 0.5 : 0.0;
+    const Sample sample = sample_at(setting, place_at(level, share, j, j < angles ? angles : inside), noise);
+    if (!usable(sample)) {
+      return false;
+    }
+    const double tangent = turn_tangent(setting, sample.step, level);
+    for (const double side : {-1.0, 0.0, 1.0}) {
+      if (side == 0.0 && judgement_ == SteadyJudgement::cautious) {
+        continue;
+      }
+      const auto image =
+          covariance_step(setting, sample.step, level, tangent + side * sample.bounds.tangent_reach);
+      use(image.low.matrix(), image.high.matrix());
+    }
+  }
+  return true;
 }
 
 rigor::Matrix<3> SteadySamples::enter(const Matrix<3>& p) const {

@@ -1,6 +1,7 @@
 // Sets around the steady state as a few samples see them, in floating point: for proposals only.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "analysis/quadrature/leak/steady_proposal.hpp"
@@ -11,7 +12,7 @@ namespace veritrack::quadrature {
 /// The samples of one request: settings of a step at each of its steady states.
 class SteadySamples {
  public:
-  explicit SteadySamples(const SteadyRequest& request);
+  SteadySamples(const SteadyRequest& request, SteadyJudgement judgement);
 
   /// [[e^x0, x3, x4], [0, 1, x2], [0, 0, e^x1]] times the root of the inverse of a steady covariance, which
   /// is the metric that the theory of linear Kalman filters suggests.
@@ -34,7 +35,17 @@ class SteadySamples {
   [[nodiscard]] double covariance_motion(const rigor::Matrix<3>& below_bound,
                                          const rigor::Matrix<3>& above_bound, std::size_t k) const;
 
+  /// The share of the level that the errors fill after a step from there; nothing when it makes no sense.
+  [[nodiscard]] std::optional<double> error_share(const SteadySetting<double>& setting,
+                                                  const SteadyPlace<double>& place, double noise) const;
+  /// Calls `use` with (P+ - P*)/s of both bounds for samples on the boundary, a few inside and the middle,
+  /// and several turns each. False when a sample makes no sense.
+  template <typename Use>
+  [[nodiscard]] bool for_each_image(const SteadySetting<double>& setting, double level, double noise,
+                                    int angles, const Use& use) const;
+
   SteadyRequest request_;
+  SteadyJudgement judgement_;
   rigor::Matrix<3> root_;
   rigor::Matrix<3> inverse_root_;
 };

@@ -1,9 +1,9 @@
 #include "analysis/quadrature/leak/steady_search.hpp"
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "analysis/quadrature/leak/steady_limit.hpp"
 #include "analysis/quadrature/leak/steady_proposal.hpp"
 
 namespace veritrack::quadrature {
@@ -38,12 +38,12 @@ TrackedSignal signal_of(const sets::ContractionQuestion& question) {
 /// The largest set on a ladder of fractions that verifies; the last failure when none does.
 std::optional<SteadyVerification> largest_set(const sets::ContractionQuestion& question,
                                               const sets::LockBranch& branch, const SteadyRequest& request,
-                                              const SteadyShape& shape) {
+                                              const SteadyShape& shape, SteadyJudgement judgement) {
   // By how much the last level may be larger than proposed, before a smaller set is the better one.
   constexpr double kLastLevel = 2.0;
   std::optional<SteadyVerification> last;
   for (const double fraction : {0.75, 0.65, 0.55, 0.45, 0.35, 0.25, 0.15, 0.08}) {
-    const auto proposal = propose_steady_set(request, shape, fraction, false);
+    const auto proposal = propose_steady_set(request, shape, fraction, judgement);
     if (!proposal) {
       continue;
     }
@@ -61,44 +61,28 @@ std::optional<SteadyVerification> largest_set(const sets::ContractionQuestion& q
   return last;
 }
 
-/// The set of this shape that tolerates the largest disturbance on a ladder, if that is more than `known`.
+/// A set that tolerates more noise, or more slew, without the other, than is `known` to be certified: the
+/// most that a search finds, with more left for the proof until it is proved. What is proved for it is proved
+/// for less.
 std::optional<SteadySet> toughest_set(const sets::ContractionQuestion& question,
                                       const sets::LockBranch& branch, SteadyRequest request,
-                                      const SteadyShape& shape, double SteadyRequest::*size, double known) {
-  // Relative to the amplitude, or rad/sample per sample: downwards from more than any tracker tolerates.
-  constexpr double kMost = 0.3;
-  constexpr double kStep = 0.8;
-  constexpr int kSteps = 50;
+                                      double SteadyRequest::*size, double known) {
   request.noise = 0.0;
   request.slew = 0.0;
-  const auto proposals = [&](int step) {
-    request.*size = kMost * std::pow(kStep, step);
-    std::vector<SteadySet> sets;
-    for (const double fraction : {0.7, 0.4}) {
-      if (auto proposal = propose_steady_set(request, shape, fraction, true)) {
-        sets.push_back(std::move(*proposal));
-      }
-    }
-    return sets;
-  };
-  // The first step that samples can imagine, by bisection.
-  int too_much = -1;
-  int step = kSteps;
-  while (step - too_much > 1) {
-    const int middle = (too_much + step) / 2;
-    (proposals(middle).empty() ? too_much : step) = middle;
-  }
-  constexpr int kTries = 3;
-  for (int i = 0; i < kTries && step < kSteps; ++i, ++step) {
-    for (const SteadySet& set : proposals(step)) {
-      if (!(request.*size > known)) {
+  for (const double target : {0.965, 0.93, 0.9, 0.85, 0.75}) {
+    const auto limit = propose_steady_limit(request, size, target);
+    for (const double share : {1.0, 0.9}) {
+      if (!limit || !(share * limit->size > known)) {
         return std::nullopt;
       }
-      if (verify_steady_set(question.design, branch.cells, set, signal_of(question)).verdict ==
-          Verdict::proved) {
+      request.*size = share * limit->size;
+      const auto set = set_of_limit(request, *limit);
+      if (set && verify_steady_set(question.design, branch.cells, *set, signal_of(question)).verdict ==
+                     Verdict::proved) {
         return set;
       }
     }
+    request.*size = 0.0;
   }
   return std::nullopt;
 }
@@ -121,16 +105,22 @@ SteadySearch search_steady_sets(const sets::ContractionQuestion& question, const
   const rigor::UpwardRounding upward;
   SteadySearch result;
   const SteadyRequest request = request_of(question, branch);
-  const auto shape = propose_steady_shape(request);
-  if (!shape) {
+  // Sets that leave room are quick to verify and settle soon; what only the sharper inequality sees is tried
+  // where there are none.
+  for (const SteadyJudgement judgement : {SteadyJudgement::cautious, SteadyJudgement::sharp}) {
+    if (result.found()) {
+      break;
+    }
+    if (const auto shape = propose_steady_shape(request, judgement)) {
+      result.shaped = true;
+      result.set = largest_set(question, branch, request, *shape, judgement);
+    }
+  }
+  if (!result.shaped) {
     return result;
   }
-  result.shaped = true;
-  result.set = largest_set(question, branch, request, *shape);
-  result.noise_set =
-      toughest_set(question, branch, request, *shape, &SteadyRequest::noise, result.largest_noise());
-  result.slew_set =
-      toughest_set(question, branch, request, *shape, &SteadyRequest::slew, result.largest_slew());
+  result.noise_set = toughest_set(question, branch, request, &SteadyRequest::noise, result.largest_noise());
+  result.slew_set = toughest_set(question, branch, request, &SteadyRequest::slew, result.largest_slew());
   return result;
 }
 

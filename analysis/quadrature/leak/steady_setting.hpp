@@ -1,6 +1,9 @@
 // What the steps of a set around the steady state have in common, over different scalars.
 #pragma once
 
+#include <array>
+#include <cmath>
+
 #include "analysis/quadrature/leak/steady_gain.hpp"
 #include "analysis/rigor/secant.hpp"
 
@@ -12,6 +15,37 @@ struct TriangularMetric {
   Scalar t11, t12, t13, t22, t23, t33;
 };
 
+/// An orthonormal basis u1, u2, n of the space of u = T b in which alpha and c depend on x and y only: with u
+/// = x u1 + y u2 + t n the error b = (alpha, c - m, m) has alpha = a11 x, c = a21 x + a22 y and m = m1 x + m2
+/// y
+/// + m3 t.
+template <typename Scalar>
+struct SteadyDirections {
+  Scalar a11, a21, a22, m1, m2, m3;
+};
+
+/// Of a metric: Gram and Schmidt on the rows of T^-1 that belong to alpha and to c.
+template <typename Scalar>
+[[nodiscard]] SteadyDirections<Scalar> directions_of(const TriangularMetric<Scalar>& t) {
+  using std::sqrt;
+  using trackers::detail::square;
+  const Scalar one(1.0);
+  const Scalar zero(0.0);
+  const std::array<Scalar, 3> alpha{one / t.t11, -(t.t12 / (t.t11 * t.t22)),
+                                    (t.t12 * t.t23 - t.t13 * t.t22) / (t.t11 * t.t22 * t.t33)};
+  const std::array<Scalar, 3> c{zero, one / t.t22, (one - t.t23 / t.t22) / t.t33};
+  SteadyDirections<Scalar> d;
+  d.a11 = sqrt(square(alpha[0]) + square(alpha[1]) + square(alpha[2]));
+  const std::array<Scalar, 3> u1{alpha[0] / d.a11, alpha[1] / d.a11, alpha[2] / d.a11};
+  d.a21 = c[1] * u1[1] + c[2] * u1[2];
+  const std::array<Scalar, 3> rest{-(d.a21 * u1[0]), c[1] - d.a21 * u1[1], c[2] - d.a21 * u1[2]};
+  d.a22 = sqrt(square(rest[0]) + square(rest[1]) + square(rest[2]));
+  d.m1 = u1[2] / t.t33;
+  d.m2 = rest[2] / (d.a22 * t.t33);
+  d.m3 = (u1[0] * rest[1] - u1[1] * rest[0]) / (d.a22 * t.t33);
+  return d;
+}
+
 /// What the steps of a whole set have in common.
 template <typename Scalar>
 struct SteadySetting {
@@ -19,8 +53,7 @@ struct SteadySetting {
   SteadyState<Scalar> steady;
   TriangularMetric<Scalar> metric;
   CovarianceBand<Scalar> band;
-  /// |T b| <= 1 implies alpha = a11 x, c = a21 x + a22 y with x^2 + y^2 <= 1.
-  Scalar a11, a21, a22;
+  SteadyDirections<Scalar> directions;
   // Functions of the steady state: sines and cosines of psi* and of nu*.
   Scalar sine_phase, cosine_phase, sine_turn, cosine_turn;
 };
@@ -63,9 +96,8 @@ template <typename To>
           {Scalar::of(s.metric.t11), Scalar::of(s.metric.t12), Scalar::of(s.metric.t13),
            Scalar::of(s.metric.t22), Scalar::of(s.metric.t23), Scalar::of(s.metric.t33)},
           {convert<To>(s.band.below), convert<To>(s.band.above)},
-          Scalar::of(s.a11),
-          Scalar::of(s.a21),
-          Scalar::of(s.a22),
+          {Scalar::of(s.directions.a11), Scalar::of(s.directions.a21), Scalar::of(s.directions.a22),
+           Scalar::of(s.directions.m1), Scalar::of(s.directions.m2), Scalar::of(s.directions.m3)},
           Scalar::of(s.sine_phase),
           Scalar::of(s.cosine_phase),
           Scalar::of(s.sine_turn),

@@ -6,8 +6,9 @@
 // steady state is rho* > 0. Every difference to the steady step is written as s times something, with exact
 // secant slopes, so that no linearization error appears. The covariance acts through a ball: P+ = P* + s
 // (mean + D Y D'), D D' = spread, |Y| <= 1, so that
-//     (e+ - e*)/s = constant + slope b + J D y / r,     |y|^2 <= eta^2 = i' spread i,
-// i the innovation, J the Jacobian of (|z|, arg z, x3) averaged between the two corrected estimates.
+//     (e+ - e*)/s = image + t hidden + J (D y / r + K v / s),     |y|^2 <= eta^2 = (i + v)' spread (i + v),
+// i the innovation, K the mean gain, J the Jacobian of (|z|, arg z, x3) averaged between the two corrected
+// estimates, t the part of the error that (alpha, c) do not see.
 // docs/leak.md, sections 3 and 4.
 //
 // The template runs on double, to propose, and on secants over intervals (secant.hpp), to prove.
@@ -25,17 +26,24 @@ namespace veritrack::quadrature {
 template <typename Scalar>
 struct SteadyPlace {
   Scalar level;  ///< s > 0
-  Scalar x, y;   ///< alpha = a11 x, c = a21 x + a22 y, x^2 + y^2 <= 1
+  Scalar x, y;   ///< of SteadyDirections, x^2 + y^2 <= 1
 };
+
+/// T hidden: what a unit of t, the part of the error that (alpha, c) do not see, leaves.
+template <typename Scalar>
+[[nodiscard]] std::array<Scalar, 3> hidden_image(const SteadySetting<Scalar>& setting) {
+  const Scalar kept = (Scalar(1.0) - setting.design.epsilon) * setting.directions.m3;
+  return {setting.metric.t13 * kept, setting.metric.t23 * kept, setting.metric.t33 * kept};
+}
 
 /// The smooth part of a step, divided by s, as it is under the mean gain.
 template <typename Scalar>
 struct SteadyStep {
-  std::array<Scalar, 9> slope;     ///< T slope T^-1, row by row
-  std::array<Scalar, 3> constant;  ///< T constant
-  Symmetric<Scalar> gram;          ///< T J spread J' T' / r^2, J at the z that the mean gain leaves
-  std::array<Scalar, 6> noise;     ///< T J K, row by row, for the mean gain K
-  Scalar eta_squared;
+  std::array<Scalar, 3> image;             ///< T image, of the error with t = 0
+  Symmetric<Scalar> gram;                  ///< T J spread J' T' / r^2, J at the z that the mean gain leaves
+  std::array<Scalar, 6> noise;             ///< T J K, row by row, for the mean gain K
+  Scalar eta_squared;                      ///< without noise
+  Scalar hidden_squared;                   ///< 1 - x^2 - y^2, which t^2 does not exceed
   Scalar spread11, spread12, spread22;     ///< of the spread
   Scalar largest11, largest12, largest22;  ///< the largest gain of z
   Scalar alpha;
@@ -44,17 +52,51 @@ struct SteadyStep {
   Scalar along;           ///< its component along the steady one in the frame of the true phase
   Symmetric<Scalar> low, high;  ///< bounds on (Phi - P*)/s, Phi the covariance before the turn
 
-  static constexpr std::size_t kEntries = 36;
+  static constexpr std::size_t kEntries = 28;
   /// All but the last two, for what is done to each.
   [[nodiscard]] std::array<Scalar*, kEntries> entries() {
-    return {&slope[0],    &slope[1], &slope[2], &slope[3],    &slope[4],    &slope[5],
-            &slope[6],    &slope[7], &slope[8], &constant[0], &constant[1], &constant[2],
-            &gram.p11,    &gram.p12, &gram.p13, &gram.p22,    &gram.p23,    &gram.p33,
-            &noise[0],    &noise[1], &noise[2], &noise[3],    &noise[4],    &noise[5],
-            &eta_squared, &spread11, &spread12, &spread22,    &largest11,   &largest12,
-            &largest22,   &alpha,    &swing,    &shift1,      &shift2,      &along};
+    return {&image[0],  &image[1],       &image[2], &gram.p11, &gram.p12, &gram.p13,  &gram.p22,
+            &gram.p23,  &gram.p33,       &noise[0], &noise[1], &noise[2], &noise[3],  &noise[4],
+            &noise[5],  &eta_squared,    &spread11, &spread12, &spread22, &largest11, &largest12,
+            &largest22, &hidden_squared, &alpha,    &swing,    &shift1,   &shift2,    &along};
   }
 };
+
+namespace detail {
+
+/// What a step does to the covariance and to the error, before the metric.
+template <typename Scalar>
+struct StepForms {
+  Form<Scalar> weights;  ///< 1, alpha and c
+  Swing<Scalar> swing;
+  InnovationForm<Scalar> innovation;
+  CovarianceImage<Scalar> image;
+  MeanGain<Scalar> gain;
+  LeftForm<Scalar> left;
+  PolarSlopes<Scalar> polar;
+};
+
+template <typename Scalar>
+[[nodiscard]] StepForms<Scalar> step_forms(const SteadySetting<Scalar>& setting,
+                                           const SteadyPlace<Scalar>& place) {
+  const Scalar over_r = Scalar(1.0) / setting.design.r;
+  const Scalar& s = place.level;
+  const SteadyDirections<Scalar>& d = setting.directions;
+  const Scalar alpha = d.a11 * place.x;
+  const Scalar c = d.a21 * place.x + d.a22 * place.y;
+  StepForms<Scalar> forms;
+  forms.weights = {Scalar(1.0), alpha, c};
+  forms.swing = swing_of(s, c);
+  forms.innovation = innovation_of(setting, forms.swing, s, alpha, c);
+  forms.image = covariance_image(setting.steady, setting.sine_turn, setting.cosine_turn, setting.band,
+                                 setting.design, s, alpha);
+  forms.gain = mean_gain_of(setting, forms.image, forms.innovation, s, alpha, over_r);
+  forms.left = left_by(forms.gain, setting, forms.swing, forms.innovation, forms.weights);
+  forms.polar = polar_slopes(forms.left.delta, setting.steady.rho, s, alpha, c);
+  return forms;
+}
+
+}  // namespace detail
 
 /// See SteadyStep.
 template <typename Scalar>
@@ -64,15 +106,13 @@ template <typename Scalar>
   const Scalar over_r = Scalar(1.0) / setting.design.r;
   const Scalar& s = place.level;
   const Scalar& rho = setting.steady.rho;
+  const SteadyDirections<Scalar>& d = setting.directions;
+  const detail::StepForms<Scalar> forms = detail::step_forms(setting, place);
+  const auto& [weights, swing, innovation, image, gain, left, polar] = forms;
   SteadyStep<Scalar> step;
-  step.alpha = setting.a11 * place.x;
-  const Scalar c = setting.a21 * place.x + setting.a22 * place.y;
-  const detail::Swing<Scalar> swing = detail::swing_of(s, c);
+  step.alpha = weights[1];
+  step.hidden_squared = Scalar(1.0) - square(place.x) - square(place.y);
   step.swing = swing.angle;
-  const detail::InnovationForm<Scalar> innovation = detail::innovation_of(setting, swing, s, step.alpha, c);
-
-  const CovarianceImage<Scalar> image = covariance_image(
-      setting.steady, setting.sine_turn, setting.cosine_turn, setting.band, setting.design, s, step.alpha);
   step.low = image.low;
   step.high = image.high;
   step.spread11 = image.spread.p11;
@@ -83,18 +123,12 @@ template <typename Scalar>
   step.largest11 = over_r * (setting.steady.covariance.p11 + s * image.high.p11);
   step.largest12 = over_r * (setting.steady.covariance.p12 + s * image.high.p12);
   step.largest22 = over_r * (setting.steady.covariance.p22 + s * image.high.p22);
-
-  const detail::MeanGain<Scalar> gain =
-      detail::mean_gain_of(setting, image, innovation, s, step.alpha, over_r);
-  const detail::LeftForm<Scalar> left =
-      detail::left_by(gain, setting, swing, innovation, {Scalar(1.0), step.alpha, c});
-  const detail::PolarSlopes<Scalar> polar = detail::polar_slopes(left.delta, rho, s, step.alpha, c);
   step.along = polar.along;
-  detail::set_slope(setting, left, polar, step.slope, step.constant);
+  step.image = detail::image_of(setting, left, polar, weights, Scalar(d.m1 * place.x + d.m2 * place.y));
 
   // The corrected estimate in the frame of the estimate, and T J there.
-  step.shift1 = innovation.slope.first[2] * c - left.left1;
-  step.shift2 = innovation.slope.second[2] * c - left.left2;
+  step.shift1 = innovation.slope.first[2] * weights[2] - left.left1;
+  step.shift2 = innovation.slope.second[2] * weights[2] - left.left2;
   const detail::Jacobian<Scalar> jacobian =
       detail::whitened_jacobian<Scalar>(setting, rho + s * step.shift1, s * step.shift2);
   step.noise = detail::noise_of(jacobian, gain);

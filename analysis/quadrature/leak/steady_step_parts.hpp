@@ -163,36 +163,23 @@ template <typename Scalar>
           rigor::arctangent_ratio(tangent) / real};
 }
 
-/// The slope in the errors (alpha, psi, nu), c = psi + nu, and T slope T^-1 by back substitution; T constant.
+/// T times what becomes of the error whose part that is not seen in (alpha, c), t, is zero: its frequency
+/// error m is kept but for the leak.
 template <typename Scalar>
-void set_slope(const SteadySetting<Scalar>& setting, const LeftForm<Scalar>& left,
-               const PolarSlopes<Scalar>& polar, std::array<Scalar, 9>& slope,
-               std::array<Scalar, 3>& constant) {
+[[nodiscard]] std::array<Scalar, 3> image_of(const SteadySetting<Scalar>& setting,
+                                             const LeftForm<Scalar>& left, const PolarSlopes<Scalar>& polar,
+                                             const Form<Scalar>& weights, const Scalar& m) {
   const auto& t = setting.metric;
-  const auto& [delta, frequency, left1, left2] = left;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Scalar amplitude = polar.amplitude1 * delta.first[i] + polar.amplitude2 * delta.second[i];
-    const Scalar phase = polar.phase2 * delta.second[i];
-    const std::array<Scalar, 3> image_row{t.t11 * amplitude + t.t12 * phase + t.t13 * frequency[i],
-                                          t.t22 * phase + t.t23 * frequency[i], t.t33 * frequency[i]};
-    for (std::size_t row = 0; row < 3; ++row) {
-      if (i == 0) {
-        constant[row] = image_row[row];
-      } else {
-        slope[3 * row + i - 1] = image_row[row];
-      }
-    }
-  }
-  const Scalar retention = Scalar(1.0) - setting.design.epsilon;
-  const std::array<Scalar, 3> carried{t.t13 * retention, t.t23 * retention, t.t33 * retention};
-  for (std::size_t row = 0; row < 3; ++row) {
-    const Scalar by_amplitude = slope[3 * row] / t.t11;
-    const Scalar by_chi = slope[3 * row + 1];
-    const Scalar by_phase = (by_chi - by_amplitude * t.t12) / t.t22;
-    slope[3 * row + 2] = (by_chi + carried[row] - by_amplitude * t.t13 - by_phase * t.t23) / t.t33;
-    slope[3 * row] = by_amplitude;
-    slope[3 * row + 1] = by_phase;
-  }
+  const auto total = [&](const Form<Scalar>& form) -> Scalar {
+    return form[0] * weights[0] + form[1] * weights[1] + form[2] * weights[2];
+  };
+  const Scalar delta1 = total(left.delta.first);
+  const Scalar delta2 = total(left.delta.second);
+  const Scalar amplitude = polar.amplitude1 * delta1 + polar.amplitude2 * delta2;
+  const Scalar phase = polar.phase2 * delta2;
+  const Scalar frequency = total(left.frequency) + (Scalar(1.0) - setting.design.epsilon) * m;
+  return {t.t11 * amplitude + t.t12 * phase + t.t13 * frequency, t.t22 * phase + t.t23 * frequency,
+          t.t33 * frequency};
 }
 
 /// T J at the corrected estimate z, in the frame of the estimate.

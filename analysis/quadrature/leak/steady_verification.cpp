@@ -65,38 +65,15 @@ TriangularMetric<Interval> metric_of(const SteadySet& set) {
           Interval(t(1, 1)), Interval(t(1, 2)), Interval(t(2, 2))};
 }
 
-/// Sets a11, a21, a22 such that A A' - M M' > 0 for the rows M = ((1,0,0), (0,1,1)) T^-1 of alpha and c:
-/// then every M u with |u| <= 1 is an A w with |w| <= 1. False when that is not certain.
-bool cover_directions(SteadySetting<Interval>& setting) {
-  const auto& t = setting.metric;
-  const Interval one(1.0);
-  const Interval alpha1 = one / t.t11;
-  const Interval alpha2 = -(t.t12 / (t.t11 * t.t22));
-  const Interval alpha3 = (t.t12 * t.t23 - t.t13 * t.t22) / (t.t11 * t.t22 * t.t33);
-  const Interval c2 = one / t.t22;
-  const Interval c3 = (one - t.t23 / t.t22) / t.t33;
-  const Interval m11 = square(alpha1) + square(alpha2) + square(alpha3);
-  const Interval m12 = alpha2 * c2 + alpha3 * c3;
-  const Interval m22 = square(c2) + square(c3);
-  constexpr double kMargin = 1.0 + 1e-9;
-  const double a11 = kMargin * std::sqrt(midpoint(m11));
-  const double a21 = kMargin * midpoint(m12) / std::sqrt(midpoint(m11));
-  const double a22 =
-      kMargin * std::sqrt(std::max(0.0, midpoint(m22) - midpoint(m12) * midpoint(m12) / midpoint(m11)));
-  setting.a11 = Interval(a11);
-  setting.a21 = Interval(a21);
-  setting.a22 = Interval(a22);
-  rigor::LowerTriangle<2> gap;
-  gap[0][0] = square(setting.a11) - m11;
-  gap[1][0] = setting.a11 * setting.a21 - m12;
-  gap[1][1] = square(setting.a21) + square(setting.a22) - m22;
-  return rigor::certainly_positive_definite<2>(gap) && a11 > 0.0;
+/// Are the directions of the metric known well enough to divide by?
+bool sees_directions(const SteadyDirections<Interval>& d) {
+  return certainly_positive(d.a11) && certainly_positive(d.a22) && rigor::is_finite(d.a21) &&
+         rigor::is_finite(d.m1) && rigor::is_finite(d.m2) && rigor::is_finite(d.m3);
 }
 
 struct CellResult {
   std::size_t steps = 0;  ///< from level to level that are proved
   std::string reason;     ///< why no more of them
-  double noise_gain = 0.0;
   std::int64_t cells = 0;
 };
 
@@ -133,8 +110,9 @@ CellResult verify_cell(const Design& design, const sets::QuadratureTube& tube, c
     result.reason = "the lower covariance bound is not certainly positive definite.";
     return result;
   }
-  if (!cover_directions(setting)) {
-    result.reason = "the directions of the set could not be covered.";
+  setting.directions = directions_of(setting.metric);
+  if (!sees_directions(setting.directions)) {
+    result.reason = "the directions of the set could not be told apart.";
     return result;
   }
   settings.frequencies = tube.parameter - Interval(tube.parameter_center);
@@ -142,16 +120,15 @@ CellResult verify_cell(const Design& design, const sets::QuadratureTube& tube, c
   settings.secants.steady = steady_secants(tube);
   fill_turns(settings.secants);
   const SteadyDisturbance disturbance{Interval(set.noise), motion.errors, motion.covariance};
-  // A set with many levels must not take for ever.
-  constexpr std::int64_t kMostCells = 150;
-  constexpr std::int64_t kMostCellsOfOne = 600;
+  // What needs more is not proposed well: a set that is a little smaller is proved in much less time.
+  constexpr std::int64_t kMostCells = 120;
+  constexpr std::int64_t kMostCellsOfOne = 800;
   const std::int64_t most_cells = set.levels.size() == 1 ? kMostCellsOfOne : kMostCells;
   while (result.steps < steps) {
     const double level = set.levels[result.steps];
     const double next = set.levels.size() == 1 ? level : set.levels[result.steps + 1];
     const SteadyContraction contraction = prove_contraction(settings, level, next, disturbance, most_cells);
     result.cells += contraction.cells;
-    result.noise_gain = std::max(result.noise_gain, contraction.noise_gain);
     if (!contraction.proved) {
       result.reason = contraction.reason;
       return result;
@@ -228,7 +205,6 @@ SteadyVerification verify_steady_set(const Design& design, const std::vector<set
     for (std::size_t i = begin; i < end; ++i) {
       steps = std::min(steps, results[i].steps);
       result.cells += results[i].cells;
-      result.noise_gain = std::max(result.noise_gain, results[i].noise_gain);
       if (steps == 0) {
         result.failed_frequency = branch[order[i]].parameter;
         result.reason = "for frequencies near " +

@@ -20,7 +20,6 @@ struct SteadyVerification {
   std::string reason;                ///< one sentence
   SteadySet set;                     ///< the proposal, without the last levels if those fail
   rigor::Interval failed_frequency;  ///< the cell where it failed, rad/sample; empty when it did not
-  double noise_gain = 0.0;           ///< L_v at level 1, an upper bound, in the metric
   std::int64_t cells = 0;            ///< examined
 };
 

@@ -59,9 +59,6 @@ TEST_CASE("a step about the steady state is the tracker's") {
     for (int point = 0; point < 20; ++point) {
       CAPTURE(point);
       const double level = random.uniform(0.1, 1.0);
-      const double alpha = random.uniform(-0.2, 0.2);
-      const double chi = random.uniform(-0.3, 0.3);
-      const double frequency = random.uniform(-0.1, 0.1);
       // One covariance, so that all gains are the mean one.
       checker::SteadySetting setting;
       setting.q1 = design.q1;
@@ -77,10 +74,14 @@ TEST_CASE("a step about the steady state is the tracker's") {
         setting.above[i] = Ball(shift[i]);
         setting.below[i] = Ball(-shift[i]);
       }
-      setting.a11 = setting.a22 = Ball(1.0);
+      setting.set_directions();
       place.level = Ball(level);
-      place.x = Ball(alpha);
-      place.y = Ball(chi);
+      place.x = Ball(random.uniform(-0.1, 0.1));
+      place.y = Ball(random.uniform(-0.1, 0.1));
+      const Ball t(random.uniform(-0.1, 0.1));
+      const double alpha = (setting.a11 * place.x).near();
+      const double chi = (setting.a21 * place.x + setting.a22 * place.y).near();
+      const double frequency = (setting.m1 * place.x + setting.m2 * place.y + setting.m3 * t).near();
       const auto step = checker::steady_step(setting, place);
       const auto deviation = checker::turned_deviation(place, step.high, step.turn);
 
@@ -99,14 +100,14 @@ TEST_CASE("a step about the steady state is the tracker's") {
       };
       const trackers::PolarFrameState<double> next = after(0.0, 0.0);
       const Errors expected = moved(next);
-      const Errors from = image(setting.metric, b);
+      const std::array<Ball, 3> hidden = setting.hidden();
       for (std::size_t i = 0; i < 3; ++i) {
-        double sum = step.constant[i].near();
-        for (std::size_t j = 0; j < 3; ++j) {
-          sum += step.slope[i][j].near() * from[j];
-        }
-        check_close(sum, expected[i]);
+        check_close((step.moved[i] + t * hidden[i]).near(), expected[i]);
       }
+      // |T b| is that of (x, y, t): a basis of unit vectors.
+      const Errors from = image(setting.metric, b);
+      const Ball length = square(place.x) + square(place.y) + square(t);
+      check_close(from[0] * from[0] + from[1] * from[1] + from[2] * from[2], length.near());
       const std::array<double, 6> found = entries(next.covariance);
       const std::array<double, 6> base = entries(steady);
       for (std::size_t i = 0; i < found.size(); ++i) {

@@ -20,15 +20,15 @@ SteadySettings settings_of(double gain, double amplitude, double chi, double eps
   const Interval one(1.0);
   const Interval little(1e-4);
   const Interval less(1e-7);
+  // c = psi + m reaches to chi where both reach to chi / sqrt(2).
+  const Interval share = sqrt(Interval(2.0));
   SteadySettings settings;
   SteadySetting<Interval>& s = settings.over_cell;
   s.design = {Interval(q1), Interval(q2), one, Interval(epsilon)};
   s.steady = {one, none, none, {Interval(gain), none, none, Interval(gain), none, Interval(p33)}};
-  s.metric = {one / Interval(amplitude), none, none, one / Interval(chi), none, one / Interval(chi)};
+  s.metric = {one / Interval(amplitude), none, none, share / Interval(chi), none, share / Interval(chi)};
   s.band = {{little, none, none, little, none, less}, {little, none, none, little, none, less}};
-  s.a11 = Interval(amplitude);
-  s.a21 = none;
-  s.a22 = Interval(chi);
+  s.directions = directions_of(s.metric);
   fill_turns(s);
   settings.secants = convert<SteadySecant>(s);
   fill_turns(settings.secants);

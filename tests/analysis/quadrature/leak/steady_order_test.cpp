@@ -31,9 +31,7 @@ SteadySettings settings_with(double below, double above) {
                                Interval(size * p), none, Interval(size * p33)};
   };
   s.band = {bound(below), bound(above)};
-  s.a11 = Interval(1e-6);
-  s.a21 = none;
-  s.a22 = Interval(1e-6);
+  s.directions = {Interval(1e-6), none, Interval(1e-6), none, none, none};
   fill_turns(s);
   settings.secants = convert<SteadySecant>(s);
   fill_turns(settings.secants);

@@ -49,9 +49,9 @@ Example example_of(double q, double r, double epsilon, double low, double high, 
   request.noise = noise;
   request.slew = slew;
   request.evaluations = 25;
-  const auto shape = propose_steady_shape(request);
+  const auto shape = propose_steady_shape(request, SteadyJudgement::cautious);
   if (shape) {
-    example.proposal = propose_steady_set(request, *shape, fraction, false);
+    example.proposal = propose_steady_set(request, *shape, fraction, SteadyJudgement::cautious);
   }
   return example;
 }

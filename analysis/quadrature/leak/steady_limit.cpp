@@ -23,9 +23,10 @@ struct Shape {
   double radius, goal;
 };
 
-SteadySamples samples_of(SteadyRequest request, double SteadyRequest::*which, double size) {
-  request.*which = size;
-  return {request, SteadyJudgement::sharp};
+SteadySamples samples_of(const SteadyRequest& request, double SteadyRequest::*which, double size) {
+  SteadyRequest asked = request;
+  asked.*which = size;
+  return {asked, SteadyJudgement::sharp};
 }
 
 /// Of shapes for some steady states.

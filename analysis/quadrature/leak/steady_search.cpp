@@ -76,7 +76,7 @@ std::optional<SteadySet> toughest_set(const sets::ContractionQuestion& question,
         return std::nullopt;
       }
       request.*size = share * limit->size;
-      const auto set = set_of_limit(request, *limit);
+      auto set = set_of_limit(request, *limit);
       if (set && verify_steady_set(question.design, branch.cells, *set, signal_of(question)).verdict ==
                      Verdict::proved) {
         return set;

@@ -57,10 +57,11 @@ bool expects_cells(const trackers::ToneModel<Interval>& design, const LockSet& s
 
 Interval expected_form(const LockSet& set, const LockMeanSquare& mean_square,
                        const Interval& expected_weight) {
-  return Interval(mean_square.share) * expected_weight +
+  const Interval weight = max(expected_weight, rigor::exp(Interval(1.0)));
+  return Interval(mean_square.share) * weight +
          Interval(2.0) *
              (relative_norm_squared(mean_square, set) + Interval(mean_square.weight) / Interval(set.weight)) *
-             rigor::log(expected_weight);
+             rigor::log(weight);
 }
 
 }  // namespace veritrack::quadrature

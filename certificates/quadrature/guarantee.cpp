@@ -69,9 +69,13 @@ void add_contraction(Certificate& certificate) {
     keep("settling", found.settling_set);
   } else {
     const Assumptions& assume = quadrature_tables(certificate.design).assume;
-    quadrature::LeakCertificate found =
-        quadrature::certify_with_leak({contraction_question(certificate.design),
-                                       rigor::hull(assume.frequency[0].value, assume.frequency[1].value)});
+    const Requirements& require = quadrature_tables(certificate.design).require;
+    sets::ContractionQuestion question = contraction_question(certificate.design);
+    question.with_samples = certificate.extent == Extent::everything;
+    question.with_limits = certificate.extent == Extent::everything || require.largest_noise_at_least ||
+                           require.largest_slew_at_least;
+    quadrature::LeakCertificate found = quadrature::certify_with_leak(
+        {question, rigor::hull(assume.frequency[0].value, assume.frequency[1].value)});
     certificate.derivations.push_back(std::move(found.derivation));
     certificate.contraction = std::move(found.result);
   }

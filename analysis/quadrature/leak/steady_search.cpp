@@ -116,7 +116,7 @@ SteadySearch search_steady_sets(const sets::ContractionQuestion& question, const
       result.set = largest_set(question, branch, request, *shape, judgement);
     }
   }
-  if (!result.shaped) {
+  if (!result.shaped || (result.found() && !question.with_limits)) {
     return result;
   }
   result.noise_set = toughest_set(question, branch, request, &SteadyRequest::noise, result.largest_noise());

@@ -42,11 +42,10 @@ struct SteadyReach {
 /// The middles of the slopes of the image in x and in y.
 [[nodiscard]] std::array<std::array<double, 3>, 2> middle_slopes(const SteadyStep<SteadySecant>& step);
 
-/// True only when |image + t hidden + B y + N v| <= rate for every t^2 <= 1 - x^2 - y^2, |y|^2 <= eta_factor
-/// eta^2
-/// + eta_rest and |v|^2 <= noise_squared, where image, B B' = gram and N = noise are those of the step, for
-/// all states of the cell with this middle of (x, y) and these corner_offsets. With multipliers mu, lambda,
-/// sigma > 0 and
+/// True only when |image + t hidden + B y + N v| <= rate for every t^2 <= 1 - x^2 - y^2,
+/// |y|^2 <= eta_factor eta^2 + eta_rest and |v|^2 <= noise_squared, where image, B B' = gram and N = noise
+/// are those of the step, for all states of the cell with this middle of (x, y) and these corner_offsets.
+/// With multipliers mu, lambda, sigma > 0 and
 ///     h = rate^2 - mu (1 - x^2 - y^2) - lambda (eta_factor eta^2 + eta_rest) - sigma noise_squared > 0
 /// it suffices that
 ///     image image'/h + hidden hidden'/mu + gram/lambda + N N'/sigma < I:

@@ -86,4 +86,38 @@ Interval atan2(const Interval& y, const Interval& x) {
   return Interval::empty();
 }
 
+namespace {
+
+bool lies_in_unit_interval(const Interval& x) {
+  return certainly_less_equal(Interval(-1.0), x) && certainly_less_equal(x, Interval(1.0));
+}
+
+/// sqrt(1 - x^2), which does not cancel where x is near 1 or -1.
+Interval cosine_of_arc_sine(const Interval& x) {
+  return sqrt((Interval(1.0) - x) * (Interval(1.0) + x));
+}
+
+}  // namespace
+
+// Both are monotone, and arcs of points on the unit circle.
+Interval asin(const Interval& x) {
+  if (!lies_in_unit_interval(x)) {
+    return Interval::empty();
+  }
+  const Interval lower(x.lower());
+  const Interval upper(x.upper());
+  return Interval::from_bounds(atan2(lower, cosine_of_arc_sine(lower)).lower(),
+                               atan2(upper, cosine_of_arc_sine(upper)).upper());
+}
+
+Interval acos(const Interval& x) {
+  if (!lies_in_unit_interval(x)) {
+    return Interval::empty();
+  }
+  const Interval lower(x.lower());
+  const Interval upper(x.upper());
+  return Interval::from_bounds(atan2(cosine_of_arc_sine(upper), upper).lower(),
+                               atan2(cosine_of_arc_sine(lower), lower).upper());
+}
+
 }  // namespace veritrack::rigor

@@ -24,6 +24,9 @@ namespace veritrack::rigor {
 /// The angle of (x, y) in (-pi, pi], rad. Empty when the box contains the origin or touches the branch cut
 /// {x < 0, y = 0} from below, across which the angle jumps.
 [[nodiscard]] Interval atan2(const Interval& y, const Interval& x);
+/// In [-pi/2, pi/2] and [0, pi], rad. Empty unless x lies in [-1, 1].
+[[nodiscard]] Interval asin(const Interval& x);
+[[nodiscard]] Interval acos(const Interval& x);
 [[nodiscard]] Interval exp(const Interval& x);
 /// Empty unless x lies above zero.
 [[nodiscard]] Interval log(const Interval& x);

@@ -273,6 +273,43 @@ TEST_CASE("atan, exp and log hold every value, and are the tightest at points") 
   VERITRACK_CHECK_NO_MISSES(misses);
 }
 
+TEST_CASE("asin and acos hold every angle, tightly, and are empty outside [-1, 1]") {
+  Operands operands(27);
+  Oracle s;
+  Oracle value;
+  Misses misses;
+  for (std::int64_t round = effort(kElementaryCases); round > 0; --round) {
+    // Half of them near the ends, where the slope is not bounded.
+    const double near_end = 1.0 - std::exp(operands.random().uniform(-40.0, 0.0));
+    const double centre = operands.random().below(2) == 0   ? operands.random().uniform(-1.1, 1.1)
+                          : operands.random().below(2) == 0 ? near_end
+                                                            : -near_end;
+    const double width = operands.random().below(2) == 0 ? 0.0 : operands.random().uniform(0.0, 0.3);
+    const Interval x = bounds(centre, centre + width);
+    const Interval sine = upward([&] { return rigor::asin(x); });
+    const Interval cosine = upward([&] { return rigor::acos(x); });
+    if (x.lower() < -1.0 || x.upper() > 1.0) {
+      misses.expect(rigor::is_empty(sine) && rigor::is_empty(cosine), "outside", x, sine);
+      continue;
+    }
+    const double point = operands.point_of(x);
+    s = point;
+    value.evaluate(mpfr_asin, s.value());
+    misses.expect(value.lies_in(sine), "asin", x, point, sine);
+    value.evaluate(mpfr_acos, s.value());
+    misses.expect(value.lies_in(cosine), "acos", x, point, cosine);
+    misses.expect(
+        width > 0.0 || (sine.upper() - sine.lower() < 1e-15 && cosine.upper() - cosine.lower() < 2e-15),
+        "tightness", x, sine, cosine);
+  }
+  VERITRACK_CHECK_NO_MISSES(misses);
+  const rigor::UpwardRounding scope;
+  CHECK(is_subset(rigor::pi(), rigor::acos(Interval(-1.0))));
+  CHECK(contains(rigor::acos(Interval(1.0)), 0.0));
+  CHECK(rigor::is_empty(rigor::asin(Interval::empty())));
+  CHECK(rigor::is_empty(rigor::acos(Interval::entire())));
+}
+
 TEST_CASE("atan2 holds every angle, and is empty at the origin and across the cut") {
   Operands operands(26);
   Oracle s;

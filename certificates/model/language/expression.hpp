@@ -1,0 +1,56 @@
+// Formulas as a user writes them: trees whose nodes know where they stand.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "certificates/design/design.hpp"
+
+namespace veritrack::certificates::language {
+
+/// Text of a design file, and the place of its first character in the file.
+struct SourceText {
+  std::string text;
+  Position position{1, 1};
+};
+
+/// Thrown for a formula that cannot be used: what() says what is wrong and what is allowed.
+class LanguageError : public std::runtime_error {
+ public:
+  LanguageError(Position position, const std::string& message)
+      : std::runtime_error(message), position_(position) {}
+  [[nodiscard]] Position position() const noexcept { return position_; }
+
+ private:
+  Position position_;
+};
+
+/// A formula. Operands stand in the order in which they are written.
+struct Expression {
+  enum class Kind { number, name, negation, sum, difference, product, quotient, power, call };
+  Kind kind = Kind::number;
+  Position position;
+  /// number: as written; name: with the prime of a next value; call: the function.
+  std::string text;
+  int exponent = 0;  ///< of power
+  int depth = 0;     ///< operations one inside the other, this one included
+  std::vector<Expression> operands;
+};
+
+/// One line of a step: `name = value`, or `state' = value` for a next value.
+struct Definition {
+  std::string name;  ///< with the prime
+  Position position;
+  Expression value;
+};
+
+/// The formula that the text is. Parentheses may be 64 deep. Throws LanguageError.
+[[nodiscard]] Expression parse_expression(const SourceText& source);
+
+/// The definitions, one on each line; a line may be empty, or end with a comment that begins with #. A line
+/// whose parentheses are open goes on with the next one. Throws LanguageError.
+[[nodiscard]] std::vector<Definition> parse_definitions(const SourceText& source);
+
+}  // namespace veritrack::certificates::language

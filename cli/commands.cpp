@@ -16,6 +16,7 @@
 #include "certificates/document/coq_document.hpp"
 #include "certificates/document/markdown.hpp"
 #include "certificates/document/output_files.hpp"
+#include "certificates/document/tracker_kind.hpp"
 #include "certificates/document/tuning.hpp"
 #include "cli/default_folder.hpp"
 #include "reports/certificate_files.hpp"
@@ -193,6 +194,17 @@ ExitStatus run_map(const MapOptions& options) {
     mark_folder(directory, options.design);
   }
   fmt::print("{}: {}\n", result.picture->string(), result.sentence);
+  return all_proved;
+}
+
+ExitStatus run_show(const ShowOptions& options) {
+  const certificates::Design design = certificates::read_design_file(options.design);
+  const certificates::TrackerKind& kind = certificates::kind_of(design);
+  if (kind.show == nullptr) {
+    refuse_tracker(options.design, design, "show",
+                   certificates::names_of_kinds([](const auto& each) { return each.show != nullptr; }));
+  }
+  fmt::print("{}", kind.show(design, certificates::code_language(options.language).value()));
   return all_proved;
 }
 

@@ -36,6 +36,11 @@ struct MapOptions {
   bool quiet = false;  ///< no progress on standard error
 };
 
+struct ShowOptions {
+  std::string design;
+  std::string language = "formulas";
+};
+
 struct TuneOptions {
   std::string design;
   std::string output;
@@ -50,6 +55,7 @@ struct ReproduceOptions {
 [[nodiscard]] ExitStatus run_certify(const CertifyOptions& options);
 [[nodiscard]] ExitStatus run_check(const CheckOptions& options);
 [[nodiscard]] ExitStatus run_map(const MapOptions& options);
+[[nodiscard]] ExitStatus run_show(const ShowOptions& options);
 [[nodiscard]] ExitStatus run_tune(const TuneOptions& options);
 [[nodiscard]] ExitStatus run_reproduce(const ReproduceOptions& options);
 

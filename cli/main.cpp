@@ -15,6 +15,7 @@
 #include "analysis/rigor/self_test.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/nearest_key.hpp"
+#include "certificates/document/code_language.hpp"
 #include "cli/commands.hpp"
 #include "cli/standard_output.hpp"
 
@@ -88,6 +89,14 @@ int run(int argc, char** argv) {
   map->add_flag("--noise", map_options.request.with_noise,
                 "with the noise and slew of [assume]; otherwise without any");
 
+  ShowOptions show_options;
+  CLI::App* show = app.add_subcommand(
+      "show", "print the recursion of a tracker that is given as a model, or code that computes the same");
+  show->add_option("DESIGN", show_options.design, "design file (TOML), tracker model")->required();
+  show->add_option("--language", show_options.language, "in which language")
+      ->check(CLI::IsMember(veritrack::certificates::code_language_names()))
+      ->capture_default_str();
+
   TuneOptions tune_options;
   CLI::App* tune = app.add_subcommand(
       "tune",
@@ -133,6 +142,9 @@ int run(int argc, char** argv) {
   }
   if (map->parsed()) {
     return run_map(map_options);
+  }
+  if (show->parsed()) {
+    return run_show(show_options);
   }
   if (tune->parsed()) {
     return run_tune(tune_options);

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <memory>
+#include <system_error>
 #include <utility>
+
+#include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::rigor {
 
@@ -285,6 +289,20 @@ std::string to_decimal(const Interval& value, int digits) {
   std::string text = "[";
   text.append(to_decimal(value.lower(), digits, Direction::down)).append(", ");
   return text.append(to_decimal(value.upper(), digits, Direction::up)).append("]");
+}
+
+double nearest_double(std::string_view decimal) {
+  const NearestRounding nearest;
+  if (decimal.starts_with('+')) {
+    decimal.remove_prefix(1);
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
+  if (error == std::errc::result_out_of_range) {
+    return decimal.starts_with('-') ? -0.0 : 0.0;  // parse_decimal has refused what is too large
+  }
+  const bool read_whole = error == std::errc() && end == decimal.data() + decimal.size();
+  return read_whole ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace veritrack::rigor

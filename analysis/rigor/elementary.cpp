@@ -120,4 +120,8 @@ Interval acos(const Interval& x) {
                                atan2(cosine_of_arc_sine(lower), lower).upper());
 }
 
+Interval stays_within(const Interval& x, const Interval& low, const Interval& high) {
+  return certainly_less(low, x) && certainly_less(x, high) ? x : Interval::empty();
+}
+
 }  // namespace veritrack::rigor

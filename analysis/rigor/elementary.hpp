@@ -30,5 +30,7 @@ namespace veritrack::rigor {
 [[nodiscard]] Interval exp(const Interval& x);
 /// Empty unless x lies above zero.
 [[nodiscard]] Interval log(const Interval& x);
+/// x. Empty unless x certainly lies above low and below high.
+[[nodiscard]] Interval stays_within(const Interval& x, const Interval& low, const Interval& high);
 
 }  // namespace veritrack::rigor

@@ -17,6 +17,12 @@ struct Position {
   int column = 0;
 };
 
+/// Text of a design file, and the place of its first character.
+struct SourceText {
+  std::string text;
+  Position position{1, 1};
+};
+
 /// A number of a design file.
 struct Number {
   /// Holds the decimal and the double nearest to it, with a unit in the last place around `tight`, where that

@@ -60,8 +60,9 @@ template <typename Target, typename Keys>
 
 /// What no single key can say.
 struct TableObjection {
-  std::string_view table;  ///< where the message points
-  std::string message;     ///< what is wrong, what is allowed
+  std::string_view table;              ///< where the message points
+  std::string message;                 ///< what is wrong, what is allowed
+  std::optional<Position> position{};  ///< where, when not at the beginning of the table
 };
 
 /// The tables of a tracker's design file.

@@ -217,7 +217,9 @@ Design read_design(std::string_view text, std::string_view file_name) {
   }
   if (format.objection != nullptr) {
     if (const auto objection = format.objection(design.tables)) {
-      source.fail(to_position(find_table(source, objection->table)->source().begin), objection->message);
+      source.fail(objection->position ? *objection->position
+                                      : to_position(find_table(source, objection->table)->source().begin),
+                  objection->message);
     }
   }
   return design;

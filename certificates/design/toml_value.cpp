@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <system_error>
+#include <tuple>
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -25,21 +25,6 @@ rigor::Interval with_room(const rigor::Interval& tight) {
   const double upper = std::nextafter(tight.upper(), kInfinity);
   const bool has_room = tight.lower() < tight.upper() && std::isfinite(lower) && std::isfinite(upper);
   return has_room ? rigor::Interval::from_bounds(lower, upper) : tight;
-}
-
-/// The double nearest to a decimal that parse_decimal has accepted.
-double nearest_double(std::string_view decimal) {
-  const rigor::NearestRounding nearest;
-  if (decimal.starts_with('+')) {
-    decimal.remove_prefix(1);
-  }
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
-  if (error == std::errc::result_out_of_range) {
-    return decimal.starts_with('-') ? -0.0 : 0.0;  // parse_decimal has refused what is too large
-  }
-  const bool read_whole = error == std::errc() && end == decimal.data() + decimal.size();
-  return read_whole ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string_view kind_name(const toml::node& node) {
@@ -109,10 +94,11 @@ Number TomlValue::real(RealPredicate is_allowed) const {
   } catch (const rigor::NumberFormatError&) {
     refuse(shown + ", not a decimal number in the range of double precision");
   }
-  number.nearest = nearest_double(decimal);
+  number.nearest = rigor::nearest_double(decimal);
   // The text was cut out by position: it must be the number that the parser saw there.
-  const double parsed = node_->is_integer() ? nearest_double(std::to_string(node_->as_integer()->get()))
-                                            : node_->as_floating_point()->get();
+  const double parsed = node_->is_integer()
+                            ? rigor::nearest_double(std::to_string(node_->as_integer()->get()))
+                            : node_->as_floating_point()->get();
   if (parsed != number.nearest || !rigor::contains(number.tight, number.nearest)) {
     refuse(shown + ", which two readers understand differently");
   }
@@ -162,6 +148,58 @@ std::string TomlValue::line_of_text(std::size_t limit) const {
     refuse(fmt::format("\"{}\", with control characters", printable(text, kShownLimit)));
   }
   return text;
+}
+
+SourceText TomlValue::source_text(std::size_t limit) const {
+  if (node_->is_number()) {
+    return {std::string(number_text()), position()};
+  }
+  const auto* value = node_->as_string();
+  if (value == nullptr) {
+    refuse_kind();
+  }
+  SourceText source{value->get(), position()};
+  if (source.text.size() > limit) {
+    refuse(fmt::format("{} bytes long", source.text.size()));
+  }
+  const std::string_view raw = source_->text_from(source.position);
+  const std::size_t quotes = raw.starts_with("\'\'\'") || raw.starts_with("\"\"\"") ? 3 : 1;
+  source.position.column += static_cast<int>(quotes);
+  std::string_view first_line = raw.substr(std::min(quotes, raw.size()));
+  if (quotes == 3 && (first_line.empty() || first_line == "\r")) {
+    source.position = {source.position.line + 1, 1};  // TOML leaves out a line feed behind the quotes
+    first_line = source_->text_from(source.position);
+  }
+  // With escapes, the text is not what the file says.
+  const bool is_as_written = raw.starts_with('\'') || raw.find('\\') == std::string_view::npos;
+  const std::string_view text_line =
+      std::string_view(source.text).substr(0, source.text.find_first_of("\r\n"));
+  if (!is_as_written || !first_line.starts_with(text_line) || (quotes == 3 && raw.starts_with('"'))) {
+    refuse(
+        "with escapes, or in three double quotes, so that its characters have no place in the file; write it "
+        "between single quotes");
+  }
+  return source;
+}
+
+std::vector<std::pair<SourceText, TomlValue>> TomlValue::members() const {
+  const toml::table* table = node_->as_table();
+  if (table == nullptr) {
+    refuse_kind();
+  }
+  std::vector<std::pair<SourceText, TomlValue>> members;
+  members.reserve(table->size());
+  for (const auto& [key, node] : *table) {
+    const std::string name(key.str());
+    members.emplace_back(SourceText{name, to_position(key.source().begin)},
+                         TomlValue(*source_, node, fmt::format("{}.{}", path_, name), allowed_));
+  }
+  std::sort(members.begin(), members.end(), [](const auto& a, const auto& b) {
+    const Position& first = a.first.position;
+    const Position& second = b.first.position;
+    return std::tie(first.line, first.column) < std::tie(second.line, second.column);
+  });
+  return members;
 }
 
 std::vector<TomlValue> TomlValue::entries(std::span<const std::string_view> names) const {

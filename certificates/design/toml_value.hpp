@@ -36,8 +36,14 @@ class TomlValue {
   [[nodiscard]] std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
   /// One line of text of 1 to `limit` bytes. Throws InputError otherwise.
   [[nodiscard]] std::string line_of_text(std::size_t limit) const;
+  /// A string of at most `limit` bytes that may have many lines, or a number as it is written. Escapes are
+  /// not allowed, so that every character has its place in the file. Throws InputError otherwise.
+  [[nodiscard]] SourceText source_text(std::size_t limit) const;
+  /// The keys of a table and their values, in the order of the file. Throws InputError when it is no table.
+  [[nodiscard]] std::vector<std::pair<SourceText, TomlValue>> members() const;
   [[nodiscard]] bool is_string() const noexcept { return node_->is_string(); }
   [[nodiscard]] bool is_table() const noexcept { return node_->is_table(); }
+  [[nodiscard]] bool is_array() const noexcept { return node_->is_array(); }
   [[nodiscard]] bool is_number() const noexcept { return node_->is_number(); }
   /// The values of a table that has exactly these keys, in the order of `names`. Throws InputError otherwise.
   [[nodiscard]] std::vector<TomlValue> entries(std::span<const std::string_view> names) const;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "certificates/document/certificate.hpp"
+#include "certificates/document/code_language.hpp"
 #include "certificates/document/formal_proof.hpp"
 #include "certificates/document/markdown.hpp"
 #include "certificates/document/number_json.hpp"
@@ -38,6 +39,8 @@ struct TrackerKind {
   FormalProofs (*formal_proofs)(const Certificate& certificate) = nullptr;
   /// Opens its own rounding scopes.
   TuningResult (*tune)(const Design& design) = nullptr;
+  /// The step as text. Opens its own rounding scopes.
+  std::string (*show)(const Design& design, CodeLanguage language) = nullptr;
 };
 
 /// All kinds, in the order of certificates/trackers.def.

@@ -10,12 +10,6 @@
 
 namespace veritrack::certificates::language {
 
-/// Text of a design file, and the place of its first character in the file.
-struct SourceText {
-  std::string text;
-  Position position{1, 1};
-};
-
 /// Thrown for a formula that cannot be used: what() says what is wrong and what is allowed.
 class LanguageError : public std::runtime_error {
  public:
@@ -45,6 +39,17 @@ struct Definition {
   Position position;
   Expression value;
 };
+
+/// Calls `visit` for every leaf.
+template <typename Visit>
+void for_each_leaf(const Expression& expression, const Visit& visit) {
+  if (expression.operands.empty()) {
+    visit(expression);
+  }
+  for (const Expression& operand : expression.operands) {
+    for_each_leaf(operand, visit);
+  }
+}
 
 /// The formula that the text is. Parentheses may be 64 deep. Throws LanguageError.
 [[nodiscard]] Expression parse_expression(const SourceText& source);

@@ -1,0 +1,83 @@
+#include "certificates/model/language/vocabulary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "certificates/design/input_error.hpp"
+#include "certificates/design/nearest_key.hpp"
+
+namespace veritrack::certificates::language {
+
+namespace {
+
+using trackers::Operation;
+
+constexpr std::array kFunctions{
+    Function{"sqrt", Operation::sqrt, 1},
+    Function{"exp", Operation::exp, 1},
+    Function{"log", Operation::log, 1},
+    Function{"sin", Operation::sin, 1},
+    Function{"cos", Operation::cos, 1},
+    Function{"tan", Operation::tan, 1},
+    Function{"asin", Operation::asin, 1},
+    Function{"acos", Operation::acos, 1},
+    Function{"atan", Operation::atan, 1},
+    Function{"atan2", Operation::atan2, 2},
+    Function{"stays_within", Operation::stays_within, 3},
+};
+
+/// Functions that have a kink or a jump.
+constexpr std::array<std::string_view, 22> kNotSmooth{
+    "abs", "fabs", "min",  "max",   "fmin", "fmax", "floor",    "ceil",      "round", "trunc", "sign",
+    "sgn", "mod",  "fmod", "clamp", "clip", "sat",  "saturate", "heaviside", "if",    "step",  "limit"};
+
+constexpr std::size_t kShownOfFunction = 40;
+
+}  // namespace
+
+std::optional<Function> find_function(std::string_view name) {
+  const auto* const found = std::find_if(kFunctions.begin(), kFunctions.end(),
+                                         [&](const Function& function) { return function.name == name; });
+  return found != kFunctions.end() ? std::optional(*found) : std::nullopt;
+}
+
+std::string objection_to_function(std::string_view name) {
+  const std::string shown = printable(name, kShownOfFunction);
+  if (std::find(kNotSmooth.begin(), kNotSmooth.end(), name) != kNotSmooth.end()) {
+    return fmt::format(
+        "{} is not smooth; allowed here: stays_within(x, low, high), which is x, if {} never acts in lock "
+        "(it is "
+        "proved then that low < x < high)",
+        shown, shown);
+  }
+  if (name == "pow") {
+    return "pow is unknown; allowed: x^n with a whole exponent, sqrt(x), or exp(p*log(x))";
+  }
+  std::vector<std::string> names;
+  for (const Function& function : kFunctions) {
+    names.emplace_back(function.name);
+  }
+  return fmt::format("unknown function {}; nearest: {}; allowed: {}", shown, nearest_key(name, names),
+                     fmt::join(names, ", "));
+}
+
+std::string_view reserved_meaning(std::string_view name) {
+  if (name == "pi") {
+    return "the circle constant";
+  }
+  if (name == "omega") {
+    return "the true frequency";
+  }
+  if (name == "phi") {
+    return "the phase of the tone";
+  }
+  if (name == "A") {
+    return "the amplitude of the tone";
+  }
+  return find_function(name) ? "a function" : "";
+}
+
+}  // namespace veritrack::certificates::language

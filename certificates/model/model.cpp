@@ -1,0 +1,154 @@
+#include "certificates/model/model.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+
+#include "certificates/design/nearest_key.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using language::Definition;
+using language::Expression;
+using language::LanguageError;
+using language::NamedFormula;
+
+std::vector<std::string> texts(const std::vector<SourceText>& sources) {
+  std::vector<std::string> names;
+  names.reserve(sources.size());
+  for (const SourceText& source : sources) {
+    names.push_back(source.text);
+  }
+  return names;
+}
+
+/// Throws LanguageError unless each is a name, free, and given once.
+void require_names(const std::vector<SourceText>& sources, std::set<std::string>& taken) {
+  for (const SourceText& source : sources) {
+    const Expression name = language::parse_expression(source);
+    if (name.kind != Expression::Kind::name) {
+      throw LanguageError(source.position,
+                          "a formula in place of a name; allowed: letters, digits and _, a letter "
+                          "first");
+    }
+    language::require_free_name(source.text, source.position);
+    if (!taken.insert(source.text).second) {
+      throw LanguageError(source.position,
+                          fmt::format("{} is given twice; allowed: each name once", source.text));
+    }
+  }
+}
+
+/// The formulas of `named`, one for each of `names`, in their order. Throws LanguageError for a name that is
+/// missing or too many.
+std::vector<Expression> formulas_of(const std::vector<NamedText>& named,
+                                    const std::vector<std::string>& names, Position place,
+                                    std::string_view what) {
+  for (const NamedText& entry : named) {
+    if (std::find(names.begin(), names.end(), entry.name.text) == names.end()) {
+      throw LanguageError(entry.name.position,
+                          fmt::format("{} is no state; nearest: {}; allowed: {}", entry.name.text,
+                                      nearest_key(entry.name.text, names), fmt::join(names, ", ")));
+    }
+  }
+  std::vector<Expression> formulas;
+  formulas.reserve(names.size());
+  for (const std::string& name : names) {
+    const auto found = std::find_if(named.begin(), named.end(),
+                                    [&](const NamedText& entry) { return entry.name.text == name; });
+    if (found == named.end()) {
+      throw LanguageError(place, fmt::format("the state {} has no {}; allowed: one for each of {}", name,
+                                             what, fmt::join(names, ", ")));
+    }
+    formulas.push_back(language::parse_expression(found->formula));
+  }
+  return formulas;
+}
+
+std::vector<const Expression*> pointers(const std::vector<Expression>& formulas) {
+  std::vector<const Expression*> result;
+  result.reserve(formulas.size());
+  for (const Expression& formula : formulas) {
+    result.push_back(&formula);
+  }
+  return result;
+}
+
+/// The tone alone: in phase, and in quadrature.
+std::vector<SourceText> usual_signal(std::size_t samples) {
+  return samples == 1 ? std::vector<SourceText>{{"A*cos(phi)", {}}}
+                      : std::vector<SourceText>{{"A*cos(phi)", {}}, {"A*sin(phi)", {}}};
+}
+
+}  // namespace
+
+Model make_model(const ModelTable& table, const std::vector<SourceText>& signal) {
+  std::set<std::string> taken;
+  require_names(table.samples, taken);
+  require_names(table.states, taken);
+  std::vector<NamedFormula> parameters;
+  Model model;
+  for (const NamedText& parameter : table.parameters) {
+    require_names({parameter.name}, taken);
+    parameters.push_back(
+        {parameter.name.text, parameter.name.position, language::parse_expression(parameter.formula)});
+    model.parameter_texts.push_back(parameter.formula.text);
+  }
+  model.samples = texts(table.samples);
+  model.states = texts(table.states);
+  const std::vector<Definition> step = language::parse_definitions(table.step);
+  const Expression frequency = language::parse_expression(table.frequency);
+  const std::vector<Expression> start = formulas_of(table.start, model.states, table.step.position, "start");
+  std::vector<Expression> samples;
+  const std::vector<SourceText> signal_texts = signal.empty() ? usual_signal(table.samples.size()) : signal;
+  if (signal_texts.size() != table.samples.size()) {
+    throw LanguageError(signal_texts.front().position,
+                        fmt::format("{} formulas for the signal; allowed: as many as there are samples, {}",
+                                    signal_texts.size(), table.samples.size()));
+  }
+  for (const SourceText& text : signal_texts) {
+    samples.push_back(language::parse_expression(text));
+  }
+
+  std::vector<const Expression*> all = pointers(start);
+  for (const Definition& definition : step) {
+    all.push_back(&definition.value);
+  }
+  all.push_back(&frequency);
+  for (const Expression& sample : samples) {
+    all.push_back(&sample);
+  }
+  model.constants = language::collect_constants(parameters, all);
+
+  model.step =
+      language::compile_step(step, model.constants, model.states, model.samples, table.step.position);
+  model.frequency = language::compile_formulas({&frequency}, model.constants, model.states);
+  model.start = language::compile_formulas(pointers(start), model.constants, {"A", "omega"}).program;
+  model.signal = language::compile_formulas(pointers(samples), model.constants, {"A", "phi"}).program;
+  const int constants = static_cast<int>(model.constants.size());
+  model.recursion = {model.step.program,
+                     model.frequency.program,
+                     constants,
+                     static_cast<int>(model.states.size()),
+                     static_cast<int>(model.samples.size()),
+                     {}};
+  const std::vector<std::string> angles = texts(table.angles);
+  for (const SourceText& angle : table.angles) {
+    if (std::find(model.states.begin(), model.states.end(), angle.text) == model.states.end()) {
+      throw LanguageError(angle.position,
+                          fmt::format("{} is no state; nearest: {}; allowed: {}", angle.text,
+                                      nearest_key(angle.text, model.states), fmt::join(model.states, ", ")));
+    }
+  }
+  for (const std::string& state : model.states) {
+    model.recursion.is_angle.push_back(std::find(angles.begin(), angles.end(), state) != angles.end());
+  }
+  return model;
+}
+
+}  // namespace veritrack::certificates

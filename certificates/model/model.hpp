@@ -1,0 +1,31 @@
+// A tracker that a user has written down, made ready to run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "certificates/model/language/compiler.hpp"
+#include "certificates/model/model_design.hpp"
+#include "trackers/model/model_tracker.hpp"
+
+namespace veritrack::certificates {
+
+/// The recursion of a design, with its names. Programs begin their inputs with the values of `constants`.
+struct Model {
+  language::Constants constants;
+  std::vector<std::string>
+      parameter_texts;  ///< the formulas of the parameters, which are the first constants
+  std::vector<std::string> samples;
+  std::vector<std::string> states;
+  trackers::Recursion recursion;
+  language::CompiledProgram step;           ///< of the recursion, with places and names
+  language::CompiledProgram frequency;      ///< likewise
+  trackers::StraightLineProgram start{0};   ///< inputs A, omega: the state where a search begins
+  trackers::StraightLineProgram signal{0};  ///< inputs A, phi: the samples, 2 pi-periodic in phi
+};
+
+/// Throws language::LanguageError, with a position in the design file, for what cannot be understood. Needs
+/// the upward rounding mode.
+[[nodiscard]] Model make_model(const ModelTable& table, const std::vector<SourceText>& signal);
+
+}  // namespace veritrack::certificates

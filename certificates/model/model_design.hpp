@@ -1,0 +1,72 @@
+// The design file of the tracker "model": a recursion that the user has written down.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certificates/sets/assumptions.hpp"
+
+namespace veritrack::certificates {
+
+/// A key and the formula that it gives.
+struct NamedText {
+  SourceText name;
+  SourceText formula;
+};
+
+/// [model.ekf]: an extended Kalman filter by its model, from which the recursion is written out.
+struct ModelEkfTable {
+  std::vector<SourceText> states;
+  SourceText predict;
+  std::vector<SourceText> measure;                         ///< one for each channel
+  std::vector<std::vector<SourceText>> process_noise;      ///< Q, row by row
+  std::vector<std::vector<SourceText>> measurement_noise;  ///< R, row by row
+};
+
+/// [model].
+struct ModelTable {
+  std::vector<SourceText> samples;  ///< one name, or two: in phase, quadrature
+  std::vector<NamedText> parameters;
+  std::vector<SourceText> states;
+  std::vector<SourceText> angles;  ///< of the states, those that are known modulo 2 pi only
+  std::vector<NamedText> units;    ///< of states, for the reader only
+  SourceText step;
+  SourceText frequency;
+  std::vector<NamedText> start;
+  std::optional<ModelEkfTable> ekf;
+};
+
+/// [assume] of a model.
+struct ModelAssumptions {
+  Number amplitude;                       ///< signal units
+  std::optional<Number> sample_rate;      ///< Hz
+  std::array<Number, 2> frequency;        ///< [lowest, highest]
+  bool frequency_in_hertz = false;        ///< otherwise rad/sample
+  Number noise;                           ///< |v(k)| <= noise for every k, signal units
+  Number slew;                            ///< of the frequency
+  bool slew_in_hertz_per_second = false;  ///< otherwise rad/sample per sample
+  std::vector<SourceText> signal;         ///< a formula in A and phi for each sample; none: the tone alone
+};
+
+/// [require] of a model.
+struct ModelRequirements {
+  Requirements sets;
+  std::optional<Number> bias_below;    ///< rad/sample
+  std::optional<Number> ripple_below;  ///< rad/sample
+};
+
+/// The tables of a design file for the tracker "model".
+struct ModelTables {
+  ModelTable model;
+  ModelAssumptions assume;
+  ModelRequirements require;
+};
+
+/// Of a design of this tracker. Throws std::logic_error for another.
+[[nodiscard]] inline const ModelTables& model_tables(const Design& design) {
+  return tables_of<ModelTables>(design);
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,176 @@
+// The keys of a design file for the tracker "model".
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/rigor/rounding.hpp"
+#include "certificates/design/key_readers.hpp"
+#include "certificates/design/nearest_key.hpp"
+#include "certificates/model/model.hpp"
+#include "certificates/model/model_design.hpp"
+#include "certificates/sets/set_keys.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using namespace keys;  // NOLINT(google-build-using-namespace): this file is made of them
+
+constexpr std::size_t kLongestFormula = 4000;  // bytes
+constexpr std::size_t kLongestStep = 100'000;  // bytes
+constexpr std::size_t kMostStates = 64;
+
+/// One text, or a list of them.
+std::vector<SourceText> text_or_list(const TomlValue& value, std::size_t most) {
+  std::vector<SourceText> texts;
+  if (!value.is_array()) {
+    texts.push_back(value.source_text(kLongestFormula));
+    return texts;
+  }
+  for (const TomlValue& element : value.elements(1, most)) {
+    texts.push_back(element.source_text(kLongestFormula));
+  }
+  return texts;
+}
+
+std::vector<NamedText> named_texts(const TomlValue& value) {
+  std::vector<NamedText> texts;
+  for (const auto& [name, formula] : value.members()) {
+    texts.push_back({name, formula.source_text(kLongestFormula)});
+  }
+  return texts;
+}
+
+template <auto member, std::size_t most>
+void list(const TomlValue& value, Owner<member>& target) {
+  target.*member = text_or_list(value, most);
+}
+template <auto member>
+void names_and_formulas(const TomlValue& value, Owner<member>& target) {
+  target.*member = named_texts(value);
+}
+template <auto member, std::size_t limit>
+void text(const TomlValue& value, Owner<member>& target) {
+  target.*member = value.source_text(limit);
+}
+
+using Table = ModelTable;
+constexpr std::string_view kFormula = "a formula between single quotes, or a number";
+constexpr std::string_view kNames = "a list of names, e.g. ['alpha', 'beta', 'w']";
+constexpr std::array kModelKeys{
+    Key<Table>{"samples",
+               "the name of the sample, e.g. 'y', or of the two of two channels, e.g. ['y1', 'y2']",
+               list<&Table::samples, 2>, kRequired},
+    Key<Table>{"parameters", "a table of numbers and formulas, e.g. { k = 1.4142, T = '1/10000' }",
+               names_and_formulas<&Table::parameters>, kOptional},
+    Key<Table>{"states", kNames, list<&Table::states, kMostStates>, kRequired},
+    Key<Table>{"angles", "a list of the states that are angles, e.g. ['theta']",
+               list<&Table::angles, kMostStates>, kOptional},
+    Key<Table>{"units", "a table of the units of states, e.g. { w = 'rad/s' }",
+               names_and_formulas<&Table::units>, kOptional},
+    Key<Table>{"step", "lines name = formula and state' = formula, between three single quotes",
+               text<&Table::step, kLongestStep>, kRequired},
+    Key<Table>{"frequency", "a formula of the states: the estimated frequency in rad/sample",
+               text<&Table::frequency, kLongestFormula>, kRequired},
+    Key<Table>{"start", "a table of formulas in A and omega, one for each state",
+               names_and_formulas<&Table::start>, kRequired},
+};
+
+/// A number, or { unit = number }: true when it is in that unit.
+template <typename Read>
+bool in_unit(const TomlValue& value, std::string_view unit, const Read& read) {
+  if (!value.is_table()) {
+    read(value);
+    return false;
+  }
+  const auto fields = value.fields({unit});
+  if (!fields) {
+    value.refuse("a table with other keys");
+  }
+  read(fields->front());
+  return true;
+}
+
+void frequency_band(const TomlValue& value, ModelAssumptions& assume) {
+  assume.frequency_in_hertz = in_unit(value, "hz", [&](const TomlValue& band) {
+    const std::vector<TomlValue> ends = band.elements(2);
+    assume.frequency = {ends[0].real(positive), ends[1].real(positive)};
+    if (!rigor::certainly_less_equal(assume.frequency[0].tight, assume.frequency[1].tight)) {
+      value.refuse(fmt::format("[{}, {}]", assume.frequency[0].text, assume.frequency[1].text));
+    }
+  });
+}
+
+void slew_rate(const TomlValue& value, ModelAssumptions& assume) {
+  assume.slew_in_hertz_per_second = in_unit(
+      value, "hz_per_second", [&](const TomlValue& number) { assume.slew = number.real(not_negative); });
+}
+
+using ModelAssume = ModelAssumptions;
+constexpr std::array kModelAssumeKeys{
+    Key<ModelAssume>{"amplitude", kPositive, real<&ModelAssume::amplitude, positive>, defaults_to("1")},
+    Key<ModelAssume>{"sample_rate", "a number above 0, in Hz", real<&ModelAssume::sample_rate, positive>,
+                     kOptional},
+    Key<ModelAssume>{
+        "frequency",
+        "[lowest, highest] in rad/sample, above 0, or with sample_rate { hz = [lowest, highest] }",
+        frequency_band, kRequired},
+    Key<ModelAssume>{"noise", kNotNegative, real<&ModelAssume::noise, not_negative>, kRequired},
+    Key<ModelAssume>{"slew", "a number, 0 or more, or with sample_rate { hz_per_second = number }", slew_rate,
+                     defaults_to("0")},
+    Key<ModelAssume>{"signal",
+                     "a formula in A and phi for each sample, e.g. 'A*cos(phi) + 0.03*A*cos(3*phi)'",
+                     list<&ModelAssume::signal, 2>, kOptional},
+};
+
+using ModelRequire = ModelRequirements;
+template <auto member>
+void of_sets(const TomlValue& value, ModelRequire& target) {
+  target.sets.*member = value.real(positive);
+}
+constexpr std::array kModelRequireKeys{
+    Key<ModelRequire>{"frequency_error_below", kPositive, of_sets<&Requirements::frequency_error_below>,
+                      kOptional},
+    Key<ModelRequire>{"largest_noise_at_least", kPositive, of_sets<&Requirements::largest_noise_at_least>,
+                      kOptional},
+    Key<ModelRequire>{"largest_slew_at_least", kPositive, of_sets<&Requirements::largest_slew_at_least>,
+                      kOptional},
+    Key<ModelRequire>{"frequency_error_radius_at_least", kPositive,
+                      of_sets<&Requirements::frequency_error_radius_at_least>, kOptional},
+    Key<ModelRequire>{"bias_below", kPositive, real<&ModelRequire::bias_below, positive>, kOptional},
+    Key<ModelRequire>{"ripple_below", kPositive, real<&ModelRequire::ripple_below, positive>, kOptional},
+};
+
+std::vector<BoundTable> bind_model_tables(std::any& tables) {
+  auto& target = std::any_cast<ModelTables&>(tables);
+  return {bound_table("model", kModelKeys, target.model),
+          bound_table("assume", kModelAssumeKeys, target.assume),
+          bound_table("require", kModelRequireKeys, target.require)};
+}
+
+std::optional<TableObjection> objection_to_model(const std::any& tables) {
+  const auto& [model, assume, require] = std::any_cast<const ModelTables&>(tables);
+  if ((assume.frequency_in_hertz || assume.slew_in_hertz_per_second) && !assume.sample_rate) {
+    return TableObjection{
+        "assume", "a frequency in Hz without sample_rate; allowed: sample_rate = ..., in Hz", {}};
+  }
+  try {
+    (void)make_model(model, assume.signal);
+  } catch (const language::LanguageError& error) {
+    return TableObjection{"model", error.what(), error.position()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const DesignFormat& model_format() {
+  static const DesignFormat format{"model", [] { return std::any(ModelTables{}); }, bind_model_tables,
+                                   objection_to_model};
+  return format;
+}
+
+}  // namespace veritrack::certificates

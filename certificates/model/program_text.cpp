@@ -1,0 +1,168 @@
+#include "certificates/model/program_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+
+namespace veritrack::certificates {
+
+namespace {
+
+using trackers::Instruction;
+using trackers::Operation;
+using trackers::StraightLineProgram;
+
+/// How tightly a formula binds.
+enum Precedence : int { of_sum, of_product, of_sign, of_power, of_atom };
+
+struct Text {
+  std::string formula;
+  Precedence precedence = of_atom;
+};
+
+class Writer {
+ public:
+  Writer(const StraightLineProgram& program, const std::vector<std::string>& inputs,
+         const FormulaSyntax& syntax)
+      : program_(&program), syntax_(&syntax), names_(static_cast<std::size_t>(program.registers())) {
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      names_[i] = inputs[i];
+    }
+  }
+
+  [[nodiscard]] bool has_name(int place) const { return !names_[static_cast<std::size_t>(place)].empty(); }
+  void set_name(int place, const std::string& name) { names_[static_cast<std::size_t>(place)] = name; }
+
+  /// The formula of a register, whether it has a name or not.
+  [[nodiscard]] Text formula(int place) const {
+    if (place < program_->inputs()) {
+      return {names_[static_cast<std::size_t>(place)], of_atom};
+    }
+    const Instruction& made =
+        program_
+            ->instructions()[static_cast<std::size_t>(place) - static_cast<std::size_t>(program_->inputs())];
+    switch (made.operation) {
+      case Operation::add:
+        return {operand(made.first, of_sum) + " + " + operand(made.second, of_product), of_sum};
+      case Operation::subtract:
+        return {operand(made.first, of_sum) + " - " + operand(made.second, of_product), of_sum};
+      case Operation::multiply:
+        return {operand(made.first, of_product) + "*" + operand(made.second, of_sign), of_product};
+      case Operation::divide:
+        return {operand(made.first, of_product) + "/" + operand(made.second, of_sign), of_product};
+      case Operation::negate:
+        return {"-" + operand(made.first, of_power), of_sign};
+      case Operation::power:
+        return power(made);
+      default:
+        return {call(made), of_atom};
+    }
+  }
+
+ private:
+  /// The name or the formula, in parentheses unless it binds at least as tightly.
+  [[nodiscard]] std::string operand(int place, Precedence least) const {
+    if (has_name(place)) {
+      return names_[static_cast<std::size_t>(place)];
+    }
+    const Text text = formula(place);
+    return text.precedence >= least ? text.formula : "(" + text.formula + ")";
+  }
+  [[nodiscard]] Text power(const Instruction& made) const {
+    if (syntax_->power.empty()) {
+      return {fmt::format("power({}, {})", operand(made.first, of_sum), made.exponent), of_atom};
+    }
+    return {fmt::format("{}{}{}", operand(made.first, of_atom), syntax_->power, made.exponent), of_power};
+  }
+  [[nodiscard]] std::string call(const Instruction& made) const {
+    const auto standard = [&](std::string_view name) {
+      return fmt::format("{}{}({})", syntax_->function_prefix, name, operand(made.first, of_sum));
+    };
+    switch (made.operation) {
+      case Operation::sqrt:
+        return standard("sqrt");
+      case Operation::exp:
+        return standard("exp");
+      case Operation::log:
+        return standard("log");
+      case Operation::sin:
+        return standard("sin");
+      case Operation::cos:
+        return standard("cos");
+      case Operation::tan:
+        return standard("tan");
+      case Operation::asin:
+        return standard("asin");
+      case Operation::acos:
+        return standard("acos");
+      case Operation::atan:
+        return standard("atan");
+      case Operation::atan2:
+        return fmt::format("{}atan2({}, {})", syntax_->function_prefix, operand(made.first, of_sum),
+                           operand(made.second, of_sum));
+      default:
+        return fmt::format("stays_within({}, {}, {})", operand(made.first, of_sum),
+                           operand(made.second, of_sum), operand(made.third, of_sum));
+    }
+  }
+
+  const StraightLineProgram* program_;
+  const FormulaSyntax* syntax_;
+  std::vector<std::string> names_;
+};
+
+/// How often each register is an operand.
+std::vector<int> uses(const StraightLineProgram& program) {
+  std::vector<int> counts(static_cast<std::size_t>(program.registers()), 0);
+  for (const Instruction& instruction : program.instructions()) {
+    for (const int place : {instruction.first, instruction.second, instruction.third}) {
+      if (place >= 0) {
+        ++counts[static_cast<std::size_t>(place)];
+      }
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+std::vector<Assignment> assignments(const StraightLineProgram& program,
+                                    const std::vector<std::string>& inputs,
+                                    const std::map<int, std::string>& names,
+                                    const std::vector<std::string>& results, std::string_view prefix,
+                                    const FormulaSyntax& syntax) {
+  Writer writer(program, inputs, syntax);
+  const std::vector<int> counts = uses(program);
+  std::vector<std::string> result_of(static_cast<std::size_t>(program.registers()));
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    std::string& name = result_of[static_cast<std::size_t>(program.results()[i])];
+    name = name.empty() ? results[i] : name;
+  }
+  std::vector<Assignment> lines;
+  int unnamed = 0;
+  for (int place = program.inputs(); place < program.registers(); ++place) {
+    const auto named = names.find(place);
+    const std::string& result = result_of[static_cast<std::size_t>(place)];
+    std::string name = !result.empty() ? result : named != names.end() ? named->second : std::string();
+    if (name.empty() && counts[static_cast<std::size_t>(place)] > 1) {
+      name = fmt::format("{}{}", prefix, ++unnamed);
+    }
+    if (!name.empty()) {
+      lines.push_back({name, writer.formula(place).formula});
+      writer.set_name(place, name);
+    }
+  }
+  // Results that are inputs, or results again.
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const int place = program.results()[i];
+    const std::string& first = result_of[static_cast<std::size_t>(place)];
+    if (place < program.inputs()) {
+      lines.push_back({results[i], writer.formula(place).formula});
+    } else if (first != results[i]) {
+      lines.push_back({results[i], first});
+    }
+  }
+  return lines;
+}
+
+}  // namespace veritrack::certificates

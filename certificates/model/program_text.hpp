@@ -1,0 +1,35 @@
+// Straight-line programs as formulas of a programming language.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trackers/model/straight_line_program.hpp"
+
+namespace veritrack::certificates {
+
+/// How formulas are written.
+struct FormulaSyntax {
+  std::string_view power;  ///< operator of powers; empty: the function power(x, n)
+
+  std::string_view function_prefix;  ///< before sqrt and the like
+};
+
+/// A line `name = formula`.
+struct Assignment {
+  std::string name;
+  std::string formula;
+};
+
+/// The lines that compute the results of a program. `inputs` are the names of its inputs, `names` those of
+/// registers that have one, `results` those of the results. What has no name and is used more than once gets
+/// one that begins with `prefix`.
+[[nodiscard]] std::vector<Assignment> assignments(const trackers::StraightLineProgram& program,
+                                                  const std::vector<std::string>& inputs,
+                                                  const std::map<int, std::string>& names,
+                                                  const std::vector<std::string>& results,
+                                                  std::string_view prefix, const FormulaSyntax& syntax);
+
+}  // namespace veritrack::certificates

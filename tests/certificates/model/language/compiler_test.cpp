@@ -1,0 +1,121 @@
+#include "certificates/model/language/compiler.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::certificates::language {
+namespace {
+
+Expression formula(const char* text) {
+  return parse_expression({text, {1, 1}});
+}
+
+/// A step over the states s, t and the sample y, with the parameter k.
+CompiledProgram step(const std::string& text) {
+  const rigor::UpwardRounding scope;
+  const std::vector<Definition> definitions = parse_definitions({text, {1, 1}});
+  std::vector<const Expression*> formulas;
+  formulas.reserve(definitions.size());
+  for (const Definition& definition : definitions) {
+    formulas.push_back(&definition.value);
+  }
+  return compile_step(definitions, collect_constants({{"k", {1, 1}, formula("3")}}, formulas), {"s", "t"},
+                      {"y"}, {9, 9});
+}
+
+std::string message(const std::string& text) {
+  try {
+    (void)step(text);
+  } catch (const LanguageError& error) {
+    return fmt::format("{}:{}: {}", error.position().line, error.position().column, error.what());
+  }
+  return "no error";
+}
+
+TEST_CASE("a program computes what the formulas say, in any order of the lines") {
+  const CompiledProgram compiled =
+      step("s' = a - t'\na = k*y + sin(s)/2\nt' = t^3 + stays_within(y, -k, k)\n");
+  const std::vector<double> inputs{3.0, 2.0, 0.7, 1.5, 0.25};  // k, 2, s, t, y
+  std::vector<double> registers;
+  std::vector<double> next(2);
+  compiled.program.run(std::span<const double>(inputs), registers, std::span(next));
+  CHECK(next[1] == 1.5 * 1.5 * 1.5 + 0.25);
+  CHECK(next[0] == 3.0 * 0.25 + std::sin(0.7) / 2.0 - next[1]);
+  CHECK(compiled.positions.size() == compiled.program.instructions().size());
+}
+
+TEST_CASE("what is written twice is computed once") {
+  const CompiledProgram compiled = step("s' = sin(s + t) + cos(s + t)\nt' = sin(s + t)");
+  CHECK(compiled.program.instructions().size() == 4);  // s + t, sin, cos, sum
+}
+
+TEST_CASE("nothing is simplified") {
+  CHECK(step("s' = s/s\nt' = 0*t + y - y").program.instructions().size() == 4);
+}
+
+TEST_CASE("parameters are enclosed, and computed as they are written") {
+  const rigor::UpwardRounding scope;
+  const Expression use = formula("k*T + 2*pi");
+  const Constants constants = collect_constants({{"k", {1, 1}, formula("0.1")},
+                                                 {"T", {2, 1}, formula("1/10000")},
+                                                 {"c", {3, 1}, formula("k*T + sqrt(2)")}},
+                                                {&use});
+  REQUIRE(constants.size() == 5);
+  CHECK(constants[0].value.lower() < constants[0].value.upper());
+  CHECK(constants[0].nearest == 0.1);
+  CHECK(constants[2].name == "c");
+  CHECK(std::abs(constants[2].nearest - (1e-5 + std::sqrt(2.0))) < 1e-15);
+  CHECK(contains(constants[2].value, constants[2].nearest));
+  CHECK(constants[3].name == "2");
+  CHECK(constants[3].value.lower() == constants[3].value.upper());
+  CHECK(constants[4].name == "pi");
+  CHECK(constants[4].nearest == std::acos(-1.0));
+  const auto refused = [](const char* text) {
+    const rigor::UpwardRounding scope_of_it;
+    (void)collect_constants({{"k", {1, 1}, formula(text)}}, {});
+  };
+  CHECK_THROWS_WITH_AS(refused("1/0"), "the value of k is undefined, or not finite", LanguageError);
+  CHECK_THROWS_WITH_AS(refused("asin(2)"), "the value of k is undefined, or not finite", LanguageError);
+  CHECK_THROWS_WITH_AS(refused("1e999"), "1e999 is not a number in the range of double precision",
+                       LanguageError);
+  CHECK_THROWS_WITH_AS(refused("k"), "unknown name k; allowed: numbers", LanguageError);
+}
+
+TEST_CASE("what cannot be understood is told with its place and with what is allowed") {
+  CHECK(message("s' = sigma + 1\nt' = t") ==
+        "1:6: unknown name sigma; nearest known name: s; allowed: k, s, t, y");
+  CHECK(message("s' = phi\nt' = t") ==
+        "1:6: phi is the phase of the tone, which cannot be used here; allowed: k, s, "
+        "t, y");
+  CHECK(message("s' = sin\nt' = t") == "1:6: sin is a function; allowed: sin(...)");
+  CHECK(message("s' = s\n") == "9:9: the state t has no next value; allowed: a line t' = ...");
+  CHECK(message("s' = s\nt' = t\ns' = 2") ==
+        "3:1: s' is defined a second time; allowed: one definition of each name");
+  CHECK(message("s' = a\na = b + t'\nb = 2*a\nt' = t") ==
+        "2:1: a circle of definitions: a needs b needs a; allowed: formulas that end at states, samples and "
+        "parameters");
+  CHECK(message("s' = s\nt' = t\ny = 3") ==
+        "3:1: y is a state, a sample or a parameter; allowed: a name of its own, or the next value of a "
+        "state, with "
+        "a prime");
+  CHECK(message("s' = s\nt' = t\nu' = 3") ==
+        "3:1: u' is no next value of a state; nearest state: s; allowed: s, t");
+  CHECK(message("s' = s\nt' = t\npi = 3") == "3:1: pi is the circle constant; allowed: another name");
+  CHECK(message("s' = atan2(s)\nt' = t") == "1:6: atan2 has 1 arguments; allowed: 2");
+  CHECK(message("s' = max(s, 0)\nt' = t") ==
+        "1:6: max is not smooth; allowed here: stays_within(x, low, high), which is x, if max never acts in "
+        "lock (it "
+        "is proved then that low < x < high)");
+  CHECK(
+      message("s' = sine(s)\nt' = t").starts_with("1:6: unknown function sine; nearest: sin; allowed: sqrt"));
+  CHECK(message("s' = pow(s, 2)\nt' = t").starts_with("1:6: pow is unknown; allowed: x^n"));
+}
+
+}  // namespace
+}  // namespace veritrack::certificates::language

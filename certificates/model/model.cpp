@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "certificates/design/nearest_key.hpp"
+#include "certificates/model/language/extended_kalman_filter.hpp"
 
 namespace veritrack::certificates {
 
@@ -79,6 +82,94 @@ std::vector<const Expression*> pointers(const std::vector<Expression>& formulas)
   return result;
 }
 
+/// What the step is made of: its lines, or the model of a filter.
+struct Recipe {
+  Position position;
+  std::vector<Definition> step;
+  std::optional<language::FilterModel> filter;
+  std::vector<Expression> literals;  ///< that the filter needs beside its own
+
+  [[nodiscard]] std::vector<const Expression*> formulas() const {
+    std::vector<const Expression*> all;
+    for (const Definition& definition : filter ? filter->predict : step) {
+      all.push_back(&definition.value);
+    }
+    if (filter) {
+      for (const auto* matrix : {&filter->process_noise, &filter->measurement_noise, &filter->jacobian}) {
+        for (const std::vector<Expression>& row : *matrix) {
+          for (const Expression& entry : row) {
+            all.push_back(&entry);
+          }
+        }
+      }
+      for (const Expression& formula : filter->measure) {
+        all.push_back(&formula);
+      }
+    }
+    for (const Expression& literal : literals) {
+      all.push_back(&literal);
+    }
+    return all;
+  }
+};
+
+/// A square matrix of formulas with that many rows. Throws LanguageError.
+std::vector<std::vector<Expression>> square_matrix(const std::vector<std::vector<SourceText>>& rows,
+                                                   std::size_t size, std::string_view name) {
+  std::vector<std::vector<Expression>> matrix;
+  for (const std::vector<SourceText>& row : rows) {
+    if (row.size() != size || rows.size() != size) {
+      throw LanguageError(row.front().position,
+                          fmt::format("{} has {} rows, and one of {} entries; allowed: {} of "
+                                      "each",
+                                      name, rows.size(), row.size(), size));
+    }
+    matrix.emplace_back();
+    for (const SourceText& entry : row) {
+      matrix.back().push_back(language::parse_expression(entry));
+    }
+  }
+  return matrix;
+}
+
+Recipe recipe_of(const ModelTable& table) {
+  if (!table.ekf) {
+    return {table.step.position, language::parse_definitions(table.step), std::nullopt, {}};
+  }
+  const ModelEkfTable& ekf = *table.ekf;
+  language::FilterModel filter;
+  filter.states = texts(ekf.states);
+  filter.predict = language::parse_definitions(ekf.predict);
+  for (const SourceText& formula : ekf.measure) {
+    filter.measure.push_back(language::parse_expression(formula));
+  }
+  if (ekf.measure.size() != table.samples.size()) {
+    throw LanguageError(ekf.measure.front().position,
+                        fmt::format("{} formulas to measure; allowed: as many as there are samples, {}",
+                                    ekf.measure.size(), table.samples.size()));
+  }
+  filter.process_noise = square_matrix(ekf.process_noise, ekf.states.size(), "Q");
+  filter.measurement_noise = square_matrix(ekf.measurement_noise, ekf.measure.size(), "R");
+  filter.jacobian = square_matrix(ekf.jacobian, ekf.states.size(), "the Jacobian");
+  std::vector<Expression> literals = language::literals_of_derivatives(filter);
+  return {ekf.predict.position, {}, std::move(filter), std::move(literals)};
+}
+
+/// The start of a filter: a covariance of 1 and 0 where none is given.
+std::vector<NamedText> with_start_covariance(std::vector<NamedText> start,
+                                             const std::vector<std::string>& states) {
+  for (const std::string& state : states) {
+    const bool is_given = std::any_of(start.begin(), start.end(),
+                                      [&](const NamedText& entry) { return entry.name.text == state; });
+    if (state.starts_with("P.") && !is_given) {
+      const std::size_t dot = state.find('.', 2);
+      const bool is_diagonal = state.substr(2, dot - 2) == state.substr(dot + 1);
+      start.push_back({{state, {}}, {is_diagonal ? "1" : "0", {}}});
+    }
+  }
+  return start;
+}
+
 /// The tone alone: in phase, and in quadrature.
 std::vector<SourceText> usual_signal(std::size_t samples) {
   return samples == 1 ? std::vector<SourceText>{{"A*cos(phi)", {}}}
@@ -90,7 +181,7 @@ std::vector<SourceText> usual_signal(std::size_t samples) {
 Model make_model(const ModelTable& table, const std::vector<SourceText>& signal) {
   std::set<std::string> taken;
   require_names(table.samples, taken);
-  require_names(table.states, taken);
+  require_names(table.ekf ? table.ekf->states : table.states, taken);
   std::vector<NamedFormula> parameters;
   Model model;
   for (const NamedText& parameter : table.parameters) {
@@ -100,10 +191,12 @@ Model make_model(const ModelTable& table, const std::vector<SourceText>& signal)
     model.parameter_texts.push_back(parameter.formula.text);
   }
   model.samples = texts(table.samples);
-  model.states = texts(table.states);
-  const std::vector<Definition> step = language::parse_definitions(table.step);
+  const Recipe recipe = recipe_of(table);
+  model.states = recipe.filter ? language::filter_states(recipe.filter->states) : texts(table.states);
   const Expression frequency = language::parse_expression(table.frequency);
-  const std::vector<Expression> start = formulas_of(table.start, model.states, table.step.position, "start");
+  const std::vector<Expression> start =
+      formulas_of(recipe.filter ? with_start_covariance(table.start, model.states) : table.start,
+                  model.states, recipe.position, "start");
   std::vector<Expression> samples;
   const std::vector<SourceText> signal_texts = signal.empty() ? usual_signal(table.samples.size()) : signal;
   if (signal_texts.size() != table.samples.size()) {
@@ -116,17 +209,18 @@ Model make_model(const ModelTable& table, const std::vector<SourceText>& signal)
   }
 
   std::vector<const Expression*> all = pointers(start);
-  for (const Definition& definition : step) {
-    all.push_back(&definition.value);
-  }
+  const std::vector<const Expression*> of_recipe = recipe.formulas();
+  all.insert(all.end(), of_recipe.begin(), of_recipe.end());
   all.push_back(&frequency);
   for (const Expression& sample : samples) {
     all.push_back(&sample);
   }
   model.constants = language::collect_constants(parameters, all);
 
-  model.step =
-      language::compile_step(step, model.constants, model.states, model.samples, table.step.position);
+  model.step = recipe.filter
+                   ? language::compile_filter(*recipe.filter, model.constants, model.samples, recipe.position)
+                   : language::compile_step(recipe.step, model.constants, model.states, model.samples,
+                                            recipe.position);
   model.frequency = language::compile_formulas({&frequency}, model.constants, model.states);
   model.start = language::compile_formulas(pointers(start), model.constants, {"A", "omega"}).program;
   model.signal = language::compile_formulas(pointers(samples), model.constants, {"A", "phi"}).program;

@@ -21,6 +21,7 @@ struct ModelEkfTable {
   std::vector<SourceText> states;
   SourceText predict;
   std::vector<SourceText> measure;                         ///< one for each channel
+  std::vector<std::vector<SourceText>> jacobian;           ///< F, row by row; none: the derivative of predict
   std::vector<std::vector<SourceText>> process_noise;      ///< Q, row by row
   std::vector<std::vector<SourceText>> measurement_noise;  ///< R, row by row
 };
@@ -35,7 +36,7 @@ struct ModelTable {
   SourceText step;
   SourceText frequency;
   std::vector<NamedText> start;
-  std::optional<ModelEkfTable> ekf;
+  std::optional<ModelEkfTable> ekf;  ///< in place of states and step
 };
 
 /// [assume] of a model.

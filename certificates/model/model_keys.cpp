@@ -1,7 +1,9 @@
 // The keys of a design file for the tracker "model".
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +59,64 @@ void text(const TomlValue& value, Owner<member>& target) {
   target.*member = value.source_text(limit);
 }
 
+/// A matrix of formulas, row by row; a formula alone is a matrix of one.
+std::vector<std::vector<SourceText>> matrix_of_texts(const TomlValue& value) {
+  std::vector<std::vector<SourceText>> rows;
+  if (!value.is_array()) {
+    rows.push_back({value.source_text(kLongestFormula)});
+    return rows;
+  }
+  for (const TomlValue& row : value.elements(1, kMostStates)) {
+    rows.push_back(text_or_list(row, kMostStates));
+  }
+  return rows;
+}
+
+void require_word(const TomlValue& value, std::string_view word) {
+  if (!value.is_string() || value.line_of_text(100) != word) {
+    value.refuse_kind();
+  }
+}
+
+constexpr std::array<std::string_view, 7> kEkfKeys{"states", "predict", "measure", "Q",
+                                                   "R",      "update",  "jacobian"};
+
+void extended_kalman_filter(const TomlValue& value, ModelTable& target) {
+  ModelEkfTable ekf;
+  std::vector<std::string_view> given;
+  for (const auto& [name, entry] : value.members()) {
+    const std::string& key = name.text;
+    const auto* const known = std::find(kEkfKeys.begin(), kEkfKeys.end(), key);
+    if (known == kEkfKeys.end()) {
+      entry.refuse("not known");
+    }
+    given.push_back(*known);
+    if (key == "states") {
+      ekf.states = text_or_list(entry, kMostStates);
+    } else if (key == "predict") {
+      ekf.predict = entry.source_text(kLongestStep);
+    } else if (key == "measure") {
+      ekf.measure = text_or_list(entry, 2);
+    } else if (key == "Q") {
+      ekf.process_noise = matrix_of_texts(entry);
+    } else if (key == "R") {
+      ekf.measurement_noise = matrix_of_texts(entry);
+    } else if (key == "update") {
+      require_word(entry, "standard");
+    } else if (entry.is_array()) {
+      ekf.jacobian = matrix_of_texts(entry);
+    } else {
+      require_word(entry, "automatic");
+    }
+  }
+  for (const std::string_view key : std::span(kEkfKeys).first(5)) {
+    if (std::find(given.begin(), given.end(), key) == given.end()) {
+      value.refuse(fmt::format("without {}", key));
+    }
+  }
+  target.ekf = ekf;
+}
+
 using Table = ModelTable;
 constexpr std::string_view kFormula = "a formula between single quotes, or a number";
 constexpr std::string_view kNames = "a list of names, e.g. ['alpha', 'beta', 'w']";
@@ -66,13 +126,18 @@ constexpr std::array kModelKeys{
                list<&Table::samples, 2>, kRequired},
     Key<Table>{"parameters", "a table of numbers and formulas, e.g. { k = 1.4142, T = '1/10000' }",
                names_and_formulas<&Table::parameters>, kOptional},
-    Key<Table>{"states", kNames, list<&Table::states, kMostStates>, kRequired},
+    Key<Table>{"states", kNames, list<&Table::states, kMostStates>, kOptional},
     Key<Table>{"angles", "a list of the states that are angles, e.g. ['theta']",
                list<&Table::angles, kMostStates>, kOptional},
     Key<Table>{"units", "a table of the units of states, e.g. { w = 'rad/s' }",
                names_and_formulas<&Table::units>, kOptional},
     Key<Table>{"step", "lines name = formula and state' = formula, between three single quotes",
-               text<&Table::step, kLongestStep>, kRequired},
+               text<&Table::step, kLongestStep>, kOptional},
+    Key<Table>{"ekf",
+               "in place of states and step, a table with states, predict, measure, Q, R, update = "
+               "'standard' (may be "
+               "left out) and jacobian = 'automatic' (may be left out) or a list of rows",
+               extended_kalman_filter, kOptional},
     Key<Table>{"frequency", "a formula of the states: the estimated frequency in rad/sample",
                text<&Table::frequency, kLongestFormula>, kRequired},
     Key<Table>{"start", "a table of formulas in A and omega, one for each state",
@@ -156,6 +221,9 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
   if ((assume.frequency_in_hertz || assume.slew_in_hertz_per_second) && !assume.sample_rate) {
     return TableObjection{
         "assume", "a frequency in Hz without sample_rate; allowed: sample_rate = ..., in Hz", {}};
+  }
+  if (model.ekf.has_value() == !model.states.empty() || model.ekf.has_value() == !model.step.text.empty()) {
+    return TableObjection{"model", "allowed: either states and step, or the table [model.ekf]", {}};
   }
   try {
     (void)make_model(model, assume.signal);

@@ -186,12 +186,27 @@ class RecursionWriter {
   [[nodiscard]] const std::vector<std::string>& samples() const { return samples_; }
   [[nodiscard]] std::vector<std::string> next() { return identifiers_.of(primed(model_->states)); }
 
-  /// Parameters and pi, as statements.
+  /// The states that the step, or the frequency, depends on, and the samples that the step does: statements
+  /// that take them out of arrays are made of the places that are not empty.
+  [[nodiscard]] std::vector<std::string> states_of_step() const {
+    return used(model_->step.program, states_, 0);
+  }
+  [[nodiscard]] std::vector<std::string> states_of_frequency() const {
+    return used(model_->frequency.program, states_, 0);
+  }
+  [[nodiscard]] std::vector<std::string> samples_of_step() const {
+    return used(model_->step.program, samples_, states_.size());
+  }
+
+  /// Parameters and pi, as statements; code has those that it uses.
   [[nodiscard]] std::string parameters(std::string_view indent, std::string_view type) {
     std::string text;
     for (std::size_t i = 0; i < model_->constants.size(); ++i) {
       const language::Constant& constant = model_->constants[i];
-      if (constant.is_literal && constant.name != "pi") {
+      const bool is_in_use = depends_on(model_->step.program, i) ||
+                             depends_on(model_->frequency.program, i) || depends_on(model_->start, i) ||
+                             dialect_->language == CodeLanguage::formulas;
+      if ((constant.is_literal && constant.name != "pi") || !is_in_use) {
         continue;
       }
       const std::string from =
@@ -227,6 +242,26 @@ class RecursionWriter {
   }
 
  private:
+  /// Whether an instruction or a result of the program is that input.
+  [[nodiscard]] static bool depends_on(const trackers::StraightLineProgram& program, std::size_t input) {
+    const int place = static_cast<int>(input);
+    const auto& made = program.instructions();
+    return std::count(program.results().begin(), program.results().end(), place) > 0 ||
+           std::any_of(made.begin(), made.end(), [&](const trackers::Instruction& instruction) {
+             return instruction.first == place || instruction.second == place || instruction.third == place;
+           });
+  }
+  /// The names, empty where the program does not depend on them. They are inputs behind the constants and
+  /// `offset` others.
+  [[nodiscard]] std::vector<std::string> used(const trackers::StraightLineProgram& program,
+                                              std::vector<std::string> names, std::size_t offset) const {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (!depends_on(program, constants_.size() + offset + i)) {
+        names[i].clear();
+      }
+    }
+    return names;
+  }
   /// A literal of floating point: in C, 1/2 is 0.
   [[nodiscard]] std::string literal(const std::string& text) const {
     const bool is_whole = text.find_first_of(".eE") == std::string::npos;
@@ -262,7 +297,7 @@ std::string as_c(RecursionWriter& writer, std::string_view title) {
   const auto unpack = [](const std::vector<std::string>& names, std::string_view array) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      text += fmt::format("  const double {} = {}[{}];\n", names[i], array, i);
+      text += names[i].empty() ? "" : fmt::format("  const double {} = {}[{}];\n", names[i], array, i);
     }
     return text;
   };
@@ -317,9 +352,9 @@ void tracker_start(double A, double omega, double *state) {{
 {}{}}}
 )",
       title, writer.parameters("", "static const double "), writer.states().size(), writer.samples().size(),
-      unpack(writer.states(), "state"), unpack(writer.samples(), "sample"),
+      unpack(writer.states_of_step(), "state"), unpack(writer.samples_of_step(), "sample"),
       writer.statements(writer.step(), "  ", kType), pack(writer.next(), "next"),
-      unpack(writer.states(), "state"), writer.statements(writer.frequency(), "  ", kType),
+      unpack(writer.states_of_frequency(), "state"), writer.statements(writer.frequency(), "  ", kType),
       writer.statements(writer.start(), "  ", kType), pack(writer.states(), "state"));
 }
 
@@ -377,7 +412,7 @@ std::string as_octave(RecursionWriter& writer, std::string_view title) {
   const auto unpack = [](const std::vector<std::string>& names, std::string_view array) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      text += fmt::format("  {} = {}({});\n", names[i], array, i + 1);
+      text += names[i].empty() ? "" : fmt::format("  {} = {}({});\n", names[i], array, i + 1);
     }
     return text;
   };
@@ -415,10 +450,10 @@ function state = tracker_start(A, omega)  % the state where the search for the s
 {}{}  state = [{}];
 end
 )",
-      title, parameters, unpack(writer.states(), "state"), unpack(writer.samples(), "sample"),
+      title, parameters, unpack(writer.states_of_step(), "state"), unpack(writer.samples_of_step(), "sample"),
       writer.statements(writer.step(), "  ", ""), fmt::join(writer.next(), "; "), parameters,
-      unpack(writer.states(), "state"), writer.statements(writer.frequency(), "  ", ""), parameters,
-      writer.statements(writer.start(), "  ", ""), fmt::join(writer.states(), "; "));
+      unpack(writer.states_of_frequency(), "state"), writer.statements(writer.frequency(), "  ", ""),
+      parameters, writer.statements(writer.start(), "  ", ""), fmt::join(writer.states(), "; "));
 }
 
 }  // namespace

@@ -1,0 +1,199 @@
+#include "certificates/model/language/program_builder.hpp"
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace veritrack::certificates::language {
+
+using trackers::Instruction;
+using trackers::Operation;
+
+ProgramBuilder::ProgramBuilder(const Constants& constants, int other_inputs) : constants_(&constants) {
+  result_.program = trackers::StraightLineProgram(static_cast<int>(constants.size()) + other_inputs);
+}
+
+Term ProgramBuilder::append(const Instruction& instruction) {
+  const int place = result_.program.append(instruction);
+  if (result_.program.instructions().size() > result_.positions.size()) {
+    result_.positions.push_back(position_);
+  }
+  return Term::of_register(place);
+}
+
+int ProgramBuilder::place_of(Term term) const {
+  return term.is_zero() || term.is_one() ? literal(term.is_zero() ? "0" : "1").place() : term.place();
+}
+
+Term ProgramBuilder::literal(const std::string& text) const {
+  for (std::size_t i = 0; i < constants_->size(); ++i) {
+    if ((*constants_)[i].name == text) {
+      return Term::of_register(static_cast<int>(i));
+    }
+  }
+  throw std::logic_error("the literal " + text + " is not among the constants");
+}
+
+Term ProgramBuilder::add(Term a, Term b) {
+  if (a.is_zero() || b.is_zero()) {
+    return a.is_zero() ? b : a;
+  }
+  return append({Operation::add, place_of(a), place_of(b)});
+}
+
+Term ProgramBuilder::subtract(Term a, Term b) {
+  if (b.is_zero()) {
+    return a;
+  }
+  return a.is_zero() ? negate(b) : append({Operation::subtract, place_of(a), place_of(b)});
+}
+
+Term ProgramBuilder::multiply(Term a, Term b) {
+  if (a.is_zero() || b.is_zero()) {
+    return Term::zero();
+  }
+  if (a.is_one() || b.is_one()) {
+    return a.is_one() ? b : a;
+  }
+  return append({Operation::multiply, place_of(a), place_of(b)});
+}
+
+Term ProgramBuilder::divide(Term a, Term b) {
+  return a.is_zero() || b.is_one() ? a : append({Operation::divide, place_of(a), place_of(b)});
+}
+
+Term ProgramBuilder::negate(Term a) {
+  return a.is_zero() ? a : append({Operation::negate, place_of(a)});
+}
+
+Term ProgramBuilder::apply(Operation operation, Term a) {
+  return append({operation, place_of(a)});
+}
+
+Differentiated ProgramBuilder::differentiate(const Instruction& instruction,
+                                             const std::vector<Differentiated>& registers) {
+  const auto operand = [&](int place) -> const Differentiated& {
+    return registers[static_cast<std::size_t>(place)];
+  };
+  const Differentiated& a = operand(instruction.first);
+  const bool has_second = instruction.second >= 0;
+  const Differentiated& b = has_second ? operand(instruction.second) : a;
+  const Term value = append({instruction.operation, place_of(a.value), has_second ? place_of(b.value) : -1,
+                             instruction.third >= 0 ? place_of(operand(instruction.third).value) : -1,
+                             instruction.exponent});
+  Differentiated result{value, {}};
+  for (std::size_t i = 0; i < a.derivatives.size(); ++i) {
+    const Term da = a.derivatives[i];
+    const Term db = b.derivatives[i];
+    if (da.is_zero() && (!has_second || db.is_zero())) {
+      result.derivatives.push_back(Term::zero());
+      continue;
+    }
+    // Only what is needed is computed: each case stands alone.
+    const auto one_over = [&](Term denominator) { return divide(da, denominator); };
+    const auto square = [&](Term term) { return append({Operation::power, place_of(term), -1, -1, 2}); };
+    Term derivative = Term::zero();
+    switch (instruction.operation) {
+      case Operation::add:
+        derivative = add(da, db);
+        break;
+      case Operation::subtract:
+        derivative = subtract(da, db);
+        break;
+      case Operation::multiply:
+        derivative = add(multiply(da, b.value), multiply(a.value, db));
+        break;
+      case Operation::divide:
+        derivative = divide(subtract(da, multiply(value, db)), b.value);
+        break;
+      case Operation::negate:
+        derivative = negate(da);
+        break;
+      case Operation::power: {
+        const int n = instruction.exponent;
+        const Term lower = n <= 1   ? Term::one()
+                           : n == 2 ? a.value
+                                    : append({Operation::power, place_of(a.value), -1, -1, n - 1});
+        const Term factor = n == 0   ? Term::zero()
+                            : n == 1 ? Term::one()
+                                     : multiply(literal(std::to_string(n)), lower);
+        derivative = multiply(factor, da);
+        break;
+      }
+      case Operation::sqrt:
+        derivative = one_over(multiply(literal("2"), value));
+        break;
+      case Operation::exp:
+        derivative = multiply(value, da);
+        break;
+      case Operation::log:
+        derivative = one_over(a.value);
+        break;
+      case Operation::sin:
+        derivative = multiply(apply(Operation::cos, a.value), da);
+        break;
+      case Operation::cos:
+        derivative = negate(multiply(apply(Operation::sin, a.value), da));
+        break;
+      case Operation::tan:
+        derivative = multiply(add(Term::one(), square(value)), da);
+        break;
+      case Operation::asin:
+        derivative = one_over(apply(Operation::sqrt, subtract(Term::one(), square(a.value))));
+        break;
+      case Operation::acos:
+        derivative = negate(one_over(apply(Operation::sqrt, subtract(Term::one(), square(a.value)))));
+        break;
+      case Operation::atan:
+        derivative = one_over(add(Term::one(), square(a.value)));
+        break;
+      case Operation::atan2:
+        derivative = divide(subtract(multiply(b.value, da), multiply(a.value, db)),
+                            add(square(a.value), square(b.value)));
+        break;
+      case Operation::stays_within:
+        derivative = da;
+        break;
+    }
+    result.derivatives.push_back(derivative);
+  }
+  return result;
+}
+
+std::vector<Differentiated> ProgramBuilder::run(const CompiledProgram& compiled,
+                                                const std::vector<Differentiated>& inputs) {
+  const std::size_t states = inputs.empty() ? 0 : inputs.front().derivatives.size();
+  std::vector<Differentiated> registers;
+  registers.reserve(static_cast<std::size_t>(compiled.program.registers()));
+  for (std::size_t i = 0; i < constants_->size(); ++i) {
+    registers.push_back({Term::of_register(static_cast<int>(i)), std::vector<Term>(states, Term::zero())});
+  }
+  registers.insert(registers.end(), inputs.begin(), inputs.end());
+  for (std::size_t i = 0; i < compiled.program.instructions().size(); ++i) {
+    position_ = compiled.positions[i];
+    registers.push_back(differentiate(compiled.program.instructions()[i], registers));
+    const auto named = compiled.names.find(compiled.program.inputs() + static_cast<int>(i));
+    if (named != compiled.names.end() && named->second.back() != '\'') {
+      name(registers.back().value, named->second);
+    }
+  }
+  std::vector<Differentiated> results;
+  results.reserve(compiled.program.results().size());
+  for (const int place : compiled.program.results()) {
+    results.push_back(registers[static_cast<std::size_t>(place)]);
+  }
+  return results;
+}
+
+void ProgramBuilder::name(Term term, const std::string& name) {
+  if (!term.is_zero() && !term.is_one()) {
+    result_.names.try_emplace(term.place(), name);
+  }
+}
+
+void ProgramBuilder::add_result(Term term) {
+  result_.program.add_result(place_of(term));
+}
+
+}  // namespace veritrack::certificates::language

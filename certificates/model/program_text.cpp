@@ -111,10 +111,17 @@ class Writer {
   std::vector<std::string> names_;
 };
 
-/// How often each register is an operand.
+/// How often each register is a result, or an operand of what the results depend on.
 std::vector<int> uses(const StraightLineProgram& program) {
   std::vector<int> counts(static_cast<std::size_t>(program.registers()), 0);
-  for (const Instruction& instruction : program.instructions()) {
+  for (const int place : program.results()) {
+    ++counts[static_cast<std::size_t>(place)];
+  }
+  for (std::size_t i = program.instructions().size(); i-- > 0;) {
+    const Instruction& instruction = program.instructions()[i];
+    if (counts[static_cast<std::size_t>(program.inputs()) + i] == 0) {
+      continue;
+    }
     for (const int place : {instruction.first, instruction.second, instruction.third}) {
       if (place >= 0) {
         ++counts[static_cast<std::size_t>(place)];
@@ -141,10 +148,14 @@ std::vector<Assignment> assignments(const StraightLineProgram& program,
   std::vector<Assignment> lines;
   int unnamed = 0;
   for (int place = program.inputs(); place < program.registers(); ++place) {
+    const int count = counts[static_cast<std::size_t>(place)];
+    if (count == 0) {
+      continue;  // nothing depends on it
+    }
     const auto named = names.find(place);
     const std::string& result = result_of[static_cast<std::size_t>(place)];
     std::string name = !result.empty() ? result : named != names.end() ? named->second : std::string();
-    if (name.empty() && counts[static_cast<std::size_t>(place)] > 1) {
+    if (name.empty() && count > 1) {
       name = fmt::format("{}{}", prefix, ++unnamed);
     }
     if (!name.empty()) {

@@ -30,10 +30,12 @@ class FilterWriter {
         builder_(constants, static_cast<int>(filter_states(model.states).size() + samples.size())) {}
 
   [[nodiscard]] CompiledProgram write(Position place) {
+    const bool by_the_chain_rule = model_->jacobian.empty();
     std::vector<Differentiated> predicted =
-        builder_.run(compile_step(model_->predict, *constants_, model_->states, {}, place), estimates());
-    if (!model_->jacobian.empty()) {
-      replace_derivatives(predicted);
+        builder_.run(compile_step(model_->predict, *constants_, model_->states, {}, place),
+                     by_the_chain_rule ? with_unit_derivatives(estimates()) : estimates());
+    if (!by_the_chain_rule) {
+      set_derivatives(predicted);
     }
     for (std::size_t i = 0; i < states_; ++i) {
       builder_.name(predicted[i].value, model_->states[i] + ".predicted");
@@ -67,33 +69,29 @@ class FilterWriter {
     for (std::size_t i = 0; i < states_; ++i) {
       terms[i].value = input(i);
     }
-    return with_unit_derivatives(terms);
+    return terms;
   }
-  /// Puts the given F in the place of the derivatives.
-  void replace_derivatives(std::vector<Differentiated>& predicted) {
+  /// The given F.
+  void set_derivatives(std::vector<Differentiated>& predicted) {
     for (std::size_t i = 0; i < states_; ++i) {
-      for (std::size_t j = 0; j < states_; ++j) {
-        const Expression& formula = model_->jacobian[i][j];
-        predicted[i].derivatives[j] =
-            is_zero(formula)
-                ? Term::zero()
-                : builder_.run(compile_formulas({&formula}, *constants_, model_->states), estimates())
-                      .front()
-                      .value;
+      for (const Expression& formula : model_->jacobian[i]) {
+        predicted[i].derivatives.push_back(term_of(formula, model_->states, estimates()));
       }
     }
   }
-  [[nodiscard]] static bool is_zero(const Expression& formula) {
-    return formula.kind == Expression::Kind::number &&
-           formula.text.find_first_not_of("0.") == std::string::npos;
-  }
-  /// An entry of Q or R.
-  [[nodiscard]] Term entry(const Expression& formula) {
-    if (is_zero(formula)) {
+  /// A formula of these inputs; 0 and 1 are left out of sums and products.
+  [[nodiscard]] Term term_of(const Expression& formula, const std::vector<std::string>& names,
+                             const std::vector<Differentiated>& inputs) {
+    if (formula.kind == Expression::Kind::number &&
+        formula.text.find_first_not_of("0.") == std::string::npos) {
       return Term::zero();
     }
-    return builder_.run(compile_formulas({&formula}, *constants_, {}), {}).front().value;
+    return formula.text == "1"
+               ? Term::one()
+               : builder_.run(compile_formulas({&formula}, *constants_, names), inputs).front().value;
   }
+  /// An entry of Q or R.
+  [[nodiscard]] Term entry(const Expression& formula) { return term_of(formula, {}, {}); }
   /// sum_k a_k b_k.
   [[nodiscard]] Term dot(const std::vector<Term>& a, const std::vector<Term>& b) {
     Term sum = Term::zero();

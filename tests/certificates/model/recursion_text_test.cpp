@@ -20,8 +20,8 @@ namespace {
 
 std::vector<std::filesystem::path> model_designs() {
   std::vector<std::filesystem::path> paths;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(VERITRACK_SOURCE_DIR) / "designs" / "models")) {
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(VERITRACK_SOURCE_DIR) /
+                                                               "designs" / "models")) {
     paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
@@ -39,11 +39,13 @@ Model model_of(const std::filesystem::path& path) {
 class CompiledStep {
  public:
   explicit CompiledStep(const std::string& code) {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "veritrack-recursion-text-test";
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / "veritrack-recursion-text-test";
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "tracker.c") << code;
     const std::string command = "cc -O2 -Wall -Werror -ffp-contract=off -shared -fPIC " +
-                                (folder / "tracker.c").string() + " -o " + (folder / "tracker.so").string() + " -lm";
+                                (folder / "tracker.c").string() + " -o " + (folder / "tracker.so").string() +
+                                " -lm";
     REQUIRE(std::system(command.c_str()) == 0);  // NOLINT(concurrency-mt-unsafe)
     library_ = dlopen((folder / "tracker.so").c_str(), RTLD_NOW);
     REQUIRE(library_ != nullptr);

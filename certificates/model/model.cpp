@@ -170,13 +170,15 @@ std::vector<NamedText> with_start_covariance(std::vector<NamedText> start,
   return start;
 }
 
-/// The tone alone: in phase, and in quadrature.
-std::vector<SourceText> usual_signal(std::size_t samples) {
-  return samples == 1 ? std::vector<SourceText>{{"A*cos(phi)", {}}}
-                      : std::vector<SourceText>{{"A*cos(phi)", {}}, {"A*sin(phi)", {}}};
-}
-
 }  // namespace
+
+std::vector<SourceText> signal_of(const ModelTable& table, const std::vector<SourceText>& signal) {
+  if (!signal.empty()) {
+    return signal;
+  }
+  return table.samples.size() == 1 ? std::vector<SourceText>{{"A*cos(phi)", {}}}
+                                   : std::vector<SourceText>{{"A*cos(phi)", {}}, {"A*sin(phi)", {}}};
+}
 
 Model make_model(const ModelTable& table, const std::vector<SourceText>& signal) {
   std::set<std::string> taken;
@@ -198,7 +200,7 @@ Model make_model(const ModelTable& table, const std::vector<SourceText>& signal)
       formulas_of(recipe.filter ? with_start_covariance(table.start, model.states) : table.start,
                   model.states, recipe.position, "start");
   std::vector<Expression> samples;
-  const std::vector<SourceText> signal_texts = signal.empty() ? usual_signal(table.samples.size()) : signal;
+  const std::vector<SourceText> signal_texts = signal_of(table, signal);
   if (signal_texts.size() != table.samples.size()) {
     throw LanguageError(signal_texts.front().position,
                         fmt::format("{} formulas for the signal; allowed: as many as there are samples, {}",

@@ -24,6 +24,10 @@ struct Model {
   trackers::StraightLineProgram signal{0};  ///< inputs A, phi: the samples, 2 pi-periodic in phi
 };
 
+/// The formulas of the signal; where none are given, the tone alone: in phase, and in quadrature.
+[[nodiscard]] std::vector<SourceText> signal_of(const ModelTable& table,
+                                                const std::vector<SourceText>& signal);
+
 /// Throws language::LanguageError, with a position in the design file, for what cannot be understood. Needs
 /// the upward rounding mode.
 [[nodiscard]] Model make_model(const ModelTable& table, const std::vector<SourceText>& signal);

@@ -40,6 +40,26 @@ Json named_json(const std::vector<NamedText>& texts) {
   return list;
 }
 
+Json matrix_json(const std::vector<std::vector<SourceText>>& rows) {
+  Json matrix = Json::array();
+  for (const std::vector<SourceText>& row : rows) {
+    matrix.push_back(texts_json(row));
+  }
+  return matrix;
+}
+
+Json filter_json(const ModelEkfTable& filter) {
+  Json json{{"states", texts_json(filter.states)},
+            {"predict", filter.predict.text},
+            {"measure", texts_json(filter.measure)},
+            {"Q", matrix_json(filter.process_noise)},
+            {"R", matrix_json(filter.measurement_noise)}};
+  if (!filter.jacobian.empty()) {
+    json["jacobian"] = matrix_json(filter.jacobian);
+  }
+  return json;
+}
+
 Json model_design_json(const Design& design) {
   const auto& [model, assume, require] = model_tables(design);
   Json assumed{{"amplitude", number_json(assume.amplitude)},
@@ -49,15 +69,18 @@ Json model_design_json(const Design& design) {
                {"slew", number_json(assume.slew)},
                {"slew_in_hertz_per_second", assume.slew_in_hertz_per_second}};
   add_number(assumed, "sample_rate", assume.sample_rate);
-  return {{"model",
-           {{"samples", texts_json(model.samples)},
-            {"parameters", named_json(model.parameters)},
-            {"states", texts_json(model.states)},
-            {"angles", texts_json(model.angles)},
-            {"step", model.step.text},
-            {"frequency", model.frequency.text},
-            {"signal", texts_json(assume.signal)}}},
-          {"assume", assumed}};
+  Json recursion{{"samples", texts_json(model.samples)},
+                 {"parameters", named_json(model.parameters)},
+                 {"angles", texts_json(model.angles)},
+                 {"frequency", model.frequency.text},
+                 {"signal", texts_json(signal_of(model, assume.signal))}};
+  if (model.ekf) {
+    recursion["ekf"] = filter_json(*model.ekf);
+  } else {
+    recursion["states"] = texts_json(model.states);
+    recursion["step"] = model.step.text;
+  }
+  return {{"model", recursion}, {"assume", assumed}};
 }
 
 /// Nothing is proved of a model yet; what is required says so.

@@ -2,7 +2,6 @@
 // recursion, so that no input can exhaust the memory for calls.
 #pragma once
 
-#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -24,6 +23,7 @@ struct FormulaStep {
   Kind kind = Kind::number;
   std::string text;  ///< of a number, name (with its prime) or function
   int count = 0;     ///< the exponent of a power, the number of arguments of a function
+  int slot = 0;      ///< of a number or name, once it is looked up: see ModelRecursion
 };
 
 /// A formula in postfix notation.
@@ -46,10 +46,10 @@ std::vector<FormulaLine> read_lines(std::string_view text);
 std::vector<FormulaLine> in_order_of_need(const std::vector<FormulaLine>& lines);
 
 /// The value of a formula over any scalar that has arithmetic, sqrt, exp, log, sin, cos, tangent, arcsine,
-/// arccosine, arctangent, arctangent2 and stays_within. `value_of` gives the values of numbers and names.
+/// arccosine, arctangent, arctangent2 and stays_within. `leaf` gives the values of numbers and names.
 /// Throws FormulaError for a function that is unknown, or has the wrong number of arguments.
-template <typename Scalar>
-Scalar value_of(const Formula& formula, const std::function<Scalar(const FormulaStep&)>& leaf);
+template <typename Scalar, typename Leaf>
+Scalar value_of(const Formula& formula, const Leaf& leaf);
 
 // ---- how
 
@@ -126,8 +126,8 @@ Scalar value_of_function(const std::string& name, const std::vector<Scalar>& arg
   throw FormulaError("no function " + name + " with that many arguments");
 }
 
-template <typename Scalar>
-Scalar value_of(const Formula& formula, const std::function<Scalar(const FormulaStep&)>& leaf) {
+template <typename Scalar, typename Leaf>
+Scalar value_of(const Formula& formula, const Leaf& leaf) {
   using Kind = FormulaStep::Kind;
   std::vector<Scalar> stack;
   const auto pop = [&] {

@@ -1,0 +1,113 @@
+// Ball models: polynomials in vectors that run over balls, with a bound on their error.
+//
+// The promise. A BallModel f represents a set of functions of x and v, each in a closed unit ball, and of s
+// and z in
+// [-1, 1]: all those that stay within `error()` of its polynomial. An operation on ball models gives one that
+// contains the result of the operation on all functions in its operands. The error includes truncation,
+// rounding, and the width of interval constants. Where that cannot be bounded the error is NaN, which means
+// "nothing is known", and stays NaN.
+//
+// A homogeneous polynomial p of degree m in x is bounded on the ball by Bombieri's norm, [p]^2 = sum
+// |c_alpha|^2 alpha!/m!, and [pq] <= [p][q] (B. Beauzamy, E. Bombieri, P. Enflo, H. Montgomery, 1990; by
+// Cauchy and Schwarz, p(x) being the inner product of a symmetric tensor with x^m, and symmetrisation being a
+// projection). The same holds with two vectors, a norm for each. The norm depends on |c_alpha| only: rounding
+// errors of coefficients are bounded by norms, too. Truncated products go into the error as products of
+// norms.
+//
+// Needs the upward rounding mode.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "analysis/rigor/ball_monomials.hpp"
+#include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::rigor {
+
+/// The monomials that this thread's ball models have, from construction to destruction. Scopes nest.
+class BallModelScope {
+ public:
+  BallModelScope(int balls, int disturbances);
+  ~BallModelScope();
+  BallModelScope(const BallModelScope&) = delete;
+  BallModelScope& operator=(const BallModelScope&) = delete;
+  BallModelScope(BallModelScope&&) = delete;
+  BallModelScope& operator=(BallModelScope&&) = delete;
+
+  /// Of the innermost scope of this thread. Throws std::logic_error when there is none.
+  [[nodiscard]] static const BallMonomials& monomials();
+
+ private:
+  const BallMonomials* outer_;
+  UpwardRounding upward_;
+};
+
+class BallModel {
+ public:
+  /// Zero; like all others, with the monomials of the scope.
+  BallModel();
+  /// The constant that this double is.
+  explicit BallModel(double constant);
+  explicit BallModel(int constant) : BallModel(static_cast<double>(constant)) {}
+  /// A function of which only the range is known; nothing is known of it unless the range is finite.
+  explicit BallModel(const Interval& range);
+
+  /// The component number `index` of x, of v, and s and z.
+  [[nodiscard]] static BallModel ball(int index);
+  [[nodiscard]] static BallModel disturbance(int index);
+  [[nodiscard]] static BallModel s();
+  [[nodiscard]] static BallModel z();
+
+  [[nodiscard]] const BallMonomials& monomials() const { return *monomials_; }
+  [[nodiscard]] const std::vector<double>& coefficients() const { return coefficients_; }
+  [[nodiscard]] double constant() const { return coefficients_[0]; }
+  /// An upper bound of the polynomial of a class, by the class's number.
+  [[nodiscard]] double norm(std::size_t number) const { return norms_[number]; }
+  /// At least 0; NaN when nothing is known.
+  [[nodiscard]] double error() const { return error_; }
+  /// An upper bound of |f - constant()|; NaN when nothing is known.
+  [[nodiscard]] double deviation() const;
+  /// Contains all values; empty when nothing is known.
+  [[nodiscard]] Interval range() const;
+  /// The same without the constant: f - constant().
+  [[nodiscard]] BallModel without_constant() const;
+  /// Every function that is within `more` of one of these.
+  [[nodiscard]] BallModel widened(double more) const;
+
+  friend BallModel operator+(const BallModel& a, const BallModel& b);
+  friend BallModel operator-(const BallModel& a, const BallModel& b);
+  friend BallModel operator-(const BallModel& a);
+  friend BallModel operator*(const BallModel& a, const BallModel& b);
+
+ private:
+  void add(const BallModel& other, double sign);
+  void find_norm(std::size_t number);
+  [[nodiscard]] double polynomial_bound() const;
+
+  const BallMonomials* monomials_;
+  std::vector<double> coefficients_;
+  std::vector<double> norms_;  ///< by class; 0 for a class without terms
+  double error_ = 0.0;
+};
+
+/// NaN where b can vanish.
+[[nodiscard]] BallModel operator/(const BallModel& a, const BallModel& b);
+[[nodiscard]] BallModel square(const BallModel& x);
+
+// NaN where the function is not smooth or not defined.
+[[nodiscard]] BallModel sqrt(const BallModel& x);
+[[nodiscard]] BallModel exp(const BallModel& x);
+[[nodiscard]] BallModel log(const BallModel& x);
+[[nodiscard]] BallModel sin(const BallModel& x);
+[[nodiscard]] BallModel cos(const BallModel& x);
+[[nodiscard]] BallModel tan(const BallModel& x);
+[[nodiscard]] BallModel asin(const BallModel& x);
+[[nodiscard]] BallModel acos(const BallModel& x);
+[[nodiscard]] BallModel atan(const BallModel& x);
+[[nodiscard]] BallModel atan2(const BallModel& y, const BallModel& x);
+/// x; NaN unless low < x < high is shown.
+[[nodiscard]] BallModel stays_within(const BallModel& x, const BallModel& low, const BallModel& high);
+
+}  // namespace veritrack::rigor

@@ -1,0 +1,24 @@
+// Whether a recursion knows its angles modulo 2 pi only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/rigor/interval.hpp"
+#include "trackers/model/model_tracker.hpp"
+
+namespace veritrack::model {
+
+/// What is not the same after a whole turn; empty when everything is. Checked by the form of the program: an
+/// angle, or a sum of whole multiples of angles, may stand in sin, cos and tan and in the next value of an
+/// angle, which must turn as the angle does; nothing else may depend on whole turns, nor the frequency.
+/// `constants` are the values of the constants, among which whole multiples are found.
+[[nodiscard]] std::string angle_objection(const trackers::Recursion& recursion,
+                                          const std::vector<rigor::Interval>& constants);
+
+/// Whether the results of a program (inputs: constants, amplitude, phase) have the period 2 pi in the phase,
+/// by the same check.
+[[nodiscard]] bool is_periodic(const trackers::StraightLineProgram& signal,
+                               const std::vector<rigor::Interval>& constants);
+
+}  // namespace veritrack::model

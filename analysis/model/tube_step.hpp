@@ -1,0 +1,56 @@
+// One step of a tracker in the coordinates of a tube, over a cell of phases and frequencies.
+//
+// With the tube C(phi, omega) + U(phi, omega) xi, the step from phi to phi + omega is
+//   F(xi, v) = U(phi + omega, omega)^-1 [G(C(phi, omega) + U(phi, omega) xi, Y(phi + omega) + v) - C(phi +
+//   omega, omega)],
+// an identity of the recursion G. If |F| <= R for all |xi| <= R and |v| <= V, for all phases and frequencies,
+// the tube of radius R is never left (docs/model-proof.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/model/tube.hpp"
+#include "analysis/rigor/ball_model.hpp"
+#include "analysis/rigor/interval.hpp"
+#include "trackers/model/model_tracker.hpp"
+
+namespace veritrack::model {
+
+/// The tracker and its signal, in numbers that can be trusted.
+struct TrackerModel {
+  const trackers::Recursion* recursion = nullptr;
+  const trackers::StraightLineProgram* signal = nullptr;  ///< inputs: constants, amplitude, phase
+  std::vector<rigor::Interval> constants;
+  rigor::Interval amplitude;
+};
+
+/// A part of a tube: phases 2 pi (turn - half_turn) to 2 pi (turn + half_turn), and z - half_z to z + half_z
+/// of the frequencies of the tube. Dyadic numbers, so that parts fit together exactly.
+struct TubeCell {
+  double turn = 0.5;
+  double half_turn = 0.5;
+  double z = 0.0;
+  double half_z = 1.0;
+};
+
+/// Bounds over a cell.
+struct StepBounds {
+  /// Of |F| for |xi| <= scale radius, one for each scale that was asked for; not finite when nothing is
+  /// known.
+  std::vector<double> steps;
+  /// Of h(C + U xi) - omega, |xi| <= radius, rad/sample; empty when nothing is known.
+  rigor::Interval frequency_error;
+  /// How much of the first bound comes from the width of the cell in phase, and in frequency: which to halve.
+  /// Not evidence.
+  double by_phase = 0.0;
+  double by_frequency = 0.0;
+};
+
+/// The bounds for |xi| <= scale radius, for each of the scales, in (0, 1], and |v| <= noise (the length of
+/// the error of all samples, signal units). Sets its own rounding mode. Throws std::invalid_argument when
+/// sizes do not fit.
+[[nodiscard]] StepBounds bound_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                                    double radius, double noise, const std::vector<double>& scales);
+
+}  // namespace veritrack::model

@@ -1,0 +1,49 @@
+// Is a tube of a given radius never left?
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "analysis/model/tube_step.hpp"
+#include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/verdict.hpp"
+
+namespace veritrack::model {
+
+/// What is asked of a radius.
+struct LevelQuestion {
+  double radius = 0.0;  ///< R
+  double noise = 0.0;   ///< V: |v| <= V, signal units
+  /// Every radius from `least_scale` R to R shrinks to at most `shrinking` of itself in a step; 1: none may
+  /// grow.
+  double least_scale = 1.0;
+  double shrinking = 1.0;
+};
+
+/// How much work a verification may take.
+struct VerificationBudget {
+  int phases = 32;      ///< parts of a turn to begin with
+  int frequencies = 1;  ///< parts of the tube's band to begin with
+  std::size_t most_cells = 20'000;
+};
+
+struct LevelResult {
+  rigor::Verdict verdict = rigor::Verdict::undecided;  ///< PROVED or UNDECIDED
+  std::string reason;                                  ///< why not PROVED
+  std::size_t cells = 0;                               ///< that were needed
+  /// PROVED: of h - omega in the tube of radius R, rad/sample.
+  rigor::Interval frequency_error;
+  TubeCell worst_cell;  ///< UNDECIDED: where it failed
+};
+
+/// Whether |F| <= shrinking r for all |xi| <= r, all r from least_scale R to R and all |v| <= V, for all
+/// phases and all frequencies of the tube: then a state of level r is at level shrinking r or below after the
+/// next sample, and so on. (The bound for |xi| <= scale R is convex in the scale, because coefficients of
+/// degree a are multiplied by scale^a and the error is kept: two ends decide.) Cells that fail are halved, up
+/// to the budget; cells are independent, and the result does not depend on the number of threads. UNDECIDED,
+/// with the reason, when the recursion does not know its angles modulo 2 pi only, when the signal is not 2
+/// pi-periodic in its phase, and when nothing is known somewhere.
+[[nodiscard]] LevelResult verify_level(const TrackerModel& model, const Tube& tube,
+                                       const LevelQuestion& question, const VerificationBudget& budget);
+
+}  // namespace veritrack::model

@@ -1,0 +1,158 @@
+// Trackers written as lists of operations, for the tests of proposals and proofs.
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "analysis/model/steady_state.hpp"
+#include "analysis/model/tube.hpp"
+#include "trackers/model/model_tracker.hpp"
+
+namespace veritrack::test {
+
+using trackers::Operation;
+using trackers::Recursion;
+using trackers::StraightLineProgram;
+
+/// A recursion, values of its constants, and where a simulation begins.
+struct ExampleTracker {
+  Recursion recursion;
+  std::vector<double> constants;
+  model::StartState start;
+};
+
+/// A cos(phi).
+inline model::Signal cosine_signal() {
+  return {{{0.0, 1.0}}};
+}
+/// (A cos(phi), A sin(phi)).
+inline model::Signal quadrature_signal() {
+  return {{{0.0, 1.0}, {0.0, {0.0, -1.0}}}};
+}
+
+inline StraightLineProgram frequency_of_state(int constants, int states, int index) {
+  StraightLineProgram program(constants + states);
+  program.add_result(constants + index);
+  return program;
+}
+
+/// A phase-locked loop of type 2 on one channel: e = -y sin theta; w' = w + ki e; theta' = theta + w + kp e.
+/// `bandwidth` in rad/sample. States w, theta.
+inline ExampleTracker phase_locked_loop(double bandwidth = 0.02, double damping = 0.7071) {
+  ExampleTracker example;
+  Recursion& r = example.recursion;
+  r.constants = 2;  // ki, kp
+  r.states = 2;
+  r.samples = 1;
+  r.is_angle = {false, true};
+  StraightLineProgram step(5);
+  const int ki = 0, kp = 1, w = 2, theta = 3, y = 4;
+  const int e =
+      step.append(Operation::negate, step.append(Operation::multiply, y, step.append(Operation::sin, theta)));
+  const int next_w = step.append(Operation::add, w, step.append(Operation::multiply, ki, e));
+  const int turned = step.append(Operation::add, theta, w);
+  const int next_theta = step.append(Operation::add, turned, step.append(Operation::multiply, kp, e));
+  step.add_result(next_w);
+  step.add_result(next_theta);
+  r.step = step;
+  r.frequency = frequency_of_state(2, 2, 0);
+  // The slope of the mean of e in theta is -1/2.
+  example.constants = {2.0 * bandwidth * bandwidth, 4.0 * damping * bandwidth};
+  example.start = [](double omega) { return std::vector<double>{omega, 0.0}; };
+  return example;
+}
+
+/// A second-order generalised integrator with a frequency-locked loop, at `rate` samples a second. States
+/// alpha, beta, w (rad/s).
+inline ExampleTracker integrator_loop(double rate = 10000.0, double k = std::sqrt(2.0), double gamma = 50.0) {
+  ExampleTracker example;
+  Recursion& r = example.recursion;
+  r.constants = 3;  // k, gamma k T, T
+  r.states = 3;
+  r.samples = 1;
+  r.is_angle = {false, false, false};
+  StraightLineProgram step(7);
+  const int ck = 0, cg = 1, ct = 2, alpha = 3, beta = 4, w = 5, y = 6;
+  const auto times = [&step](int a, int b) { return step.append(Operation::multiply, a, b); };
+  const int e = step.append(Operation::subtract, y, alpha);
+  const int wt = times(w, ct);
+  const int next_alpha =
+      step.append(Operation::add, alpha, times(wt, step.append(Operation::subtract, times(ck, e), beta)));
+  const int next_beta = step.append(Operation::add, beta, times(wt, next_alpha));
+  const int norm = step.append(Operation::add, step.append({Operation::power, next_alpha, -1, -1, 2}),
+                               step.append({Operation::power, next_beta, -1, -1, 2}));
+  const int change = step.append(Operation::divide, times(times(times(cg, w), e), next_beta), norm);
+  step.add_result(next_alpha);
+  step.add_result(next_beta);
+  step.add_result(step.append(Operation::subtract, w, change));
+  r.step = step;
+  r.frequency = StraightLineProgram(6);
+  r.frequency.add_result(r.frequency.append(Operation::multiply, 5, 2));
+  example.constants = {k, gamma * k / rate, 1.0 / rate};
+  example.start = [rate](double omega) { return std::vector<double>{1.0, 0.0, omega * rate}; };
+  return example;
+}
+
+/// The Kalman-based adaptive notch filter: s = y + rho a s1 - rho^2 s2; p += q; K = s1/(s1^2 + r/p);
+/// e = s - a s1 + s2; a += K e; p = (1 - K s1) p; frequency acos(a/2). States s1, s2, a, p.
+inline ExampleTracker notch_filter(double rho = 0.95, double q = 1e-6, double r_noise = 1.0) {
+  ExampleTracker example;
+  Recursion& r = example.recursion;
+  r.constants = 5;  // rho, rho^2, q, r, 1/2
+  r.states = 4;
+  r.samples = 1;
+  r.is_angle = {false, false, false, false};
+  StraightLineProgram step(10);
+  const int rho1 = 0, rho2 = 1, cq = 2, cr = 3, s1 = 5, s2 = 6, a = 7, p = 8, y = 9;
+  const auto times = [&step](int x, int z) { return step.append(Operation::multiply, x, z); };
+  const auto add = [&step](int x, int z) { return step.append(Operation::add, x, z); };
+  const auto less = [&step](int x, int z) { return step.append(Operation::subtract, x, z); };
+  const int s = less(add(y, times(times(rho1, a), s1)), times(rho2, s2));
+  const int predicted = add(p, cq);
+  const int gain =
+      step.append(Operation::divide, s1, add(times(s1, s1), step.append(Operation::divide, cr, predicted)));
+  const int e = add(less(s, times(a, s1)), s2);
+  step.add_result(s);
+  step.add_result(s1);
+  step.add_result(add(a, times(gain, e)));
+  step.add_result(less(predicted, times(times(gain, s1), predicted)));
+  r.step = step;
+  r.frequency = StraightLineProgram(9);
+  r.frequency.add_result(r.frequency.append(Operation::acos, r.frequency.append(Operation::multiply, a, 4)));
+  example.constants = {rho, rho * rho, q, r_noise, 0.5};
+  example.start = [](double omega) { return std::vector<double>{0.0, 0.0, 2.0 * std::cos(omega), 1e-2}; };
+  return example;
+}
+
+/// Aranovskiy's observer: x1' = x1 + (b y - a x1); theta = sigma + k b x1 y;
+/// sigma' = sigma - k ((b y - a x1)(b y + a x1) + x1^2 theta), b = a; frequency sqrt(-theta of the new
+/// state). States x1, sigma, theta (the last one an output).
+inline ExampleTracker aranovskiy_observer(double a = 0.05, double k = 0.05) {
+  ExampleTracker example;
+  Recursion& r = example.recursion;
+  r.constants = 2;  // a, k
+  r.states = 3;
+  r.samples = 1;
+  r.is_angle = {false, false, false};
+  StraightLineProgram step(6);
+  const int ca = 0, ck = 1, x1 = 2, sigma = 3, y = 5;
+  const auto times = [&step](int x, int z) { return step.append(Operation::multiply, x, z); };
+  const auto add = [&step](int x, int z) { return step.append(Operation::add, x, z); };
+  const int ay = times(ca, y);
+  const int ax = times(ca, x1);
+  const int slope = step.append(Operation::subtract, ay, ax);
+  const int theta = add(sigma, times(times(times(ck, ca), x1), y));
+  const int drive = add(times(slope, add(ay, ax)), times(times(x1, x1), theta));
+  step.add_result(add(x1, slope));
+  step.add_result(step.append(Operation::subtract, sigma, times(ck, drive)));
+  step.add_result(theta);
+  r.step = step;
+  r.frequency = StraightLineProgram(5);
+  r.frequency.add_result(r.frequency.append(Operation::sqrt, r.frequency.append(Operation::negate, 4)));
+  example.constants = {a, k};
+  example.start = [](double omega) { return std::vector<double>{0.7, -omega * omega, -omega * omega}; };
+  return example;
+}
+
+}  // namespace veritrack::test

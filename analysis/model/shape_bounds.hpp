@@ -19,6 +19,7 @@ struct CurveDynamics {
   Eigen::MatrixXd noise_source;              ///< B B', B by the samples: n^2 x grid.size()
   /// dC/domega at phase + omega: n x grid.size().
   Eigen::MatrixXd slew;
+  Eigen::VectorXd size;  ///< of each state: the root of its mean square; of an angle, 1
 };
 
 /// `slope`: of the curve's harmonics by the frequency.

@@ -46,13 +46,18 @@ class SearchCoordinates {
       weights_.noise = 1.0;
     }
     find_axes(dynamics);
+    size_ = dynamics.size;
   }
 
   [[nodiscard]] bool is_usable() const { return axes_.allFinite() && axes_.size() > 0; }
   [[nodiscard]] Index size() const { return 1 + axes_.cols() + (is_both_ ? 1 : 0); }
-  [[nodiscard]] Eigen::VectorXd start(double logit, double logarithm) const {
+  /// W is exp(logarithm) of the covariance, and along every axis at least exp(floor) of the state's size.
+  [[nodiscard]] Eigen::VectorXd start(double logit, double logarithm, double floor) const {
     Eigen::VectorXd x = Eigen::VectorXd::Constant(size(), logarithm);
     x[0] = logit;
+    for (Index i = 0; i < axes_.cols(); ++i) {
+      x[1 + i] = std::max(logarithm, std::min(25.0, 2.0 * (floor + std::log(size_[i] / axes_(i, i)))));
+    }
     if (is_both_) {
       x[size() - 1] = 0.0;
     }
@@ -100,7 +105,34 @@ class SearchCoordinates {
   DisturbanceWeights weights_;
   bool is_both_ = false;
   MatrixXd axes_;
+  Eigen::VectorXd size_;
 };
+
+/// One over the largest |U^-1 d| over the phase and the signs of the entries of d; 0 for an empty d.
+double start_share(const ShapeOnGrid& shape, const Eigen::VectorXd& deviations) {
+  std::vector<Index> named;
+  for (Index i = 0; i < deviations.size(); ++i) {
+    if (deviations[i] != 0.0) {
+      named.push_back(i);
+    }
+  }
+  constexpr std::size_t kMost = 10;
+  if (named.empty() || named.size() > kMost) {
+    return 0.0;
+  }
+  double largest = 0.0;
+  for (Index j = 0; j < shape.here.cols(); ++j) {
+    const MatrixXd u = shape.here.col(j).reshaped(deviations.size(), deviations.size());
+    for (unsigned signs = 0; signs < (1U << (named.size() - 1)); ++signs) {
+      Eigen::VectorXd corner = deviations;
+      for (std::size_t k = 1; k < named.size(); ++k) {
+        corner[named[k]] *= (signs >> (k - 1) & 1U) != 0U ? -1.0 : 1.0;
+      }
+      largest = std::max(largest, u.triangularView<Eigen::Lower>().solve(corner).norm());
+    }
+  }
+  return 1.0 / largest;
+}
 
 }  // namespace
 
@@ -151,7 +183,9 @@ std::optional<ShapeWorth> worth_of(const CurveDynamics& dynamics, const ShapeOnG
   switch (settings.objective) {
     case ShapeObjective::largest_starts:
       worth.level = largest_start_level(*bounds);
-      worth.score = std::log(worth.level * worth.reach);
+      worth.start_share = worth.level * start_share(shape, settings.start);
+      worth.score =
+          std::log(settings.start.size() > 0 ? worth.start_share : worth.level * worth.least_reach);
       break;
     case ShapeObjective::largest_noise: {
       const ToleratedDisturbance tolerated = largest_noise(*bounds, weights.noise);
@@ -200,14 +234,17 @@ std::optional<ShapeProposal> propose_shape(const CurveDynamics& dynamics, const 
   };
   search::SearchSpace space;
   double best = kWorthless;
-  space.start = coordinates.start(0.0, -3.0);
-  for (const double logit : {-1.5, 0.0, 1.5}) {
-    for (const double logarithm : {-7.0, -4.0, -1.0}) {
-      const Eigen::VectorXd x = coordinates.start(logit, logarithm);
-      const double value = score(x);
-      if (value > best) {
-        best = value;
-        space.start = x;
+  constexpr double kNone = -50.0;
+  space.start = coordinates.start(0.0, -3.0, kNone);
+  for (const double floor : {kNone, -6.0, -4.5, -3.0, -1.5, 0.0}) {
+    for (const double logit : {-1.5, 0.0, 1.5}) {
+      for (const double logarithm : {-7.0, -4.0, -1.0}) {
+        const Eigen::VectorXd x = coordinates.start(logit, logarithm, floor);
+        const double value = score(x);
+        if (value > best) {
+          best = value;
+          space.start = x;
+        }
       }
     }
   }

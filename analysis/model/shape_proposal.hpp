@@ -16,6 +16,10 @@ enum class ShapeObjective { largest_starts, largest_noise, least_long_run_error,
 
 struct ShapeSettings {
   ShapeObjective objective = ShapeObjective::largest_starts;
+  /// For the largest starts: the deviations from the steady state that a start may have together, the sign of
+  /// each free, of which as large a multiple as possible shall be in the tube. Empty: the least of R |grad h U|
+  /// over the phase shall be large.
+  Eigen::VectorXd start;
   /// For the least error in the long run; both 0 mean a noise so small that second orders do not count.
   double noise = 0.0;  ///< of the samples together, Euclidean
   double slew = 0.0;   ///< rad/sample per sample
@@ -39,6 +43,7 @@ struct ShapeWorth {
   double rate = 1.0;       ///< sup |U(phi+omega)^-1 A U|
   double reach = 0.0;      ///< R |grad h U|, the largest over the phase, rad/sample
   double least_reach = 0;  ///< the least over the phase
+  double start_share = 0;  ///< the multiple of the start's deviations that is in the tube; 0 without any
 };
 
 struct ShapeProposal {

@@ -1,8 +1,10 @@
 // Trackers written as lists of operations, for the tests of proposals and proofs.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 #include <vector>
 
 #include "analysis/model/steady_state.hpp"
@@ -152,6 +154,69 @@ inline ExampleTracker aranovskiy_observer(double a = 0.05, double k = 0.05) {
   r.frequency.add_result(r.frequency.append(Operation::sqrt, r.frequency.append(Operation::negate, 4)));
   example.constants = {a, k};
   example.start = [](double omega) { return std::vector<double>{0.7, -omega * omega, -omega * omega}; };
+  return example;
+}
+
+/// The extended Kalman filter of (x1, x2, w) that measures x1, or x1 and x2 one after the other, with
+/// Q = diag(q, q, q) and variance r. States x1, x2, w, P11, P12, P13, P22, P23, P33.
+inline ExampleTracker kalman_filter(int channels, double q, double r_noise) {
+  ExampleTracker example;
+  Recursion& r = example.recursion;
+  r.constants = 2;  // q, r
+  r.states = 9;
+  r.samples = channels;
+  r.is_angle.assign(9, false);
+  StraightLineProgram step(11 + channels);
+  const auto times = [&step](int x, int z) { return step.append(Operation::multiply, x, z); };
+  const auto add = [&step](int x, int z) { return step.append(Operation::add, x, z); };
+  const auto less = [&step](int x, int z) { return step.append(Operation::subtract, x, z); };
+  const int c = step.append(Operation::cos, 4);
+  const int s = step.append(Operation::sin, 4);
+  std::array<int, 3> x{less(times(c, 2), times(s, 3)), add(times(s, 2), times(c, 3)), 4};
+  using Matrix = std::array<std::array<int, 3>, 3>;
+  Matrix p{{{5, 6, 7}, {6, 8, 9}, {7, 9, 10}}};
+  // F P with the rows (c, -s, -x2), (s, c, x1), (0, 0, 1) of F, then (F P) F'.
+  Matrix fp = p;
+  Matrix next = p;
+  for (std::size_t j = 0; j < 3; ++j) {
+    fp[0][j] = less(less(times(c, p[0][j]), times(s, p[1][j])), times(x[1], p[2][j]));
+    fp[1][j] = add(add(times(s, p[0][j]), times(c, p[1][j])), times(x[0], p[2][j]));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    next[i][0] = less(less(times(c, fp[i][0]), times(s, fp[i][1])), times(x[1], fp[i][2]));
+    next[i][1] = add(add(times(s, fp[i][0]), times(c, fp[i][1])), times(x[0], fp[i][2]));
+    next[i][2] = fp[i][2];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) {
+      p[i][j] = p[j][i] = i == j ? add(next[i][j], 0) : next[i][j];
+    }
+  }
+  for (std::size_t m = 0; m < static_cast<std::size_t>(channels); ++m) {
+    const int variance = add(p[m][m], 1);
+    const int e = less(11 + static_cast<int>(m), x[m]);
+    std::array<int, 3> gain{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      gain[i] = step.append(Operation::divide, p[i][m], variance);
+    }
+    const Matrix before = p;
+    for (std::size_t i = 0; i < 3; ++i) {
+      x[i] = add(x[i], times(gain[i], e));
+      for (std::size_t j = i; j < 3; ++j) {
+        p[i][j] = p[j][i] = less(before[i][j], times(gain[i], before[m][j]));
+      }
+    }
+  }
+  for (const int result : {x[0], x[1], x[2], p[0][0], p[0][1], p[0][2], p[1][1], p[1][2], p[2][2]}) {
+    step.add_result(result);
+  }
+  r.step = step;
+  r.frequency = frequency_of_state(2, 9, 2);
+  example.constants = {q, r_noise};
+  example.start = [q, r_noise](double omega) {
+    const double p = q + r_noise;
+    return std::vector<double>{1.0, 0.0, omega, p, 0.0, 0.0, p, 0.0, q};
+  };
   return example;
 }
 

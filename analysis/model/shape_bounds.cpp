@@ -1,11 +1,14 @@
 #include "analysis/model/shape_bounds.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "analysis/rigor/rounding.hpp"
 #include "analysis/search/golden_section.hpp"
 
 namespace veritrack::model {
@@ -125,7 +128,8 @@ ToleratedDisturbance best_level(const std::vector<PhaseBounds>& bounds, const Si
 CurveDynamics follow_curve(const TrackedTone& tone, const NodeCurve& curve, const Eigen::MatrixXcd& slope,
                            const PhaseGrid& grid) {
   const int n = tone.step.states();
-  CurveDynamics result{Cocycle(grid, curve.frequency, jacobians_along(tone, curve, grid), n), {}, {}, {}, {}, {}};
+  CurveDynamics result{
+      Cocycle(grid, curve.frequency, jacobians_along(tone, curve, grid), n), {}, {}, {}, {}, {}};
   const auto count = static_cast<std::size_t>(grid.size());
   result.step.reserve(count);
   result.gradient.reserve(count);
@@ -154,13 +158,27 @@ CurveDynamics follow_curve(const TrackedTone& tone, const NodeCurve& curve, cons
 std::optional<std::vector<PhaseBounds>> bound_along(const CurveDynamics& dynamics, const ShapeOnGrid& shape,
                                                     const DisturbanceWeights& weights) {
   const int n = dynamics.cocycle.states();
-  std::vector<PhaseBounds> result;
-  result.reserve(dynamics.step.size());
-  for (std::size_t j = 0; j < dynamics.step.size(); ++j) {
+  std::vector<std::optional<PhaseBounds>> found(dynamics.step.size());
+  const auto bound = [&](std::size_t j) {
     const auto column = static_cast<Index>(j);
-    const auto bounds =
+    found[j] =
         bound_at(dynamics.step[j], dynamics.gradient[j], dynamics.slew.col(column),
                  shape.here.col(column).reshaped(n, n), shape.next.col(column).reshaped(n, n), weights);
+  };
+  constexpr int kFew = 5;
+  if (n <= kFew) {
+    for (std::size_t j = 0; j < found.size(); ++j) {
+      bound(j);
+    }
+  } else {
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t j) {
+      const rigor::NearestRounding nearest;
+      bound(j);
+    });
+  }
+  std::vector<PhaseBounds> result;
+  result.reserve(found.size());
+  for (const std::optional<PhaseBounds>& bounds : found) {
     if (!bounds) {
       return std::nullopt;
     }

@@ -16,6 +16,7 @@ struct CurveDynamics {
   Cocycle cocycle;
   std::vector<StepDerivatives> step;         ///< at each phase
   std::vector<Eigen::RowVectorXd> gradient;  ///< of the estimated frequency at each phase
+  std::vector<Eigen::MatrixXd> hessian;      ///< likewise
   Eigen::MatrixXd noise_source;              ///< B B', B by the samples: n^2 x grid.size()
   /// dC/domega at phase + omega: n x grid.size().
   Eigen::MatrixXd slew;
@@ -38,6 +39,8 @@ struct PhaseBounds {
   double rate = 0.0;
   double disturbed_rate = 0.0;
   double second = 0.0, third = 0.0, mixed = 0.0, sample = 0.0;
+  /// Up to which R the estimated frequency is nearly a linear function: R |U' h'' U| <= |grad h U|/2.
+  double straight = 0.0;
   double reach = 0.0;  ///< |grad h U|: how far the estimated frequency is at most, for R = 1
 };
 
@@ -52,7 +55,8 @@ struct DisturbanceWeights {
                                                                   const ShapeOnGrid& shape,
                                                                   const DisturbanceWeights& weights);
 
-/// The largest R with rate + second R/2 + third R^2/6 <= 1 at all phases; 0 when there is none.
+/// The largest R with rate + second R/2 + third R^2/6 <= 1 and R <= straight at all phases; 0 when there is
+/// none.
 [[nodiscard]] double largest_start_level(const std::vector<PhaseBounds>& bounds);
 
 /// The size of disturbances at a level that they never leave.

@@ -31,11 +31,16 @@ MatrixXd source_of(const CurveDynamics& dynamics, const ShapeParameters& paramet
   return source;
 }
 
+/// Of W: the states themselves, or those of their covariance under the disturbance. Where states move
+/// together (delays), a diagonal W would be useless; where they do not (a filter's covariances), it is
+/// better.
+enum class Axes { of_states, of_covariance };
+
 /// The places of the parameters in the space of the search: the logit of lambda between the square of the
 /// rate and 1, the logarithms of W along its axes, and of c where it is wanted.
 class SearchCoordinates {
  public:
-  SearchCoordinates(const CurveDynamics& dynamics, const ShapeSettings& settings)
+  SearchCoordinates(const CurveDynamics& dynamics, const ShapeSettings& settings, Axes axes)
       : rate_squared_(dynamics.cocycle.rate() * dynamics.cocycle.rate()) {
     const bool with_noise = settings.noise > 0.0 || settings.slew == 0.0;
     const bool for_slew = settings.objective == ShapeObjective::largest_slew ||
@@ -46,9 +51,26 @@ class SearchCoordinates {
       weights_.noise = 1.0;
     }
     find_axes(dynamics);
+    if (axes == Axes::of_states) {
+      axes_ = MatrixXd(axes_.diagonal().asDiagonal());
+    }
     size_ = dynamics.size;
   }
 
+  /// Around parameters that were good nearby.
+  SearchCoordinates(const CurveDynamics& dynamics, const ShapeParameters& nearby)
+      : rate_squared_(dynamics.cocycle.rate() * dynamics.cocycle.rate()), weights_(nearby.weights) {
+    is_both_ = weights_.noise > 0.0 && weights_.slew > 0.0;
+    const Eigen::LLT<MatrixXd> factor(nearby.source);
+    if (factor.info() == Eigen::Success) {
+      axes_ = factor.matrixL();
+    }
+    const double share = (nearby.lambda - rate_squared_) / (1.0 - rate_squared_);
+    nearby_ = Eigen::VectorXd::Zero(size());
+    nearby_[0] = share > 0.05 && share < 0.95 ? std::log(share / (1.0 - share)) : 0.0;
+  }
+
+  [[nodiscard]] const Eigen::VectorXd& nearby() const { return nearby_; }
   [[nodiscard]] bool is_usable() const { return axes_.allFinite() && axes_.size() > 0; }
   [[nodiscard]] Index size() const { return 1 + axes_.cols() + (is_both_ ? 1 : 0); }
   /// W is exp(logarithm) of the covariance, and along every axis at least exp(floor) of the state's size.
@@ -76,8 +98,6 @@ class SearchCoordinates {
   }
 
  private:
-  /// The axes are those of the states' covariance under the disturbance: states that move together (delays)
-  /// would make a diagonal W useless.
   void find_axes(const CurveDynamics& dynamics) {
     const int n = dynamics.cocycle.states();
     if (weights_.slew > 0.0) {
@@ -106,7 +126,21 @@ class SearchCoordinates {
   bool is_both_ = false;
   MatrixXd axes_;
   Eigen::VectorXd size_;
+  Eigen::VectorXd nearby_;
 };
+
+/// Whether no diagonal entry of U is tiny for its row: its coefficients, of 24 bits, could not hold it.
+bool is_well_conditioned(const ShapeOnGrid& shape) {
+  constexpr double kLeast = 1e-4;
+  const auto n = static_cast<Index>(std::lround(std::sqrt(static_cast<double>(shape.here.rows()))));
+  for (Index j = 0; j < shape.here.cols(); ++j) {
+    const MatrixXd u = shape.here.col(j).reshaped(n, n);
+    if (!((u.diagonal().array() >= kLeast * u.rowwise().norm().array()).all())) {
+      return false;
+    }
+  }
+  return true;
+}
 
 /// One over the largest |U^-1 d| over the phase and the signs of the entries of d; 0 for an empty d.
 double start_share(const ShapeOnGrid& shape, const Eigen::VectorXd& deviations) {
@@ -168,7 +202,7 @@ std::optional<ShapeWorth> worth_of(const CurveDynamics& dynamics, const ShapeOnG
   const bool is_for_starts = settings.objective == ShapeObjective::largest_starts;
   present.noise = is_for_starts ? 0.0 : weights.noise;
   present.slew = is_for_starts ? 0.0 : weights.slew;
-  const auto bounds = bound_along(dynamics, shape, present);
+  const auto bounds = is_well_conditioned(shape) ? bound_along(dynamics, shape, present) : std::nullopt;
   if (!bounds) {
     return std::nullopt;
   }
@@ -184,8 +218,7 @@ std::optional<ShapeWorth> worth_of(const CurveDynamics& dynamics, const ShapeOnG
     case ShapeObjective::largest_starts:
       worth.level = largest_start_level(*bounds);
       worth.start_share = worth.level * start_share(shape, settings.start);
-      worth.score =
-          std::log(settings.start.size() > 0 ? worth.start_share : worth.level * worth.least_reach);
+      worth.score = std::log(settings.start.size() > 0 ? worth.start_share : worth.level * worth.least_reach);
       break;
     case ShapeObjective::largest_noise: {
       const ToleratedDisturbance tolerated = largest_noise(*bounds, weights.noise);
@@ -214,58 +247,101 @@ std::optional<ShapeWorth> worth_of(const CurveDynamics& dynamics, const ShapeOnG
   return worth;
 }
 
-std::optional<ShapeProposal> propose_shape(const CurveDynamics& dynamics, const ShapeSettings& settings) {
-  const rigor::NearestRounding nearest;
-  if (!(dynamics.cocycle.rate() < 1.0)) {
-    return std::nullopt;
+namespace {
+
+/// A search among the parameters with these axes, from the best of a few starts.
+class ShapeSearch {
+ public:
+  ShapeSearch(const CurveDynamics& dynamics, const ShapeSettings& settings, Axes axes)
+      : dynamics_(&dynamics), settings_(&settings), coordinates_(dynamics, settings, axes) {}
+  ShapeSearch(const CurveDynamics& dynamics, const ShapeSettings& settings, const ShapeParameters& nearby)
+      : dynamics_(&dynamics), settings_(&settings), coordinates_(dynamics, nearby) {}
+
+  /// Nothing when there is no such shape.
+  [[nodiscard]] std::optional<ShapeWorth> worth_at(const ShapeParameters& parameters, int harmonics) const {
+    const auto shape = shape_on_grid(*dynamics_, parameters, harmonics);
+    return shape ? worth_of(*dynamics_, *shape, parameters.weights, *settings_) : std::nullopt;
   }
-  const SearchCoordinates coordinates(dynamics, settings);
-  if (!coordinates.is_usable()) {
-    return std::nullopt;
+  [[nodiscard]] int most_harmonics() const {
+    return std::min(settings_->harmonics, dynamics_->cocycle.grid().harmonics());
   }
-  const auto worth_at = [&](const ShapeParameters& parameters, int harmonics) -> std::optional<ShapeWorth> {
-    const auto shape = shape_on_grid(dynamics, parameters, harmonics);
-    return shape ? worth_of(dynamics, *shape, parameters.weights, settings) : std::nullopt;
-  };
-  const int most = std::min(settings.harmonics, dynamics.cocycle.grid().harmonics());
-  const auto score = [&](const Eigen::VectorXd& x) {
-    const auto worth = worth_at(coordinates.at(x), most);
-    return worth ? worth->score : kWorthless;
-  };
-  search::SearchSpace space;
-  double best = kWorthless;
-  constexpr double kNone = -50.0;
-  space.start = coordinates.start(0.0, -3.0, kNone);
-  for (const double floor : {kNone, -6.0, -4.5, -3.0, -1.5, 0.0}) {
-    for (const double logit : {-1.5, 0.0, 1.5}) {
-      for (const double logarithm : {-7.0, -4.0, -1.0}) {
-        const Eigen::VectorXd x = coordinates.start(logit, logarithm, floor);
-        const double value = score(x);
-        if (value > best) {
-          best = value;
-          space.start = x;
+  [[nodiscard]] ShapeParameters best() const { return coordinates_.at(point_); }
+  [[nodiscard]] double score() const { return score_; }
+
+  void begin() {
+    if (!coordinates_.is_usable()) {
+      return;
+    }
+    constexpr double kNone = -50.0;
+    for (const double floor : {kNone, -6.0, -4.5, -3.0, -1.5, 0.0}) {
+      for (const double logit : {-1.5, 0.0, 1.5}) {
+        for (const double logarithm : {-7.0, -4.0, -1.0}) {
+          const Eigen::VectorXd x = coordinates_.start(logit, logarithm, floor);
+          const double value = score_at(x);
+          if (value > score_) {
+            score_ = value;
+            point_ = x;
+          }
         }
       }
     }
   }
-  constexpr double kWidest = 30.0;
-  space.step = Eigen::VectorXd::Constant(coordinates.size(), 1.5);
-  space.step[0] = 0.7;
-  space.lower = Eigen::VectorXd::Constant(coordinates.size(), -kWidest);
-  space.upper = Eigen::VectorXd::Constant(coordinates.size(), kWidest);
-  space.lower[0] = -4.0;
-  space.upper[0] = 6.0;
-  space.evaluations = settings.evaluations;
-  space.tolerance = 1e-3;
-  const search::BestPoint found = search::maximize(score, space);
+  /// From the parameters nearby.
+  void begin_nearby() {
+    if (coordinates_.is_usable()) {
+      point_ = coordinates_.nearby();
+      score_ = score_at(point_);
+    }
+  }
+  /// Goes on from the best so far.
+  void improve(int evaluations) {
+    if (!std::isfinite(score_)) {
+      return;
+    }
+    constexpr double kWidest = 30.0;
+    search::SearchSpace space;
+    space.start = point_;
+    space.step = Eigen::VectorXd::Constant(coordinates_.size(), 1.5);
+    space.step[0] = 0.7;
+    space.lower = Eigen::VectorXd::Constant(coordinates_.size(), -kWidest);
+    space.upper = Eigen::VectorXd::Constant(coordinates_.size(), kWidest);
+    space.lower[0] = -4.0;
+    space.upper[0] = 6.0;
+    space.evaluations = evaluations;
+    space.tolerance = 1e-3;
+    const search::BestPoint found =
+        search::maximize([this](const Eigen::VectorXd& x) { return score_at(x); }, space);
+    if (found.value > score_) {
+      score_ = found.value;
+      point_ = found.point;
+    }
+  }
+
+ private:
+  [[nodiscard]] double score_at(const Eigen::VectorXd& x) const {
+    const auto worth = worth_at(coordinates_.at(x), most_harmonics());
+    return worth ? worth->score : kWorthless;
+  }
+
+  const CurveDynamics* dynamics_;
+  const ShapeSettings* settings_;
+  SearchCoordinates coordinates_;
+  Eigen::VectorXd point_;
+  double score_ = kWorthless;
+};
+
+/// The best parameters found, with as few harmonics as lose hardly anything.
+std::optional<ShapeProposal> finished(const ShapeSearch& search) {
+  if (!std::isfinite(search.score())) {
+    return std::nullopt;
+  }
   ShapeProposal proposal;
-  proposal.parameters = coordinates.at(found.point);
-  // As few harmonics as lose hardly anything.
+  proposal.parameters = search.best();
   constexpr double kLoss = 0.01;
-  proposal.harmonics = most;
-  auto worth = worth_at(proposal.parameters, most);
-  for (int harmonics = 0; worth && harmonics < most; ++harmonics) {
-    const auto fewer = worth_at(proposal.parameters, harmonics);
+  proposal.harmonics = search.most_harmonics();
+  auto worth = search.worth_at(proposal.parameters, proposal.harmonics);
+  for (int harmonics = 0; worth && harmonics < search.most_harmonics(); ++harmonics) {
+    const auto fewer = search.worth_at(proposal.parameters, harmonics);
     if (fewer && fewer->score > worth->score - kLoss) {
       proposal.harmonics = harmonics;
       worth = fewer;
@@ -275,6 +351,7 @@ std::optional<ShapeProposal> propose_shape(const CurveDynamics& dynamics, const 
   if (!worth) {
     return std::nullopt;
   }
+  // So that levels are in rad/sample; noise and slew do not change.
   const double scale = worth->level / worth->reach;
   proposal.parameters.source *= scale * scale;
   proposal.parameters.weights.noise *= scale * scale;
@@ -282,6 +359,35 @@ std::optional<ShapeProposal> propose_shape(const CurveDynamics& dynamics, const 
   worth->level = worth->reach;
   proposal.worth = *worth;
   return proposal;
+}
+
+}  // namespace
+
+std::optional<ShapeProposal> propose_shape(const CurveDynamics& dynamics, const ShapeSettings& settings,
+                                           const std::optional<ShapeParameters>& nearby) {
+  const rigor::NearestRounding nearest;
+  if (!(dynamics.cocycle.rate() < 1.0)) {
+    return std::nullopt;
+  }
+  if (nearby) {
+    ShapeSearch search(dynamics, settings, *nearby);
+    search.begin_nearby();
+    if (std::isfinite(search.score())) {
+      search.improve(settings.evaluations / 5);
+      return finished(search);
+    }
+  }
+  ShapeSearch search(dynamics, settings, Axes::of_states);
+  ShapeSearch other(dynamics, settings, Axes::of_covariance);
+  for (ShapeSearch* one : {&search, &other}) {
+    one->begin();
+    one->improve(settings.evaluations / 3);
+  }
+  if (other.score() > search.score()) {
+    search = other;
+  }
+  search.improve(settings.evaluations / 3);
+  return finished(search);
 }
 
 }  // namespace veritrack::model

@@ -84,6 +84,24 @@ Eigen::RowVectorXd StepMap::frequency_gradient(const Eigen::VectorXd& state) con
   return gradient;
 }
 
+Eigen::MatrixXd StepMap::frequency_hessian(const Eigen::VectorXd& state) const {
+  const int n = states();
+  const auto square_along = [&](const Eigen::VectorXd& direction) {
+    return run_along<2>(recursion_->frequency, constants_, state, direction).front().at(2);
+  };
+  Eigen::VectorXd squares(n);
+  Eigen::MatrixXd hessian(n, n);
+  for (int i = 0; i < n; ++i) {
+    squares[i] = square_along(Eigen::VectorXd::Unit(n, i));
+    hessian(i, i) = 2.0 * squares[i];
+    for (int j = 0; j < i; ++j) {
+      const double both = square_along(Eigen::VectorXd::Unit(n, i) + Eigen::VectorXd::Unit(n, j));
+      hessian(i, j) = hessian(j, i) = both - squares[i] - squares[j];
+    }
+  }
+  return hessian;
+}
+
 Eigen::MatrixXd StepMap::jacobian(const Eigen::VectorXd& state, const Eigen::VectorXd& samples) const {
   const Eigen::VectorXd x = joined(state, samples);
   Eigen::MatrixXd result(states(), x.size());

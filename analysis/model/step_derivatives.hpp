@@ -40,6 +40,8 @@ class StepMap {
   /// The estimated frequency, rad/sample, and its gradient over the states.
   [[nodiscard]] double frequency(const Eigen::VectorXd& state) const;
   [[nodiscard]] Eigen::RowVectorXd frequency_gradient(const Eigen::VectorXd& state) const;
+  /// Its second derivatives.
+  [[nodiscard]] Eigen::MatrixXd frequency_hessian(const Eigen::VectorXd& state) const;
 
  private:
   const trackers::Recursion* recursion_;

@@ -47,9 +47,9 @@ MatrixXd third_in_coordinates(const MatrixXd& third, const MatrixXd& u) {
 }
 
 /// The part of the step at one phase, or nothing when the shape is not one.
-std::optional<PhaseBounds> bound_at(const StepDerivatives& step, const Eigen::RowVectorXd& gradient,
-                                    const Eigen::VectorXd& slew, const MatrixXd& u, const MatrixXd& u_next,
-                                    const DisturbanceWeights& weights) {
+std::optional<PhaseBounds> bound_at(const CurveDynamics& dynamics, std::size_t phase, const MatrixXd& u,
+                                    const MatrixXd& u_next, const DisturbanceWeights& weights) {
+  const StepDerivatives& step = dynamics.step[phase];
   const Index n = u.rows();
   const Index channels = step.sample.cols();
   if (!(u.diagonal().minCoeff() > 0.0) || !(u_next.diagonal().minCoeff() > 0.0) || !u.allFinite() ||
@@ -65,7 +65,7 @@ std::optional<PhaseBounds> bound_at(const StepDerivatives& step, const Eigen::Ro
   bounds.rate = spectral_norm(linear);
   MatrixXd room = MatrixXd::Identity(n, n) - weights.noise * noise * noise.transpose();
   if (weights.slew > 0.0) {
-    const MatrixXd drift = solve(slew);
+    const MatrixXd drift = solve(dynamics.slew.col(static_cast<Index>(phase)));
     room -= weights.slew * drift * drift.transpose();
   }
   const Eigen::LLT<MatrixXd> factor(room);
@@ -89,7 +89,9 @@ std::optional<PhaseBounds> bound_at(const StepDerivatives& step, const Eigen::Ro
   bounds.mixed = spectral_norm(solve(mixed));
   bounds.sample = spectral_norm(solve(sample));
   bounds.third = spectral_norm(solve(third_in_coordinates(step.third, u)));
-  bounds.reach = (gradient * u).norm();
+  bounds.reach = (dynamics.gradient[phase] * u).norm();
+  const double bend = spectral_norm(u.transpose() * dynamics.hessian[phase] * u);
+  bounds.straight = bend > 0.0 ? 0.5 * bounds.reach / bend : std::numeric_limits<double>::infinity();
   return bounds;
 }
 
@@ -125,45 +127,14 @@ ToleratedDisturbance best_level(const std::vector<PhaseBounds>& bounds, const Si
 
 }  // namespace
 
-CurveDynamics follow_curve(const TrackedTone& tone, const NodeCurve& curve, const Eigen::MatrixXcd& slope,
-                           const PhaseGrid& grid) {
-  const int n = tone.step.states();
-  CurveDynamics result{
-      Cocycle(grid, curve.frequency, jacobians_along(tone, curve, grid), n), {}, {}, {}, {}, {}};
-  const auto count = static_cast<std::size_t>(grid.size());
-  result.step.reserve(count);
-  result.gradient.reserve(count);
-  result.noise_source.resize(n * n, grid.size());
-  result.slew.resize(n, grid.size());
-  const Eigen::VectorXd scale = curve.harmonics.cwiseAbs().rowwise().sum().cwiseMax(1e-6);
-  result.size = Eigen::VectorXd::Zero(n);
-  for (int j = 0; j < grid.size(); ++j) {
-    const double next = grid.phase(j) + curve.frequency;
-    const Eigen::VectorXd state = state_at(curve, grid.phase(j));
-    result.step.push_back(tone.step.derivatives(state, samples_of(tone.signal, tone.amplitude, next), scale));
-    result.gradient.push_back(tone.step.frequency_gradient(state));
-    result.size += state.cwiseAbs2() / static_cast<double>(grid.size());
-    const MatrixXd& sample = result.step.back().sample;
-    const MatrixXd source = sample * sample.transpose();
-    result.noise_source.col(j) = source.reshaped();
-    result.slew.col(j) = value_at(slope, next);
-  }
-  result.size = result.size.cwiseSqrt();
-  for (int i = 0; i < n; ++i) {
-    result.size[i] = curve.turns[static_cast<std::size_t>(i)] != 0 ? 1.0 : result.size[i];
-  }
-  return result;
-}
-
 std::optional<std::vector<PhaseBounds>> bound_along(const CurveDynamics& dynamics, const ShapeOnGrid& shape,
                                                     const DisturbanceWeights& weights) {
   const int n = dynamics.cocycle.states();
   std::vector<std::optional<PhaseBounds>> found(dynamics.step.size());
   const auto bound = [&](std::size_t j) {
     const auto column = static_cast<Index>(j);
-    found[j] =
-        bound_at(dynamics.step[j], dynamics.gradient[j], dynamics.slew.col(column),
-                 shape.here.col(column).reshaped(n, n), shape.next.col(column).reshaped(n, n), weights);
+    found[j] = bound_at(dynamics, j, shape.here.col(column).reshaped(n, n),
+                        shape.next.col(column).reshaped(n, n), weights);
   };
   constexpr int kFew = 5;
   if (n <= kFew) {
@@ -195,6 +166,7 @@ double largest_start_level(const std::vector<PhaseBounds>& bounds) {
     }
     // The positive root of third R^2/6 + second R/2 - (1 - rate), in the form without cancellation.
     const double room = 1.0 - b.rate;
+    level = std::min(level, b.straight);
     level = std::min(
         level, 2.0 * room / (0.5 * b.second + std::sqrt(0.25 * b.second * b.second + b.third * room / 1.5)));
   }

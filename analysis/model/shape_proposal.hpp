@@ -52,6 +52,9 @@ struct ShapeProposal {
   ShapeWorth worth;
 };
 
+/// b B B' + c (dC/domega)(dC/domega)' + W along the curve: n^2 x grid.size().
+[[nodiscard]] Eigen::MatrixXd lyapunov_source(const CurveDynamics& dynamics,
+                                              const ShapeParameters& parameters);
 /// The shape of these parameters with its first harmonics, on the grid of the dynamics: nothing when there is
 /// none.
 [[nodiscard]] std::optional<ShapeOnGrid> shape_on_grid(const CurveDynamics& dynamics,

@@ -1,17 +1,30 @@
 // The words of proposals that failed.
-#include <fmt/format.h>
-
 #include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "analysis/model/frequency_cells.hpp"
 #include "analysis/model/tube_proposal.hpp"
+#include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
 
 namespace {
+
+/// A number with so many significant digits.
+std::string digits(double value, int count) {
+  const rigor::NearestRounding nearest;
+  std::ostringstream text;
+  text.precision(count);
+  text << value;
+  return text.str();
+}
+
+std::string at_frequency(const SteadyState& steady) {
+  return ", at " + digits(steady.frequency, 6) + " rad/sample";
+}
 
 /// The states in which a mode mainly is, by their numbers.
 std::string states_in(const Eigen::VectorXd& mode) {
@@ -19,7 +32,7 @@ std::string states_in(const Eigen::VectorXd& mode) {
   std::string text;
   for (Eigen::Index i = 0; i < mode.size(); ++i) {
     if (std::fabs(mode[i]) >= kShare) {
-      text += fmt::format("{}{:.2g} of state {}", text.empty() ? "" : ", ", mode[i], i);
+      text += (text.empty() ? "" : ", ") + digits(mode[i], 2) + " of state " + std::to_string(i);
     }
   }
   return text;
@@ -32,31 +45,22 @@ std::string reason_of(const SteadyState& steady) {
     case SteadyStateOutcome::settled:
       return "";
     case SteadyStateOutcome::diverges:
-      return fmt::format(
-          "no steady state: the simulation diverges or is undefined within {} samples, at {:.6g} "
-          "rad/sample",
-          steady.samples, steady.frequency);
+      return "no steady state: the simulation diverges or is undefined within " +
+             std::to_string(steady.samples) + " samples" + at_frequency(steady);
     case SteadyStateOutcome::still_drifts:
-      return fmt::format(
-          "no steady state: after {} samples state {} at phase 0 still moves by {:.3g} in {} samples, at "
-          "{:.6g} "
-          "rad/sample",
-          steady.samples, steady.slowest_state, std::fabs(steady.drift[steady.slowest_state]), steady.period,
-          steady.frequency);
+      return "no steady state: after " + std::to_string(steady.samples) + " samples state " +
+             std::to_string(steady.slowest_state) + " at phase 0 still moves by " +
+             digits(std::fabs(steady.drift[steady.slowest_state]), 3) + " in " +
+             std::to_string(steady.period) + " samples" + at_frequency(steady);
     case SteadyStateOutcome::repeats_later:
-      return fmt::format(
-          "no steady state: the tracker settles on a curve of period {} in the phase, at {:.6g} rad/sample",
-          steady.repetition, steady.frequency);
+      return "no steady state: the tracker settles on a curve of period " +
+             std::to_string(steady.repetition) + " in the phase" + at_frequency(steady);
     case SteadyStateOutcome::locked_elsewhere:
-      return fmt::format(
-          "the tracker settles on {:.6g} rad/sample when the tone has {:.6g}: it has locked to something "
-          "else",
-          steady.mean_frequency, steady.frequency);
+      return "the tracker settles on " + digits(steady.mean_frequency, 6) + " rad/sample when the tone has " +
+             digits(steady.frequency, 6) + ": it has locked to something else";
     case SteadyStateOutcome::not_exponentially_stable:
-      return fmt::format(
-          "not exponentially stable: errors change by a factor {:.6f} per sample, at {:.6g} "
-          "rad/sample, in the mode {}",
-          steady.rate, steady.frequency, states_in(steady.mode));
+      return "not exponentially stable: each sample multiplies errors by " + digits(steady.rate, 7) +
+             at_frequency(steady) + ", in the mode " + states_in(steady.mode);
   }
   return "";
 }
@@ -69,16 +73,15 @@ std::string reason_of(const TubeProposal& proposal) {
       return reason_of(proposal.steady_state);
     case TubeOutcome::no_curve:
       return "no steady state: the simulation settles in the middle of the cell, but not on a smooth curve "
-             "over it";
+             "over "
+             "it";
     case TubeOutcome::no_shape:
-      return fmt::format(
-          "no tube found around the steady state, where errors change by a factor {:.6f} per sample",
-          proposal.steady_state.rate);
+      return "no tube found around the steady state, where each sample multiplies errors by " +
+             digits(proposal.steady_state.rate, 7);
     case TubeOutcome::cell_too_wide:
-      return fmt::format(
-          "the steady state changes too much over the cell: a polynomial in the frequency is off by {:.2g} "
-          "rad/sample, and costs {:.0f} % of the tube, whose size varies by {:.0f} %",
-          proposal.curve_error, 100.0 * proposal.loss, 100.0 * proposal.variation);
+      return "the steady state changes too much over the cell: a polynomial in the frequency is off by " +
+             digits(proposal.curve_error, 2) + " rad/sample and costs " + digits(100.0 * proposal.loss, 2) +
+             " % of the tube, whose size varies by " + digits(100.0 * proposal.variation, 2) + " %";
   }
   return "";
 }
@@ -94,8 +97,10 @@ std::vector<std::string> reasons_of(const BandProposal& band) {
     }
     if (cell.outcome != TubeOutcome::proposed) {
       const TubeProposal& last = band.cells[end - 1];
-      reasons.push_back(fmt::format("{}, between {:.6g} and {:.6g} rad/sample", reason_of(cell),
-                                    cell.frequency - cell.half_width, last.frequency + last.half_width));
+      std::string reason = reason_of(cell);
+      reason += ", between " + digits(cell.frequency - cell.half_width, 6) + " and " +
+                digits(last.frequency + last.half_width, 6) + " rad/sample";
+      reasons.push_back(reason);  // NOLINT(performance-inefficient-vector-operation): few, of unknown number
     }
     first = end;
   }

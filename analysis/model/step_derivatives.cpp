@@ -60,26 +60,26 @@ Eigen::VectorXd coefficients_of(const std::vector<Jet<K>>& jets, int order) {
 }  // namespace
 
 StepMap::StepMap(const trackers::Recursion& recursion, const std::vector<double>& constants)
-    : recursion_(&recursion), constants_(constants) {
+    : recursion_(recursion), constants_(constants) {
   if (static_cast<int>(constants.size()) != recursion.constants) {
     throw std::invalid_argument("wrong number of constants of a tracker");
   }
 }
 
 Eigen::VectorXd StepMap::next(const Eigen::VectorXd& state, const Eigen::VectorXd& samples) const {
-  const std::vector<double> next = run_at(recursion_->step, constants_, joined(state, samples));
+  const std::vector<double> next = run_at(recursion_.step, constants_, joined(state, samples));
   return Eigen::Map<const Eigen::VectorXd>(next.data(), states());
 }
 
 double StepMap::frequency(const Eigen::VectorXd& state) const {
-  return run_at(recursion_->frequency, constants_, state).front();
+  return run_at(recursion_.frequency, constants_, state).front();
 }
 
 Eigen::RowVectorXd StepMap::frequency_gradient(const Eigen::VectorXd& state) const {
   Eigen::RowVectorXd gradient(states());
   for (int i = 0; i < states(); ++i) {
     const Eigen::VectorXd direction = Eigen::VectorXd::Unit(states(), i);
-    gradient[i] = run_along<1>(recursion_->frequency, constants_, state, direction).front().at(1);
+    gradient[i] = run_along<1>(recursion_.frequency, constants_, state, direction).front().at(1);
   }
   return gradient;
 }
@@ -87,7 +87,7 @@ Eigen::RowVectorXd StepMap::frequency_gradient(const Eigen::VectorXd& state) con
 Eigen::MatrixXd StepMap::frequency_hessian(const Eigen::VectorXd& state) const {
   const int n = states();
   const auto square_along = [&](const Eigen::VectorXd& direction) {
-    return run_along<2>(recursion_->frequency, constants_, state, direction).front().at(2);
+    return run_along<2>(recursion_.frequency, constants_, state, direction).front().at(2);
   };
   Eigen::VectorXd squares(n);
   Eigen::MatrixXd hessian(n, n);
@@ -107,7 +107,7 @@ Eigen::MatrixXd StepMap::jacobian(const Eigen::VectorXd& state, const Eigen::Vec
   Eigen::MatrixXd result(states(), x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     result.col(i) =
-        coefficients_of(run_along<1>(recursion_->step, constants_, x, Eigen::VectorXd::Unit(x.size(), i)), 1);
+        coefficients_of(run_along<1>(recursion_.step, constants_, x, Eigen::VectorXd::Unit(x.size(), i)), 1);
   }
   return result;
 }
@@ -120,7 +120,7 @@ StepDerivatives StepMap::derivatives(const Eigen::VectorXd& state, const Eigen::
   const int m = static_cast<int>(x.size());
   // Forms of degree 2 and 3 at sums of directions e_i give their polar forms; indices i <= j <= k < m.
   const auto along = [&](const Eigen::VectorXd& direction) {
-    return run_along<3>(recursion_->step, constants_, x, direction.cwiseProduct(size));
+    return run_along<3>(recursion_.step, constants_, x, direction.cwiseProduct(size));
   };
   const auto unit = [m](int i) { return Eigen::VectorXd::Unit(m, i); };
   Eigen::MatrixXd first(n, m);

@@ -23,13 +23,13 @@ struct StepDerivatives {
 /// A tracker of which the constants have values.
 class StepMap {
  public:
-  /// `recursion` must outlive the map. Throws std::invalid_argument when the number of constants is wrong.
+  /// Throws std::invalid_argument when the number of constants is wrong.
   StepMap(const trackers::Recursion& recursion, const std::vector<double>& constants);
 
-  [[nodiscard]] const trackers::Recursion& recursion() const { return *recursion_; }
+  [[nodiscard]] const trackers::Recursion& recursion() const { return recursion_; }
   [[nodiscard]] const std::vector<double>& constants() const { return constants_; }
-  [[nodiscard]] int states() const { return recursion_->states; }
-  [[nodiscard]] int samples() const { return recursion_->samples; }
+  [[nodiscard]] int states() const { return recursion_.states; }
+  [[nodiscard]] int samples() const { return recursion_.samples; }
 
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& state, const Eigen::VectorXd& samples) const;
   /// n x (n + samples).
@@ -44,7 +44,7 @@ class StepMap {
   [[nodiscard]] Eigen::MatrixXd frequency_hessian(const Eigen::VectorXd& state) const;
 
  private:
-  const trackers::Recursion* recursion_;
+  trackers::Recursion recursion_;
   std::vector<double> constants_;
 };
 

@@ -11,9 +11,7 @@
 namespace veritrack::model {
 namespace {
 
-TrackedTone tone_of(const test::ExampleTracker& example) {
-  return {StepMap(example.recursion, example.constants), test::cosine_signal(), 1.0, example.start};
-}
+using test::tone_of;
 
 /// The state after so many samples from the start, at phase 0 then.
 Eigen::VectorXd simulated(const TrackedTone& tone, double frequency, int samples) {

@@ -33,6 +33,12 @@ inline model::Signal quadrature_signal() {
   return {{{0.0, 1.0}, {0.0, {0.0, -1.0}}}};
 }
 
+/// The tracker on a tone of amplitude 1.
+inline model::TrackedTone tone_of(const ExampleTracker& example, bool quadrature = false) {
+  return {model::StepMap(example.recursion, example.constants),
+          quadrature ? quadrature_signal() : cosine_signal(), 1.0, example.start};
+}
+
 inline StraightLineProgram frequency_of_state(int constants, int states, int index) {
   StraightLineProgram program(constants + states);
   program.add_result(constants + index);
@@ -214,8 +220,8 @@ inline ExampleTracker kalman_filter(int channels, double q, double r_noise) {
   r.frequency = frequency_of_state(2, 9, 2);
   example.constants = {q, r_noise};
   example.start = [q, r_noise](double omega) {
-    const double p = q + r_noise;
-    return std::vector<double>{1.0, 0.0, omega, p, 0.0, 0.0, p, 0.0, q};
+    const double variance = q + r_noise;
+    return std::vector<double>{1.0, 0.0, omega, variance, 0.0, 0.0, variance, 0.0, q};
   };
   return example;
 }

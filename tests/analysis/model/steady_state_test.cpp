@@ -16,12 +16,9 @@ namespace veritrack::model {
 namespace {
 
 using test::ExampleTracker;
+using test::tone_of;
 using trackers::Operation;
 using trackers::StraightLineProgram;
-
-TrackedTone tone_of(const ExampleTracker& example) {
-  return {StepMap(example.recursion, example.constants), test::cosine_signal(), 1.0, example.start};
-}
 
 /// A tracker of one state x' = f(x, y), whose frequency is its first constant.
 template <typename Build>

@@ -14,10 +14,7 @@
 namespace veritrack::model {
 namespace {
 
-TrackedTone tone_of(const test::ExampleTracker& example, bool quadrature = false) {
-  return {StepMap(example.recursion, example.constants),
-          quadrature ? test::quadrature_signal() : test::cosine_signal(), 1.0, example.start};
-}
+using test::tone_of;
 
 TubeSettings settings_for(ShapeObjective objective) {
   TubeSettings settings;

@@ -66,7 +66,16 @@ BandProposal propose_band(const TrackedTone& tone, double low, double high, cons
   const int first = std::max(1, static_cast<int>(std::ceil((high - low) / settings.widest)));
   if (settings.one_shape) {
     const double half_width = std::max(narrowest, 1e-3 * (high - low));
-    const TubeProposal middle = propose_tube(tone, 0.5 * (low + high), half_width, settings.tube);
+    // Parameters of the middle are for all frequencies of the band.
+    TubeSettings tube = settings.tube;
+    constexpr int kPlaces = 9;
+    for (int place = 0; place < kPlaces; ++place) {
+      const double frequency = low + (high - low) * (place + 0.5) / kPlaces;
+      const SteadyState steady = find_steady_state(tone, frequency, tube.steady_state);
+      const bool is_settled = steady.outcome == SteadyStateOutcome::settled;
+      tube.shape.largest_rate = std::max(tube.shape.largest_rate, is_settled ? steady.rate : 0.0);
+    }
+    const TubeProposal middle = propose_tube(tone, 0.5 * (low + high), half_width, tube);
     if (middle.outcome == TubeOutcome::proposed) {
       division.begin_with(middle.shape.parameters);
     }

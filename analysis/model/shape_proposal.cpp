@@ -23,12 +23,13 @@ class ShapeSearch {
   ShapeSearch(const CurveDynamics& dynamics, const ShapeSettings& settings, Axes axes)
       : dynamics_(&dynamics), settings_(&settings), coordinates_(dynamics, settings, axes) {}
   ShapeSearch(const CurveDynamics& dynamics, const ShapeSettings& settings, const ShapeParameters& nearby)
-      : dynamics_(&dynamics), settings_(&settings), coordinates_(dynamics, nearby) {}
+      : dynamics_(&dynamics), settings_(&settings), coordinates_(dynamics, settings, nearby) {}
 
   /// Nothing when there is no such shape.
   [[nodiscard]] std::optional<ShapeWorth> worth_at(const ShapeParameters& parameters, int harmonics) const {
     const auto shape = shape_on_grid(*dynamics_, parameters, harmonics);
-    return shape ? worth_of(*dynamics_, *shape, parameters.weights, *settings_) : std::nullopt;
+    return shape && is_well_conditioned(*shape) ? worth_of(*dynamics_, *shape, parameters.weights, *settings_)
+                                                : std::nullopt;
   }
   [[nodiscard]] int most_harmonics() const {
     return std::min(settings_->harmonics, dynamics_->cocycle.grid().harmonics());
@@ -134,14 +135,18 @@ std::optional<ShapeProposal> finished(const ShapeSearch& search) {
 std::optional<ShapeProposal> propose_shape(const CurveDynamics& dynamics, const ShapeSettings& settings,
                                            const std::optional<ShapeParameters>& nearby) {
   const rigor::NearestRounding nearest;
-  if (!(dynamics.cocycle.rate() < 1.0)) {
+  if (!(dynamics.cocycle.rate() < 1.0) || !(settings.largest_rate < 1.0)) {
     return std::nullopt;
   }
+  constexpr int kFew = 300;
+  constexpr int kManyStates = 5;
+  const int usual = dynamics.cocycle.states() > kManyStates ? 2 * kFew : kFew;
+  const int evaluations = settings.evaluations > 0 ? settings.evaluations : usual;
   if (nearby) {
     ShapeSearch search(dynamics, settings, *nearby);
     search.begin_nearby();
     if (std::isfinite(search.score())) {
-      search.improve(settings.evaluations / 5);
+      search.improve(evaluations / 5);
       return finished(search);
     }
   }
@@ -149,12 +154,12 @@ std::optional<ShapeProposal> propose_shape(const CurveDynamics& dynamics, const 
   ShapeSearch other(dynamics, settings, Axes::of_covariance);
   for (ShapeSearch* one : {&search, &other}) {
     one->begin();
-    one->improve(settings.evaluations / 3);
+    one->improve(evaluations / 3);
   }
   if (other.score() > search.score()) {
     search = other;
   }
-  search.improve(settings.evaluations / 3);
+  search.improve(evaluations / 3);
   return finished(search);
 }
 

@@ -24,7 +24,10 @@ struct ShapeSettings {
   double noise = 0.0;  ///< of the samples together, Euclidean
   double slew = 0.0;   ///< rad/sample per sample
   int harmonics = 16;  ///< of the shape, at most
-  int evaluations = 300;
+  /// The largest rate at other frequencies for which the parameters have to do: lambda is above its square.
+  double largest_rate = 0.0;
+  /// Of shapes in the search; 0 means 300, and 600 for more than 5 states.
+  int evaluations = 0;
 };
 
 /// The free parameters. Equal ones at neighbouring frequencies give shapes that fit together.
@@ -63,6 +66,11 @@ struct ShapeProposal {
 [[nodiscard]] std::optional<Eigen::MatrixXd> cholesky_factors(const CurveDynamics& dynamics,
                                                               const ShapeParameters& parameters);
 
+/// Whether no diagonal entry of U is tiny for its row: its coefficients, of 24 bits, could not hold it.
+/// Shapes that are searched for have to be so with room to spare.
+[[nodiscard]] bool is_well_conditioned(const ShapeOnGrid& shape);
+
+/// Nothing when the shape is none somewhere.
 [[nodiscard]] std::optional<ShapeWorth> worth_of(const CurveDynamics& dynamics, const ShapeOnGrid& shape,
                                                  const DisturbanceWeights& weights,
                                                  const ShapeSettings& settings);

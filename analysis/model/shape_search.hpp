@@ -23,7 +23,7 @@ enum class Axes { of_states, of_covariance };
 class SearchCoordinates {
  public:
   SearchCoordinates(const CurveDynamics& dynamics, const ShapeSettings& settings, Axes axes)
-      : rate_squared_(dynamics.cocycle.rate() * dynamics.cocycle.rate()) {
+      : rate_squared_(square_of_rate(dynamics, settings)) {
     const bool with_noise = settings.noise > 0.0 || settings.slew == 0.0;
     const bool for_slew = settings.objective == ShapeObjective::largest_slew ||
                           (settings.objective == ShapeObjective::least_long_run_error && settings.slew > 0.0);
@@ -40,8 +40,9 @@ class SearchCoordinates {
   }
 
   /// Around parameters that were good nearby.
-  SearchCoordinates(const CurveDynamics& dynamics, const ShapeParameters& nearby)
-      : rate_squared_(dynamics.cocycle.rate() * dynamics.cocycle.rate()), weights_(nearby.weights) {
+  SearchCoordinates(const CurveDynamics& dynamics, const ShapeSettings& settings,
+                    const ShapeParameters& nearby)
+      : rate_squared_(square_of_rate(dynamics, settings)), weights_(nearby.weights) {
     is_both_ = weights_.noise > 0.0 && weights_.slew > 0.0;
     const Eigen::LLT<MatrixXd> factor(nearby.source);
     if (factor.info() == Eigen::Success) {
@@ -80,6 +81,10 @@ class SearchCoordinates {
   }
 
  private:
+  static double square_of_rate(const CurveDynamics& dynamics, const ShapeSettings& settings) {
+    const double rate = std::max(dynamics.cocycle.rate(), settings.largest_rate);
+    return rate * rate;
+  }
   void find_axes(const CurveDynamics& dynamics) {
     const int n = dynamics.cocycle.states();
     if (weights_.slew > 0.0) {

@@ -13,19 +13,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Whether no diagonal entry of U is tiny for its row: its coefficients, of 24 bits, could not hold it.
-bool is_well_conditioned(const ShapeOnGrid& shape) {
-  constexpr double kLeast = 1e-4;
-  const auto n = static_cast<Index>(std::lround(std::sqrt(static_cast<double>(shape.here.rows()))));
-  for (Index j = 0; j < shape.here.cols(); ++j) {
-    const MatrixXd u = shape.here.col(j).reshaped(n, n);
-    if (!((u.diagonal().array() >= kLeast * u.rowwise().norm().array()).all())) {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// One over the largest |U^-1 d| over the phase and the signs of the entries of d; 0 for an empty d.
 double start_share(const ShapeOnGrid& shape, const Eigen::VectorXd& deviations) {
   std::vector<Index> named;
@@ -94,13 +81,25 @@ std::optional<ShapeOnGrid> shape_on_grid(const CurveDynamics& dynamics, const Sh
                      *factors * grid.shift(dynamics.cocycle.frequency(), harmonics)};
 }
 
+bool is_well_conditioned(const ShapeOnGrid& shape) {
+  constexpr double kLeast = 1e-4;
+  const auto n = static_cast<Index>(std::lround(std::sqrt(static_cast<double>(shape.here.rows()))));
+  for (Index j = 0; j < shape.here.cols(); ++j) {
+    const MatrixXd u = shape.here.col(j).reshaped(n, n);
+    if (!((u.diagonal().array() >= kLeast * u.rowwise().norm().array()).all())) {
+      return false;
+    }
+  }
+  return true;
+}
+
 std::optional<ShapeWorth> worth_of(const CurveDynamics& dynamics, const ShapeOnGrid& shape,
                                    const DisturbanceWeights& weights, const ShapeSettings& settings) {
   DisturbanceWeights present = weights;
   const bool is_for_starts = settings.objective == ShapeObjective::largest_starts;
   present.noise = is_for_starts ? 0.0 : weights.noise;
   present.slew = is_for_starts ? 0.0 : weights.slew;
-  const auto bounds = is_well_conditioned(shape) ? bound_along(dynamics, shape, present) : std::nullopt;
+  const auto bounds = bound_along(dynamics, shape, present);
   if (!bounds) {
     return std::nullopt;
   }

@@ -94,8 +94,7 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
     result.samples += result.period;
     size = size_of(run.states(), is_angle);
     first_size = first_size.size() == 0 ? size : first_size;
-    const bool is_finite = run.states().allFinite() && std::isfinite(run.mean_frequency());
-    if (!is_finite || size.maxCoeff() > kHuge * std::max(1.0, first_size.maxCoeff())) {
+    if (!run.states().allFinite() || size.maxCoeff() > kHuge * std::max(1.0, first_size.maxCoeff())) {
       result.outcome = SteadyStateOutcome::diverges;
       return result;
     }
@@ -106,7 +105,12 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
       break;
     }
   }
+  // While it settles, an estimate may be undefined (an arc cosine beyond 1).
   result.mean_frequency = run.mean_frequency();
+  if (!std::isfinite(result.mean_frequency)) {
+    result.outcome = SteadyStateOutcome::diverges;
+    return result;
+  }
   result.mean_error = result.mean_frequency - result.frequency;
   find_slowest_mode(tone, run, size, result);
   const bool returns = is_small(result.drift, size);

@@ -206,7 +206,13 @@ TubeProposal propose_tube(const TrackedTone& tone, double frequency, double half
     proposal.shape.parameters = *nearby;
     proposal.shape.harmonics = std::min(settings.shape.harmonics, grid.harmonics());
   } else {
-    const auto shape = propose_shape(dynamics, settings.shape, nearby);
+    ShapeSettings shape_settings = settings.shape;
+    for (const double z : {-1.0, 1.0}) {
+      const NodeCurve end = curve->at(z);
+      const Cocycle cocycle(grid, end.frequency, jacobians_along(tone, end, grid), tone.step.states());
+      shape_settings.largest_rate = std::max(shape_settings.largest_rate, cocycle.rate());
+    }
+    const auto shape = propose_shape(dynamics, shape_settings, nearby);
     if (!shape) {
       proposal.outcome = TubeOutcome::no_shape;
       return proposal;

@@ -95,10 +95,12 @@ bool is_well_conditioned(const ShapeOnGrid& shape) {
 
 std::optional<ShapeWorth> worth_of(const CurveDynamics& dynamics, const ShapeOnGrid& shape,
                                    const DisturbanceWeights& weights, const ShapeSettings& settings) {
-  DisturbanceWeights present = weights;
+  // A little less than the weights that made the shape: interpolated and rounded, it does not satisfy its
+  // equation exactly.
+  constexpr double kMargin = 0.99;
   const bool is_for_starts = settings.objective == ShapeObjective::largest_starts;
-  present.noise = is_for_starts ? 0.0 : weights.noise;
-  present.slew = is_for_starts ? 0.0 : weights.slew;
+  const DisturbanceWeights present{is_for_starts ? 0.0 : kMargin * weights.noise,
+                                   is_for_starts ? 0.0 : kMargin * weights.slew};
   const auto bounds = bound_along(dynamics, shape, present);
   if (!bounds) {
     return std::nullopt;
@@ -118,21 +120,21 @@ std::optional<ShapeWorth> worth_of(const CurveDynamics& dynamics, const ShapeOnG
       worth.score = std::log(settings.start.size() > 0 ? worth.start_share : worth.level * worth.least_reach);
       break;
     case ShapeObjective::largest_noise: {
-      const ToleratedDisturbance tolerated = largest_noise(*bounds, weights.noise);
+      const ToleratedDisturbance tolerated = largest_noise(*bounds, present.noise);
       worth.level = tolerated.level;
       worth.noise = tolerated.size;
       worth.score = std::log(tolerated.size);
       break;
     }
     case ShapeObjective::largest_slew: {
-      const ToleratedDisturbance tolerated = largest_slew(*bounds, weights.slew);
+      const ToleratedDisturbance tolerated = largest_slew(*bounds, present.slew);
       worth.level = tolerated.level;
       worth.slew = tolerated.size;
       worth.score = std::log(tolerated.size);
       break;
     }
     case ShapeObjective::least_long_run_error:
-      worth.level = long_run_level(*bounds, weights, settings.noise, settings.slew);
+      worth.level = long_run_level(*bounds, present, settings.noise, settings.slew);
       worth.score = -std::log(worth.level * worth.reach);
       break;
   }

@@ -168,13 +168,12 @@ Eigen::MatrixXcd CurveFit::slope_at(double z) const {
 namespace {
 
 /// Leaves out what is far below the last digits of a state, and harmonics that nothing is left of.
-void drop_small_harmonics(CurveFit& fit, const Eigen::VectorXd& sizes) {
-  constexpr double kNegligible = 1e-13;
+void drop_small_harmonics(CurveFit& fit, const Eigen::VectorXd& sizes, double negligible) {
   Eigen::Index highest = 0;
   for (Eigen::MatrixXcd& coefficients : fit.coefficients) {
     for (Eigen::Index h = 0; h < coefficients.cols(); ++h) {
       for (Eigen::Index i = 0; i < coefficients.rows(); ++i) {
-        if (std::abs(coefficients(i, h)) < kNegligible * sizes[i]) {
+        if (std::abs(coefficients(i, h)) < negligible * sizes[i]) {
           coefficients(i, h) = 0.0;
         } else {
           highest = std::max(highest, h);
@@ -205,7 +204,7 @@ double frequency_error_at(const TrackedTone& tone, const CurveFit& fit, double z
 }  // namespace
 
 std::optional<CurveFit> fit_curve(const TrackedTone& tone, double frequency, double half_width,
-                                  const SteadyState& settled) {
+                                  const SteadyState& settled, double negligible) {
   const rigor::NearestRounding nearest;
   if (!(half_width > 0.0)) {
     throw std::invalid_argument("a cell of frequencies needs a width");
@@ -231,7 +230,7 @@ std::optional<CurveFit> fit_curve(const TrackedTone& tone, double frequency, dou
     }
     fit.coefficients[static_cast<std::size_t>(d)] = sum;
   }
-  drop_small_harmonics(fit, sizes_on(fit.nodes[kNodes / 2]));
+  drop_small_harmonics(fit, sizes_on(fit.nodes[kNodes / 2]), negligible);
   for (const double z : {-1.0, -0.8, -0.3, 0.0, 0.3, 0.8, 1.0}) {
     fit.frequency_error = std::max(fit.frequency_error, frequency_error_at(tone, fit, z));
   }

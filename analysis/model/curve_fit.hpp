@@ -60,9 +60,10 @@ struct CurveFit {
   [[nodiscard]] Eigen::MatrixXcd slope_at(double z) const;
 };
 
-/// Fits the cell from a settled simulation at its middle. Harmonics below 1e-13 of the size of their state
-/// are left out. Nothing when some node has no curve. Throws std::invalid_argument for a half width <= 0.
+/// Fits the cell from a settled simulation at its middle. Coefficients below `negligible` of the size of
+/// their state are left out. Nothing when some node has no curve. Throws std::invalid_argument for a half
+/// width <= 0.
 [[nodiscard]] std::optional<CurveFit> fit_curve(const TrackedTone& tone, double frequency, double half_width,
-                                                const SteadyState& settled);
+                                                const SteadyState& settled, double negligible = 1e-13);
 
 }  // namespace veritrack::model

@@ -190,7 +190,12 @@ TubeProposal propose_tube(const TrackedTone& tone, double frequency, double half
   if (proposal.steady_state.outcome != SteadyStateOutcome::settled) {
     return proposal;
   }
-  const std::optional<CurveFit> curve = fit_curve(tone, frequency, half_width, proposal.steady_state);
+  // What is left out of the curve adds up over 1/(1 - rate) samples.
+  constexpr double kShare = 1e-3;
+  const double negligible =
+      std::max(1e-15, kShare * settings.largest_curve_error * (1.0 - proposal.steady_state.rate));
+  const std::optional<CurveFit> curve =
+      fit_curve(tone, frequency, half_width, proposal.steady_state, negligible);
   if (!curve) {
     proposal.outcome = TubeOutcome::no_curve;
     return proposal;

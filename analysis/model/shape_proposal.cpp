@@ -89,7 +89,10 @@ class ShapeSearch {
  private:
   [[nodiscard]] double score_at(const Eigen::VectorXd& x) const {
     const auto worth = worth_at(coordinates_.at(x), most_harmonics());
-    return worth ? worth->score : kWorthless;
+    if (!worth) {
+      return kWorthless;
+    }
+    return worth->score;
   }
 
   const CurveDynamics* dynamics_;
@@ -154,12 +157,14 @@ std::optional<ShapeProposal> propose_shape(const CurveDynamics& dynamics, const 
   ShapeSearch other(dynamics, settings, Axes::of_covariance);
   for (ShapeSearch* one : {&search, &other}) {
     one->begin();
-    one->improve(evaluations / 3);
+    one->improve(evaluations / 4);
   }
   if (other.score() > search.score()) {
     search = other;
   }
-  search.improve(evaluations / 3);
+  // Twice: a search that begins anew leaves valleys in which the first one crept.
+  search.improve(evaluations / 4);
+  search.improve(evaluations / 4);
   return finished(search);
 }
 

@@ -22,7 +22,7 @@ using trackers::StraightLineProgram;
 
 /// A tracker of one state x' = f(x, y), whose frequency is its first constant.
 template <typename Build>
-ExampleTracker one_state(const Build& build, std::vector<double> constants, double start) {
+ExampleTracker one_state(const Build& build, const std::vector<double>& constants, double start) {
   ExampleTracker example;
   example.recursion.constants = static_cast<int>(constants.size());
   example.recursion.states = 1;

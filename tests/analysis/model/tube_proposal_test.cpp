@@ -157,8 +157,7 @@ TEST_CASE("proposals are the same each time, and kept parameters fit neighbourin
   CHECK(first.tube->curve.front().coefficients == again.tube->curve.front().coefficients);
   const TubeProposal next = propose_tube(tone, 0.34, 0.02, settings, first.shape.parameters, true);
   REQUIRE(next.tube);
-  TubeSettings narrow = settings;
-  const TubeProposal kept = propose_tube(tone, 0.3, 0.02, narrow, first.shape.parameters, true);
+  const TubeProposal kept = propose_tube(tone, 0.3, 0.02, settings, first.shape.parameters, true);
   REQUIRE(kept.tube);
   for (const double phase : {0.0, 1.0, 2.5}) {
     const Frame left = frame_at(*kept.tube, phase, 1.0);

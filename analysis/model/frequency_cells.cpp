@@ -1,0 +1,98 @@
+#include "analysis/model/frequency_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::model {
+
+namespace {
+
+/// Cells from the left to the right, halved where they fail.
+class Division {
+ public:
+  Division(const TrackedTone& tone, const BandSettings& settings, double narrowest)
+      : tone_(&tone), settings_(&settings), narrowest_(narrowest) {}
+
+  void divide(double low, double high) {
+    // A stack, the next cell on top.
+    std::vector<std::pair<double, double>> waiting{{low, high}};
+    while (!waiting.empty()) {
+      const auto [from, to] = waiting.back();
+      waiting.pop_back();
+      const double middle = 0.5 * (from + to);
+      TubeProposal proposal = propose_tube(*tone_, middle, 0.5 * (to - from), settings_->tube, nearby_,
+                                           settings_->one_shape && nearby_.has_value());
+      const bool is_proposed = proposal.outcome == TubeOutcome::proposed;
+      if (!is_proposed && to - from > 2.0 * narrowest_) {
+        waiting.emplace_back(middle, to);
+        waiting.emplace_back(from, middle);
+        continue;
+      }
+      if (is_proposed && !(settings_->one_shape && nearby_)) {
+        nearby_ = proposal.shape.parameters;
+      }
+      cells_.push_back(std::move(proposal));
+    }
+  }
+
+  void begin_with(const std::optional<ShapeParameters>& parameters) { nearby_ = parameters; }
+  [[nodiscard]] std::vector<TubeProposal> take() { return std::move(cells_); }
+
+ private:
+  const TrackedTone* tone_;
+  const BandSettings* settings_;
+  double narrowest_;
+  std::optional<ShapeParameters> nearby_;
+  std::vector<TubeProposal> cells_;
+};
+
+}  // namespace
+
+BandProposal propose_band(const TrackedTone& tone, double low, double high, const BandSettings& settings) {
+  const rigor::NearestRounding nearest;
+  if (!(0.0 < low && low < high && high < std::numbers::pi)) {
+    throw std::invalid_argument("a band of frequencies must be within (0, pi)");
+  }
+  constexpr double kMostCells = 1024.0;
+  const double narrowest = std::max(settings.narrowest, (high - low) / kMostCells);
+  Division division(tone, settings, narrowest);
+  const int first = std::max(1, static_cast<int>(std::ceil((high - low) / settings.widest)));
+  if (settings.one_shape) {
+    const double half_width = std::max(narrowest, 1e-3 * (high - low));
+    // Parameters of the middle are for all frequencies of the band.
+    TubeSettings tube = settings.tube;
+    constexpr int kPlaces = 9;
+    for (int place = 0; place < kPlaces; ++place) {
+      const double frequency = low + (high - low) * (place + 0.5) / kPlaces;
+      const SteadyState steady = find_steady_state(tone, frequency, tube.steady_state);
+      const bool is_settled = steady.outcome == SteadyStateOutcome::settled;
+      tube.shape.largest_rate = std::max(tube.shape.largest_rate, is_settled ? steady.rate : 0.0);
+    }
+    const TubeProposal middle = propose_tube(tone, 0.5 * (low + high), half_width, tube);
+    if (middle.outcome == TubeOutcome::proposed) {
+      division.begin_with(middle.shape.parameters);
+    }
+  }
+  const auto end_of = [&](int cell) {
+    return cell == first ? high : low + (high - low) * static_cast<double>(cell) / static_cast<double>(first);
+  };
+  for (int cell = 0; cell < first; ++cell) {
+    division.divide(end_of(cell), end_of(cell + 1));
+  }
+  BandProposal band;
+  band.cells = division.take();
+  band.is_complete = !band.cells.empty() && std::ranges::all_of(band.cells, [&](const TubeProposal& cell) {
+    return cell.outcome == TubeOutcome::proposed &&
+           cell.steady_state.turns == band.cells.front().steady_state.turns;
+  });
+  return band;
+}
+
+}  // namespace veritrack::model

@@ -1,0 +1,110 @@
+// The words of proposals that failed.
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "analysis/model/frequency_cells.hpp"
+#include "analysis/model/tube_proposal.hpp"
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::model {
+
+namespace {
+
+/// A number with so many significant digits.
+std::string digits(double value, int count) {
+  const rigor::NearestRounding nearest;
+  std::ostringstream text;
+  text.precision(count);
+  text << value;
+  return text.str();
+}
+
+std::string at_frequency(const SteadyState& steady) {
+  return ", at " + digits(steady.frequency, 6) + " rad/sample";
+}
+
+/// The states in which a mode mainly is, by their numbers.
+std::string states_in(const Eigen::VectorXd& mode) {
+  constexpr double kShare = 0.1;
+  std::string text;
+  for (Eigen::Index i = 0; i < mode.size(); ++i) {
+    if (std::fabs(mode[i]) >= kShare) {
+      text += (text.empty() ? "" : ", ") + digits(mode[i], 2) + " of state " + std::to_string(i);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string reason_of(const SteadyState& steady) {
+  switch (steady.outcome) {
+    case SteadyStateOutcome::settled:
+      return "";
+    case SteadyStateOutcome::diverges:
+      return "no steady state: the simulation diverges or is undefined within " +
+             std::to_string(steady.samples) + " samples" + at_frequency(steady);
+    case SteadyStateOutcome::still_drifts:
+      return "no steady state: after " + std::to_string(steady.samples) + " samples state " +
+             std::to_string(steady.slowest_state) + " at phase 0 still moves by " +
+             digits(std::fabs(steady.drift[steady.slowest_state]), 3) + " in " +
+             std::to_string(steady.period) + " samples" + at_frequency(steady);
+    case SteadyStateOutcome::repeats_later:
+      return "no steady state: the tracker settles on a curve of period " +
+             std::to_string(steady.repetition) + " in the phase" + at_frequency(steady);
+    case SteadyStateOutcome::locked_elsewhere:
+      return "the tracker settles on " + digits(steady.mean_frequency, 6) + " rad/sample when the tone has " +
+             digits(steady.frequency, 6) + ": it has locked to something else";
+    case SteadyStateOutcome::not_exponentially_stable:
+      return "not exponentially stable: each sample multiplies errors by " + digits(steady.rate, 7) +
+             at_frequency(steady) + ", in the mode " + states_in(steady.mode);
+  }
+  return "";
+}
+
+std::string reason_of(const TubeProposal& proposal) {
+  switch (proposal.outcome) {
+    case TubeOutcome::proposed:
+      return "";
+    case TubeOutcome::no_steady_state:
+      return reason_of(proposal.steady_state);
+    case TubeOutcome::no_curve:
+      return "no steady state: the simulation settles in the middle of the cell, but not on a smooth curve "
+             "over "
+             "it";
+    case TubeOutcome::no_shape:
+      return "no tube found around the steady state, where each sample multiplies errors by " +
+             digits(proposal.steady_state.rate, 7);
+    case TubeOutcome::cell_too_wide:
+      return "the steady state changes too much over the cell: a polynomial in the frequency is off by " +
+             digits(proposal.curve_error, 2) + " rad/sample and costs " + digits(100.0 * proposal.loss, 2) +
+             " % of the tube, whose size varies by " + digits(100.0 * proposal.variation, 2) + " %";
+  }
+  return "";
+}
+
+std::vector<std::string> reasons_of(const BandProposal& band) {
+  std::vector<std::string> reasons;
+  for (std::size_t first = 0; first < band.cells.size();) {
+    const TubeProposal& cell = band.cells[first];
+    std::size_t end = first + 1;
+    while (end < band.cells.size() && band.cells[end].outcome == cell.outcome &&
+           band.cells[end].steady_state.outcome == cell.steady_state.outcome) {
+      ++end;
+    }
+    if (cell.outcome != TubeOutcome::proposed) {
+      const TubeProposal& last = band.cells[end - 1];
+      std::string reason = reason_of(cell);
+      reason += ", between " + digits(cell.frequency - cell.half_width, 6) + " and " +
+                digits(last.frequency + last.half_width, 6) + " rad/sample";
+      reasons.push_back(reason);  // NOLINT(performance-inefficient-vector-operation): few, of unknown number
+    }
+    first = end;
+  }
+  return reasons;
+}
+
+}  // namespace veritrack::model

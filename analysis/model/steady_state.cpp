@@ -1,0 +1,146 @@
+#include "analysis/model/steady_state.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "analysis/model/periodic_run.hpp"
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::model {
+
+namespace {
+
+using detail::Fraction;
+using detail::History;
+using detail::PeriodicRun;
+
+/// The growth of errors over the last period, and the mode that grows or lasts the longest.
+void find_slowest_mode(const TrackedTone& tone, const PeriodicRun& run, const Eigen::VectorXd& size,
+                       SteadyState& result) {
+  const Eigen::Index n = size.size();
+  Eigen::MatrixXd product = Eigen::MatrixXd::Identity(n, n);
+  double logarithm = 0.0;
+  for (Eigen::Index k = 0; k < run.samples().cols(); ++k) {
+    product = (tone.step.jacobian(run.states().col(k), run.samples().col(k)).leftCols(n) * product).eval();
+    const double largest = product.cwiseAbs().maxCoeff();
+    if (!(largest > 0.0) || !std::isfinite(largest)) {
+      result.rate = 0.0;
+      return;
+    }
+    product /= largest;
+    logarithm += std::log(largest);
+  }
+  // In units of the states' size, D^-1 Phi D.
+  const Eigen::VectorXd unit = size.unaryExpr([](double s) { return s > 0.0 ? s : 1.0; });
+  const Eigen::MatrixXd scaled = unit.cwiseInverse().asDiagonal() * product * unit.asDiagonal();
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(scaled.transpose());
+  Eigen::Index place = 0;
+  const double radius = solver.eigenvalues().cwiseAbs().maxCoeff(&place);
+  result.rate = std::exp((logarithm + std::log(radius)) / static_cast<double>(run.samples().cols()));
+  // Of a pair of complex eigenvectors only the sizes of the entries have a meaning.
+  const bool is_real = solver.eigenvalues()[place].imag() == 0.0;
+  const Eigen::VectorXcd vector = solver.eigenvectors().col(place);
+  const Eigen::VectorXd mode = is_real ? Eigen::VectorXd(vector.real()) : Eigen::VectorXd(vector.cwiseAbs());
+  Eigen::Index largest = 0;
+  mode.cwiseAbs().maxCoeff(&largest);
+  result.mode = mode / mode[largest];
+}
+
+/// The size of each state over a period; of an angle, 1.
+Eigen::VectorXd size_of(const Eigen::MatrixXd& states, const std::vector<bool>& is_angle) {
+  Eigen::VectorXd size = states.cwiseAbs().rowwise().maxCoeff();
+  for (std::size_t i = 0; i < is_angle.size(); ++i) {
+    size[static_cast<Eigen::Index>(i)] = is_angle[i] ? 1.0 : size[static_cast<Eigen::Index>(i)];
+  }
+  return size;
+}
+
+bool is_small(const Eigen::VectorXd& change, const Eigen::VectorXd& size) {
+  constexpr double kReturned = 1e-9;
+  return (change.cwiseAbs().array() <= kReturned * size.array()).all();
+}
+
+}  // namespace
+
+SteadyState find_steady_state(const TrackedTone& tone, double frequency,
+                              const SteadyStateSettings& settings) {
+  const rigor::NearestRounding nearest;
+  constexpr double kHuge = 1e9;
+  constexpr int kLongestRepetition = 8;
+  SteadyState result;
+  if (!(frequency > 0.0 && frequency < std::numbers::pi)) {
+    throw std::invalid_argument("a steady state belongs to a frequency between 0 and pi");
+  }
+  const std::vector<double> start = tone.start(frequency);
+  const auto& is_angle = tone.step.recursion().is_angle;
+  if (static_cast<int>(start.size()) != tone.step.states() || is_angle.size() != start.size()) {
+    throw std::invalid_argument("wrong number of states at the start of a simulation");
+  }
+  const Fraction fraction = detail::nearby_fraction(frequency);
+  result.asked_frequency = frequency;
+  result.frequency = 2.0 * std::numbers::pi * fraction.turns / fraction.samples;
+  result.period = fraction.samples;
+  PeriodicRun run(tone, fraction, start);
+  History history;
+  history.add(run);
+  Eigen::VectorXd first_size;
+  Eigen::VectorXd size;
+  for (;;) {
+    run.run();
+    history.add(run);
+    result.samples += result.period;
+    size = size_of(run.states(), is_angle);
+    first_size = first_size.size() == 0 ? size : first_size;
+    if (!run.states().allFinite() || size.maxCoeff() > kHuge * std::max(1.0, first_size.maxCoeff())) {
+      result.outcome = SteadyStateOutcome::diverges;
+      return result;
+    }
+    size = size.cwiseMax(first_size);
+    result.drift = history.change(1, is_angle);
+    result.drift.cwiseAbs().cwiseQuotient(size.cwiseMax(1e-300)).maxCoeff(&result.slowest_state);
+    if (is_small(result.drift, size) || result.samples + result.period > settings.samples) {
+      break;
+    }
+  }
+  // While it settles, an estimate may be undefined (an arc cosine beyond 1).
+  result.mean_frequency = run.mean_frequency();
+  if (!std::isfinite(result.mean_frequency)) {
+    result.outcome = SteadyStateOutcome::diverges;
+    return result;
+  }
+  result.mean_error = result.mean_frequency - result.frequency;
+  find_slowest_mode(tone, run, size, result);
+  const bool returns = is_small(result.drift, size);
+  const double resolved = returns ? 1e-8 : 4.0 / static_cast<double>(result.samples);
+  const Eigen::VectorXd turns = history.turns(1) / static_cast<double>(fraction.turns);
+  const bool are_whole = (turns - turns.array().round().matrix()).cwiseAbs().maxCoeff() < 1e-9;
+  for (int m = 2; (!returns || !are_whole) && m <= kLongestRepetition && history.reaches(m); ++m) {
+    const Eigen::VectorXd together = history.turns(m) / static_cast<double>(fraction.turns);
+    const bool fit = (together - together.array().round().matrix()).cwiseAbs().maxCoeff() < 1e-9;
+    if (is_small(history.change(m, is_angle), size) && fit) {
+      result.repetition = m;
+      result.outcome = SteadyStateOutcome::repeats_later;
+      return result;
+    }
+  }
+  if (!(result.rate <= 1.0 - resolved) && result.rate > 0.0) {
+    result.outcome = SteadyStateOutcome::not_exponentially_stable;
+  } else if (std::fabs(result.mean_error) > settings.largest_mean_error) {
+    result.outcome = SteadyStateOutcome::locked_elsewhere;
+  } else if (!returns || !are_whole) {
+    result.outcome = SteadyStateOutcome::still_drifts;
+  } else {
+    result.outcome = SteadyStateOutcome::settled;
+    for (std::size_t i = 0; i < is_angle.size(); ++i) {
+      result.turns.push_back(is_angle[i] ? static_cast<int>(std::lround(turns[static_cast<Eigen::Index>(i)]))
+                                         : 0);
+    }
+    result.states = detail::sorted_states(run, fraction, result.turns);
+  }
+  return result;
+}
+
+}  // namespace veritrack::model

@@ -1,0 +1,60 @@
+// The tube of a tracker over a cell of frequencies: its curve and its shape, proposed in floating point.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "analysis/model/curve_fit.hpp"
+#include "analysis/model/shape_proposal.hpp"
+
+namespace veritrack::model {
+
+struct TubeSettings {
+  ShapeSettings shape;
+  SteadyStateSettings steady_state;
+  /// Of estimated frequencies on the curve against those on the true steady state, rad/sample: what a bias
+  /// and a ripple can be known to.
+  double largest_curve_error = 1e-8;
+  /// Of the worth of the shape, by interpolation in the frequency.
+  double largest_loss = 0.15;
+  /// Of the worth over the cell: 1 less the ratio of its least to its largest value.
+  double largest_variation = 0.5;
+};
+
+enum class TubeOutcome {
+  proposed,
+  no_steady_state,  ///< see the steady state
+  no_curve,         ///< the steady state of the simulation is not one at some frequency of the cell
+  no_shape,         ///< no tube around the curve contracts
+  cell_too_wide     ///< curve or shape are no polynomials in the frequency over this cell: see the numbers
+};
+
+/// A tube, or why there is none.
+struct TubeProposal {
+  TubeOutcome outcome = TubeOutcome::no_steady_state;
+  double frequency = 0.0;   ///< of the middle, rad/sample
+  double half_width = 0.0;  ///< rad/sample
+  SteadyState steady_state;
+  double curve_error = 0.0;  ///< estimated, rad/sample
+  double loss = 0.0;         ///< the largest over the cell
+  double variation = 0.0;    ///< of the worth over the cell
+  ShapeProposal shape;       ///< the parameters, and what they are worth at the middle
+  /// Over the cell, of the tube as it is: the level is a guess for its radius, rad/sample.
+  ShapeWorth worth;
+  std::optional<Tube> tube;  ///< when proposed; its curve and shape also when the cell is too wide
+};
+
+/// For |omega - frequency| <= half_width, rad/sample. `nearby`: parameters that were good at neighbouring
+/// frequencies; with `keep` they are used as they are, so that tubes of neighbouring cells fit together.
+/// Deterministic; holds round-to-nearest. Throws std::invalid_argument when sizes do not fit or the cell is
+/// not within (0, pi).
+[[nodiscard]] TubeProposal propose_tube(const TrackedTone& tone, double frequency, double half_width,
+                                        const TubeSettings& settings,
+                                        const std::optional<ShapeParameters>& nearby = std::nullopt,
+                                        bool keep = false);
+
+/// What failed, in words and numbers, for a message; empty when nothing did.
+[[nodiscard]] std::string reason_of(const SteadyState& steady_state);
+[[nodiscard]] std::string reason_of(const TubeProposal& proposal);
+
+}  // namespace veritrack::model

@@ -1,0 +1,269 @@
+#include "analysis/model/tube_verification.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "analysis/model/angle_check.hpp"
+#include "analysis/model/tube_proposal.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "tests/analysis/model/example_recursions.hpp"
+#include "tests/support/random.hpp"
+
+namespace veritrack::model {
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+using trackers::Operation;
+using trackers::StraightLineProgram;
+
+/// A cos(phi), and with two channels A sin(phi).
+StraightLineProgram tone(int constants, bool quadrature = false) {
+  StraightLineProgram program(constants + 2);
+  const int phase = constants + 1;
+  program.add_result(program.append(Operation::multiply, constants, program.append(Operation::cos, phase)));
+  if (quadrature) {
+    program.add_result(program.append(Operation::multiply, constants, program.append(Operation::sin, phase)));
+  }
+  return program;
+}
+
+/// An example as the verification sees it.
+struct Example {
+  test::ExampleTracker tracker;
+  StraightLineProgram signal;
+  TrackerModel model;
+
+  explicit Example(test::ExampleTracker example)
+      : tracker(std::move(example)), signal(tone(tracker.recursion.constants)) {
+    model.recursion = &tracker.recursion;
+    model.signal = &signal;
+    for (const double constant : tracker.constants) {
+      model.constants.emplace_back(constant);
+    }
+    model.amplitude = Interval(1.0);
+  }
+  Example(const Example&) = delete;
+  Example& operator=(const Example&) = delete;
+  Example(Example&&) = delete;
+  Example& operator=(Example&&) = delete;
+  ~Example() = default;
+};
+
+Tube proposed(const Example& example, double frequency, double half_width, ShapeObjective objective) {
+  TubeSettings settings;
+  settings.shape.objective = objective;
+  settings.largest_curve_error = 1e-7;
+  const TubeProposal proposal = propose_tube(test::tone_of(example.tracker), frequency, half_width, settings);
+  REQUIRE_MESSAGE(proposal.tube.has_value(), reason_of(proposal));
+  return *proposal.tube;
+}
+
+/// Whether a state of this level can leave: the largest |F|/R that random places of the boundary reach, in
+/// floating point. Shares no code with the verification: the recursion in doubles, sums of the tube's series.
+class Attack {
+ public:
+  Attack(const Example& example, const Tube& tube) : example_(&example), tube_(&tube) {}
+
+  [[nodiscard]] double largest(double radius, double noise, int trials) const {
+    test::Random random(71);
+    double worst = 0.0;
+    const auto n = static_cast<Eigen::Index>(tube_->curve.size());
+    for (int trial = 0; trial < trials; ++trial) {
+      const double phase = random.uniform(0.0, 2.0 * M_PI);
+      const double z = random.uniform(-1.0, 1.0);
+      const double omega = tube_->frequency + tube_->half_width * z;
+      Eigen::VectorXd xi(n);
+      for (double& component : xi) {
+        component = random.uniform(-1.0, 1.0);
+      }
+      const Eigen::VectorXd state = curve(phase, z) + radius * shape(phase, z) * xi.normalized();
+      std::vector<double> inputs = example_->tracker.constants;
+      inputs.insert(inputs.end(), state.begin(), state.end());
+      inputs.push_back(std::cos(phase + omega) + (random.below(2) == 0 ? noise : -noise));
+      std::vector<double> registers;
+      std::vector<double> next(static_cast<std::size_t>(n));
+      example_->tracker.recursion.step.run(std::span<const double>(inputs), registers, std::span(next));
+      const Eigen::VectorXd deviation =
+          shape(phase + omega, z)
+              .triangularView<Eigen::Lower>()
+              .solve(Eigen::Map<const Eigen::VectorXd>(next.data(), n) - curve(phase + omega, z));
+      worst = std::max(worst, deviation.norm() / radius);
+    }
+    return worst;
+  }
+
+ private:
+  [[nodiscard]] static double value(const PhaseSeries& series, double phase, double z) {
+    double sum = 0.0;
+    for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
+      for (std::size_t d = 0; d < series.coefficients[h].size(); ++d) {
+        sum += (series.coefficients[h][d] * std::polar(1.0, static_cast<double>(h) * phase)).real() *
+               std::pow(z, static_cast<double>(d));
+      }
+    }
+    return sum;
+  }
+  [[nodiscard]] Eigen::VectorXd curve(double phase, double z) const {
+    Eigen::VectorXd point(static_cast<Eigen::Index>(tube_->curve.size()));
+    for (Eigen::Index i = 0; i < point.size(); ++i) {
+      const auto state = static_cast<std::size_t>(i);
+      point[i] = tube_->turns[state] * phase + value(tube_->curve[state], phase, z);
+    }
+    return point;
+  }
+  [[nodiscard]] Eigen::MatrixXd shape(double phase, double z) const {
+    const auto n = static_cast<Eigen::Index>(tube_->curve.size());
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+    std::size_t place = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        matrix(i, j) = value(tube_->shape[place++], phase, z);
+      }
+    }
+    return matrix;
+  }
+
+  const Example* example_;
+  const Tube* tube_;
+};
+
+TEST_CASE("a phase-locked loop: starts up to the aim are proved, and no attack leaves what is proved") {
+  const Example loop(test::phase_locked_loop());
+  const Tube tube = proposed(loop, 0.3, 0.04, ShapeObjective::largest_starts);
+  const LevelResult proved = verify_level(loop.model, tube, {0.013, 0.0}, {});
+  CHECK(proved.verdict == Verdict::proved);
+  CHECK(proved.frequency_error.upper() > 0.0125);
+  CHECK(proved.frequency_error.upper() < 0.0145);
+  CHECK(proved.frequency_error.lower() < -0.0125);
+  const Attack attack(loop, tube);
+  const double worst = attack.largest(0.013, 0.0, 20000);
+  CHECK(worst < 1.0);
+  CHECK(worst > 0.9);
+  // Beyond, an attack leaves or the verification says that it may.
+  const LevelResult refused = verify_level(loop.model, tube, {0.02, 0.0}, {});
+  CHECK(refused.verdict == Verdict::undecided);
+  CHECK(refused.reason.find("a step may grow beyond the tube") != std::string::npos);
+  CHECK(verify_level(loop.model, tube, {10.0, 0.0}, {}).verdict == Verdict::undecided);
+  CHECK(verify_level(loop.model, tube, {0.013, 0.1}, {}).verdict == Verdict::undecided);
+}
+
+TEST_CASE("a set for noise, and levels that shrink to the curve without it") {
+  const Example loop(test::phase_locked_loop());
+  const Tube tube = proposed(loop, 0.3, 0.04, ShapeObjective::largest_noise);
+  CHECK(verify_level(loop.model, tube, {0.0045, 0.04}, {}).verdict == Verdict::proved);
+  CHECK(Attack(loop, tube).largest(0.0045, 0.04, 20000) < 1.0);
+  LevelQuestion shrinks{0.004, 0.0, 0.25, 0.9999};
+  while (shrinks.radius > 1e-6) {
+    CAPTURE(shrinks.radius);
+    CHECK(verify_level(loop.model, tube, shrinks, {}).verdict == Verdict::proved);
+    shrinks.radius *= 0.25;
+  }
+  CHECK(verify_level(loop.model, tube, {0.004, 0.0, 0.25, 0.5}, {}).verdict == Verdict::undecided);
+}
+
+TEST_CASE("a SOGI-FLL and KalmANF reach the aims for starts") {
+  const Example sogi(test::integrator_loop());
+  const double hertz = 2.0 * M_PI / 10000.0;
+  CHECK(verify_level(sogi.model, proposed(sogi, 50 * hertz, hertz, ShapeObjective::largest_starts),
+                     {0.002, 0.0}, {})
+            .verdict == Verdict::proved);
+  const Example notch(test::notch_filter());
+  CHECK(
+      verify_level(notch.model, proposed(notch, 0.5, 0.005, ShapeObjective::largest_starts), {0.004, 0.0}, {})
+          .verdict == Verdict::proved);
+}
+
+TEST_CASE("tubes that are wrong are not proved") {
+  const Example loop(test::phase_locked_loop());
+  const Tube good = proposed(loop, 0.3, 0.04, ShapeObjective::largest_starts);
+  const LevelQuestion question{0.012, 0.0};
+  REQUIRE(verify_level(loop.model, good, question, {}).verdict == Verdict::proved);
+  const auto verdict = [&](const Tube& tube) { return verify_level(loop.model, tube, question, {}).verdict; };
+  Tube wrong = good;
+  wrong.curve[0].coefficients[0][0] += 0.004;
+  CHECK(verdict(wrong) == Verdict::undecided);
+  wrong = good;
+  wrong.turns[1] = 0;
+  CHECK(verdict(wrong) == Verdict::undecided);
+  wrong = good;
+  wrong.turns[1] = 2;
+  CHECK(verdict(wrong) == Verdict::undecided);
+  wrong = good;
+  wrong.turns[0] = 1;
+  CHECK(verdict(wrong) == Verdict::undecided);
+  wrong = good;
+  wrong.frequency += 0.1;
+  CHECK(verdict(wrong) == Verdict::undecided);
+  wrong = good;
+  wrong.half_width = 0.4;
+  CHECK(verdict(wrong) == Verdict::undecided);
+  for (auto& harmonic : wrong.shape[0].coefficients) {
+    for (auto& coefficient : harmonic) {
+      coefficient = 0.0;
+    }
+  }
+  CHECK(verdict(wrong) == Verdict::undecided);
+  wrong = good;
+  wrong.shape[2].coefficients[0][0] = std::nan("");
+  CHECK(verdict(wrong) == Verdict::undecided);
+  wrong = good;
+  wrong.shape.pop_back();
+  CHECK_THROWS_AS((void)verdict(wrong), std::invalid_argument);
+  wrong = good;
+  wrong.half_width = 0.0;
+  CHECK_THROWS_AS((void)verdict(wrong), std::invalid_argument);
+}
+
+TEST_CASE("questions and budgets that cannot be answered are not proved") {
+  const Example loop(test::phase_locked_loop());
+  const Tube tube = proposed(loop, 0.3, 0.04, ShapeObjective::largest_starts);
+  const auto verdict = [&](const LevelQuestion& question, const VerificationBudget& budget) {
+    return verify_level(loop.model, tube, question, budget).verdict;
+  };
+  CHECK(verdict({0.0, 0.0}, {}) == Verdict::undecided);
+  CHECK(verdict({std::nan(""), 0.0}, {}) == Verdict::undecided);
+  CHECK(verdict({0.01, -1.0}, {}) == Verdict::undecided);
+  CHECK(verdict({0.01, 0.0, 0.0, 1.0}, {}) == Verdict::undecided);
+  CHECK(verdict({0.01, 0.0, 1.0, 1.5}, {}) == Verdict::undecided);
+  CHECK(verdict({0.01, 0.0}, {3, 1, 1000}) == Verdict::undecided);
+  CHECK(verdict({0.01, 0.0}, {0, 1, 1000}) == Verdict::undecided);
+  // The same cells with any first grid that is fine enough.
+  CHECK(verdict({0.01, 0.0}, {64, 2, 20000}) == Verdict::proved);
+}
+
+TEST_CASE("whole turns: what depends on them, and what does not") {
+  const rigor::UpwardRounding upward;
+  const Example loop(test::phase_locked_loop());
+  CHECK(angle_objection(loop.tracker.recursion, loop.model.constants).empty());
+  // The frequency estimate must not see them.
+  trackers::Recursion changed = loop.tracker.recursion;
+  changed.frequency = test::frequency_of_state(2, 2, 1);
+  CHECK(angle_objection(changed, loop.model.constants) == "the frequency depends on whole turns of an angle");
+  // An angle that is treated as a number.
+  changed = loop.tracker.recursion;
+  changed.is_angle = {true, true};
+  CHECK_FALSE(angle_objection(changed, loop.model.constants).empty());
+  changed.is_angle = {false, false};
+  CHECK(angle_objection(changed, loop.model.constants).empty());
+  CHECK(is_periodic(loop.signal, loop.model.constants));
+  StraightLineProgram ramp(4);
+  ramp.add_result(3);
+  CHECK_FALSE(is_periodic(ramp, loop.model.constants));
+  StraightLineProgram half(5);
+  half.add_result(half.append(Operation::sin, half.append(Operation::multiply, 2, 4)));
+  CHECK_FALSE(is_periodic(half, {Interval(1.0), Interval(1.0), Interval(0.5)}));
+  CHECK(is_periodic(half, {Interval(1.0), Interval(1.0), Interval(3.0)}));
+  StraightLineProgram none(4);
+  CHECK_FALSE(is_periodic(none, loop.model.constants));
+}
+
+}  // namespace
+}  // namespace veritrack::model

@@ -148,21 +148,26 @@ double proposed_split(const LinearPart& of_x, const LinearPart& of_v, double sca
   if (v.size() == 0 || x.size() == 0 || !x.allFinite() || !v.allFinite()) {
     return 0.5;
   }
-  double best = 0.5;
-  double least = std::numeric_limits<double>::infinity();
-  constexpr int kSteps = 63;
-  for (int i = 1; i <= kSteps; ++i) {
-    const double t = static_cast<double>(i) / (kSteps + 1);
-    const double value =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(x / t + v / (1.0 - t), Eigen::EigenvaluesOnly)
-            .eigenvalues()
-            .maxCoeff();
-    if (value < least) {
-      least = value;
-      best = t;
+  const auto value = [&](double logit) {
+    const double t = 1.0 / (1.0 + std::exp(-logit));
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(x / t + v / (1.0 - t), Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .maxCoeff();
+  };
+  // Convex in t, so one valley in the logit, which reaches both ends: slow trackers need t close to 1.
+  double low = -20.0;
+  double high = 20.0;
+  constexpr int kSteps = 40;
+  for (int i = 0; i < kSteps; ++i) {
+    const double first = low + (high - low) / 3.0;
+    const double second = high - (high - low) / 3.0;
+    if (value(first) < value(second)) {
+      high = second;
+    } else {
+      low = first;
     }
   }
-  return best;
+  return 1.0 / (1.0 + std::exp(-(low + high) / 2.0));
 }
 
 }  // namespace

@@ -120,6 +120,25 @@ Interval BallModel::range() const {
              : Interval::empty();
 }
 
+Interval BallModel::mean_over_s() const {
+  if (!std::isfinite(error_) || !std::isfinite(constant())) {
+    return Interval::empty();
+  }
+  Interval mean(constant());
+  double around = error_;
+  for (std::size_t number = 1; number < norms_.size(); ++number) {
+    const BallMonomials::Class& here = monomials_->classes()[number];
+    if (here.ball > 0 || here.disturbance > 0) {
+      around += norms_[number];
+    } else if (here.s % 2 == 0) {
+      // The mean of s^c is 1/(c + 1) for even c, and 0 for odd c; z^d is between -1 and 1.
+      const Interval part = Interval(coefficients_[here.first]) / Interval(here.s + 1.0);
+      mean = here.z == 0 ? mean + part : mean + hull(-part, part);
+    }
+  }
+  return std::isfinite(around) ? mean + Interval::from_bounds(-around, around) : Interval::empty();
+}
+
 BallModel BallModel::without_constant() const {
   BallModel result = *this;
   result.coefficients_[0] = 0.0;

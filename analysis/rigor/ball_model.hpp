@@ -71,6 +71,9 @@ class BallModel {
   [[nodiscard]] double deviation() const;
   /// Contains all values; empty when nothing is known.
   [[nodiscard]] Interval range() const;
+  /// Contains the mean over s of each function, whatever x and v do while s runs, for all z; empty when
+  /// nothing is known.
+  [[nodiscard]] Interval mean_over_s() const;
   /// The same without the constant: f - constant().
   [[nodiscard]] BallModel without_constant() const;
   /// Every function that is within `more` of one of these.

@@ -47,6 +47,22 @@ void require_names(const std::vector<SourceText>& sources, std::set<std::string>
   }
 }
 
+std::vector<NamedFormula> parameters_of(const ModelTable& table) {
+  std::vector<NamedFormula> parameters;
+  parameters.reserve(table.parameters.size());
+  for (const NamedText& parameter : table.parameters) {
+    parameters.push_back(
+        {parameter.name.text, parameter.name.position, language::parse_expression(parameter.formula)});
+  }
+  return parameters;
+}
+
+/// Throws LanguageError: the name is none of the states.
+[[noreturn]] void refuse_state(const SourceText& name, const std::vector<std::string>& states) {
+  throw LanguageError(name.position, fmt::format("{} is no state; nearest: {}; allowed: {}", name.text,
+                                                 nearest_key(name.text, states), fmt::join(states, ", ")));
+}
+
 /// The formulas of `named`, one for each of `names`, in their order. Throws LanguageError for a name that is
 /// missing or too many.
 std::vector<Expression> formulas_of(const std::vector<NamedText>& named,
@@ -54,9 +70,7 @@ std::vector<Expression> formulas_of(const std::vector<NamedText>& named,
                                     std::string_view what) {
   for (const NamedText& entry : named) {
     if (std::find(names.begin(), names.end(), entry.name.text) == names.end()) {
-      throw LanguageError(entry.name.position,
-                          fmt::format("{} is no state; nearest: {}; allowed: {}", entry.name.text,
-                                      nearest_key(entry.name.text, names), fmt::join(names, ", ")));
+      refuse_state(entry.name, names);
     }
   }
   std::vector<Expression> formulas;
@@ -172,6 +186,29 @@ std::vector<NamedText> with_start_covariance(std::vector<NamedText> start,
 
 }  // namespace
 
+std::vector<rigor::Interval> start_deviations(const Model& model, const ModelTable& table,
+                                              const std::vector<NamedText>& start_within) {
+  std::vector<rigor::Interval> deviations(model.states.size(), rigor::Interval(0.0));
+  std::vector<NamedFormula> formulas = parameters_of(table);
+  for (const NamedText& entry : start_within) {
+    const auto found = std::find(model.states.begin(), model.states.end(), entry.name.text);
+    if (found == model.states.end()) {
+      refuse_state(entry.name, model.states);
+    }
+    // Evaluated as a parameter is: those before it are all others.
+    formulas.push_back({"start", entry.formula.position, language::parse_expression(entry.formula)});
+    const language::Constants constants = language::collect_constants(formulas, {});
+    formulas.pop_back();
+    const rigor::Interval& value = constants.back().value;
+    if (!rigor::certainly_less_equal(rigor::Interval(0.0), value)) {
+      throw LanguageError(entry.formula.position,
+                          fmt::format("a deviation of {}; allowed: 0 or more", entry.formula.text));
+    }
+    deviations[static_cast<std::size_t>(found - model.states.begin())] = value;
+  }
+  return deviations;
+}
+
 std::vector<SourceText> signal_of(const ModelTable& table, const std::vector<SourceText>& signal) {
   if (!signal.empty()) {
     return signal;
@@ -184,12 +221,10 @@ Model make_model(const ModelTable& table, const std::vector<SourceText>& signal)
   std::set<std::string> taken;
   require_names(table.samples, taken);
   require_names(table.ekf ? table.ekf->states : table.states, taken);
-  std::vector<NamedFormula> parameters;
+  const std::vector<NamedFormula> parameters = parameters_of(table);
   Model model;
   for (const NamedText& parameter : table.parameters) {
     require_names({parameter.name}, taken);
-    parameters.push_back(
-        {parameter.name.text, parameter.name.position, language::parse_expression(parameter.formula)});
     model.parameter_texts.push_back(parameter.formula.text);
   }
   model.samples = texts(table.samples);
@@ -236,9 +271,7 @@ Model make_model(const ModelTable& table, const std::vector<SourceText>& signal)
   const std::vector<std::string> angles = texts(table.angles);
   for (const SourceText& angle : table.angles) {
     if (std::find(model.states.begin(), model.states.end(), angle.text) == model.states.end()) {
-      throw LanguageError(angle.position,
-                          fmt::format("{} is no state; nearest: {}; allowed: {}", angle.text,
-                                      nearest_key(angle.text, model.states), fmt::join(model.states, ", ")));
+      refuse_state(angle, model.states);
     }
   }
   for (const std::string& state : model.states) {

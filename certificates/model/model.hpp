@@ -32,4 +32,9 @@ struct Model {
 /// the upward rounding mode.
 [[nodiscard]] Model make_model(const ModelTable& table, const std::vector<SourceText>& signal);
 
+/// What each state may deviate by at the start, at most; 0 for those that are not named. Throws
+/// language::LanguageError. Needs the upward rounding mode.
+[[nodiscard]] std::vector<rigor::Interval> start_deviations(const Model& model, const ModelTable& table,
+                                                            const std::vector<NamedText>& start_within);
+
 }  // namespace veritrack::certificates

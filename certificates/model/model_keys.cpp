@@ -186,6 +186,10 @@ constexpr std::array kModelAssumeKeys{
     Key<ModelAssume>{"noise", kNotNegative, real<&ModelAssume::noise, not_negative>, kRequired},
     Key<ModelAssume>{"slew", "a number, 0 or more, or with sample_rate { hz_per_second = number }", slew_rate,
                      defaults_to("0")},
+    Key<ModelAssume>{"start_within",
+                     "a table of numbers or formulas of parameters, one for each state that may deviate from "
+                     "the steady state at the start, e.g. { w = 0.01 }",
+                     names_and_formulas<&ModelAssume::start_within>, kOptional},
     Key<ModelAssume>{"signal",
                      "a formula in A and phi for each sample, e.g. 'A*cos(phi) + 0.03*A*cos(3*phi)'",
                      list<&ModelAssume::signal, 2>, kOptional},
@@ -196,9 +200,15 @@ template <auto member>
 void of_sets(const TomlValue& value, ModelRequire& target) {
   target.sets.*member = value.real(positive);
 }
+void settles_within(const TomlValue& value, ModelRequire& target) {
+  target.sets.settles_within =
+      value.whole_number([](const Interval& x) { return rigor::certainly_less_equal(Interval(1.0), x); });
+}
 constexpr std::array kModelRequireKeys{
     Key<ModelRequire>{"frequency_error_below", kPositive, of_sets<&Requirements::frequency_error_below>,
                       kOptional},
+    Key<ModelRequire>{"settles_within", "a whole number of samples, 1 or more", settles_within, kOptional},
+    Key<ModelRequire>{"settled_below", kPositive, of_sets<&Requirements::settled_below>, kOptional},
     Key<ModelRequire>{"largest_noise_at_least", kPositive, of_sets<&Requirements::largest_noise_at_least>,
                       kOptional},
     Key<ModelRequire>{"largest_slew_at_least", kPositive, of_sets<&Requirements::largest_slew_at_least>,
@@ -225,8 +235,12 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
   if (model.ekf.has_value() == !model.states.empty() || model.ekf.has_value() == !model.step.text.empty()) {
     return TableObjection{"model", "allowed: either states and step, or the table [model.ekf]", {}};
   }
+  if (require.sets.settles_within.has_value() != require.sets.settled_below.has_value()) {
+    return TableObjection{"require", "allowed: settles_within and settled_below together, or neither", {}};
+  }
   try {
-    (void)make_model(model, assume.signal);
+    const Model made = make_model(model, assume.signal);
+    (void)start_deviations(made, model, assume.start_within);
   } catch (const language::LanguageError& error) {
     return TableObjection{"model", error.what(), error.position()};
   }

@@ -1,0 +1,169 @@
+#include "analysis/model/tube_errors.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "analysis/model/tube_models.hpp"
+#include "analysis/rigor/ball_model.hpp"
+
+namespace veritrack::model {
+
+namespace {
+
+using rigor::BallModel;
+using rigor::Interval;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TubeCell cell_of(const ErrorGrid& grid, std::size_t number) {
+  const auto phases = static_cast<std::size_t>(grid.phases);
+  const auto i = static_cast<double>(number % phases);
+  const auto j = static_cast<double>(number / phases);
+  return {(i + 0.5) / grid.phases, 0.5 / grid.phases, (2.0 * j + 1.0) / grid.frequencies - 1.0,
+          1.0 / grid.frequencies};
+}
+
+void require_grid(const ErrorGrid& grid) {
+  const auto is_power_of_two = [](int n) { return n > 0 && (n & (n - 1)) == 0; };
+  if (!is_power_of_two(grid.phases) || !is_power_of_two(grid.frequencies)) {
+    throw std::invalid_argument("a grid that is none");
+  }
+}
+
+/// Calls `work` for each cell, in any order; each in the upward rounding mode, with ball models of so many
+/// variables.
+template <typename Work>
+void for_each_cell(const TrackerModel& model, const Tube& tube, const ErrorGrid& grid, const Work& work) {
+  require_grid(grid);
+  require_sizes(model, tube);
+  const auto cells = static_cast<std::size_t>(grid.phases) * static_cast<std::size_t>(grid.frequencies);
+  tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t number) {
+    const rigor::BallModelScope scope(model.recursion->states, 0);
+    const CellPlace place = place_of(cell_of(grid, number));
+    work(number, place, tube_at(tube, place.phase, place.z));
+  });
+}
+
+std::size_t cells_of(const ErrorGrid& grid) {
+  return static_cast<std::size_t>(grid.phases) * static_cast<std::size_t>(grid.frequencies);
+}
+
+/// What is known of h - omega in a cell.
+struct CellErrors {
+  Interval error = Interval::empty();
+  Interval mean = Interval::empty();
+};
+
+BallModel frequency_error(const TrackerModel& model, const Tube& tube, const CellPlace& place,
+                          const std::vector<BallModel>& state) {
+  return run(model, model.recursion->frequency, state).front() - frequency_at(tube, place.z);
+}
+
+}  // namespace
+
+TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radius, const ErrorGrid& grid) {
+  const rigor::UpwardRounding upward;
+  require_grid(grid);
+  std::vector<CellErrors> cells(cells_of(grid));
+  for_each_cell(model, tube, grid, [&](std::size_t number, const CellPlace& place, const TubeHere& here) {
+    const BallModel error = frequency_error(model, tube, place, state_in(here, radius));
+    cells[number] = {error.range(), error.mean_over_s()};
+  });
+  TubeErrors result{Interval::empty(), Interval::empty(), 0.0};
+  const auto phases = static_cast<std::size_t>(grid.phases);
+  for (std::size_t first = 0; first < cells.size(); first += phases) {
+    Interval range = cells[first].error;
+    Interval sum(0.0);
+    for (std::size_t number = first; number < first + phases; ++number) {
+      if (rigor::is_empty(cells[number].error) || rigor::is_empty(cells[number].mean)) {
+        return {Interval::empty(), Interval::empty(), std::numeric_limits<double>::quiet_NaN()};
+      }
+      range = hull(range, cells[number].error);
+      sum = sum + cells[number].mean;
+    }
+    const Interval mean = sum / Interval(static_cast<double>(grid.phases));
+    result.error = first == 0 ? range : hull(result.error, range);
+    result.mean = first == 0 ? mean : hull(result.mean, mean);
+    result.ripple = std::max(result.ripple, (Interval(range.upper()) - Interval(range.lower())).upper());
+  }
+  return result;
+}
+
+double bound_reach(const TrackerModel& model, const Tube& tube, double radius, const ErrorGrid& grid) {
+  const rigor::UpwardRounding upward;
+  require_grid(grid);
+  std::vector<double> reaches(cells_of(grid), 0.0);
+  for_each_cell(model, tube, grid, [&](std::size_t number, const CellPlace& place, const TubeHere& here) {
+    // The direction in which the error grows most at the middle of the cell; any would do.
+    const BallModel error = frequency_error(model, tube, place, state_in(here, radius));
+    const rigor::BallMonomials::Class& linear =
+        error.monomials().classes()[error.monomials().class_of(1, 0, 0, 0)];
+    double length = 0.0;
+    for (std::size_t i = linear.first; i < linear.last; ++i) {
+      length += error.coefficients()[i] * error.coefficients()[i];
+    }
+    length = std::sqrt(length) * (1.0 + 1e-12);
+    double reach = kInfinity;
+    for (const double sign : {1.0, -1.0}) {
+      std::vector<BallModel> x;
+      Interval square_of_length(0.0);
+      for (std::size_t i = linear.first; i < linear.last; ++i) {
+        const double component = sign * error.coefficients()[i] / length;
+        x.emplace_back(component);
+        square_of_length = square_of_length + square(Interval(component));
+      }
+      const Interval range = frequency_error(model, tube, place, state_in(here, radius, x)).range();
+      const bool is_known =
+          rigor::certainly_less_equal(square_of_length, Interval(1.0)) && !rigor::is_empty(range);
+      reach = std::min(reach, !is_known ? 0.0 : sign > 0.0 ? range.lower() : -range.upper());
+    }
+    reaches[number] = reach > 0.0 ? reach : 0.0;
+  });
+  return *std::min_element(reaches.begin(), reaches.end());
+}
+
+double bound_start(const TrackerModel& model, const Tube& tube, const std::vector<Interval>& deviations,
+                   const ErrorGrid& grid) {
+  const rigor::UpwardRounding upward;
+  require_grid(grid);
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < deviations.size(); ++i) {
+    if (deviations[i].lower() != 0.0 || deviations[i].upper() != 0.0) {
+      free.push_back(i);
+    }
+  }
+  constexpr std::size_t kMostFree = 12;
+  if (deviations.size() != tube.curve.size() || free.size() > kMostFree) {
+    throw std::invalid_argument("deviations that do not fit the states, or too many");
+  }
+  // |U^-1 d| is convex in d: its largest value is at a corner of the box, up to the sign of all.
+  const std::size_t corners = free.empty() ? 1 : std::size_t{1} << (free.size() - 1);
+  std::vector<double> levels(cells_of(grid), kInfinity);
+  for_each_cell(model, tube, grid, [&](std::size_t number, const CellPlace& /*place*/, const TubeHere& here) {
+    double level = is_shape(here) ? 0.0 : kInfinity;
+    for (std::size_t corner = 0; corner < corners; ++corner) {
+      std::vector<BallModel> deviation(deviations.size());
+      for (std::size_t k = 0; k < free.size(); ++k) {
+        const BallModel size(deviations[free[k]]);
+        deviation[free[k]] = (corner >> k & 1U) != 0 ? -size : size;
+      }
+      BallModel sum;
+      for (const BallModel& x : in_units_of(here, deviation)) {
+        sum = sum + square(x);
+      }
+      const Interval range = sum.range();
+      level = rigor::is_empty(range) ? kInfinity
+                                     : std::max(level, sqrt(Interval(std::max(range.upper(), 0.0))).upper());
+    }
+    levels[number] = level;
+  });
+  return *std::max_element(levels.begin(), levels.end());
+}
+
+}  // namespace veritrack::model

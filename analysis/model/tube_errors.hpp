@@ -1,0 +1,44 @@
+// What is known of the estimated frequency in a tube: its error, the mean and the range of the error over the
+// phase, and how far the tube reaches.
+#pragma once
+
+#include <vector>
+
+#include "analysis/model/tube_step.hpp"
+#include "analysis/rigor/interval.hpp"
+
+namespace veritrack::model {
+
+/// Into how many parts a turn and the band of a tube are divided: powers of two.
+struct ErrorGrid {
+  int phases = 128;
+  int frequencies = 4;
+};
+
+/// Of h - omega, rad/sample, for all |xi| <= radius, phases and frequencies of the tube. Empty or NaN where
+/// nothing is known.
+struct TubeErrors {
+  rigor::Interval error;  ///< contains all
+  /// Contains the mean over the phase for each frequency, whatever xi does while the phase turns.
+  rigor::Interval mean;
+  /// For each frequency the largest less the smallest over the phase is at most this.
+  double ripple = 0.0;
+};
+
+/// Throws std::invalid_argument when sizes do not fit or the grid is none.
+[[nodiscard]] TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radius,
+                                      const ErrorGrid& grid);
+
+/// A lower bound of how far the tube reaches: at every phase and frequency it has states with h - omega >=
+/// reach, and others with h - omega <= -reach, rad/sample. 0 where nothing is known. Throws
+/// std::invalid_argument when sizes do not fit or the grid is none.
+[[nodiscard]] double bound_reach(const TrackerModel& model, const Tube& tube, double radius,
+                                 const ErrorGrid& grid);
+
+/// An upper bound of |U^-1 d| for all deviations |d_i| <= deviations[i] from the curve, all phases and
+/// frequencies of the tube: the level of such starts. Infinity where nothing is known. Throws
+/// std::invalid_argument when sizes do not fit, the grid is none, or more than 12 deviations are not 0.
+[[nodiscard]] double bound_start(const TrackerModel& model, const Tube& tube,
+                                 const std::vector<rigor::Interval>& deviations, const ErrorGrid& grid);
+
+}  // namespace veritrack::model

@@ -1,0 +1,51 @@
+// A tube and the formulas of a tracker, as ball models over a cell.
+#pragma once
+
+#include <vector>
+
+#include "analysis/model/tube.hpp"
+#include "analysis/model/tube_step.hpp"
+#include "analysis/rigor/ball_model.hpp"
+#include "trackers/model/straight_line_program.hpp"
+
+namespace veritrack::model {
+
+/// A tube at a phase and a frequency, each a ball model of the place in a cell.
+struct TubeHere {
+  std::vector<rigor::BallModel> curve;
+  std::vector<rigor::BallModel> shape;  ///< the lower triangle, row by row
+};
+
+/// The phase, rad, and the place z in the band of the tube, over a cell.
+struct CellPlace {
+  rigor::BallModel phase;
+  rigor::BallModel z;
+};
+[[nodiscard]] CellPlace place_of(const TubeCell& cell);
+
+/// The frequency at z, rad/sample.
+[[nodiscard]] rigor::BallModel frequency_at(const Tube& tube, const rigor::BallModel& z);
+
+[[nodiscard]] TubeHere tube_at(const Tube& tube, const rigor::BallModel& phase, const rigor::BallModel& z);
+
+/// C + radius U x, where x is the ball, or a given vector.
+[[nodiscard]] std::vector<rigor::BallModel> state_in(const TubeHere& here, double radius);
+[[nodiscard]] std::vector<rigor::BallModel> state_in(const TubeHere& here, double radius,
+                                                     const std::vector<rigor::BallModel>& x);
+
+/// U^-1 deviation, by forward substitution.
+[[nodiscard]] std::vector<rigor::BallModel> in_units_of(const TubeHere& there,
+                                                        const std::vector<rigor::BallModel>& deviation);
+
+/// Whether no diagonal entry of the shape vanishes anywhere in the cell: all are positive.
+[[nodiscard]] bool is_shape(const TubeHere& here);
+
+/// The results of a program whose inputs are the constants of the model, and then these.
+[[nodiscard]] std::vector<rigor::BallModel> run(const TrackerModel& model,
+                                                const trackers::StraightLineProgram& program,
+                                                const std::vector<rigor::BallModel>& inputs);
+
+/// Throws std::invalid_argument when sizes do not fit.
+void require_sizes(const TrackerModel& model, const Tube& tube);
+
+}  // namespace veritrack::model

@@ -1,0 +1,205 @@
+#include "analysis/model/tube_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::model {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+/// The search for the levels of one tube.
+class LevelSearch {
+ public:
+  LevelSearch(const TrackerModel& model, const TubeProposal& proposal, const SetTask& task)
+      : model_(&model), proposal_(&proposal), task_(&task) {
+    // Slow trackers have little room, so that cells are small.
+    const double room = 1.0 - proposal.worth.rate;
+    constexpr double kLittleRoom = 0.02;
+    proved_.grid.phases = room < kLittleRoom ? 64 : 32;
+    proved_.tube = *proposal.tube;
+    slow_ = 1.0 - 0.05 * room;
+    fast_ = 1.0 - 0.5 * room;
+  }
+
+  /// The largest radius about the proposal for this noise, with levels below; nothing when none is proved.
+  [[nodiscard]] std::optional<ProvedTube> with_noise(double noise) {
+    for (const double guess : {proposal_->worth.level, 0.4 * proposal_->worth.level}) {
+      double radius = guess;
+      constexpr int kTries = 24;
+      for (int i = 0; i < kTries; ++i, radius *= 0.96) {
+        if (holds({radius, noise, 1.0, slow_})) {
+          proved_.levels = {radius};
+          proved_.shrinking = {slow_};
+          descend(noise);
+          return proved_;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The largest noise up to `most`, and the noise.
+  [[nodiscard]] std::optional<std::pair<ProvedTube, double>> with_largest_noise(double most) {
+    double noise = std::min(most, proposal_->worth.noise);
+    constexpr int kTries = 40;
+    for (int i = 0; i < kTries; ++i, noise *= 0.95) {
+      for (const double factor : {1.0, 0.8, 0.65, 1.2}) {
+        const double radius = factor * proposal_->worth.level;
+        if (holds({radius, noise, 1.0, slow_})) {
+          proved_.levels = {radius};
+          proved_.shrinking = {slow_};
+          return std::pair(proved_, noise);
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool holds(const LevelQuestion& question) {
+    const LevelResult result = verify_level(*model_, proved_.tube, question, proved_.grid);
+    const bool is_proved = result.verdict == Verdict::proved;
+    proved_.cells += is_proved ? result.cells : 0;
+    return is_proved;
+  }
+
+  /// Adds lower levels, while they are proved.
+  void descend(double noise) {
+    const double least = task_->with_curve ? 1e-6 * proved_.levels.front() : 0.02 * proved_.levels.front();
+    constexpr std::size_t kMostLevels = 24;
+    while (proved_.levels.back() > least && proved_.levels.size() < kMostLevels && step_down(noise)) {
+    }
+  }
+
+  bool step_down(double noise) {
+    struct Step {
+      double factor, shrinking;
+    };
+    const bool is_first = proved_.levels.size() == 1;
+    // Near the largest radius levels hardly shrink.
+    const std::array<Step, 5> far{{{0.125, fast_}, {0.25, fast_}, {0.5, fast_}, {0.7, slow_}, {0.9, slow_}}};
+    const std::array<Step, 3> near{{{0.5, slow_}, {0.7, slow_}, {0.9, slow_}}};
+    const auto take = [&](const Step& step) {
+      const double radius = proved_.levels.back();
+      const double next = step.factor * radius;
+      // What is verified is from this number up.
+      const double scale = next / radius;
+      if (!holds({radius, noise, scale * (1.0 - 1e-12), step.shrinking})) {
+        return false;
+      }
+      if (is_first) {
+        proved_.shrinking.clear();
+      }
+      proved_.levels.push_back(next);
+      proved_.shrinking.push_back(step.shrinking);
+      return true;
+    };
+    return is_first ? std::any_of(near.begin(), near.end(), take) : std::any_of(far.begin(), far.end(), take);
+  }
+
+  const TrackerModel* model_;
+  const TubeProposal* proposal_;
+  const SetTask* task_;
+  ProvedTube proved_;
+  double slow_ = 1.0;
+  double fast_ = 1.0;
+};
+
+std::string place_of_cell(const TubeProposal& cell) {
+  return fmt::format("between {:.6g} and {:.6g} rad/sample", cell.frequency - cell.half_width,
+                     cell.frequency + cell.half_width);
+}
+
+/// Whether tubes in order of their frequencies leave no gap, ends included.
+bool covers(const std::vector<ProvedTube>& tubes, double low, double high) {
+  const rigor::UpwardRounding upward;
+  double known = low;
+  for (const ProvedTube& proved : tubes) {
+    const Interval from = Interval(proved.tube.frequency) - Interval(proved.tube.half_width);
+    const Interval to = Interval(proved.tube.frequency) + Interval(proved.tube.half_width);
+    if (!(from.upper() <= known)) {
+      return false;
+    }
+    known = std::max(known, to.lower());
+  }
+  return !tubes.empty() && known >= high;
+}
+
+/// The tube over a band that is a little wider: neighbours overlap, whatever the rounding.
+void widen(Tube& tube) {
+  constexpr double kShare = 0x1p-40;
+  tube.half_width += kShare * tube.half_width + 0x1p-50 * tube.frequency;
+}
+
+}  // namespace
+
+TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low, double high,
+                  const SetTask& task, const SetProgress& progress) {
+  const rigor::NearestRounding nearest;
+  BandSettings settings;
+  settings.tube.shape.objective = task.objective;
+  settings.tube.shape.start = task.deviations;
+  settings.tube.shape.noise = task.noise;
+  settings.tube.steady_state.largest_mean_error = std::max(0.5 * (high - low), 0.05 * low);
+  BandProposal band = propose_band(tone, low, high, settings);
+  TubeSet set{task.name, task.noise, {}, false, {}};
+  for (const std::string& reason : reasons_of(band)) {
+    set.reasons.push_back(reason);
+  }
+  double noise = task.largest_noise ? (task.noise > 0.0 ? task.noise : INFINITY) : task.noise;
+  std::size_t done = 0;
+  for (TubeProposal& cell : band.cells) {
+    ++done;
+    if (cell.outcome != TubeOutcome::proposed) {
+      continue;
+    }
+    widen(*cell.tube);
+    LevelSearch search(model, cell, task);
+    std::optional<ProvedTube> proved;
+    if (task.largest_noise) {
+      if (auto found = search.with_largest_noise(noise)) {
+        noise = found->second;
+        proved = std::move(found->first);
+      }
+    } else {
+      proved = search.with_noise(noise);
+    }
+    if (proved) {
+      set.tubes.push_back(*std::move(proved));
+    } else {
+      set.reasons.push_back(
+          fmt::format("no radius was proved {}{}",
+                      noise > 0.0 && std::isfinite(noise) ? fmt::format("for noise {:.4g} ", noise) : "",
+                      place_of_cell(cell)));
+    }
+    if (progress) {
+      progress(static_cast<double>(done) / static_cast<double>(band.cells.size()));
+    }
+  }
+  set.noise = std::isfinite(noise) ? noise : 0.0;
+  set.is_complete = band.is_complete && set.tubes.size() == band.cells.size() && covers(set.tubes, low, high);
+  return set;
+}
+
+double samples_until(const ProvedTube& proved, std::size_t level) {
+  const rigor::UpwardRounding upward;
+  double samples = 0.0;
+  for (std::size_t j = 0; j < level; ++j) {
+    const Interval ratio = Interval(proved.levels[j + 1]) / Interval(proved.levels[j]);
+    const Interval count = log(ratio) / log(Interval(proved.shrinking[j]));
+    samples += rigor::is_finite(count) ? std::ceil(count.upper()) : INFINITY;
+  }
+  return samples;
+}
+
+}  // namespace veritrack::model

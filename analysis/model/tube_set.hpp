@@ -1,0 +1,56 @@
+// Tubes over a band of frequencies, with the levels that are proved for them.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "analysis/model/frequency_cells.hpp"
+#include "analysis/model/tube_errors.hpp"
+#include "analysis/model/tube_verification.hpp"
+
+namespace veritrack::model {
+
+/// A tube, and its levels R_0 > R_1 > ... > R_m. With m = 0: |F| <= shrinking[0] R_0 for all |xi| <= R_0.
+/// Otherwise |F| <= shrinking[j] r for all |xi| <= r and all r from R_{j+1} to R_j: levels shrink by that
+/// factor a sample until R_m, and stay below.
+struct ProvedTube {
+  Tube tube;
+  std::vector<double> levels;
+  std::vector<double> shrinking;
+  VerificationBudget grid;  ///< from which the verification began
+  std::size_t cells = 0;    ///< that it needed
+};
+
+/// What a set is for.
+struct SetTask {
+  std::string name;
+  ShapeObjective objective = ShapeObjective::largest_starts;
+  double noise = 0.0;          ///< V, signal units; for the largest noise: what is tried at most, 0 for any
+  bool largest_noise = false;  ///< search for the largest V; else V is as given
+  bool with_curve = false;     ///< levels down to what the curve is known to, for the bias
+  Eigen::VectorXd deviations;  ///< of starts, one for each state; or empty
+};
+
+/// A set of tubes that covers a band, or a part of it.
+struct TubeSet {
+  std::string name;
+  double noise = 0.0;  ///< V, signal units
+  std::vector<ProvedTube> tubes;
+  bool is_complete = false;          ///< every frequency of the band has a tube
+  std::vector<std::string> reasons;  ///< otherwise: which part has none, and why
+};
+
+/// Told the share of the band that is done.
+using SetProgress = std::function<void(double share)>;
+
+/// For low <= omega <= high, rad/sample, all of them covered when complete. Deterministic, whatever the
+/// number of threads. Throws std::invalid_argument unless 0 < low < high < pi.
+[[nodiscard]] TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low, double high,
+                                const SetTask& task, const SetProgress& progress = {});
+
+/// After how many samples a start of level R_0 is at level R_`level`: an upper bound.
+[[nodiscard]] double samples_until(const ProvedTube& proved, std::size_t level);
+
+}  // namespace veritrack::model

@@ -1,0 +1,342 @@
+#include "certificates/model/model_claims.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/model/model_sets.hpp"
+#include "certificates/sets/guarantee_sentence.hpp"
+#include "certificates/sets/required_claims.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+/// The words of the hypotheses.
+class ModelWords {
+ public:
+  explicit ModelWords(const ModelTables& tables) : assume_(&tables.assume) {}
+
+  [[nodiscard]] std::string unit() const {
+    return assume_->frequency_in_hertz
+               ? fmt::format("Hz at {} samples per second", assume_->sample_rate.value().text)
+               : "rad/sample";
+  }
+  [[nodiscard]] std::string tone_with(const std::string& frequency) const {
+    return fmt::format("{}, on {} of amplitude {} with {}", kExactArithmetic,
+                       assume_->signal.empty() ? "a tone" : "the signal of the design file",
+                       assume_->amplitude.text, frequency);
+  }
+  [[nodiscard]] std::string band() const {
+    return fmt::format("[{}, {}] {}", assume_->frequency[0].text, assume_->frequency[1].text, unit());
+  }
+  [[nodiscard]] std::string constant_tone() const { return tone_with("any constant frequency in " + band()); }
+  [[nodiscard]] bool moves() const { return assume_->slew.value.upper() > 0.0; }
+  /// With the assumed slew.
+  [[nodiscard]] std::string assumed_tone() const {
+    return !moves()
+               ? constant_tone()
+               : tone_with(fmt::format(
+                     "a frequency that stays in {} and changes by at most {} {}", band(), assume_->slew.text,
+                     assume_->slew_in_hertz_per_second ? "Hz per second" : "rad/sample per sample"));
+  }
+  [[nodiscard]] std::string noise() const {
+    return assume_->noise.value.upper() > 0.0 ? ", with noise below " + assume_->noise.text
+                                              : ", without noise";
+  }
+  [[nodiscard]] std::string start() const {
+    if (assume_->start_within.empty()) {
+      return ", started in the tube in the certificate";
+    }
+    std::string states;
+    for (const NamedText& entry : assume_->start_within) {
+      states += (states.empty() ? "" : ", ") + entry.name.text + ": " + entry.formula.text;
+    }
+    return ", started within {" + states + "} of the curve in the certificate";
+  }
+
+ private:
+  const ModelAssumptions* assume_;
+};
+
+std::string above(double value) {
+  return rigor::to_decimal(value, 4, rigor::Direction::up);
+}
+std::string below(double value) {
+  return rigor::to_decimal(value, 4, rigor::Direction::down);
+}
+
+/// Sentences, and the sets that decide them.
+class ModelClaims {
+ public:
+  explicit ModelClaims(Certificate& certificate)
+      : certificate_(&certificate),
+        tables_(&model_tables(certificate.design)),
+        sets_(&model_sets(certificate)),
+        words_(*tables_),
+        deciding_(sets_->assumed ? &*sets_->assumed : &sets_->starts) {}
+
+  void add_told() {
+    if (guaranteed()) {
+      Claim claim = told("model/guarantee", words_.assumed_tone() + words_.noise() + words_.start());
+      const std::string bound = above(deciding_->frequency_error);
+      claim.values = {{"frequency_error", bound}};
+      claim.statement += fmt::format(", the frequency error stays at or below {} rad/sample for ever", bound);
+      if (std::isfinite(deciding_->settled_error) && settles()) {
+        const std::string settled = above(deciding_->settled_error);
+        claim.values.emplace_back("settled_frequency_error", settled);
+        claim.statement += fmt::format(", and at or below {} rad/sample in the long run", settled);
+      }
+      add(claim);
+    }
+    const ModelSet& starts = sets_->starts;
+    if (starts.is_proved() && sets_->noise && sets_->noise->is_proved() && starts.reach > 0.0) {
+      Claim claim = told("model/limits", words_.constant_tone());
+      const std::string noise = below(sets_->noise->tubes.noise);
+      const std::string reach = below(starts.reach);
+      claim.values = {{"noise", noise}, {"reach", reach}};
+      claim.statement += fmt::format(
+          ", the tracker tolerates noise up to {}, and without noise a certified invariant set contains "
+          "frequency errors up to {} rad/sample at every phase",
+          noise, reach);
+      add(claim);
+    }
+    if (has_bias()) {
+      Claim claim = told("model/steady-state",
+                         words_.constant_tone() + ", without noise, started in the tube in the certificate");
+      const std::string low = below(starts.bias.lower());
+      const std::string high = above(starts.bias.upper());
+      const std::string ripple = above(starts.ripple);
+      claim.values = {{"bias_low", low}, {"bias_high", high}, {"ripple", ripple}};
+      claim.statement += fmt::format(
+          ", the mean over the phase of the frequency error in the long run is between {} and {} rad/sample, "
+          "and the error varies by at most {} rad/sample over the phase",
+          low, high, ripple);
+      add(claim);
+    }
+  }
+
+  void add_required() {
+    const ModelRequirements& require = tables_->require;
+    const Requirements& sets = require.sets;
+    const std::string assumed = words_.assumed_tone() + words_.noise();
+    if (const auto& number = sets.frequency_error_below) {
+      Claim claim = required("model/frequency-error-bound", *number, assumed + words_.start(),
+                             "the frequency error stays below {} rad/sample for ever");
+      decide(claim, guaranteed(), deciding_->frequency_error, *number, "The proved bound is {} rad/sample",
+             guarantee_objection());
+    }
+    if (sets.settles_within) {
+      add(settling(assumed));
+    }
+    if (const auto& number = sets.largest_noise_at_least) {
+      Claim claim = required("model/largest-noise", *number, words_.constant_tone(),
+                             "the tracker tolerates noise up to {}: a certified invariant set exists");
+      decide_size(claim, largest_noise(), *number, "The largest noise that was proved is {}");
+    }
+    if (const auto& number = sets.largest_slew_at_least) {
+      Claim claim =
+          required("model/largest-slew", *number,
+                   words_.tone_with("a frequency that stays in " + words_.band()) + ", without noise",
+                   "the tracker tolerates a slew up to {} rad/sample per sample: a certified "
+                   "invariant set exists");
+      claim.reason = "No slew was proved.";
+      add(claim);
+    }
+    if (const auto& number = sets.frequency_error_radius_at_least) {
+      Claim claim = required("model/frequency-error-radius", *number, assumed,
+                             "a certified invariant set contains frequency errors up to {} rad/sample at "
+                             "every phase");
+      decide_size(claim, covers_assumptions() ? deciding_->reach : 0.0, *number,
+                  "The certified set reaches {} rad/sample");
+    }
+    const std::string settled =
+        words_.constant_tone() + ", without noise, started in the tube in the certificate";
+    if (const auto& number = require.bias_below) {
+      Claim claim = required("model/bias", *number, "", "the mean frequency error is at most {} rad/sample");
+      claim.statement = fmt::format(
+          "{}, the mean over the phase of the frequency error in the long run is at most {} rad/sample in "
+          "absolute value.",
+          settled, number->text);
+      const Interval& bias = sets_->starts.bias;
+      decide(claim, has_bias(), std::max(bias.upper(), -bias.lower()), *number,
+             "The proved bound of the mean is {} rad/sample", objection_of(sets_->starts), true);
+    }
+    if (const auto& number = require.ripple_below) {
+      Claim claim =
+          required("model/ripple", *number, "", "the frequency error varies by at most {} rad/sample");
+      claim.statement = fmt::format(
+          "{}, the frequency error in the long run varies by at most {} rad/sample over the phase.", settled,
+          number->text);
+      decide(claim, has_bias(), sets_->starts.ripple, *number, "It varies by at most {} rad/sample",
+             objection_of(sets_->starts), true);
+    }
+    conclude_requirements(*certificate_);
+  }
+
+ private:
+  static Claim told(const char* id, const std::string& hypotheses) {
+    Claim claim;
+    claim.id = id;
+    claim.statement = hypotheses;
+    claim.verdict = Verdict::proved;
+    return claim;
+  }
+  void add(Claim claim) {
+    claim.statement += claim.statement.ends_with(".") ? "" : ".";
+    certificate_->claims.push_back(std::move(claim));
+  }
+
+  static Claim required(const char* id, const Number& number, const std::string& hypotheses,
+                        std::string_view requirement) {
+    Claim claim;
+    claim.id = id;
+    claim.requirement = fmt::format(fmt::runtime(requirement), number.text);
+    claim.statement = fmt::format("{}, {}.", hypotheses, claim.requirement);
+    claim.required = true;
+    claim.position = number.position;
+    return claim;
+  }
+
+  /// PROVED when it is known and `bound` is below (with `or_equal`: at most) what is required.
+  void decide(Claim& claim, bool is_known, double bound, const Number& number, std::string_view reason,
+              const std::string& objection, bool or_equal = false) {
+    if (!is_known || !std::isfinite(bound)) {
+      claim.reason = objection;
+    } else {
+      const bool holds = or_equal ? rigor::certainly_less_equal(Interval(bound), number.value)
+                                  : rigor::certainly_less(Interval(bound), number.value);
+      claim.verdict = holds ? Verdict::proved : Verdict::undecided;
+      claim.reason = fmt::format(fmt::runtime(reason), above(bound)) +
+                     (holds ? "." : fmt::format("; {} was required.", number.text));
+    }
+    add(claim);
+  }
+  void decide_size(Claim& claim, double size, const Number& number, std::string_view reason) {
+    if (!(size > 0.0) || !std::isfinite(size)) {
+      claim.reason = assumption_objection();
+    } else {
+      const bool holds = rigor::certainly_less_equal(number.value, Interval(size));
+      claim.verdict = holds ? Verdict::proved : Verdict::undecided;
+      claim.reason = fmt::format(fmt::runtime(reason), below(size)) +
+                     (holds ? "." : fmt::format("; {} was required.", number.text));
+    }
+    add(claim);
+  }
+
+  /// From some sample on below what is required, by the levels of each tube.
+  Claim settling(const std::string& assumed) {
+    const Number& within = *tables_->require.sets.settles_within;
+    const Number& target = *tables_->require.sets.settled_below;
+    Claim claim = required("model/settling-time", within, assumed + words_.start(), "");
+    claim.requirement = fmt::format("from sample {} on, the frequency error stays below {} rad/sample",
+                                    within.text, target.text);
+    claim.statement = fmt::format("{}, {}.", assumed + words_.start(), claim.requirement);
+    const double samples = guaranteed() ? samples_below(target) : INFINITY;
+    if (!guaranteed()) {
+      claim.reason = guarantee_objection();
+    } else if (!std::isfinite(samples)) {
+      claim.reason = fmt::format("The proved bound in the long run is {} rad/sample; {} was required.",
+                                 above(deciding_->settled_error), target.text);
+    } else {
+      const bool holds = rigor::certainly_less_equal(Interval(samples), within.value);
+      claim.verdict = holds ? Verdict::proved : Verdict::undecided;
+      claim.reason = fmt::format("It is proved from sample {} on.", samples);
+    }
+    return claim;
+  }
+
+  /// After how many samples the error is below the target at all frequencies; infinity when it is not known.
+  [[nodiscard]] double samples_below(const Number& target) const {
+    const Model model = make_model(tables_->model, tables_->assume.signal);
+    const model::TrackerModel tracker = proved_model(model, tables_->assume);
+    double samples = 0.0;
+    for (const model::ProvedTube& proved : deciding_->tubes.tubes) {
+      std::size_t level = 0;
+      const auto is_below = [&] {
+        const Interval error = model::bound_errors(tracker, proved.tube, proved.levels[level], {}).error;
+        const Interval room(1.001);
+        return rigor::is_finite(error) && rigor::certainly_less(error * room, target.value) &&
+               rigor::certainly_less(-error * room, target.value);
+      };
+      while (!is_below()) {
+        if (++level == proved.levels.size()) {
+          return INFINITY;
+        }
+      }
+      samples = std::max(samples, model::samples_until(proved, level));
+    }
+    return samples;
+  }
+
+  [[nodiscard]] bool covers_assumptions() const {
+    return sets_->objection.empty() && deciding_->is_proved() && !words_.moves();
+  }
+  [[nodiscard]] bool guaranteed() const {
+    return covers_assumptions() && deciding_->start_share <= 1.0 && std::isfinite(deciding_->frequency_error);
+  }
+  [[nodiscard]] bool settles() const {
+    return std::all_of(deciding_->tubes.tubes.begin(), deciding_->tubes.tubes.end(),
+                       [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
+  }
+  [[nodiscard]] bool has_bias() const {
+    const ModelSet& starts = sets_->starts;
+    return starts.is_proved() && rigor::is_finite(starts.bias) && std::isfinite(starts.ripple) &&
+           std::all_of(starts.tubes.tubes.begin(), starts.tubes.tubes.end(),
+                       [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
+  }
+  [[nodiscard]] double largest_noise() const {
+    double largest = 0.0;
+    for (const std::optional<ModelSet>* set : {&sets_->assumed, &sets_->noise}) {
+      if (*set && (*set)->is_proved()) {
+        largest = std::max(largest, (*set)->tubes.noise);
+      }
+    }
+    return largest;
+  }
+  static std::string objection_of(const ModelSet& set) {
+    std::string text = "No set of tubes was proved for the whole band";
+    constexpr std::size_t kMostReasons = 3;
+    for (std::size_t i = 0; i < std::min(kMostReasons, set.tubes.reasons.size()); ++i) {
+      text += (i == 0 ? ": " : "; ") + set.tubes.reasons[i];
+    }
+    return text + ".";
+  }
+  [[nodiscard]] std::string assumption_objection() const {
+    if (!sets_->objection.empty()) {
+      return "Nothing is certified: " + sets_->objection + ".";
+    }
+    if (words_.moves()) {
+      return "A frequency that moves is not certified by this version.";
+    }
+    return objection_of(*deciding_);
+  }
+  [[nodiscard]] std::string guarantee_objection() const {
+    if (covers_assumptions() && std::isfinite(deciding_->start_share)) {
+      return fmt::format("The assumed starts are up to {} times outside the certified tube.",
+                         above(deciding_->start_share));
+    }
+    return assumption_objection();
+  }
+
+  Certificate* certificate_;
+  const ModelTables* tables_;
+  const ModelSets* sets_;
+  ModelWords words_;
+  const ModelSet* deciding_;
+};
+
+}  // namespace
+
+void add_model_claims(Certificate& certificate) {
+  ModelClaims claims(certificate);
+  claims.add_told();
+  claims.add_required();
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,147 @@
+#include "certificates/model/model_json.hpp"
+
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/model/model_sets.hpp"
+#include "certificates/sets/assumptions_json.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+Json texts_json(const std::vector<SourceText>& texts) {
+  Json list = Json::array();
+  for (const SourceText& text : texts) {
+    list.push_back(text.text);
+  }
+  return list;
+}
+
+Json named_json(const std::vector<NamedText>& texts) {
+  Json list = Json::array();
+  for (const NamedText& text : texts) {
+    list.push_back({{"name", text.name.text}, {"formula", text.formula.text}});
+  }
+  return list;
+}
+
+Json matrix_json(const std::vector<std::vector<SourceText>>& rows) {
+  Json matrix = Json::array();
+  for (const std::vector<SourceText>& row : rows) {
+    matrix.push_back(texts_json(row));
+  }
+  return matrix;
+}
+
+Json filter_json(const ModelEkfTable& filter) {
+  Json json{{"states", texts_json(filter.states)},
+            {"predict", filter.predict.text},
+            {"measure", texts_json(filter.measure)},
+            {"Q", matrix_json(filter.process_noise)},
+            {"R", matrix_json(filter.measurement_noise)}};
+  if (!filter.jacobian.empty()) {
+    json["jacobian"] = matrix_json(filter.jacobian);
+  }
+  return json;
+}
+
+Json series_json(const model::PhaseSeries& series) {
+  Json harmonics = Json::array();
+  for (const auto& powers : series.coefficients) {
+    Json list = Json::array();
+    for (const std::complex<double>& coefficient : powers) {
+      list.push_back({rigor::to_hexadecimal(coefficient.real()), rigor::to_hexadecimal(coefficient.imag())});
+    }
+    harmonics.push_back(list);
+  }
+  return harmonics;
+}
+
+Json hexadecimals(const std::vector<double>& numbers) {
+  Json list = Json::array();
+  for (const double number : numbers) {
+    list.push_back(rigor::to_hexadecimal(number));
+  }
+  return list;
+}
+
+Json tube_json(const model::ProvedTube& proved) {
+  const model::Tube& tube = proved.tube;
+  Json json{{"frequency", rigor::to_hexadecimal(tube.frequency)},
+            {"half_width", rigor::to_hexadecimal(tube.half_width)},
+            {"levels", hexadecimals(proved.levels)},
+            {"shrinking", hexadecimals(proved.shrinking)},
+            {"turns", tube.turns},
+            {"curve", Json::array()},
+            {"shape", Json::array()},
+            {"phases", proved.grid.phases},
+            {"frequencies", proved.grid.frequencies}};
+  for (const model::PhaseSeries& series : tube.curve) {
+    json["curve"].push_back(series_json(series));
+  }
+  for (const model::PhaseSeries& series : tube.shape) {
+    json["shape"].push_back(series_json(series));
+  }
+  return json;
+}
+
+Json set_json(const model::TubeSet& set) {
+  Json json{{"name", set.name},
+            {"slew", rigor::to_hexadecimal(0.0)},
+            {"noise", rigor::to_hexadecimal(set.noise)},
+            {"cells", Json::array()}};
+  for (const model::ProvedTube& proved : set.tubes) {
+    json["cells"].push_back(tube_json(proved));
+  }
+  return json;
+}
+
+}  // namespace
+
+Json model_design_json(const Design& design) {
+  const auto& [model, assume, require] = model_tables(design);
+  Json assumed{{"amplitude", number_json(assume.amplitude)},
+               {"frequency", {number_json(assume.frequency[0]), number_json(assume.frequency[1])}},
+               {"frequency_in_hertz", assume.frequency_in_hertz},
+               {"noise", number_json(assume.noise)},
+               {"slew", number_json(assume.slew)},
+               {"slew_in_hertz_per_second", assume.slew_in_hertz_per_second}};
+  add_number(assumed, "sample_rate", assume.sample_rate);
+  if (!assume.start_within.empty()) {
+    assumed["start_within"] = named_json(assume.start_within);
+  }
+  Json required = require_json(require.sets);
+  add_number(required, "bias_below", require.bias_below);
+  add_number(required, "ripple_below", require.ripple_below);
+  Json recursion{{"samples", texts_json(model.samples)},
+                 {"parameters", named_json(model.parameters)},
+                 {"angles", texts_json(model.angles)},
+                 {"frequency", model.frequency.text},
+                 {"signal", texts_json(signal_of(model, assume.signal))}};
+  if (model.ekf) {
+    recursion["ekf"] = filter_json(*model.ekf);
+  } else {
+    recursion["states"] = texts_json(model.states);
+    recursion["step"] = model.step.text;
+  }
+  return {{"model", recursion}, {"assume", assumed}, {"require", required}};
+}
+
+Json model_evidence_json(const Certificate& certificate) {
+  const ModelSets& sets = model_sets(certificate);
+  Json list = Json::array();
+  const auto add = [&](const ModelSet& set) {
+    if (set.is_proved()) {
+      list.push_back(set_json(set.tubes));
+    }
+  };
+  add(sets.starts);
+  if (sets.assumed) {
+    add(*sets.assumed);
+  }
+  if (sets.noise) {
+    add(*sets.noise);
+  }
+  return {{"tubes", list}};
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,15 @@
+// A model in certificate.json.
+#pragma once
+
+#include "certificates/document/certificate.hpp"
+#include "certificates/document/number_json.hpp"
+
+namespace veritrack::certificates {
+
+/// The tables of the design.
+[[nodiscard]] Json model_design_json(const Design& design);
+
+/// The member "tubes": the sets that cover the band (docs/certificate-format.md).
+[[nodiscard]] Json model_evidence_json(const Certificate& certificate);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,201 @@
+#include "certificates/model/model_sets.hpp"
+
+#include <algorithm>
+#include <any>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <span>
+
+#include "analysis/model/tube_errors.hpp"
+#include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using model::ShapeObjective;
+using model::TubeSet;
+using rigor::Interval;
+
+/// The signal's harmonics, for an amplitude of 1, by sampling it: for proposals.
+model::Signal spectrum_of(const Model& model, double amplitude) {
+  constexpr int kPhases = 128;
+  constexpr int kHarmonics = 40;
+  const rigor::NearestRounding nearest;
+  std::vector<double> inputs;
+  for (const language::Constant& constant : model.constants) {
+    inputs.push_back(constant.nearest);
+  }
+  inputs.push_back(amplitude);
+  inputs.push_back(0.0);
+  model::Signal signal;
+  signal.coefficients.assign(model.samples.size(), std::vector<std::complex<double>>(kHarmonics, 0.0));
+  std::vector<double> registers;
+  std::vector<double> values(model.samples.size());
+  for (int j = 0; j < kPhases; ++j) {
+    const double phase = 2.0 * std::numbers::pi * j / kPhases;
+    inputs.back() = phase;
+    model.signal.run(std::span<const double>(inputs), registers, std::span(values));
+    for (std::size_t channel = 0; channel < values.size(); ++channel) {
+      for (int h = 0; h < kHarmonics; ++h) {
+        const double share = (h == 0 ? 1.0 : 2.0) / kPhases / amplitude;
+        signal.coefficients[channel][static_cast<std::size_t>(h)] +=
+            std::polar(share * values[channel], -h * phase);
+      }
+    }
+  }
+  for (auto& coefficients : signal.coefficients) {
+    const auto is_small = [](const std::complex<double>& c) { return std::abs(c) < 1e-13; };
+    std::replace_if(coefficients.begin(), coefficients.end(), is_small, std::complex<double>(0.0));
+    while (coefficients.size() > 1 && coefficients.back() == 0.0) {
+      coefficients.pop_back();
+    }
+  }
+  return signal;
+}
+
+double with_room(double bound) {
+  constexpr double kRoom = 1.001;
+  return (Interval(bound) * Interval(kRoom)).upper();
+}
+
+/// The largest absolute value; infinity when nothing is known.
+double size_of(const Interval& range) {
+  return rigor::is_finite(range) ? std::max(std::fabs(range.lower()), std::fabs(range.upper())) : INFINITY;
+}
+
+/// What follows from tubes that cover the band.
+ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::vector<Interval>& deviations,
+                  std::vector<ModelCell>* cells) {
+  const rigor::UpwardRounding upward;
+  ModelSet set;
+  set.tubes = std::move(tubes);
+  set.frequency_error = set.settled_error = set.ripple = set.start_share = INFINITY;
+  if (!set.tubes.is_complete) {
+    return set;
+  }
+  set.frequency_error = set.settled_error = set.ripple = set.start_share = 0.0;
+  set.reach = INFINITY;
+  const model::ErrorGrid grid;
+  bool is_first = true;
+  for (const model::ProvedTube& proved : set.tubes.tubes) {
+    const double radius = proved.levels.front();
+    const double reach = model::bound_reach(tracker, proved.tube, radius, grid) * 0.999;
+    const double start = model::bound_start(tracker, proved.tube, deviations, grid);
+    const model::TubeErrors settled = model::bound_errors(tracker, proved.tube, proved.levels.back(), grid);
+    const Interval whole = model::bound_errors(tracker, proved.tube, radius, grid).error;
+    const double room =
+        rigor::is_finite(settled.mean) ? 1e-3 * size_of(settled.mean) + 1e-2 * settled.ripple : INFINITY;
+    const Interval mean = rigor::is_finite(settled.mean) ? settled.mean + Interval::from_bounds(-room, room)
+                                                         : Interval::empty();
+    set.frequency_error = std::max(set.frequency_error, with_room(size_of(whole)));
+    set.settled_error = std::max(set.settled_error, with_room(size_of(settled.error)));
+    set.ripple =
+        std::max(set.ripple, std::isfinite(settled.ripple) ? with_room(1.01 * settled.ripple) : INFINITY);
+    set.reach = std::min(set.reach, reach);
+    set.start_share = std::max(set.start_share, (Interval(with_room(start)) / Interval(radius)).upper());
+    set.bias = is_first ? mean : hull(set.bias, mean);
+    is_first = false;
+    if (cells != nullptr) {
+      cells->push_back({proved.tube.frequency - proved.tube.half_width,
+                        proved.tube.frequency + proved.tube.half_width, mean, settled.ripple, reach});
+    }
+  }
+  return set;
+}
+
+}  // namespace
+
+model::TrackerModel proved_model(const Model& model, const ModelAssumptions& assume) {
+  model::TrackerModel tracker;
+  tracker.recursion = &model.recursion;
+  tracker.signal = &model.signal;
+  for (const language::Constant& constant : model.constants) {
+    tracker.constants.push_back(constant.value);
+  }
+  tracker.amplitude = assume.amplitude.value;
+  return tracker;
+}
+
+model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume) {
+  std::vector<double> constants;
+  for (const language::Constant& constant : model.constants) {
+    constants.push_back(constant.nearest);
+  }
+  const double amplitude = assume.amplitude.nearest;
+  const auto start = [program = model.start, constants, amplitude](double omega) {
+    std::vector<double> inputs = constants;
+    inputs.push_back(amplitude);
+    inputs.push_back(omega);
+    std::vector<double> registers;
+    std::vector<double> state(program.results().size());
+    program.run(std::span<const double>(inputs), registers, std::span(state));
+    return state;
+  };
+  return {model::StepMap(model.recursion, constants), spectrum_of(model, amplitude), amplitude, start};
+}
+
+Interval band_of(const ModelAssumptions& assume) {
+  const Interval band = hull(assume.frequency[0].value, assume.frequency[1].value);
+  return assume.frequency_in_hertz ? Interval(2.0) * rigor::pi() * band / assume.sample_rate.value().value
+                                   : band;
+}
+
+const ModelSets& model_sets(const Certificate& certificate) {
+  return std::any_cast<const ModelSets&>(certificate.particulars);
+}
+
+ModelSets certify_sets(const ModelTables& tables, Extent extent, const CertifyProgress& progress) {
+  const rigor::UpwardRounding upward;
+  const ModelAssumptions& assume = tables.assume;
+  const Requirements& require = tables.require.sets;
+  const Model model = make_model(tables.model, assume.signal);
+  const model::TrackerModel tracker = proved_model(model, assume);
+  const model::TrackedTone tone = proposed_tone(model, assume);
+  const std::vector<Interval> deviations = start_deviations(model, tables.model, assume.start_within);
+  const Interval band = band_of(assume);
+  ModelSets sets;
+  sets.starts.frequency_error = sets.starts.settled_error = INFINITY;
+  const bool is_band = band.lower() > 0.0 && rigor::certainly_less(Interval(band.upper()), rigor::pi());
+  if (!is_band || band.lower() >= band.upper()) {
+    sets.objection = "the assumed frequencies are no band of some width above 0 and below pi rad/sample";
+    return sets;
+  }
+  Eigen::VectorXd sizes;
+  if (!assume.start_within.empty()) {
+    sizes.resize(static_cast<Eigen::Index>(deviations.size()));
+    for (std::size_t i = 0; i < deviations.size(); ++i) {
+      sizes[static_cast<Eigen::Index>(i)] = deviations[i].upper();
+    }
+  }
+  const bool has_noise = assume.noise.value.upper() > 0.0;
+  const bool wants_noise = extent == Extent::everything || require.largest_noise_at_least;
+  const double parts = 1.0 + (has_noise ? 1.0 : 0.0) + (wants_noise ? 1.0 : 0.0);
+  double done = 0.0;
+  const auto prove = [&](const model::SetTask& task) {
+    TubeSet set = model::prove_set(tone, tracker, band.lower(), band.upper(), task, [&](double share) {
+      if (progress) {
+        progress({(done + share) / parts, 0.0, 0});
+      }
+    });
+    done += 1.0;
+    return set;
+  };
+  sets.starts = conclude(tracker, prove({"starts", ShapeObjective::largest_starts, 0.0, false, true, sizes}),
+                         deviations, &sets.cells);
+  if (has_noise) {
+    const double noise = assume.noise.value.upper();
+    sets.assumed =
+        conclude(tracker, prove({"assumed", ShapeObjective::largest_noise, noise, false, false, sizes}),
+                 deviations, nullptr);
+  }
+  if (wants_noise) {
+    sets.noise = conclude(tracker, prove({"noise", ShapeObjective::largest_noise, 0.0, true, false, sizes}),
+                          deviations, nullptr);
+  }
+  return sets;
+}
+
+}  // namespace veritrack::certificates

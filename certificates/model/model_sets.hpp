@@ -1,0 +1,58 @@
+// What is certified of a model: sets of tubes, and what follows from them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/model/tube_set.hpp"
+#include "certificates/document/certificate.hpp"
+#include "certificates/model/model.hpp"
+
+namespace veritrack::certificates {
+
+/// A set of tubes over the whole band, and what follows from it. Bounds have a thousandth of room, so that an
+/// independent program need not be as sharp. Infinite, or empty, where nothing is known.
+struct ModelSet {
+  model::TubeSet tubes;
+  double frequency_error = 0.0;  ///< of level R_0, at most, rad/sample
+  double settled_error = 0.0;    ///< of level R_m, at most, rad/sample
+  double reach = 0.0;            ///< at least, rad/sample
+  double start_share = 0.0;      ///< the level of the assumed starts over R_0, at most
+  rigor::Interval bias;          ///< contains the mean over the phase, without noise, at level R_m
+  double ripple = 0.0;           ///< at most, likewise
+
+  [[nodiscard]] bool is_proved() const { return tubes.is_complete; }
+};
+
+/// Of a cell of frequencies, for figures and tables.
+struct ModelCell {
+  double low = 0.0, high = 0.0;  ///< rad/sample
+  rigor::Interval bias;
+  double ripple = 0.0;
+  double reach = 0.0;
+};
+
+struct ModelSets {
+  ModelSet starts;                  ///< without noise
+  std::optional<ModelSet> assumed;  ///< for the assumed noise; none when that is 0
+  std::optional<ModelSet> noise;    ///< for the largest noise
+  std::vector<ModelCell> cells;     ///< of `starts`
+  std::string objection;            ///< why nothing is certified of the assumptions; or empty
+};
+
+/// The tracker of a model on its signal: for proofs, and for proposals. The members refer to the model.
+[[nodiscard]] model::TrackerModel proved_model(const Model& model, const ModelAssumptions& assume);
+[[nodiscard]] model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume);
+
+/// The band, rad/sample. Needs the upward rounding mode.
+[[nodiscard]] rigor::Interval band_of(const ModelAssumptions& assume);
+
+/// Of the certificate of a design of this kind. Throws std::bad_any_cast for another.
+[[nodiscard]] const ModelSets& model_sets(const Certificate& certificate);
+
+/// Searches and verifies. `extent`: without what only is told beside the requirements.
+[[nodiscard]] ModelSets certify_sets(const ModelTables& tables, Extent extent,
+                                     const CertifyProgress& progress);
+
+}  // namespace veritrack::certificates

@@ -45,8 +45,7 @@ void for_each_cell(const TrackerModel& model, const Tube& tube, const ErrorGrid&
   const auto cells = static_cast<std::size_t>(grid.phases) * static_cast<std::size_t>(grid.frequencies);
   tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t number) {
     const rigor::BallModelScope scope(model.recursion->states, 0);
-    const CellPlace place = place_of(cell_of(grid, number));
-    work(number, place, tube_at(tube, place.phase, place.z));
+    work(number, frame_of(model, tube, cell_of(grid, number), false));
   });
 }
 
@@ -60,9 +59,9 @@ struct CellErrors {
   Interval mean = Interval::empty();
 };
 
-BallModel frequency_error(const TrackerModel& model, const Tube& tube, const CellPlace& place,
+BallModel frequency_error(const TrackerModel& model, const CellFrame& frame,
                           const std::vector<BallModel>& state) {
-  return run(model, model.recursion->frequency, state).front() - frequency_at(tube, place.z);
+  return run(model, model.recursion->frequency, state).front() - frame.frequency;
 }
 
 }  // namespace
@@ -71,8 +70,8 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
   const rigor::UpwardRounding upward;
   require_grid(grid);
   std::vector<CellErrors> cells(cells_of(grid));
-  for_each_cell(model, tube, grid, [&](std::size_t number, const CellPlace& place, const TubeHere& here) {
-    const BallModel error = frequency_error(model, tube, place, state_in(here, radius));
+  for_each_cell(model, tube, grid, [&](std::size_t number, const CellFrame& frame) {
+    const BallModel error = frequency_error(model, frame, state_in(frame.here, radius));
     cells[number] = {error.range(), error.mean_over_s()};
   });
   TubeErrors result{Interval::empty(), Interval::empty(), 0.0};
@@ -99,9 +98,9 @@ double bound_reach(const TrackerModel& model, const Tube& tube, double radius, c
   const rigor::UpwardRounding upward;
   require_grid(grid);
   std::vector<double> reaches(cells_of(grid), 0.0);
-  for_each_cell(model, tube, grid, [&](std::size_t number, const CellPlace& place, const TubeHere& here) {
+  for_each_cell(model, tube, grid, [&](std::size_t number, const CellFrame& frame) {
     // The direction in which the error grows most at the middle of the cell; any would do.
-    const BallModel error = frequency_error(model, tube, place, state_in(here, radius));
+    const BallModel error = frequency_error(model, frame, state_in(frame.here, radius));
     const rigor::BallMonomials::Class& linear =
         error.monomials().classes()[error.monomials().class_of(1, 0, 0, 0)];
     double length = 0.0;
@@ -118,7 +117,7 @@ double bound_reach(const TrackerModel& model, const Tube& tube, double radius, c
         x.emplace_back(component);
         square_of_length = square_of_length + square(Interval(component));
       }
-      const Interval range = frequency_error(model, tube, place, state_in(here, radius, x)).range();
+      const Interval range = frequency_error(model, frame, state_in(frame.here, radius, x)).range();
       const bool is_known =
           rigor::certainly_less_equal(square_of_length, Interval(1.0)) && !rigor::is_empty(range);
       reach = std::min(reach, !is_known ? 0.0 : sign > 0.0 ? range.lower() : -range.upper());
@@ -145,8 +144,8 @@ double bound_start(const TrackerModel& model, const Tube& tube, const std::vecto
   // |U^-1 d| is convex in d: its largest value is at a corner of the box, up to the sign of all.
   const std::size_t corners = free.empty() ? 1 : std::size_t{1} << (free.size() - 1);
   std::vector<double> levels(cells_of(grid), kInfinity);
-  for_each_cell(model, tube, grid, [&](std::size_t number, const CellPlace& /*place*/, const TubeHere& here) {
-    double level = is_shape(here) ? 0.0 : kInfinity;
+  for_each_cell(model, tube, grid, [&](std::size_t number, const CellFrame& frame) {
+    double level = is_shape(frame.here) ? 0.0 : kInfinity;
     for (std::size_t corner = 0; corner < corners; ++corner) {
       std::vector<BallModel> deviation(deviations.size());
       for (std::size_t k = 0; k < free.size(); ++k) {
@@ -154,7 +153,7 @@ double bound_start(const TrackerModel& model, const Tube& tube, const std::vecto
         deviation[free[k]] = (corner >> k & 1U) != 0 ? -size : size;
       }
       BallModel sum;
-      for (const BallModel& x : in_units_of(here, deviation)) {
+      for (const BallModel& x : in_units_of(frame.here, deviation)) {
         sum = sum + square(x);
       }
       const Interval range = sum.range();

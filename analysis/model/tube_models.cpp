@@ -61,16 +61,6 @@ BallModel sum_of(const PhaseSeries& series, const std::vector<std::pair<BallMode
 
 }  // namespace
 
-CellPlace place_of(const TubeCell& cell) {
-  const Interval turn = Interval(2.0) * rigor::pi();
-  return {BallModel(turn * Interval(cell.turn)) + BallModel(turn * Interval(cell.half_turn)) * BallModel::s(),
-          BallModel(cell.z) + BallModel(cell.half_z) * BallModel::z()};
-}
-
-BallModel frequency_at(const Tube& tube, const BallModel& z) {
-  return BallModel(tube.frequency) + BallModel(tube.half_width) * z;
-}
-
 TubeHere tube_at(const Tube& tube, const BallModel& phase, const BallModel& z) {
   std::vector<std::pair<BallModel, BallModel>> harmonics;
   for (std::size_t h = 0; h < most_harmonics(tube); ++h) {
@@ -90,6 +80,36 @@ TubeHere tube_at(const Tube& tube, const BallModel& phase, const BallModel& z) {
     here.shape.push_back(sum_of(entry, harmonics, powers));
   }
   return here;
+}
+
+CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell, bool with_next) {
+  const auto plane = [&] {
+    const rigor::BallModelScope scope(0, 0);
+    const Interval turn = Interval(2.0) * rigor::pi();
+    CellFrame frame;
+    frame.phase =
+        BallModel(turn * Interval(cell.turn)) + BallModel(turn * Interval(cell.half_turn)) * BallModel::s();
+    frame.z = BallModel(cell.z) + BallModel(cell.half_z) * BallModel::z();
+    frame.frequency = BallModel(tube.frequency) + BallModel(tube.half_width) * frame.z;
+    frame.next_phase = frame.phase + frame.frequency;
+    frame.here = tube_at(tube, frame.phase, frame.z);
+    if (with_next) {
+      frame.there = tube_at(tube, frame.next_phase, frame.z);
+      frame.next = run(model, *model.signal, {BallModel(model.amplitude), frame.next_phase});
+    }
+    return frame;
+  };
+  CellFrame frame = plane();
+  for (BallModel* each : {&frame.phase, &frame.z, &frame.frequency, &frame.next_phase}) {
+    *each = each->lifted();
+  }
+  for (std::vector<BallModel>* list :
+       {&frame.here.curve, &frame.here.shape, &frame.there.curve, &frame.there.shape, &frame.next}) {
+    for (BallModel& each : *list) {
+      each = each.lifted();
+    }
+  }
+  return frame;
 }
 
 std::vector<BallModel> state_in(const TubeHere& here, double radius) {

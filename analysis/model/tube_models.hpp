@@ -16,17 +16,23 @@ struct TubeHere {
   std::vector<rigor::BallModel> shape;  ///< the lower triangle, row by row
 };
 
-/// The phase, rad, and the place z in the band of the tube, over a cell.
-struct CellPlace {
-  rigor::BallModel phase;
-  rigor::BallModel z;
-};
-[[nodiscard]] CellPlace place_of(const TubeCell& cell);
-
-/// The frequency at z, rad/sample.
-[[nodiscard]] rigor::BallModel frequency_at(const Tube& tube, const rigor::BallModel& z);
-
 [[nodiscard]] TubeHere tube_at(const Tube& tube, const rigor::BallModel& phase, const rigor::BallModel& z);
+
+/// What depends on the place in a cell only: computed among polynomials of two variables, and then lifted to
+/// those of the scope.
+struct CellFrame {
+  rigor::BallModel phase;              ///< rad
+  rigor::BallModel z;                  ///< place in the band of the tube
+  rigor::BallModel frequency;          ///< rad/sample
+  rigor::BallModel next_phase;         ///< phase + frequency
+  TubeHere here;                       ///< the tube at the phase
+  TubeHere there;                      ///< at the next phase
+  std::vector<rigor::BallModel> next;  ///< the samples at the next phase
+};
+
+/// `there` and `next` only on demand.
+[[nodiscard]] CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                                 bool with_next);
 
 /// C + radius U x, where x is the ball, or a given vector.
 [[nodiscard]] std::vector<rigor::BallModel> state_in(const TubeHere& here, double radius);

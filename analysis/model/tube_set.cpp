@@ -33,16 +33,22 @@ class LevelSearch {
 
   /// The largest radius about the proposal for this noise, with levels below; nothing when none is proved.
   [[nodiscard]] std::optional<ProvedTube> with_noise(double noise) {
-    for (const double guess : {proposal_->worth.level, 0.4 * proposal_->worth.level}) {
-      double radius = guess;
-      constexpr int kTries = 24;
-      for (int i = 0; i < kTries; ++i, radius *= 0.96) {
-        if (holds({radius, noise, 1.0, slow_})) {
-          proved_.levels = {radius};
-          proved_.shrinking = {slow_};
-          descend(noise);
-          return proved_;
-        }
+    // The largest radius that points allow, if any: growth is large for small radii with noise, and for
+    // large.
+    double radius = 0.0;
+    for (double guess = 1.6 * level(); guess > 0.02 * level() && radius == 0.0; guess *= 0.8) {
+      radius = may_hold(guess, noise) ? guess : 0.0;
+    }
+    for (double step = 1.12; step > 1.01 && radius > 0.0; step = std::sqrt(step)) {
+      radius = may_hold(radius * step, noise) ? radius * step : radius;
+    }
+    for (int i = 0; i < 60 && radius > 0.0 && !is_locked(radius); ++i) {
+      radius *= 0.93;
+    }
+    for (const double factor : kFactors) {
+      if (radius > 0.0 && proves(factor * radius, noise)) {
+        descend(noise);
+        return proved_;
       }
     }
     return std::nullopt;
@@ -50,22 +56,58 @@ class LevelSearch {
 
   /// The largest noise up to `most`, and the noise.
   [[nodiscard]] std::optional<std::pair<ProvedTube, double>> with_largest_noise(double most) {
-    double noise = std::min(most, proposal_->worth.noise);
-    constexpr int kTries = 40;
-    for (int i = 0; i < kTries; ++i, noise *= 0.95) {
-      for (const double factor : {1.0, 0.8, 0.65, 1.2}) {
-        const double radius = factor * proposal_->worth.level;
-        if (holds({radius, noise, 1.0, slow_})) {
-          proved_.levels = {radius};
-          proved_.shrinking = {slow_};
-          return std::pair(proved_, noise);
+    double best_noise = 0.0;
+    double best_radius = 0.0;
+    for (const double factor : {1.0, 0.8, 0.65, 0.5, 1.25}) {
+      const double radius = factor * level();
+      // As a share of the guess: to be larger than the best so far.
+      double noise = std::min(most, std::max(best_noise * 1.02, 0.05 * proposal_->worth.noise));
+      if (!may_hold(radius, noise)) {
+        continue;
+      }
+      for (double step = 1.6; step > 1.01; step = std::sqrt(step)) {
+        while (noise * step <= most && may_hold(radius, noise * step)) {
+          noise *= step;
         }
+      }
+      best_noise = noise;
+      best_radius = radius;
+    }
+    for (const double factor : kFactors) {
+      if (best_noise > 0.0 && proves(best_radius, factor * best_noise)) {
+        return std::pair(proved_, factor * best_noise);
       }
     }
     return std::nullopt;
   }
 
  private:
+  /// What is tried, as shares of what points allow.
+  static constexpr std::array<double, 8> kFactors{0.985, 0.96, 0.93, 0.89, 0.84, 0.77, 0.68, 0.55};
+
+  [[nodiscard]] double level() const { return proposal_->worth.level; }
+
+  [[nodiscard]] bool may_hold(double radius, double noise) const {
+    constexpr int kPhases = 24;
+    return sampled_growth(*model_, proved_.tube, radius, noise, kPhases) <= slow_;
+  }
+
+  /// Whether frequency errors in the tube are known, and smaller than the frequency.
+  [[nodiscard]] bool is_locked(double radius) const {
+    const Interval error = bound_errors(*model_, proved_.tube, radius, {64, 1}).error;
+    return rigor::is_finite(error) && -error.lower() < proved_.tube.frequency &&
+           error.upper() < proved_.tube.frequency;
+  }
+
+  bool proves(double radius, double noise) {
+    if (!is_locked(radius) || !holds({radius, noise, 1.0, slow_})) {
+      return false;
+    }
+    proved_.levels = {radius};
+    proved_.shrinking = {slow_};
+    return true;
+  }
+
   bool holds(const LevelQuestion& question) {
     const LevelResult result = verify_level(*model_, proved_.tube, question, proved_.grid);
     const bool is_proved = result.verdict == Verdict::proved;
@@ -92,6 +134,12 @@ class LevelSearch {
     const auto take = [&](const Step& step) {
       const double radius = proved_.levels.back();
       const double next = step.factor * radius;
+      // Points are cheap, and where they fail nothing is verified.
+      constexpr int kPhases = 16;
+      if (!(sampled_growth(*model_, proved_.tube, next, noise, kPhases) <=
+            step.shrinking - 0.1 * (1.0 - step.shrinking))) {
+        return false;
+      }
       // What is verified is from this number up.
       const double scale = next / radius;
       if (!holds({radius, noise, scale * (1.0 - 1e-12), step.shrinking})) {

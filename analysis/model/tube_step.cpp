@@ -18,24 +18,19 @@ StepBounds bound_step(const TrackerModel& model, const Tube& tube, const TubeCel
   const auto samples = static_cast<std::size_t>(model.recursion->samples);
   const rigor::BallModelScope scope(static_cast<int>(states), noise > 0.0 ? static_cast<int>(samples) : 0);
 
-  const CellPlace place = place_of(cell);
-  const BallModel omega = frequency_at(tube, place.z);
-  const BallModel next_phase = place.phase + omega;
-  const TubeHere here = tube_at(tube, place.phase, place.z);
-  const TubeHere there = tube_at(tube, next_phase, place.z);
-
-  const std::vector<BallModel> state = state_in(here, radius);
+  const CellFrame frame = frame_of(model, tube, cell, true);
+  const std::vector<BallModel> state = state_in(frame.here, radius);
   std::vector<BallModel> inputs = state;
-  const std::vector<BallModel> signal = run(model, *model.signal, {BallModel(model.amplitude), next_phase});
   for (std::size_t c = 0; c < samples; ++c) {
-    inputs.push_back(noise > 0.0 ? signal[c] + BallModel(noise) * BallModel::disturbance(static_cast<int>(c))
-                                 : signal[c]);
+    inputs.push_back(noise > 0.0
+                         ? frame.next[c] + BallModel(noise) * BallModel::disturbance(static_cast<int>(c))
+                         : frame.next[c]);
   }
   std::vector<BallModel> next = run(model, model.recursion->step, inputs);
   for (std::size_t i = 0; i < states; ++i) {
-    next[i] = next[i] - there.curve[i];
+    next[i] = next[i] - frame.there.curve[i];
   }
-  const std::vector<BallModel> deviation = in_units_of(there, next);  // F
+  const std::vector<BallModel> deviation = in_units_of(frame.there, next);  // F
   StepBounds bounds;
   for (const double scale : scales) {
     bounds.steps.push_back(length_bound(deviation, scale));
@@ -48,9 +43,9 @@ StepBounds bound_step(const TrackerModel& model, const Tube& tube, const TubeCel
     }
   }
   const std::vector<BallModel> frequency = run(model, model.recursion->frequency, state);
-  bounds.frequency_error = (frequency.front() - omega).range();
+  bounds.frequency_error = (frequency.front() - frame.frequency).range();
   // The shape must be one: no component of it vanishes, here or there.
-  if (!is_shape(here) || !is_shape(there)) {
+  if (!is_shape(frame.here) || !is_shape(frame.there)) {
     bounds.steps.assign(scales.size(), std::numeric_limits<double>::quiet_NaN());
     bounds.frequency_error = Interval::empty();
   }

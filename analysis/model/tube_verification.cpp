@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -203,6 +206,18 @@ LevelResult verify_level(const TrackerModel& model, const Tube& tube, const Leve
     return result;
   }
   return Verification(model, tube, question, budget).run();
+}
+
+double sampled_growth(const TrackerModel& model, const Tube& tube, double radius, double noise, int phases) {
+  constexpr std::array<double, 3> kPlaces{-1.0, 0.0, 1.0};
+  std::vector<double> growths(static_cast<std::size_t>(phases) * kPlaces.size());
+  tbb::parallel_for(std::size_t{0}, growths.size(), [&](std::size_t number) {
+    const double turn = static_cast<double>(number / kPlaces.size()) / phases;
+    const TubeCell point{turn, 0.0, kPlaces.at(number % kPlaces.size()), 0.0};
+    const double step = bound_step(model, tube, point, radius, noise, {1.0}).steps.front();
+    growths[number] = std::isfinite(step) ? step / radius : std::numeric_limits<double>::infinity();
+  });
+  return *std::max_element(growths.begin(), growths.end());
 }
 
 }  // namespace veritrack::model

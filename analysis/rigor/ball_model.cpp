@@ -146,6 +146,24 @@ BallModel BallModel::without_constant() const {
   return result;
 }
 
+BallModel BallModel::lifted() const {
+  BallModel result;
+  result.error_ = error_;
+  for (std::size_t number = 0; number < norms_.size(); ++number) {
+    const BallMonomials::Class& here = monomials_->classes()[number];
+    if (here.ball > 0 || here.disturbance > 0) {
+      if (norms_[number] != 0.0) {
+        throw std::logic_error("a ball model that depends on more than s and z");
+      }
+      continue;
+    }
+    const std::size_t there = result.monomials_->class_of(0, 0, here.s, here.z);
+    result.coefficients_[result.monomials_->classes()[there].first] = coefficients_[here.first];
+    result.norms_[there] = norms_[number];
+  }
+  return result;
+}
+
 BallModel BallModel::widened(double more) const {
   BallModel result = *this;
   result.error_ = more >= 0.0 ? result.error_ + more : kNothingKnown;

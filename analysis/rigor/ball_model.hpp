@@ -76,6 +76,9 @@ class BallModel {
   [[nodiscard]] Interval mean_over_s() const;
   /// The same without the constant: f - constant().
   [[nodiscard]] BallModel without_constant() const;
+  /// The same functions of s and z among the models of this thread's scope. Throws std::logic_error when
+  /// there are terms in x or v.
+  [[nodiscard]] BallModel lifted() const;
   /// Every function that is within `more` of one of these.
   [[nodiscard]] BallModel widened(double more) const;
 

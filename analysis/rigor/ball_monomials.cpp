@@ -47,8 +47,9 @@ double weight(const Exponents& exponents, std::size_t first, std::size_t count) 
 }  // namespace
 
 const BallMonomials& BallMonomials::of(int balls, int disturbances) {
-  if (balls < 1 || balls > 16 || disturbances < 0 || disturbances > 3) {
-    throw std::invalid_argument("ball models have 1 to 16 variables in the ball and at most 3 disturbances");
+  if (balls < 0 || balls > 16 || disturbances < 0 || disturbances > 3) {
+    throw std::invalid_argument(
+        "ball models have at most 16 variables in the ball and at most 3 disturbances");
   }
   static std::mutex mutex;
   static std::map<std::pair<int, int>, std::unique_ptr<BallMonomials>> made;
@@ -66,7 +67,7 @@ BallMonomials::BallMonomials(int balls, int disturbances) : balls_(balls), distu
   std::map<Exponents, std::size_t> numbers;
   std::vector<Exponents> monomials;
   for (int total = 0; total <= kMost; ++total) {
-    for (int ball = 0; ball <= total; ++ball) {
+    for (int ball = 0; ball <= (balls == 0 ? 0 : total); ++ball) {
       for (int disturbance = 0; ball + disturbance <= total && ball + disturbance <= kMostOfVectors;
            ++disturbance) {
         if (disturbances == 0 && disturbance > 0) {

@@ -36,7 +36,7 @@ class BallMonomials {
     std::size_t last = 0;  ///< in products()
   };
 
-  /// Shared tables; balls from 1 to 16, disturbances from 0 to 3. Throws std::invalid_argument otherwise.
+  /// Shared tables; balls from 0 to 16, disturbances from 0 to 3. Throws std::invalid_argument otherwise.
   [[nodiscard]] static const BallMonomials& of(int balls, int disturbances);
 
   [[nodiscard]] int balls() const { return balls_; }

@@ -56,9 +56,15 @@ model::Signal spectrum_of(const Model& model, double amplitude) {
   return signal;
 }
 
+/// A little more; infinity when nothing is known.
 double with_room(double bound) {
   constexpr double kRoom = 1.001;
-  return (Interval(bound) * Interval(kRoom)).upper();
+  return std::isfinite(bound) ? (Interval(bound) * Interval(kRoom)).upper() : INFINITY;
+}
+
+/// The larger one; infinity when nothing is known of one. (std::max forgets what is not a number.)
+double larger(double a, double b) {
+  return std::isfinite(a) && std::isfinite(b) ? std::max(a, b) : INFINITY;
 }
 
 /// The largest absolute value; infinity when nothing is known.
@@ -87,16 +93,17 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
     const model::TubeErrors settled = model::bound_errors(tracker, proved.tube, proved.levels.back(), grid);
     const Interval whole = model::bound_errors(tracker, proved.tube, radius, grid).error;
     const double room =
-        rigor::is_finite(settled.mean) ? 1e-3 * size_of(settled.mean) + 1e-2 * settled.ripple : INFINITY;
+        rigor::is_finite(settled.mean) ? 1e-3 * (size_of(settled.mean) + settled.ripple) : INFINITY;
     const Interval mean = rigor::is_finite(settled.mean) ? settled.mean + Interval::from_bounds(-room, room)
                                                          : Interval::empty();
-    set.frequency_error = std::max(set.frequency_error, with_room(size_of(whole)));
-    set.settled_error = std::max(set.settled_error, with_room(size_of(settled.error)));
-    set.ripple =
-        std::max(set.ripple, std::isfinite(settled.ripple) ? with_room(1.01 * settled.ripple) : INFINITY);
-    set.reach = std::min(set.reach, reach);
-    set.start_share = std::max(set.start_share, (Interval(with_room(start)) / Interval(radius)).upper());
-    set.bias = is_first ? mean : hull(set.bias, mean);
+    set.frequency_error = larger(set.frequency_error, with_room(size_of(whole)));
+    set.settled_error = larger(set.settled_error, with_room(size_of(settled.error)));
+    set.ripple = larger(set.ripple, with_room(1.01 * settled.ripple));
+    set.reach = reach < set.reach ? reach : set.reach;
+    set.start_share = larger(set.start_share, (Interval(with_room(start)) / Interval(radius)).upper());
+    // Once nothing is known of one tube, nothing is known.
+    const bool is_known = rigor::is_finite(mean) && (is_first || rigor::is_finite(set.bias));
+    set.bias = !is_known ? Interval::empty() : is_first ? mean : hull(set.bias, mean);
     is_first = false;
     if (cells != nullptr) {
       cells->push_back({proved.tube.frequency - proved.tube.half_width,

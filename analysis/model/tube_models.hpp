@@ -28,6 +28,12 @@ struct CellPlace {
 
 [[nodiscard]] TubeHere tube_at(const Tube& tube, const rigor::BallModel& phase, const rigor::BallModel& z);
 
+/// C_a - C_b and U_a - U_b at one phase, where the frequency has the place z_of_a in a and z_of_b in b. Their
+/// coefficients are subtracted before the harmonics are expanded: the error of the models is in proportion to
+/// the difference, which is small between tubes that fit together. Both turn alike.
+[[nodiscard]] TubeHere tube_difference(const Tube& a, const rigor::BallModel& z_of_a, const Tube& b,
+                                       const rigor::BallModel& z_of_b, const rigor::BallModel& phase);
+
 /// C + radius U x, where x is the ball, or a given vector.
 [[nodiscard]] std::vector<rigor::BallModel> state_in(const TubeHere& here, double radius);
 [[nodiscard]] std::vector<rigor::BallModel> state_in(const TubeHere& here, double radius,

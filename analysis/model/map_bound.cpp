@@ -2,12 +2,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <map>
 #include <utility>
 
+#include "analysis/model/disturbance_split.hpp"
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/matrix.hpp"
 
@@ -114,20 +116,28 @@ std::map<std::pair<int, int>, DynamicIntervalMatrix> gram(const LinearPart& part
   return result;
 }
 
-/// An upper bound of the largest eigenvalue of of_x scale^2/t + of_v/(1 - t), all s and z.
-double joint_bound(const LinearPart& of_x, const LinearPart& of_v, double scale, double t) {
+/// A part, and what its Gram matrix is multiplied by.
+struct WeightedPart {
+  const LinearPart* part = nullptr;
+  Interval factor;
+};
+
+/// An upper bound of the largest eigenvalue of the weighted sum of the Gram matrices, all s and z.
+double joint_bound(const std::vector<WeightedPart>& parts) {
   std::map<std::pair<int, int>, DynamicIntervalMatrix> sum;
-  const auto add = [&](const LinearPart& part, const Interval& factor) {
-    for (const auto& [exponents, matrix] : gram(part)) {
-      const DynamicIntervalMatrix scaled = matrix.unaryExpr([&](const Interval& x) { return x * factor; });
+  for (const WeightedPart& weighted : parts) {
+    if (!rigor::certainly_positive(weighted.factor)) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    for (const auto& [exponents, matrix] : gram(*weighted.part)) {
+      const DynamicIntervalMatrix scaled =
+          matrix.unaryExpr([&](const Interval& x) { return x * weighted.factor; });
       const auto [place, is_new] = sum.try_emplace(exponents, scaled);
       if (!is_new) {
         place->second += scaled;
       }
     }
-  };
-  add(of_x, square(Interval(scale)) / Interval(t));
-  add(of_v, Interval(1.0) / (Interval(1.0) - Interval(t)));
+  }
   Interval total(0.0);
   for (const auto& [exponents, matrix] : sum) {
     const bool is_constant = exponents == std::pair(0, 0);
@@ -136,46 +146,42 @@ double joint_bound(const LinearPart& of_x, const LinearPart& of_v, double scale,
   return total.upper();
 }
 
-/// The t that splits best at s = z = 0, in floating point.
-double proposed_split(const LinearPart& of_x, const LinearPart& of_v, double scale) {
-  const auto at_middle = [](const LinearPart& part) -> Eigen::MatrixXd {
-    const auto found = part.find({0, 0});
-    return found != part.end() ? Eigen::MatrixXd(found->second * found->second.transpose())
-                               : Eigen::MatrixXd();
-  };
-  const Eigen::MatrixXd x = at_middle(of_x) * scale * scale;
-  const Eigen::MatrixXd v = at_middle(of_v);
-  if (v.size() == 0 || x.size() == 0 || !x.allFinite() || !v.allFinite()) {
-    return 0.5;
+/// P P' at s = z = 0, in floating point; no rows when there is nothing.
+Eigen::MatrixXd gram_at_middle(const LinearPart& part) {
+  const auto found = part.find({0, 0});
+  return found != part.end() && found->second.allFinite()
+             ? Eigen::MatrixXd(found->second * found->second.transpose())
+             : Eigen::MatrixXd();
+}
+
+/// An upper bound of the square of |of_x x + of_v v + of_w w|; |v|^2 and |w|^2 are at most `half` (1/2) when
+/// both are there, 1 otherwise.
+double square_of_linear_part(const LinearPart& of_x, const LinearPart& of_v, const LinearPart& of_w,
+                             double scale, double squared_radius) {
+  const Eigen::MatrixXd x = gram_at_middle(of_x) * scale * scale;
+  const Interval squared_scale = square(Interval(scale));
+  if (!of_v.empty() && !of_w.empty()) {
+    const std::array<double, 3> shares =
+        proposed_shares(x, gram_at_middle(of_v) * squared_radius, gram_at_middle(of_w) * squared_radius);
+    // For any positive weights (a + b + c)^2 <= (t1 + t2 + t3) (a^2/t1 + b^2/t2 + c^2/t3).
+    const Interval sum = Interval(shares[0]) + Interval(shares[1]) + Interval(shares[2]);
+    return joint_bound({{&of_x, squared_scale * sum / Interval(shares[0])},
+                        {&of_v, Interval(squared_radius) * sum / Interval(shares[1])},
+                        {&of_w, Interval(squared_radius) * sum / Interval(shares[2])}});
   }
-  const auto value = [&](double logit) {
-    const double t = 1.0 / (1.0 + std::exp(-logit));
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(x / t + v / (1.0 - t), Eigen::EigenvaluesOnly)
-        .eigenvalues()
-        .maxCoeff();
-  };
-  // Convex in t, so one valley in the logit, which reaches both ends: slow trackers need t close to 1.
-  double low = -20.0;
-  double high = 20.0;
-  constexpr int kSteps = 40;
-  for (int i = 0; i < kSteps; ++i) {
-    const double first = low + (high - low) / 3.0;
-    const double second = high - (high - low) / 3.0;
-    if (value(first) < value(second)) {
-      high = second;
-    } else {
-      low = first;
-    }
-  }
-  return 1.0 / (1.0 + std::exp(-(low + high) / 2.0));
+  const LinearPart& other = of_v.empty() ? of_w : of_v;
+  const double t = proposed_split(x, gram_at_middle(other) * squared_radius);
+  return joint_bound({{&of_x, squared_scale / Interval(t)},
+                      {&other, Interval(squared_radius) / (Interval(1.0) - Interval(t))}});
 }
 
 }  // namespace
 
-double length_bound(const std::vector<BallModel>& vector, double scale) {
+double length_bound(const std::vector<BallModel>& vector, double scale, bool last_alone) {
   const BallMonomials& monomials = vector.front().monomials();
   LinearPart of_x;
   LinearPart of_v;
+  LinearPart of_w;  // the last disturbance, when it is bounded by itself
   Interval total(0.0);
   for (const BallMonomials::Class& here : monomials.classes()) {
     const Eigen::MatrixXd matrix = coefficients_of(vector, here);
@@ -183,14 +189,24 @@ double length_bound(const std::vector<BallModel>& vector, double scale) {
       continue;
     }
     if (here.ball + here.disturbance == 1) {
-      (here.ball == 1 ? of_x : of_v)[{here.s, here.z}] = matrix;
+      if (here.ball == 1) {
+        of_x[{here.s, here.z}] = matrix;
+        continue;
+      }
+      const Eigen::Index together = last_alone ? matrix.cols() - 1 : matrix.cols();
+      if (!matrix.leftCols(together).isZero(0.0)) {
+        of_v[{here.s, here.z}] = matrix.leftCols(together);
+      }
+      if (last_alone && !matrix.rightCols(1).isZero(0.0)) {
+        of_w[{here.s, here.z}] = matrix.rightCols(1);
+      }
       continue;
     }
     const double norm =
         std::sqrt(norm_of_symmetric(product(matrix, matrix, monomials.weights().data() + here.first)));
     total = total + Interval(norm) * pow(Interval(scale), here.ball);
   }
-  if (of_v.empty()) {
+  if (of_v.empty() && of_w.empty()) {
     // t = 1: nothing is shared.
     double bound = 0.0;
     for (const auto& [exponents, matrix] : gram(of_x)) {
@@ -198,7 +214,8 @@ double length_bound(const std::vector<BallModel>& vector, double scale) {
     }
     total = total + Interval(std::sqrt(bound)) * Interval(scale);
   } else {
-    total = total + Interval(std::sqrt(joint_bound(of_x, of_v, scale, proposed_split(of_x, of_v, scale))));
+    const double squared_radius = last_alone ? 0.5 : 1.0;
+    total = total + Interval(std::sqrt(square_of_linear_part(of_x, of_v, of_w, scale, squared_radius)));
   }
   Interval square_of_errors(0.0);
   for (const BallModel& component : vector) {
@@ -210,6 +227,18 @@ double length_bound(const std::vector<BallModel>& vector, double scale) {
   }
   const double bound = (total + sqrt(square_of_errors)).upper();
   return rigor::is_finite(total) ? bound : std::numeric_limits<double>::quiet_NaN();
+}
+
+WidthShares width_shares(const std::vector<BallModel>& vector) {
+  WidthShares shares;
+  const auto& classes = vector.front().monomials().classes();
+  for (const BallModel& component : vector) {
+    for (std::size_t number = 0; number < classes.size(); ++number) {
+      shares.by_phase += classes[number].s > 0 ? component.norm(number) : 0.0;
+      shares.by_frequency += classes[number].z > 0 ? component.norm(number) : 0.0;
+    }
+  }
+  return shares;
 }
 
 }  // namespace veritrack::model

@@ -45,7 +45,7 @@ void for_each_cell(const TrackerModel& model, const Tube& tube, const ErrorGrid&
   const auto cells = static_cast<std::size_t>(grid.phases) * static_cast<std::size_t>(grid.frequencies);
   tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t number) {
     const rigor::BallModelScope scope(model.recursion->states, 0);
-    work(number, frame_of(model, tube, cell_of(grid, number), false));
+    work(number, frame_of(model, tube, cell_of(grid, number), FrameParts::here));
   });
 }
 

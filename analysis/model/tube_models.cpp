@@ -38,22 +38,62 @@ std::size_t most_powers(const Tube& tube) {
   return most;
 }
 
-/// The sum of a series, without the terms that are zero.
-BallModel sum_of(const PhaseSeries& series, const std::vector<std::pair<BallModel, BallModel>>& harmonics,
+/// cos and sin of h phi.
+using Harmonics = std::vector<std::pair<BallModel, BallModel>>;
+
+Harmonics harmonics_at(const BallModel& phase, std::size_t count) {
+  Harmonics harmonics;
+  harmonics.reserve(count);
+  for (std::size_t h = 0; h < count; ++h) {
+    const BallModel angle = BallModel(static_cast<double>(h)) * phase;
+    harmonics.emplace_back(cos(angle), sin(angle));
+  }
+  return harmonics;
+}
+
+std::vector<BallModel> powers_at(const BallModel& z, std::size_t count) {
+  std::vector<BallModel> powers{BallModel(1.0)};
+  powers.reserve(std::max<std::size_t>(count, 1));
+  while (powers.size() < count) {
+    powers.push_back(powers.back() * z);
+  }
+  return powers;
+}
+
+/// The coefficient of harmonic h, real and imaginary part, without the terms that are zero.
+std::pair<BallModel, BallModel> coefficient_of(const PhaseSeries& series, std::size_t h,
+                                               const std::vector<BallModel>& powers) {
+  std::pair<BallModel, BallModel> sum;
+  for (std::size_t d = 0; h < series.coefficients.size() && d < series.coefficients[h].size(); ++d) {
+    const std::complex<double>& coefficient = series.coefficients[h][d];
+    if (coefficient.real() != 0.0) {
+      sum.first = sum.first + BallModel(coefficient.real()) * powers[d];
+    }
+    if (coefficient.imag() != 0.0 && h > 0) {
+      sum.second = sum.second + BallModel(coefficient.imag()) * powers[d];
+    }
+  }
+  return sum;
+}
+
+BallModel sum_of(const PhaseSeries& series, const Harmonics& harmonics,
                  const std::vector<BallModel>& powers) {
   BallModel sum;
   for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
-    BallModel real;
-    BallModel imaginary;
-    for (std::size_t d = 0; d < series.coefficients[h].size(); ++d) {
-      const std::complex<double>& coefficient = series.coefficients[h][d];
-      if (coefficient.real() != 0.0) {
-        real = real + BallModel(coefficient.real()) * powers[d];
-      }
-      if (coefficient.imag() != 0.0 && h > 0) {
-        imaginary = imaginary + BallModel(coefficient.imag()) * powers[d];
-      }
-    }
+    const auto [real, imaginary] = coefficient_of(series, h, powers);
+    sum = h == 0 ? sum + real : sum + (real * harmonics[h].first - imaginary * harmonics[h].second);
+  }
+  return sum;
+}
+
+BallModel difference_of(const PhaseSeries& a, const std::vector<BallModel>& powers_of_a, const PhaseSeries& b,
+                        const std::vector<BallModel>& powers_of_b, const Harmonics& harmonics) {
+  BallModel sum;
+  for (std::size_t h = 0; h < std::max(a.coefficients.size(), b.coefficients.size()); ++h) {
+    const std::pair<BallModel, BallModel> of_a = coefficient_of(a, h, powers_of_a);
+    const std::pair<BallModel, BallModel> of_b = coefficient_of(b, h, powers_of_b);
+    const BallModel real = of_a.first - of_b.first;
+    const BallModel imaginary = of_a.second - of_b.second;
     sum = h == 0 ? sum + real : sum + (real * harmonics[h].first - imaginary * harmonics[h].second);
   }
   return sum;
@@ -61,16 +101,19 @@ BallModel sum_of(const PhaseSeries& series, const std::vector<std::pair<BallMode
 
 }  // namespace
 
+CellPlace place_of(const TubeCell& cell) {
+  const Interval turn = Interval(2.0) * rigor::pi();
+  return {BallModel(turn * Interval(cell.turn)) + BallModel(turn * Interval(cell.half_turn)) * BallModel::s(),
+          BallModel(cell.z) + BallModel(cell.half_z) * BallModel::z()};
+}
+
+BallModel frequency_at(const Tube& tube, const BallModel& z) {
+  return BallModel(tube.frequency) + BallModel(tube.half_width) * z;
+}
+
 TubeHere tube_at(const Tube& tube, const BallModel& phase, const BallModel& z) {
-  std::vector<std::pair<BallModel, BallModel>> harmonics;
-  for (std::size_t h = 0; h < most_harmonics(tube); ++h) {
-    const BallModel angle = BallModel(static_cast<double>(h)) * phase;
-    harmonics.emplace_back(cos(angle), sin(angle));
-  }
-  std::vector<BallModel> powers{BallModel(1.0)};
-  while (powers.size() < most_powers(tube)) {
-    powers.push_back(powers.back() * z);
-  }
+  const Harmonics harmonics = harmonics_at(phase, most_harmonics(tube));
+  const std::vector<BallModel> powers = powers_at(z, most_powers(tube));
   TubeHere here;
   for (std::size_t i = 0; i < tube.curve.size(); ++i) {
     here.curve.push_back(BallModel(static_cast<double>(tube.turns[i])) * phase +
@@ -82,19 +125,20 @@ TubeHere tube_at(const Tube& tube, const BallModel& phase, const BallModel& z) {
   return here;
 }
 
-CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell, bool with_next) {
+CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell, FrameParts parts) {
   const auto plane = [&] {
     const rigor::BallModelScope scope(0, 0);
-    const Interval turn = Interval(2.0) * rigor::pi();
     CellFrame frame;
-    frame.phase =
-        BallModel(turn * Interval(cell.turn)) + BallModel(turn * Interval(cell.half_turn)) * BallModel::s();
-    frame.z = BallModel(cell.z) + BallModel(cell.half_z) * BallModel::z();
-    frame.frequency = BallModel(tube.frequency) + BallModel(tube.half_width) * frame.z;
+    const CellPlace place = place_of(cell);
+    frame.phase = place.phase;
+    frame.z = place.z;
+    frame.frequency = frequency_at(tube, frame.z);
     frame.next_phase = frame.phase + frame.frequency;
     frame.here = tube_at(tube, frame.phase, frame.z);
-    if (with_next) {
+    if (parts == FrameParts::with_next) {
       frame.there = tube_at(tube, frame.next_phase, frame.z);
+    }
+    if (parts != FrameParts::here) {
       frame.next = run(model, *model.signal, {BallModel(model.amplitude), frame.next_phase});
     }
     return frame;
@@ -110,6 +154,23 @@ CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& 
     }
   }
   return frame;
+}
+
+TubeHere tube_difference(const Tube& a, const BallModel& z_of_a, const Tube& b, const BallModel& z_of_b,
+                         const BallModel& phase) {
+  const Harmonics harmonics = harmonics_at(phase, std::max(most_harmonics(a), most_harmonics(b)));
+  const std::vector<BallModel> of_a = powers_at(z_of_a, most_powers(a));
+  const std::vector<BallModel> of_b = powers_at(z_of_b, most_powers(b));
+  TubeHere difference;
+  difference.curve.reserve(a.curve.size());
+  difference.shape.reserve(a.shape.size());
+  for (std::size_t i = 0; i < a.curve.size(); ++i) {
+    difference.curve.push_back(difference_of(a.curve[i], of_a, b.curve[i], of_b, harmonics));
+  }
+  for (std::size_t i = 0; i < a.shape.size(); ++i) {
+    difference.shape.push_back(difference_of(a.shape[i], of_a, b.shape[i], of_b, harmonics));
+  }
+  return difference;
 }
 
 std::vector<BallModel> state_in(const TubeHere& here, double radius) {

@@ -16,6 +16,16 @@ struct TubeHere {
   std::vector<rigor::BallModel> shape;  ///< the lower triangle, row by row
 };
 
+/// The phase, rad, and the place z in the band of the tube, over a cell.
+struct CellPlace {
+  rigor::BallModel phase;
+  rigor::BallModel z;
+};
+[[nodiscard]] CellPlace place_of(const TubeCell& cell);
+
+/// The frequency at z, rad/sample.
+[[nodiscard]] rigor::BallModel frequency_at(const Tube& tube, const rigor::BallModel& z);
+
 [[nodiscard]] TubeHere tube_at(const Tube& tube, const rigor::BallModel& phase, const rigor::BallModel& z);
 
 /// What depends on the place in a cell only: computed among polynomials of two variables, and then lifted to
@@ -30,9 +40,16 @@ struct CellFrame {
   std::vector<rigor::BallModel> next;  ///< the samples at the next phase
 };
 
-/// `there` and `next` only on demand.
+/// Which of them: not `there` and not `next`; not `there`; all.
+enum class FrameParts { here, with_samples, with_next };
 [[nodiscard]] CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
-                                 bool with_next);
+                                 FrameParts parts);
+
+/// C_a - C_b and U_a - U_b at one phase, where the frequency has the place z_of_a in a and z_of_b in b. Their
+/// coefficients are subtracted before the harmonics are expanded: the error of the models is in proportion to
+/// the difference, which is small between tubes that fit together. Both turn alike.
+[[nodiscard]] TubeHere tube_difference(const Tube& a, const rigor::BallModel& z_of_a, const Tube& b,
+                                       const rigor::BallModel& z_of_b, const rigor::BallModel& phase);
 
 /// C + radius U x, where x is the ball, or a given vector.
 [[nodiscard]] std::vector<rigor::BallModel> state_in(const TubeHere& here, double radius);

@@ -8,23 +8,41 @@
 
 namespace veritrack::model {
 
+namespace {
+
+/// At least the square root of 2.
+constexpr double kRootOfTwo = 0x1.6a09e667f3bcdp0;
+
+}  // namespace
+
 using rigor::BallModel;
 using rigor::Interval;
 
 StepBounds bound_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell, double radius,
-                      double noise, const std::vector<double>& scales) {
+                      double noise, const std::vector<double>& scales, double slew) {
   require_sizes(model, tube);
   const auto states = static_cast<std::size_t>(model.recursion->states);
   const auto samples = static_cast<std::size_t>(model.recursion->samples);
-  const rigor::BallModelScope scope(static_cast<int>(states), noise > 0.0 ? static_cast<int>(samples) : 0);
+  const bool is_noisy = noise > 0.0;
+  const bool is_moving = slew > 0.0;
+  const int of_noise = is_noisy ? static_cast<int>(samples) : 0;
+  const rigor::BallModelScope scope(static_cast<int>(states), is_moving ? of_noise + 1 : of_noise);
+  // Noise and slew are in the unit ball together when the squared length of each is at most 1/2.
+  const double stretch = is_noisy && is_moving ? kRootOfTwo : 1.0;
 
-  const CellFrame frame = frame_of(model, tube, cell, true);
+  CellFrame frame = frame_of(model, tube, cell, is_moving ? FrameParts::with_samples : FrameParts::with_next);
+  if (is_moving) {
+    // Rounded up: more slew than is asked for.
+    frame.there =
+        tube_at(tube, frame.next_phase,
+                frame.z + BallModel(slew * stretch / tube.half_width) * BallModel::disturbance(of_noise));
+  }
   const std::vector<BallModel> state = state_in(frame.here, radius);
   std::vector<BallModel> inputs = state;
   for (std::size_t c = 0; c < samples; ++c) {
-    inputs.push_back(noise > 0.0
-                         ? frame.next[c] + BallModel(noise) * BallModel::disturbance(static_cast<int>(c))
-                         : frame.next[c]);
+    inputs.push_back(is_noisy ? frame.next[c] +
+                                    BallModel(noise * stretch) * BallModel::disturbance(static_cast<int>(c))
+                              : frame.next[c]);
   }
   std::vector<BallModel> next = run(model, model.recursion->step, inputs);
   for (std::size_t i = 0; i < states; ++i) {
@@ -33,15 +51,11 @@ StepBounds bound_step(const TrackerModel& model, const Tube& tube, const TubeCel
   const std::vector<BallModel> deviation = in_units_of(frame.there, next);  // F
   StepBounds bounds;
   for (const double scale : scales) {
-    bounds.steps.push_back(length_bound(deviation, scale));
+    bounds.steps.push_back(length_bound(deviation, scale, is_noisy && is_moving));
   }
-  const auto& classes = deviation.front().monomials().classes();
-  for (const BallModel& component : deviation) {
-    for (std::size_t number = 0; number < classes.size(); ++number) {
-      bounds.by_phase += classes[number].s > 0 ? component.norm(number) : 0.0;
-      bounds.by_frequency += classes[number].z > 0 ? component.norm(number) : 0.0;
-    }
-  }
+  const WidthShares shares = width_shares(deviation);
+  bounds.by_phase = shares.by_phase;
+  bounds.by_frequency = shares.by_frequency;
   const std::vector<BallModel> frequency = run(model, model.recursion->frequency, state);
   bounds.frequency_error = (frequency.front() - frame.frequency).range();
   // The shape must be one: no component of it vanishes, here or there.

@@ -4,7 +4,8 @@
 //   F(xi, v) = U(phi + omega, omega)^-1 [G(C(phi, omega) + U(phi, omega) xi, Y(phi + omega) + v) - C(phi +
 //   omega, omega)],
 // an identity of the recursion G. If |F| <= R for all |xi| <= R and |v| <= V, for all phases and frequencies,
-// the tube of radius R is never left (docs/model-proof.md).
+// the tube of radius R is never left (docs/model-proof.md). When the frequency moves by W zeta, |zeta| <= 1,
+// the next place is (phi + omega, omega + W zeta) in place of (phi + omega, omega).
 #pragma once
 
 #include <string>
@@ -47,10 +48,12 @@ struct StepBounds {
   double by_frequency = 0.0;
 };
 
-/// The bounds for |xi| <= scale radius, for each of the scales, in (0, 1], and |v| <= noise (the length of
-/// the error of all samples, signal units). Sets its own rounding mode. Throws std::invalid_argument when
-/// sizes do not fit.
+/// The bounds for |xi| <= scale radius, for each of the scales, in (0, 1], |v| <= noise (the length of
+/// the error of all samples, signal units), and a frequency that moves by at most `slew` (rad/sample per
+/// sample) from this sample to the next. Sets its own rounding mode. Throws std::invalid_argument when sizes
+/// do not fit.
 [[nodiscard]] StepBounds bound_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
-                                    double radius, double noise, const std::vector<double>& scales);
+                                    double radius, double noise, const std::vector<double>& scales,
+                                    double slew = 0.0);
 
 }  // namespace veritrack::model

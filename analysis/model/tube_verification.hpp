@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "analysis/model/cell_cover.hpp"
 #include "analysis/model/tube_step.hpp"
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/verdict.hpp"
@@ -18,13 +19,8 @@ struct LevelQuestion {
   /// grow.
   double least_scale = 1.0;
   double shrinking = 1.0;
-};
-
-/// How much work a verification may take.
-struct VerificationBudget {
-  int phases = 32;      ///< parts of a turn to begin with
-  int frequencies = 1;  ///< parts of the tube's band to begin with
-  std::size_t most_cells = 20'000;
+  /// W: from one sample to the next the frequency moves by at most this, rad/sample.
+  double slew = 0.0;
 };
 
 struct LevelResult {
@@ -38,11 +34,11 @@ struct LevelResult {
 
 /// Whether |F| <= shrinking r for all |xi| <= r, all r from least_scale R to R and all |v| <= V, for all
 /// phases and all frequencies of the tube: then a state of level r is at level shrinking r or below after the
-/// next sample, and so on. (The bound for |xi| <= scale R is convex in the scale, because coefficients of
-/// degree a are multiplied by scale^a and the error is kept: two ends decide.) Cells that fail are halved, up
-/// to the budget; cells are independent, and the result does not depend on the number of threads. UNDECIDED,
-/// with the reason, when the recursion does not know its angles modulo 2 pi only, when the signal is not 2
-/// pi-periodic in its phase, and when nothing is known somewhere.
+/// next sample, and so on; with a slew, as long as the frequency stays in the tube's cell. (The bound for
+/// |xi| <= scale R is convex in the scale, because coefficients of degree a are multiplied by scale^a and the
+/// error is kept: two ends decide.) Cells that fail are halved, up to the budget; the result does not depend
+/// on the number of threads. UNDECIDED, with the reason, when the recursion does not know its angles modulo 2
+/// pi only, when the signal is not 2 pi-periodic in its phase, and when nothing is known somewhere.
 [[nodiscard]] LevelResult verify_level(const TrackerModel& model, const Tube& tube,
                                        const LevelQuestion& question, const VerificationBudget& budget);
 

@@ -13,7 +13,7 @@
 #include "analysis/model/angle_check.hpp"
 #include "analysis/model/tube_proposal.hpp"
 #include "analysis/rigor/rounding.hpp"
-#include "tests/analysis/model/example_recursions.hpp"
+#include "tests/analysis/model/tube_examples.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::model {
@@ -21,41 +21,9 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
+using test::Example;
 using trackers::Operation;
 using trackers::StraightLineProgram;
-
-/// A cos(phi), and with two channels A sin(phi).
-StraightLineProgram tone(int constants, bool quadrature = false) {
-  StraightLineProgram program(constants + 2);
-  const int phase = constants + 1;
-  program.add_result(program.append(Operation::multiply, constants, program.append(Operation::cos, phase)));
-  if (quadrature) {
-    program.add_result(program.append(Operation::multiply, constants, program.append(Operation::sin, phase)));
-  }
-  return program;
-}
-
-/// An example as the verification sees it.
-struct Example {
-  test::ExampleTracker tracker;
-  StraightLineProgram signal;
-  TrackerModel model;
-
-  explicit Example(test::ExampleTracker example)
-      : tracker(std::move(example)), signal(tone(tracker.recursion.constants)) {
-    model.recursion = &tracker.recursion;
-    model.signal = &signal;
-    for (const double constant : tracker.constants) {
-      model.constants.emplace_back(constant);
-    }
-    model.amplitude = Interval(1.0);
-  }
-  Example(const Example&) = delete;
-  Example& operator=(const Example&) = delete;
-  Example(Example&&) = delete;
-  Example& operator=(Example&&) = delete;
-  ~Example() = default;
-};
 
 Tube proposed(const Example& example, double frequency, double half_width, ShapeObjective objective) {
   TubeSettings settings;
@@ -70,69 +38,34 @@ Tube proposed(const Example& example, double frequency, double half_width, Shape
 /// floating point. Shares no code with the verification: the recursion in doubles, sums of the tube's series.
 class Attack {
  public:
-  Attack(const Example& example, const Tube& tube) : example_(&example), tube_(&tube) {}
+  Attack(const Example& example, const Tube& tube) : example_(&example), tube_(tube), cell_(&tube) {}
 
-  [[nodiscard]] double largest(double radius, double noise, int trials) const {
+  [[nodiscard]] double largest(double radius, double noise, int trials, double slew = 0.0) const {
     test::Random random(71);
     double worst = 0.0;
-    const auto n = static_cast<Eigen::Index>(tube_->curve.size());
+    const auto n = static_cast<Eigen::Index>(cell_->curve.size());
     for (int trial = 0; trial < trials; ++trial) {
       const double phase = random.uniform(0.0, 2.0 * M_PI);
-      const double z = random.uniform(-1.0, 1.0);
-      const double omega = tube_->frequency + tube_->half_width * z;
+      const double omega = cell_->frequency + cell_->half_width * random.uniform(-1.0, 1.0);
       Eigen::VectorXd xi(n);
       for (double& component : xi) {
         component = random.uniform(-1.0, 1.0);
       }
-      const Eigen::VectorXd state = curve(phase, z) + radius * shape(phase, z) * xi.normalized();
-      std::vector<double> inputs = example_->tracker.constants;
-      inputs.insert(inputs.end(), state.begin(), state.end());
-      inputs.push_back(std::cos(phase + omega) + (random.below(2) == 0 ? noise : -noise));
-      std::vector<double> registers;
-      std::vector<double> next(static_cast<std::size_t>(n));
-      example_->tracker.recursion.step.run(std::span<const double>(inputs), registers, std::span(next));
-      const Eigen::VectorXd deviation =
-          shape(phase + omega, z)
-              .triangularView<Eigen::Lower>()
-              .solve(Eigen::Map<const Eigen::VectorXd>(next.data(), n) - curve(phase + omega, z));
-      worst = std::max(worst, deviation.norm() / radius);
+      const Eigen::VectorXd state =
+          tube_.curve(phase, omega) + radius * tube_.shape(phase, omega) * xi.normalized();
+      const double sample = std::cos(phase + omega) + (random.below(2) == 0 ? noise : -noise);
+      const Eigen::VectorXd next = test::next_state(example_->tracker, state, sample);
+      for (const double next_omega : {omega - slew, omega + slew}) {
+        worst = std::max(worst, tube_.level(next, phase + omega, next_omega) / radius);
+      }
     }
     return worst;
   }
 
  private:
-  [[nodiscard]] static double value(const PhaseSeries& series, double phase, double z) {
-    double sum = 0.0;
-    for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
-      for (std::size_t d = 0; d < series.coefficients[h].size(); ++d) {
-        sum += (series.coefficients[h][d] * std::polar(1.0, static_cast<double>(h) * phase)).real() *
-               std::pow(z, static_cast<double>(d));
-      }
-    }
-    return sum;
-  }
-  [[nodiscard]] Eigen::VectorXd curve(double phase, double z) const {
-    Eigen::VectorXd point(static_cast<Eigen::Index>(tube_->curve.size()));
-    for (Eigen::Index i = 0; i < point.size(); ++i) {
-      const auto state = static_cast<std::size_t>(i);
-      point[i] = tube_->turns[state] * phase + value(tube_->curve[state], phase, z);
-    }
-    return point;
-  }
-  [[nodiscard]] Eigen::MatrixXd shape(double phase, double z) const {
-    const auto n = static_cast<Eigen::Index>(tube_->curve.size());
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
-    std::size_t place = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      for (Eigen::Index j = 0; j <= i; ++j) {
-        matrix(i, j) = value(tube_->shape[place++], phase, z);
-      }
-    }
-    return matrix;
-  }
-
   const Example* example_;
-  const Tube* tube_;
+  test::PointTube tube_;
+  const Tube* cell_;
 };
 
 TEST_CASE("a phase-locked loop: starts up to the aim are proved, and no attack leaves what is proved") {
@@ -167,6 +100,55 @@ TEST_CASE("a set for noise, and levels that shrink to the curve without it") {
     shrinks.radius *= 0.25;
   }
   CHECK(verify_level(loop.model, tube, {0.004, 0.0, 0.25, 0.5}, {}).verdict == Verdict::undecided);
+}
+
+TEST_CASE("a frequency that moves is tolerated as far as the shape is made for, with noise and without") {
+  struct Case {
+    test::ExampleTracker tracker;
+    double frequency, half_width, radius, slew, noise, slew_with_noise;
+    VerificationBudget budget;
+  };
+  const double hertz = 2.0 * M_PI / 10000.0;
+  // The aims at the curve are 5.5e-5, 3.1e-6 and 1.5e-5.
+  for (const Case& c :
+       {Case{test::phase_locked_loop(), 0.3, 0.04, 0.0078, 5.2e-5, 0.002, 5.0e-5, {64, 2, 20000}},
+        Case{test::integrator_loop(), 50.0 * hertz, hertz, 0.0012, 2.5e-6, 0.001, 2.4e-6, {64, 2, 20000}},
+        Case{test::notch_filter(), 0.5, 0.005, 0.0019, 1.1e-5, 0.0005, 1.0e-5, {128, 2, 20000}}}) {
+    const Example example(c.tracker);
+    const Tube tube = proposed(example, c.frequency, c.half_width, ShapeObjective::largest_slew);
+    const Attack attack(example, tube);
+    LevelQuestion question{c.radius, 0.0, 1.0, 1.0, c.slew};
+    CHECK(verify_level(example.model, tube, question, c.budget).verdict == Verdict::proved);
+    const double worst = attack.largest(c.radius, 0.0, 20000, c.slew);
+    CHECK(worst < 1.0);
+    CHECK(worst > 0.9);
+    question.noise = c.noise;
+    question.slew = c.slew_with_noise;
+    CHECK(verify_level(example.model, tube, question, c.budget).verdict == Verdict::proved);
+    CHECK(attack.largest(c.radius, c.noise, 20000, c.slew_with_noise) < 1.0);
+    // Too much: an attack leaves, and nothing is proved.
+    question = {c.radius, 0.0, 1.0, 1.0, 2.0 * c.slew};
+    CHECK(verify_level(example.model, tube, question, c.budget).verdict == Verdict::undecided);
+    CHECK(attack.largest(c.radius, 0.0, 20000, 3.0 * c.slew) > 1.0);
+  }
+}
+
+TEST_CASE("more slew gives larger bounds, and hardly any costs hardly anything") {
+  const Example loop(test::phase_locked_loop());
+  const Tube tube = proposed(loop, 0.3, 0.04, ShapeObjective::largest_slew);
+  const TubeCell cell{0.1, 0.01, 0.25, 0.1};
+  for (const double noise : {0.0, 0.01}) {
+    const StepBounds still = bound_step(loop.model, tube, cell, 0.008, noise, {1.0, 0.5});
+    double last = still.steps[0];
+    for (const double slew : {1e-12, 1e-6, 1e-5, 5e-5}) {
+      const StepBounds moving = bound_step(loop.model, tube, cell, 0.008, noise, {1.0, 0.5}, slew);
+      CHECK(moving.steps[0] > 0.9999 * last);
+      CHECK(moving.frequency_error.upper() >= 0.9999999 * still.frequency_error.upper());
+      last = moving.steps[0];
+    }
+    const StepBounds little = bound_step(loop.model, tube, cell, 0.008, noise, {1.0, 0.5}, 1e-12);
+    CHECK(little.steps[0] < 1.001 * still.steps[0]);
+  }
 }
 
 TEST_CASE("a SOGI-FLL and KalmANF reach the aims for starts") {
@@ -233,6 +215,9 @@ TEST_CASE("questions and budgets that cannot be answered are not proved") {
   CHECK(verdict({0.01, -1.0}, {}) == Verdict::undecided);
   CHECK(verdict({0.01, 0.0, 0.0, 1.0}, {}) == Verdict::undecided);
   CHECK(verdict({0.01, 0.0, 1.0, 1.5}, {}) == Verdict::undecided);
+  CHECK(verdict({0.005, 0.0, 1.0, 1.0, -1e-6}, {}) == Verdict::undecided);
+  CHECK(verdict({0.005, 0.0, 1.0, 1.0, std::nan("")}, {}) == Verdict::undecided);
+  CHECK(verdict({0.005, 0.0, 1.0, 1.0, HUGE_VAL}, {}) == Verdict::undecided);
   CHECK(verdict({0.01, 0.0}, {3, 1, 1000}) == Verdict::undecided);
   CHECK(verdict({0.01, 0.0}, {0, 1, 1000}) == Verdict::undecided);
   // The same cells with any first grid that is fine enough.

@@ -16,6 +16,20 @@ namespace {
 using rigor::BallModel;
 using rigor::Interval;
 
+/// Of two cells of frequencies.
+struct Ends {
+  Interval lower_begins, lower_ends, upper_begins, upper_ends;
+};
+
+Ends ends_of(const Tube& from, const Tube& to) {
+  const Tube& lower = from.frequency < to.frequency ? from : to;
+  const Tube& upper = from.frequency < to.frequency ? to : from;
+  return {Interval(lower.frequency) - Interval(lower.half_width),
+          Interval(lower.frequency) + Interval(lower.half_width),
+          Interval(upper.frequency) - Interval(upper.half_width),
+          Interval(upper.frequency) + Interval(upper.half_width)};
+}
+
 /// Frequencies middle - half to middle + half contain all those within W of the border.
 struct Strip {
   double middle = 0.0;
@@ -23,11 +37,8 @@ struct Strip {
 };
 
 Strip strip_of(const Tube& from, const Tube& to, double slew) {
-  const rigor::UpwardRounding upward;
-  const Tube& lower = from.frequency < to.frequency ? from : to;
-  const Tube& upper = from.frequency < to.frequency ? to : from;
-  const Interval border = hull(Interval(lower.frequency) + Interval(lower.half_width),
-                               Interval(upper.frequency) - Interval(upper.half_width));
+  const Ends ends = ends_of(from, to);
+  const Interval border = hull(ends.lower_ends, ends.upper_begins);
   const Interval strip = hull(border - Interval(slew), border + Interval(slew));
   const double middle = midpoint(strip);
   return {middle, abs(strip - Interval(middle)).upper()};
@@ -68,8 +79,10 @@ std::string objection_to(const Tube& from, const Tube& to, const BorderQuestion&
   if (from.turns != to.turns) {
     return "neighbouring curves do not turn alike";
   }
-  if (!(question.slew <= from.half_width && question.slew <= to.half_width)) {
-    return "the slew is more than half of a cell of frequencies";
+  const Ends ends = ends_of(from, to);
+  if (!rigor::certainly_less_equal(ends.lower_ends + Interval(question.slew), ends.upper_ends) ||
+      !rigor::certainly_less_equal(ends.lower_begins + Interval(question.slew), ends.upper_begins)) {
+    return "the slew is more than a cell of frequencies";
   }
   return "";
 }
@@ -105,6 +118,7 @@ StepBounds bound_border(const TrackerModel& model, const Tube& from, const Tube&
 
 BorderResult verify_border(const TrackerModel& model, const Tube& from, const Tube& to,
                            const BorderQuestion& question, const VerificationBudget& budget) {
+  const rigor::UpwardRounding upward;
   BorderResult result;
   require_sizes(model, from);
   require_sizes(model, to);

@@ -39,8 +39,8 @@ struct BorderResult {
 /// Whether, for all phases and all frequencies within W of the border, a state at a level up to r R_a' of the
 /// tube `from` is at or below the level r R_b of the tube `to`, for all r from least_scale to 1. (The bound
 /// is convex in r, as that of verify_level: two ends decide.) The border is the end of the lower tube's cell
-/// and the beginning of the upper one's: all frequencies between them when they differ. The slew must be at
-/// most half of each cell's width: then no step passes a whole cell. UNDECIDED when the tubes do not turn
+/// and the beginning of the upper one's: all frequencies between them when they differ. Each cell must
+/// reach at least W beyond the other: then no step passes a whole cell. UNDECIDED when the tubes do not turn
 /// alike, angles included: curves that are 2 pi apart do not fit. Throws std::invalid_argument when sizes do
 /// not fit.
 [[nodiscard]] BorderResult verify_border(const TrackerModel& model, const Tube& from, const Tube& to,

@@ -82,8 +82,9 @@ class Cover {
   [[nodiscard]] TubeCell part(std::size_t number) const {
     const double phases = budget_.phases;
     const double frequencies = budget_.frequencies;
+    const std::size_t row = number / static_cast<std::size_t>(budget_.phases);
     const auto i = static_cast<double>(number % static_cast<std::size_t>(budget_.phases));
-    const auto j = static_cast<double>(number / static_cast<std::size_t>(budget_.phases));
+    const auto j = static_cast<double>(row);
     return {(i + 0.5) / phases, 0.5 / phases, (2.0 * j + 1.0) / frequencies - 1.0, 1.0 / frequencies};
   }
 

@@ -227,6 +227,15 @@ TEST_CASE("borders where the tubes do not fit are not proved") {
   wrong = tubes[1];
   wrong.curve.pop_back();
   CHECK_THROWS_AS((void)verdict(tubes[0], wrong, question, {}), std::invalid_argument);
+  // One cell within the other, or the same.
+  wrong = tubes[1];
+  wrong.frequency = tubes[0].frequency;
+  CHECK(verify_border(loop.model, tubes[0], wrong, question, {}).reason ==
+        "the slew is more than a cell of frequencies");
+  wrong.frequency += 1e-3;
+  wrong.half_width = 0.5e-3;
+  CHECK(verify_border(loop.model, tubes[0], wrong, question, {}).reason ==
+        "the slew is more than a cell of frequencies");
   // Not neighbours.
   CHECK(verdict(tubes[0], tubes.back(), question, {}) == Verdict::undecided);
   // A larger level into a smaller one.

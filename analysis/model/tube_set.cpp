@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "analysis/model/set_search.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
 
@@ -42,7 +43,7 @@ class LevelSearch {
     for (double step = 1.12; step > 1.01 && radius > 0.0; step = std::sqrt(step)) {
       radius = may_hold(radius * step, noise) ? radius * step : radius;
     }
-    for (int i = 0; i < 60 && radius > 0.0 && !is_locked(radius); ++i) {
+    for (int i = 0; i < 60 && radius > 0.0 && !is_locked(*model_, proved_.tube, radius); ++i) {
       radius *= 0.93;
     }
     for (const double factor : kFactors) {
@@ -89,18 +90,11 @@ class LevelSearch {
 
   [[nodiscard]] bool may_hold(double radius, double noise) const {
     constexpr int kPhases = 24;
-    return sampled_growth(*model_, proved_.tube, radius, noise, kPhases) <= slow_;
-  }
-
-  /// Whether frequency errors in the tube are known, and smaller than the frequency.
-  [[nodiscard]] bool is_locked(double radius) const {
-    const Interval error = bound_errors(*model_, proved_.tube, radius, {64, 1}).error;
-    return rigor::is_finite(error) && -error.lower() < proved_.tube.frequency &&
-           error.upper() < proved_.tube.frequency;
+    return sampled_growth(*model_, proved_.tube, {radius, noise}, kPhases) <= slow_;
   }
 
   bool proves(double radius, double noise) {
-    if (!is_locked(radius) || !holds({radius, noise, 1.0, slow_})) {
+    if (!is_locked(*model_, proved_.tube, radius) || !holds({radius, noise, 1.0, slow_})) {
       return false;
     }
     proved_.levels = {radius};
@@ -136,7 +130,7 @@ class LevelSearch {
       const double next = step.factor * radius;
       // Points are cheap, and where they fail nothing is verified.
       constexpr int kPhases = 16;
-      if (!(sampled_growth(*model_, proved_.tube, next, noise, kPhases) <=
+      if (!(sampled_growth(*model_, proved_.tube, {next, noise}, kPhases) <=
             step.shrinking - 0.1 * (1.0 - step.shrinking))) {
         return false;
       }
@@ -163,48 +157,18 @@ class LevelSearch {
   double fast_ = 1.0;
 };
 
-std::string place_of_cell(const TubeProposal& cell) {
-  return fmt::format("between {:.6g} and {:.6g} rad/sample", cell.frequency - cell.half_width,
-                     cell.frequency + cell.half_width);
-}
-
-/// Whether tubes in order of their frequencies leave no gap, ends included.
-bool covers(const std::vector<ProvedTube>& tubes, double low, double high) {
-  const rigor::UpwardRounding upward;
-  double known = low;
-  for (const ProvedTube& proved : tubes) {
-    const Interval from = Interval(proved.tube.frequency) - Interval(proved.tube.half_width);
-    const Interval to = Interval(proved.tube.frequency) + Interval(proved.tube.half_width);
-    if (!(from.upper() <= known)) {
-      return false;
-    }
-    known = std::max(known, to.lower());
-  }
-  return !tubes.empty() && known >= high;
-}
-
-/// The tube over a band that is a little wider: neighbours overlap, whatever the rounding.
-void widen(Tube& tube) {
-  constexpr double kShare = 0x1p-40;
-  tube.half_width += kShare * tube.half_width + 0x1p-50 * tube.frequency;
-}
-
 }  // namespace
 
 TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low, double high,
                   const SetTask& task, const SetProgress& progress) {
   const rigor::NearestRounding nearest;
-  BandSettings settings;
-  settings.tube.shape.objective = task.objective;
-  settings.tube.shape.start = task.deviations;
-  settings.tube.shape.noise = task.noise;
-  settings.tube.steady_state.largest_mean_error = std::max(0.5 * (high - low), 0.05 * low);
-  BandProposal band = propose_band(tone, low, high, settings);
-  TubeSet set{task.name, task.noise, {}, false, {}};
+  BandProposal band = propose_band(tone, low, high, settings_of(task, low, high));
+  TubeSet set;
+  set.name = task.name;
   for (const std::string& reason : reasons_of(band)) {
     set.reasons.push_back(reason);
   }
-  double noise = task.largest_noise ? (task.noise > 0.0 ? task.noise : INFINITY) : task.noise;
+  double noise = task.largest_noise ? INFINITY : task.noise;
   std::size_t done = 0;
   for (TubeProposal& cell : band.cells) {
     ++done;
@@ -239,12 +203,13 @@ TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low
   return set;
 }
 
-double samples_until(const ProvedTube& proved, std::size_t level) {
+double samples_until(const ProvedTube& proved, std::size_t level, const std::vector<double>& crossing) {
   const rigor::UpwardRounding upward;
   double samples = 0.0;
   for (std::size_t j = 0; j < level; ++j) {
     const Interval ratio = Interval(proved.levels[j + 1]) / Interval(proved.levels[j]);
-    const Interval count = log(ratio) / log(Interval(proved.shrinking[j]));
+    const double factor = crossing.empty() ? proved.shrinking[j] : std::max(proved.shrinking[j], crossing[j]);
+    const Interval count = log(ratio) / log(Interval(factor));
     samples += rigor::is_finite(count) ? std::ceil(count.upper()) : INFINITY;
   }
   return samples;

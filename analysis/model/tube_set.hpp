@@ -27,8 +27,10 @@ struct ProvedTube {
 struct SetTask {
   std::string name;
   ShapeObjective objective = ShapeObjective::largest_starts;
-  double noise = 0.0;          ///< V, signal units; for the largest noise: what is tried at most, 0 for any
-  bool largest_noise = false;  ///< search for the largest V; else V is as given
+  double noise = 0.0;          ///< V, signal units
+  double slew = 0.0;           ///< W, rad/sample per sample
+  bool largest_noise = false;  ///< search for the largest V, at a constant frequency
+  bool largest_slew = false;   ///< search for the largest W, with the V that is given
   bool with_curve = false;     ///< levels down to what the curve is known to, for the bias
   Eigen::VectorXd deviations;  ///< of starts, one for each state; or empty
 };
@@ -37,7 +39,11 @@ struct SetTask {
 struct TubeSet {
   std::string name;
   double noise = 0.0;  ///< V, signal units
+  double slew = 0.0;   ///< W, rad/sample per sample; 0: constant frequencies
   std::vector<ProvedTube> tubes;
+  /// With a slew, for each pair of levels: how levels change at borders of cells, after the step's shrinking
+  /// (docs/model-proof.md, section 4).
+  std::vector<double> crossing;
   bool is_complete = false;          ///< every frequency of the band has a tube
   std::vector<std::string> reasons;  ///< otherwise: which part has none, and why
 };
@@ -50,7 +56,12 @@ using SetProgress = std::function<void(double share)>;
 [[nodiscard]] TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low, double high,
                                 const SetTask& task, const SetProgress& progress = {});
 
-/// After how many samples a start of level R_0 is at level R_`level`: an upper bound.
-[[nodiscard]] double samples_until(const ProvedTube& proved, std::size_t level);
+/// The same for a frequency that moves: all cells have the same levels, and their borders are verified.
+[[nodiscard]] TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, double low,
+                                       double high, const SetTask& task, const SetProgress& progress = {});
+
+/// After how many samples a start of level R_0 is at level R_`level`: an upper bound. `crossing`: of its set.
+[[nodiscard]] double samples_until(const ProvedTube& proved, std::size_t level,
+                                   const std::vector<double>& crossing = {});
 
 }  // namespace veritrack::model

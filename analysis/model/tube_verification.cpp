@@ -89,14 +89,16 @@ LevelResult verify_level(const TrackerModel& model, const Tube& tube, const Leve
   return result;
 }
 
-double sampled_growth(const TrackerModel& model, const Tube& tube, double radius, double noise, int phases) {
+double sampled_growth(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
+                      int phases) {
   constexpr std::array<double, 3> kPlaces{-1.0, 0.0, 1.0};
   std::vector<double> growths(static_cast<std::size_t>(phases) * kPlaces.size());
   tbb::parallel_for(std::size_t{0}, growths.size(), [&](std::size_t number) {
-    const double turn = static_cast<double>(number / kPlaces.size()) / phases;
-    const TubeCell point{turn, 0.0, kPlaces.at(number % kPlaces.size()), 0.0};
-    const double step = bound_step(model, tube, point, radius, noise, {1.0}).steps.front();
-    growths[number] = std::isfinite(step) ? step / radius : std::numeric_limits<double>::infinity();
+    const std::size_t phase = number / kPlaces.size();
+    const TubeCell point{static_cast<double>(phase) / phases, 0.0, kPlaces.at(number % kPlaces.size()), 0.0};
+    const double step =
+        bound_step(model, tube, point, question.radius, question.noise, {1.0}, question.slew).steps.front();
+    growths[number] = std::isfinite(step) ? step / question.radius : std::numeric_limits<double>::infinity();
   });
   return *std::max_element(growths.begin(), growths.end());
 }

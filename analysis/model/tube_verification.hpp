@@ -42,10 +42,10 @@ struct LevelResult {
 [[nodiscard]] LevelResult verify_level(const TrackerModel& model, const Tube& tube,
                                        const LevelQuestion& question, const VerificationBudget& budget);
 
-/// The largest |F|/r at points of the tube for r = R, by the bounds of verify_level over cells without width,
-/// at so many phases: what a verification could prove at best. Not evidence; infinity when nothing is known
-/// somewhere.
-[[nodiscard]] double sampled_growth(const TrackerModel& model, const Tube& tube, double radius, double noise,
-                                    int phases);
+/// The largest |F|/R at points of the tube, by the bounds of verify_level over cells without width, at so
+/// many phases: what a verification could prove at best for this radius, noise and slew. Not evidence;
+/// infinity when nothing is known somewhere.
+[[nodiscard]] double sampled_growth(const TrackerModel& model, const Tube& tube,
+                                    const LevelQuestion& question, int phases);
 
 }  // namespace veritrack::model

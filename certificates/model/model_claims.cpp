@@ -145,8 +145,7 @@ class ModelClaims {
                    words_.tone_with("a frequency that stays in " + words_.band()) + ", without noise",
                    "the tracker tolerates a slew up to {} rad/sample per sample: a certified "
                    "invariant set exists");
-      claim.reason = "No slew was proved.";
-      add(claim);
+      decide_size(claim, largest_slew(), *number, "The largest slew that was proved is {}");
     }
     if (const auto& number = sets.frequency_error_radius_at_least) {
       Claim claim = required("model/frequency-error-radius", *number, assumed,
@@ -269,14 +268,12 @@ class ModelClaims {
           return INFINITY;
         }
       }
-      samples = std::max(samples, model::samples_until(proved, level));
+      samples = std::max(samples, model::samples_until(proved, level, deciding_->tubes.crossing));
     }
     return samples;
   }
 
-  [[nodiscard]] bool covers_assumptions() const {
-    return sets_->objection.empty() && deciding_->is_proved() && !words_.moves();
-  }
+  [[nodiscard]] bool covers_assumptions() const { return sets_->objection.empty() && deciding_->is_proved(); }
   [[nodiscard]] bool guaranteed() const {
     return covers_assumptions() && deciding_->start_share <= 1.0 && std::isfinite(deciding_->frequency_error);
   }
@@ -299,6 +296,15 @@ class ModelClaims {
     }
     return largest;
   }
+  [[nodiscard]] double largest_slew() const {
+    double largest = 0.0;
+    for (const std::optional<ModelSet>* set : {&sets_->assumed, &sets_->slew}) {
+      if (*set && (*set)->is_proved()) {
+        largest = std::max(largest, (*set)->tubes.slew);
+      }
+    }
+    return largest;
+  }
   static std::string objection_of(const ModelSet& set) {
     std::string text = "No set of tubes was proved for the whole band";
     constexpr std::size_t kMostReasons = 3;
@@ -310,9 +316,6 @@ class ModelClaims {
   [[nodiscard]] std::string assumption_objection() const {
     if (!sets_->objection.empty()) {
       return "Nothing is certified: " + sets_->objection + ".";
-    }
-    if (words_.moves()) {
-      return "A frequency that moves is not certified by this version.";
     }
     return objection_of(*deciding_);
   }

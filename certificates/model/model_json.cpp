@@ -86,9 +86,12 @@ Json tube_json(const model::ProvedTube& proved) {
 
 Json set_json(const model::TubeSet& set) {
   Json json{{"name", set.name},
-            {"slew", rigor::to_hexadecimal(0.0)},
+            {"slew", rigor::to_hexadecimal(set.slew)},
             {"noise", rigor::to_hexadecimal(set.noise)},
             {"cells", Json::array()}};
+  if (set.slew > 0.0) {
+    json["crossing"] = hexadecimals(set.crossing);
+  }
   for (const model::ProvedTube& proved : set.tubes) {
     json["cells"].push_back(tube_json(proved));
   }
@@ -135,11 +138,10 @@ Json model_evidence_json(const Certificate& certificate) {
     }
   };
   add(sets.starts);
-  if (sets.assumed) {
-    add(*sets.assumed);
-  }
-  if (sets.noise) {
-    add(*sets.noise);
+  for (const std::optional<ModelSet>* set : {&sets.assumed, &sets.noise, &sets.slew}) {
+    if (*set) {
+      add(**set);
+    }
   }
   return {{"tubes", list}};
 }

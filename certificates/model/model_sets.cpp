@@ -113,6 +113,46 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
   return set;
 }
 
+/// The same set, begun at a lower level: a smaller tube, and the same proof.
+TubeSet from_level(TubeSet set, std::size_t level) {
+  const auto drop = [&](std::vector<double>& factors) {
+    // Of a single level, what the last pair shrinks by.
+    const std::size_t kept = std::max<std::size_t>(factors.size(), level + 1) - level;
+    factors.erase(factors.begin(),
+                  factors.end() - static_cast<std::ptrdiff_t>(std::min(kept, factors.size())));
+  };
+  for (model::ProvedTube& proved : set.tubes) {
+    proved.levels.erase(proved.levels.begin(), proved.levels.begin() + static_cast<std::ptrdiff_t>(level));
+    drop(proved.shrinking);
+  }
+  drop(set.crossing);
+  return set;
+}
+
+/// The set that decides a requirement on the frequency error: begun at the first level that keeps it, where
+/// the assumed starts are still inside; as it is when there is none.
+ModelSet meeting(const model::TrackerModel& tracker, ModelSet set, const std::vector<Interval>& deviations,
+                 const Number& required) {
+  std::size_t most = set.is_proved() ? SIZE_MAX : 0;
+  for (const model::ProvedTube& proved : set.tubes.tubes) {
+    most = std::min(most, proved.levels.size());
+  }
+  const rigor::UpwardRounding upward;
+  for (std::size_t level = 1; level < most; ++level) {
+    if (rigor::certainly_less(Interval(set.frequency_error), required.value)) {
+      break;
+    }
+    ModelSet lower = conclude(tracker, from_level(set.tubes, level), deviations, nullptr);
+    if (!(lower.start_share <= 1.0)) {
+      break;
+    }
+    if (rigor::certainly_less(Interval(lower.frequency_error), required.value)) {
+      return lower;
+    }
+  }
+  return set;
+}
+
 }  // namespace
 
 model::TrackerModel proved_model(const Model& model, const ModelAssumptions& assume) {
@@ -150,6 +190,14 @@ Interval band_of(const ModelAssumptions& assume) {
                                    : band;
 }
 
+Interval slew_of(const ModelAssumptions& assume) {
+  if (!assume.slew_in_hertz_per_second) {
+    return assume.slew.value;
+  }
+  const Interval rate = assume.sample_rate.value().value;
+  return Interval(2.0) * rigor::pi() * assume.slew.value / (rate * rate);
+}
+
 const ModelSets& model_sets(const Certificate& certificate) {
   return std::any_cast<const ModelSets&>(certificate.particulars);
 }
@@ -177,30 +225,52 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const CertifyPr
       sizes[static_cast<Eigen::Index>(i)] = deviations[i].upper();
     }
   }
-  const bool has_noise = assume.noise.value.upper() > 0.0;
-  const bool wants_noise = extent == Extent::everything || require.largest_noise_at_least;
-  const double parts = 1.0 + (has_noise ? 1.0 : 0.0) + (wants_noise ? 1.0 : 0.0);
-  double done = 0.0;
-  const auto prove = [&](const model::SetTask& task) {
-    TubeSet set = model::prove_set(tone, tracker, band.lower(), band.upper(), task, [&](double share) {
-      if (progress) {
-        progress({(done + share) / parts, 0.0, 0});
-      }
-    });
-    done += 1.0;
-    return set;
-  };
-  sets.starts = conclude(tracker, prove({"starts", ShapeObjective::largest_starts, 0.0, false, true, sizes}),
-                         deviations, &sets.cells);
-  if (has_noise) {
-    const double noise = assume.noise.value.upper();
-    sets.assumed =
-        conclude(tracker, prove({"assumed", ShapeObjective::largest_noise, noise, false, false, sizes}),
-                 deviations, nullptr);
+  const double noise = assume.noise.value.upper();
+  const double slew = slew_of(assume).upper();
+  const bool is_everything = extent == Extent::everything;
+  std::vector<model::SetTask> tasks(1);
+  tasks.front() = {.name = "starts", .with_curve = true, .deviations = sizes};
+  if (noise > 0.0 || slew > 0.0) {
+    tasks.push_back({.name = "assumed",
+                     .objective = noise > 0.0 ? ShapeObjective::largest_noise : ShapeObjective::largest_slew,
+                     .noise = noise,
+                     .slew = slew,
+                     .deviations = sizes});
   }
-  if (wants_noise) {
-    sets.noise = conclude(tracker, prove({"noise", ShapeObjective::largest_noise, 0.0, true, false, sizes}),
-                          deviations, nullptr);
+  if (is_everything || require.largest_noise_at_least) {
+    tasks.push_back({.name = "noise",
+                     .objective = ShapeObjective::largest_noise,
+                     .largest_noise = true,
+                     .deviations = {}});
+  }
+  if (slew > 0.0 || require.largest_slew_at_least) {
+    tasks.push_back(
+        {.name = "slew", .objective = ShapeObjective::largest_slew, .largest_slew = true, .deviations = {}});
+  }
+  double done = 0.0;
+  for (const model::SetTask& task : tasks) {
+    const auto tell = [&](double share) {
+      if (progress) {
+        progress({(done + share) / static_cast<double>(tasks.size()), 0.0, 0});
+      }
+    };
+    const bool moves = task.slew > 0.0 || task.largest_slew;
+    TubeSet tubes = moves ? model::prove_moving_set(tone, tracker, band.lower(), band.upper(), task, tell)
+                          : model::prove_set(tone, tracker, band.lower(), band.upper(), task, tell);
+    const bool is_first = task.name == "starts";
+    ModelSet set = conclude(tracker, std::move(tubes), deviations, is_first ? &sets.cells : nullptr);
+    if (is_first) {
+      sets.starts = std::move(set);
+    } else {
+      (task.name == "assumed" ? sets.assumed
+       : task.name == "noise" ? sets.noise
+                              : sets.slew) = std::move(set);
+    }
+    done += 1.0;
+  }
+  if (const auto& required = require.frequency_error_below) {
+    ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
+    deciding = meeting(tracker, std::move(deciding), deviations, *required);
   }
   return sets;
 }

@@ -35,7 +35,8 @@ struct ModelCell {
 
 struct ModelSets {
   ModelSet starts;                  ///< without noise
-  std::optional<ModelSet> assumed;  ///< for the assumed noise; none when that is 0
+  std::optional<ModelSet> assumed;  ///< for the assumed noise and slew; none when both are 0
+  std::optional<ModelSet> slew;     ///< for the largest slew, without noise
   std::optional<ModelSet> noise;    ///< for the largest noise
   std::vector<ModelCell> cells;     ///< of `starts`
   std::string objection;            ///< why nothing is certified of the assumptions; or empty
@@ -47,6 +48,9 @@ struct ModelSets {
 
 /// The band, rad/sample. Needs the upward rounding mode.
 [[nodiscard]] rigor::Interval band_of(const ModelAssumptions& assume);
+
+/// The assumed slew, rad/sample per sample. Needs the upward rounding mode.
+[[nodiscard]] rigor::Interval slew_of(const ModelAssumptions& assume);
 
 /// Of the certificate of a design of this kind. Throws std::bad_any_cast for another.
 [[nodiscard]] const ModelSets& model_sets(const Certificate& certificate);

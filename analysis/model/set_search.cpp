@@ -1,0 +1,52 @@
+#include "analysis/model/set_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::model {
+
+using rigor::Interval;
+
+BandSettings settings_of(const SetTask& task, double low, double high) {
+  BandSettings settings;
+  settings.tube.shape.objective = task.objective;
+  settings.tube.shape.start = task.deviations;
+  settings.tube.shape.noise = task.noise;
+  settings.tube.shape.slew = task.slew;
+  settings.tube.steady_state.largest_mean_error = std::max(0.5 * (high - low), 0.05 * low);
+  return settings;
+}
+
+std::string place_of_cell(const TubeProposal& cell) {
+  return fmt::format("between {:.6g} and {:.6g} rad/sample", cell.frequency - cell.half_width,
+                     cell.frequency + cell.half_width);
+}
+
+bool covers(const std::vector<ProvedTube>& tubes, double low, double high) {
+  const rigor::UpwardRounding upward;
+  double known = low;
+  for (const ProvedTube& proved : tubes) {
+    const Interval from = Interval(proved.tube.frequency) - Interval(proved.tube.half_width);
+    const Interval to = Interval(proved.tube.frequency) + Interval(proved.tube.half_width);
+    if (!(from.upper() <= known)) {
+      return false;
+    }
+    known = std::max(known, to.lower());
+  }
+  return !tubes.empty() && known >= high;
+}
+
+void widen(Tube& tube) {
+  constexpr double kShare = 0x1p-40;
+  tube.half_width += kShare * tube.half_width + 0x1p-50 * tube.frequency;
+}
+
+bool is_locked(const TrackerModel& model, const Tube& tube, double radius) {
+  const Interval error = bound_errors(model, tube, radius, {64, 1}).error;
+  return rigor::is_finite(error) && -error.lower() < tube.frequency && error.upper() < tube.frequency;
+}
+
+}  // namespace veritrack::model

@@ -1,0 +1,26 @@
+// What the searches for sets of tubes have in common.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/model/tube_set.hpp"
+
+namespace veritrack::model {
+
+/// How tubes are proposed for a task, over a band in rad/sample.
+[[nodiscard]] BandSettings settings_of(const SetTask& task, double low, double high);
+
+/// "between 0.1 and 0.2 rad/sample".
+[[nodiscard]] std::string place_of_cell(const TubeProposal& cell);
+
+/// Whether tubes in the order of their frequencies cover the band, ends included.
+[[nodiscard]] bool covers(const std::vector<ProvedTube>& tubes, double low, double high);
+
+/// Makes the band of a tube a little wider: neighbours overlap, whatever the rounding.
+void widen(Tube& tube);
+
+/// Whether frequency errors in the tube are known, and smaller than the frequency.
+[[nodiscard]] bool is_locked(const TrackerModel& model, const Tube& tube, double radius);
+
+}  // namespace veritrack::model

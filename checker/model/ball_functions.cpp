@@ -18,7 +18,7 @@ constexpr std::size_t kTerms = BallPolynomial::kMostDegree + 1;
 using ArbSeries = void (*)(arb_poly_struct*, const arb_poly_struct*, slong, slong);
 
 double rounded_up(double x) {
-  return x * (1.0 + 0x1p-38) + 0x1p-500;
+  return x * (1.0 + 0x1p-34) + 0x1p-500;
 }
 
 /// f(at + t), the coefficients of t^0 to t^5: enclosures for all points of `at`.

@@ -15,10 +15,10 @@ constexpr double kUnit = 0x1p-52;  // of any rounding, relative
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kBlocks = BallPolynomial::kMostOfVectors + 1;
 
-/// At least x, whatever roundings of up to 2^13 operations on non-negative numbers, and underflows, took
+/// At least x, whatever roundings of up to 2^17 operations on non-negative numbers, and underflows, took
 /// away.
 double inflated(double x) {
-  return x * (1.0 + 0x1p-38) + 0x1p-500;
+  return x * (1.0 + 0x1p-34) + 0x1p-500;
 }
 
 constexpr std::size_t size_of_block(int degree) {

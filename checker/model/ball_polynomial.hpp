@@ -34,9 +34,9 @@ class BallPolynomial {
 
   /// Zero.
   BallPolynomial() = default;
-  explicit BallPolynomial(double constant);
+  BallPolynomial(double constant);  // NOLINT(google-explicit-constructor)
   /// Any number of the ball.
-  explicit BallPolynomial(const Ball& constant);
+  BallPolynomial(const Ball& constant);  // NOLINT(google-explicit-constructor)
   /// Nothing is known.
   static BallPolynomial everything();
   /// s and z.

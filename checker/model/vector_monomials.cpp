@@ -28,7 +28,7 @@ VectorMonomials::Kind kind_of(const std::vector<std::size_t>& factors, std::size
 
 VectorMonomials::VectorMonomials(std::size_t balls, std::size_t disturbances)
     : balls_(balls), variables_(balls + disturbances), kinds_(kMostDegree + 1) {
-  constexpr std::size_t kMostVariables = 64;
+  constexpr std::size_t kMostVariables = 20;
   if (variables_ == 0 || balls > kMostVariables || variables_ > kMostVariables) {
     throw std::invalid_argument("no such vectors");
   }

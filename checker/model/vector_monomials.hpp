@@ -19,7 +19,7 @@ class VectorMonomials {
     double weight = 1.0;  ///< a!/|a|! b!/|b|!, rounded up
   };
 
-  /// At most 64 variables. Throws std::invalid_argument for more, or none.
+  /// At most 20 variables. Throws std::invalid_argument for more, or none.
   VectorMonomials(std::size_t balls, std::size_t disturbances);
 
   [[nodiscard]] std::size_t balls() const { return balls_; }

@@ -76,6 +76,27 @@ BallPolynomial function_of(ArbSeries series, const BallPolynomial& x) {
   return value_of_taylor(expansion(series, middle), deviation, size, abs(over_range[kTerms]));
 }
 
+/// The cosine or the sine, whose fifth derivatives are at most 1.
+BallPolynomial wave(const BallPolynomial& x, bool is_cosine) {
+  if (!x.known()) {
+    return BallPolynomial::everything();
+  }
+  spend(static_cast<std::int64_t>(kTerms));
+  const Ball middle(x.constant());
+  Ball c;
+  Ball s;
+  arb_sin_cos(s.raw(), c.raw(), middle.raw(), precision());
+  static const Ball sixth = one / Ball(6.0);
+  static const Ball twentyfourth = one / Ball(24.0);
+  static const Ball remainder = one / Ball(120.0);
+  const BallPolynomial deviation = x - BallPolynomial(x.constant());
+  const double size = abs(x.range() - middle).upper_double();
+  return is_cosine ? value_of_taylor({c, -s, -half * c, sixth * s, twentyfourth * c, zero}, deviation, size,
+                                     remainder)
+                   : value_of_taylor({s, c, -half * s, -sixth * c, twentyfourth * s, zero}, deviation, size,
+                                     remainder);
+}
+
 }  // namespace
 
 BallPolynomial reciprocal(const BallPolynomial& x) {
@@ -91,10 +112,10 @@ BallPolynomial log(const BallPolynomial& x) {
   return certainly_positive(x.range()) ? function_of(arb_poly_log_series, x) : BallPolynomial::everything();
 }
 BallPolynomial sin(const BallPolynomial& x) {
-  return function_of(arb_poly_sin_series, x);
+  return wave(x, false);
 }
 BallPolynomial cos(const BallPolynomial& x) {
-  return function_of(arb_poly_cos_series, x);
+  return wave(x, true);
 }
 BallPolynomial tangent(const BallPolynomial& x) {
   // No pole lies between two where the cosine vanishes.
@@ -140,21 +161,6 @@ BallPolynomial stays_within(const BallPolynomial& x, const BallPolynomial& low, 
   return certainly_less(low.range(), x.range()) && certainly_less(x.range(), high.range())
              ? x
              : BallPolynomial::everything();
-}
-
-CosineSine::CosineSine(const Ball& constant, const Ball& by_phase, const Ball& by_frequency) {
-  const double slope = by_phase.near();
-  const double other_slope = by_frequency.near();
-  const Ball error = abs(by_phase - Ball(slope)) + abs(by_frequency - Ball(other_slope));
-  const BallPolynomial deviation = BallPolynomial::affine(0.0, slope, other_slope, error.upper_double());
-  const double size = (abs(by_phase) + abs(by_frequency)).upper_double();
-  const Ball c = cos(constant);
-  const Ball s = sin(constant);
-  const Ball sixth = one / Ball(6.0);
-  const Ball twentyfourth = one / Ball(24.0);
-  const Ball remainder = one / Ball(120.0);
-  cosine = value_of_taylor({c, -s, -half * c, sixth * s, twentyfourth * c, zero}, deviation, size, remainder);
-  sine = value_of_taylor({s, c, -half * s, -sixth * c, twentyfourth * s, zero}, deviation, size, remainder);
 }
 
 }  // namespace veritrack::checker

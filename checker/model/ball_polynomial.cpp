@@ -126,6 +126,14 @@ BallPolynomial BallPolynomial::affine(double constant, double by_phase, double b
   return result;
 }
 
+BallPolynomial BallPolynomial::of_places(std::span<const double, kPlaces> coefficients, double error) {
+  BallPolynomial result;
+  result.degree_ = 0;
+  result.coefficients_.assign(coefficients.begin(), coefficients.end());
+  result.set_error(error);
+  return result;
+}
+
 BallPolynomial BallPolynomial::phase() {
   return affine(0.0, 1.0, 0.0, 0.0);
 }
@@ -384,17 +392,6 @@ BallPolynomial operator*(const BallPolynomial& x, const BallPolynomial& y) {
                             BallPolynomial::cut_off(x.norms(), y.norms()) +
                             kRoundings * kUnit * (size_of_x * size_of_y)));
   return result;
-}
-
-BallPolynomial linear_combination(const std::vector<double>& factors,
-                                  const std::vector<BallPolynomial>& functions) {
-  BallPolynomial sum;
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    if (factors[i] != 0.0) {
-      sum.add(functions.at(i), factors[i]);
-    }
-  }
-  return sum;
 }
 
 }  // namespace veritrack::checker

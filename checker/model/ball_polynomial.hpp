@@ -47,6 +47,9 @@ class BallPolynomial {
   /// constant + by_phase s + by_frequency z, up to an error.
   static BallPolynomial affine(double constant, double by_phase, double by_frequency, double error);
 
+  /// With these coefficients of s^l z^m, up to an error.
+  static BallPolynomial of_places(std::span<const double, kPlaces> coefficients, double error);
+
   /// Whether it is bounded at all.
   [[nodiscard]] bool known() const;
   /// A bound on the distance from the polynomial; infinite when nothing is known.
@@ -130,15 +133,5 @@ BallPolynomial arctangent(const BallPolynomial& x);
 BallPolynomial arctangent2(const BallPolynomial& y, const BallPolynomial& x);
 /// x, where certainly low < x < high.
 BallPolynomial stays_within(const BallPolynomial& x, const BallPolynomial& low, const BallPolynomial& high);
-
-/// cos and sin of constant + by_phase s + by_frequency z.
-struct CosineSine {
-  BallPolynomial cosine, sine;
-  CosineSine(const Ball& constant, const Ball& by_phase, const Ball& by_frequency);
-};
-
-/// The sum of factors times functions of s and z alone.
-BallPolynomial linear_combination(const std::vector<double>& factors,
-                                  const std::vector<BallPolynomial>& functions);
 
 }  // namespace veritrack::checker

@@ -117,20 +117,25 @@ Formula ModelRecursion::looked_up(Formula formula, const Slots& variables) {
   return formula;
 }
 
+Ball ModelRecursion::constant_value(const std::string& formula) {
+  return value_of<Computed>(looked_up(read_formula(formula), {}),
+                            [&](const FormulaStep& leaf) {
+                              return Computed(constants_[static_cast<std::size_t>(-1 - leaf.slot)]);
+                            })
+      .ball;
+}
+
 void ModelRecursion::read_parameters(const Tree& parameters) {
   for (const Tree& parameter : parameters.elements()) {
-    const Formula formula = looked_up(read_formula(parameter.at("formula").text()), {});
-    const Computed value = value_of<Computed>(formula, [&](const FormulaStep& leaf) {
-      return Computed(constants_[static_cast<std::size_t>(-1 - leaf.slot)]);
-    });
+    const Ball value = constant_value(parameter.at("formula").text());
     const std::string& name = parameter.at("name").text();
-    if (!value.ball.finite()) {
+    if (!value.finite()) {
       throw FormulaError("the parameter " + name + " has no value");
     }
     if (!constant_slots_.try_emplace(name, -1 - static_cast<int>(constants_.size())).second) {
       throw FormulaError(name + " has two meanings");
     }
-    constants_.push_back(value.ball);
+    constants_.push_back(value);
   }
 }
 

@@ -8,7 +8,6 @@ namespace veritrack::checker {
 
 namespace {
 
-
 /// How much of a function comes from the extent in s, and in z, about.
 struct Extent {
   double by_phase = 0.0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "checker/model/place_polynomial.hpp"
+
 namespace veritrack::checker {
 
 namespace {
@@ -21,11 +23,7 @@ class HarmonicBasis {
         }
       }
     }
-    std::vector<BallPolynomial> powers{BallPolynomial(1.0)};
-    const BallPolynomial z = BallPolynomial::affine(part.z, 0.0, part.half_z, 0.0);
-    while (powers.size() < powers_) {
-      powers.push_back(powers.back() * z);
-    }
+    const std::vector<PlacePolynomial> powers = powers_of_place(part.z, part.half_z, powers_);
     const Ball turn = two * pi();
     const Ball width = Ball(tube.half_width);
     for (std::size_t h = 0; h < most_harmonics; ++h) {
@@ -39,9 +37,9 @@ class HarmonicBasis {
         by_z = number * width * Ball(part.half_z);
       }
       const CosineSine wave(constant, turn * number * Ball(part.half_turn), by_z);
-      for (const BallPolynomial& power : powers) {
-        functions_.push_back(power * wave.cosine);
-        functions_.push_back(-(power * wave.sine));
+      for (const PlacePolynomial& power : powers) {
+        functions_.push_back(product_with_power(wave.cosine, power));
+        functions_.push_back(product_with_power(wave.sine, power));
       }
     }
   }
@@ -53,7 +51,7 @@ class HarmonicBasis {
       for (std::size_t d = 0; d < series[h].size(); ++d) {
         const std::size_t at = 2 * (h * powers_ + d);
         factors.at(at) = series[h][d].real();
-        factors.at(at + 1) = h > 0 ? series[h][d].imag() : 0.0;
+        factors.at(at + 1) = h > 0 ? -series[h][d].imag() : 0.0;
       }
     }
     return linear_combination(factors, functions_);
@@ -61,7 +59,7 @@ class HarmonicBasis {
 
  private:
   std::size_t powers_ = 1;
-  std::vector<BallPolynomial> functions_;
+  std::vector<PlacePolynomial> functions_;
 };
 
 /// phi, or phi + omega.

@@ -288,27 +288,6 @@ TEST_CASE("nothing is known of what is not defined, and it stays unknown") {
   CHECK(stays_within(s, BallPolynomial(-1.1), BallPolynomial(1.1)).known());
 }
 
-TEST_CASE("cosine and sine of an affine function, and the mean over s") {
-  test::Random random(85);
-  for (std::int64_t trial = 0; trial < test::effort(500); ++trial) {
-    const double c = random.uniform(-100.0, 100.0);
-    const double by_s = random.uniform(-0.3, 0.3);
-    const double by_z = random.uniform(-0.3, 0.3);
-    const CosineSine found{Ball(c), Ball(by_s), Ball(by_z)};
-    for (int i = 0; i < 5; ++i) {
-      const Place place = random_place(random, 1, 0);
-      const Ball argument = Ball(c) + Ball(by_s) * Ball(place.s) + Ball(by_z) * Ball(place.z);
-      REQUIRE(covers(found.cosine, place, cos(argument)));
-      REQUIRE(covers(found.sine, place, sin(argument)));
-      // (sin(c + by_s) - sin(c - by_s))/(2 by_s), where c has the part in z.
-      const Ball middle = Ball(c) + Ball(by_z) * Ball(place.z);
-      const Ball mean = (sin(middle + Ball(by_s)) - sin(middle - Ball(by_s))) / (two * Ball(by_s));
-      REQUIRE(covers(found.cosine.mean_over_phase(), place, mean));
-    }
-    CHECK(found.cosine.error() < 1e-3);
-  }
-}
-
 TEST_CASE("norms are Bombieri's: a length and its square") {
   const VectorMonomials monomials(3, 1);
   BallPolynomial square;

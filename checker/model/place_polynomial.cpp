@@ -39,9 +39,13 @@ PlacePolynomial taylor(const std::array<double, BallPolynomial::kMostDegree + 1>
                                                     (kFactorial[l] * kFactorial[m]);
     }
   }
-  // Ten operations for a coefficient, and the remainder.
+  // Ten operations for each coefficient but the first, which is multiplied by ones, and the remainder.
   const double fifth = size * size * size * size * size / 120.0;
-  result.error = bound_on(10.0 * kRounding * result.norm() + error + fifth);
+  double others = 0.0;
+  for (std::size_t k = 1; k < result.coefficients.size(); ++k) {
+    others += std::abs(result.coefficients[k]);
+  }
+  result.error = bound_on(10.0 * kRounding * others + error + fifth);
   return result;
 }
 

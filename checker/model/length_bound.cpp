@@ -64,6 +64,9 @@ LengthBound::Gram LengthBound::gram_of(const std::vector<BallPolynomial>& vector
   Gram gram{std::vector<SymmetricMatrix>(kSide * kSide, SymmetricMatrix(n)), 0.0, 0.0};
   constexpr std::size_t kPlacesOfLinear = places_up_to(kDegreeOfLinear);
   std::array<std::vector<double>, kPlacesOfLinear> terms;
+  // Terms of N N' cancel when N turns, so that they are added up first.
+  constexpr std::size_t kHighSide = 2 * kDegreeOfLinear + 1;
+  std::vector<SymmetricMatrix> high(kHighSide * kHighSide, SymmetricMatrix(n));
   double size = 0.0;
   for (std::size_t place = 0; place < kPlacesOfLinear; ++place) {
     terms[place] = linear_terms(vector, first, last, place);
@@ -81,12 +84,10 @@ LengthBound::Gram LengthBound::gram_of(const std::vector<BallPolynomial>& vector
       const Powers b = powers_at(q);
       const int of_s = a.of_s + b.of_s;
       const int of_z = a.of_z + b.of_z;
-      if (of_s > 2 || of_z > 2) {
-        gram.others += (p == q ? 1.0 : 2.0) * length_of(terms[p]) * length_of(terms[q]);
-        continue;
-      }
+      const bool is_low = of_s < static_cast<int>(kSide) && of_z < static_cast<int>(kSide);
       SymmetricMatrix& sum =
-          gram.terms[static_cast<std::size_t>(of_s) * kSide + static_cast<std::size_t>(of_z)];
+          is_low ? gram.terms[static_cast<std::size_t>(of_s) * kSide + static_cast<std::size_t>(of_z)]
+                 : high[static_cast<std::size_t>(of_s) * kHighSide + static_cast<std::size_t>(of_z)];
       for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
           double entry = 0.0;
@@ -100,6 +101,9 @@ LengthBound::Gram LengthBound::gram_of(const std::vector<BallPolynomial>& vector
     }
   }
   spend(static_cast<std::int64_t>(n * n));
+  for (const SymmetricMatrix& term : high) {
+    gram.others += term.length();
+  }
   gram.others = at_least(gram.others);
   // Sums of at most 2 columns and places products each, hence wrong by less than 2^-36 of their size.
   gram.rounding = at_least(0x1p-36 * size * size);

@@ -83,8 +83,12 @@ Ball samples_to_level(const Tube& tube, std::size_t level) {
     const Ball samples = log(to / from) / log(rate);
     // A whole number that is enough, or the next one.
     const double near = std::round(samples.near());
-    const bool is_enough =
-        near >= 0.0 && near < 1e15 && certainly_at_most(exp(Ball(near) * log(rate)) * from, to);
+    bool is_enough = near >= 0.0 && near < 1e15;
+    if (is_enough) {
+      Ball power;
+      arb_pow_ui(power.raw(), rate.raw(), static_cast<ulong>(near), precision());
+      is_enough = certainly_at_most(power * from, to);
+    }
     sum += Ball(is_enough ? near : std::ceil(samples.upper_double()));
   }
   return sum.upper();

@@ -1,13 +1,11 @@
 #include "checker/document/design_file.hpp"
 
-#include <toml++/toml.h>
-#include <cctype>
 #include <map>
-#include <sstream>
-#include <vector>
 
 #include "checker/document/design_number.hpp"
+#include "checker/document/model_design_file.hpp"
 #include "checker/document/sha256.hpp"
+#include "checker/document/toml_file.hpp"
 
 namespace veritrack::checker {
 
@@ -38,12 +36,7 @@ std::string inside(const std::string& path, const std::string& name) {
 /// Walks through the certificate's design and the file together.
 class Comparison {
  public:
-  Comparison(const std::string& file, Objections& objections) : objections_(objections) {
-    std::istringstream stream(file);
-    for (std::string line; std::getline(stream, line);) {
-      lines_.push_back(line);
-    }
-  }
+  Comparison(const TomlFile& file, Objections& objections) : file_(&file), objections_(objections) {}
 
   void table(const std::string& path, const Tree& claimed, const toml::table* file) {
     for (const auto& [name, value] : claimed.members()) {
@@ -65,7 +58,7 @@ class Comparison {
   void node(const std::string& path, const Tree& claimed, const toml::node* file) {
     const bool is_number = claimed.kind() == Tree::Kind::object && claimed.find("text") != nullptr;
     if (is_number) {
-      same(path, text_of(claimed), file, file != nullptr && file->is_number() ? literal(*file) : "");
+      same(path, text_of(claimed), file, file != nullptr && file->is_number() ? file_->literal(*file) : "");
     } else if (claimed.kind() == Tree::Kind::text) {
       same(path, claimed.text(), file, file != nullptr && file->is_string() ? file->as_string()->get() : "");
     } else if (claimed.kind() == Tree::Kind::object) {
@@ -104,29 +97,7 @@ class Comparison {
     }
   }
 
-  /// A number as it is written: toml++ says only where. Columns count characters, as UTF-8 writes them.
-  [[nodiscard]] std::string literal(const toml::node& number) const {
-    const toml::source_position begin = number.source().begin;
-    if (begin.line < 1 || begin.line > lines_.size()) {
-      return "";
-    }
-    const std::string& line = lines_[begin.line - 1];
-    std::size_t at = 0;
-    for (toml::source_index column = 1; column < begin.column && at < line.size(); ++column) {
-      do {
-        ++at;
-      } while (at < line.size() && (static_cast<unsigned char>(line[at]) & 0xC0U) == 0x80U);
-    }
-    std::size_t end = at;
-    while (end < line.size() &&
-           (std::isalnum(static_cast<unsigned char>(line[end])) != 0 || line[end] == '.' ||
-            line[end] == '+' || line[end] == '-' || line[end] == '_')) {
-      ++end;
-    }
-    return line.substr(at, end - at);
-  }
-
-  std::vector<std::string> lines_;
+  const TomlFile* file_;
   Objections& objections_;
 };
 
@@ -137,8 +108,13 @@ void compare_with_design_file(const Tree& certificate, const std::string& file, 
     objections.emplace_back("the design file has another SHA-256 than the certificate names");
   }
   try {
-    const toml::table table = toml::parse(file);
-    Comparison(file, objections).table("", certificate.at("design"), &table);
+    const TomlFile toml(file);
+    const Tree& design = certificate.at("design");
+    if (design.at("tracker").text() == "model") {
+      compare_model_design(design, toml, objections);
+    } else {
+      Comparison(toml, objections).table("", design, &toml.table());
+    }
   } catch (const toml::parse_error& error) {
     throw Malformed("the design file is not TOML: " + std::string(error.description()));
   }

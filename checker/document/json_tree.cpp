@@ -140,6 +140,12 @@ bool Tree::truth() const {
   return truth_;
 }
 
+long Tree::integer() const {
+  require(Kind::integer, "an integer");
+  read_ = true;
+  return integer_;
+}
+
 std::vector<std::string> Tree::unread(std::size_t most) const {
   std::vector<std::string> paths;
   add_unread("", most, paths);

@@ -41,6 +41,7 @@ class Tree {
   /// Whether it is this text, which is then read; another is left unread.
   [[nodiscard]] bool is(std::string_view text) const;
   [[nodiscard]] bool truth() const;
+  [[nodiscard]] long integer() const;
   [[nodiscard]] Kind kind() const { return kind_; }
   /// The paths, as "claims[3].verdict", of the values that nothing has read, at most so many. A text or a
   /// truth value is read when it was asked for, an object or array when all in it is, and an empty one when

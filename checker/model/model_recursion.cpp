@@ -21,6 +21,12 @@ Ball as_in_doubles(const Ball& exact) {
   return exact + Ball::within(exact * Ball(0x1p-51)) + Ball::within(Ball(0x1p-1070));
 }
 
+/// What a literal stands for: the decimal, and the double nearest to it, which may be the same.
+Ball literal(const std::string& text) {
+  const Ball decimal = from_decimal(text);
+  return certainly_equal(decimal, Ball(decimal.near())) ? decimal : as_in_doubles(decimal);
+}
+
 /// Values of parameters: both as they are written and as they are computed in double precision.
 struct Computed {
   Ball ball;
@@ -97,7 +103,7 @@ Formula ModelRecursion::looked_up(Formula formula, const Slots& variables) {
     }
     if (is_number || step.text == "pi") {
       if (constant_slots_.try_emplace(step.text, -1 - static_cast<int>(constants_.size())).second) {
-        constants_.push_back(as_in_doubles(is_number ? from_decimal(step.text) : pi()));
+        constants_.push_back(is_number ? literal(step.text) : as_in_doubles(pi()));
       }
     }
     const auto constant = constant_slots_.find(step.text);
@@ -111,20 +117,25 @@ Formula ModelRecursion::looked_up(Formula formula, const Slots& variables) {
   return formula;
 }
 
+Ball ModelRecursion::constant_value(const std::string& formula) {
+  return value_of<Computed>(looked_up(read_formula(formula), {}),
+                            [&](const FormulaStep& leaf) {
+                              return Computed(constants_[static_cast<std::size_t>(-1 - leaf.slot)]);
+                            })
+      .ball;
+}
+
 void ModelRecursion::read_parameters(const Tree& parameters) {
   for (const Tree& parameter : parameters.elements()) {
-    const Formula formula = looked_up(read_formula(parameter.at("formula").text()), {});
-    const Computed value = value_of<Computed>(formula, [&](const FormulaStep& leaf) {
-      return Computed(constants_[static_cast<std::size_t>(-1 - leaf.slot)]);
-    });
+    const Ball value = constant_value(parameter.at("formula").text());
     const std::string& name = parameter.at("name").text();
-    if (!value.ball.finite()) {
+    if (!value.finite()) {
       throw FormulaError("the parameter " + name + " has no value");
     }
     if (!constant_slots_.try_emplace(name, -1 - static_cast<int>(constants_.size())).second) {
       throw FormulaError(name + " has two meanings");
     }
-    constants_.push_back(value.ball);
+    constants_.push_back(value);
   }
 }
 

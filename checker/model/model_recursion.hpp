@@ -26,6 +26,10 @@ class ModelRecursion {
   /// Whether a state is an angle.
   [[nodiscard]] const std::vector<bool>& is_angle() const { return is_angle_; }
 
+  /// The value of a formula of parameters and numbers, exactly and as doubles compute it. Throws
+  /// FormulaError.
+  [[nodiscard]] Ball constant_value(const std::string& formula);
+
   /// The state after a sample. The state of a filter is its estimate, then the upper triangle of its
   /// covariance.
   template <typename Scalar>

@@ -1,0 +1,166 @@
+// Elementary functions of ball polynomials: Taylor's polynomial at the constant coefficient, with Lagrange's
+// remainder over all values, both from Arb's power series.
+#include <arb_poly.h>
+
+#include <array>
+#include <cmath>
+
+#include "checker/model/ball_polynomial.hpp"
+#include "checker/model/formula.hpp"
+#include "checker/numbers/budget.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+constexpr std::size_t kTerms = BallPolynomial::kMostDegree + 1;
+
+using ArbSeries = void (*)(arb_poly_struct*, const arb_poly_struct*, slong, slong);
+
+double rounded_up(double x) {
+  return x * (1.0 + 0x1p-34) + 0x1p-500;
+}
+
+/// f(at + t), the coefficients of t^0 to t^5: enclosures for all points of `at`.
+std::array<Ball, kTerms + 1> expansion(ArbSeries series, const Ball& at) {
+  spend(static_cast<std::int64_t>(kTerms));
+  arb_poly_t argument;
+  arb_poly_t value;
+  arb_poly_init(argument);
+  arb_poly_init(value);
+  arb_poly_set_coeff_arb(argument, 0, at.raw());
+  arb_poly_set_coeff_si(argument, 1, 1);
+  series(value, argument, static_cast<slong>(kTerms + 1), precision());
+  std::array<Ball, kTerms + 1> coefficients;
+  for (std::size_t k = 0; k <= kTerms; ++k) {
+    arb_poly_get_coeff_arb(coefficients[k].raw(), value, static_cast<slong>(k));
+  }
+  arb_poly_clear(argument);
+  arb_poly_clear(value);
+  return coefficients;
+}
+
+/// sum over k < 5 of f_k x^k, where |x| <= size, and anything within remainder size^5 of it.
+BallPolynomial value_of_taylor(const std::array<Ball, kTerms + 1>& f, const BallPolynomial& x, double size,
+                               const Ball& remainder) {
+  std::array<double, kTerms> near{};
+  double error = remainder.upper_double();
+  for (std::size_t k = kTerms; k-- > 0;) {
+    near[k] = f[k].near();
+    error = rounded_up(error * size + abs(f[k] - Ball(near[k])).upper_double());
+  }
+  const BallPolynomial square = x * x;
+  BallPolynomial high(near[2]);
+  high.add(x, near[3]).add(square, near[4]);
+  BallPolynomial value = square * high;
+  value.add(x, near[1]);
+  value += BallPolynomial(near[0]);
+  return value.widen(error);
+}
+
+BallPolynomial function_of(ArbSeries series, const BallPolynomial& x) {
+  if (!x.known()) {
+    return BallPolynomial::everything();
+  }
+  const Ball middle(x.constant());
+  const BallPolynomial deviation = x - BallPolynomial(x.constant());
+  const Ball all = x.range();
+  const std::array<Ball, kTerms + 1> over_range = expansion(series, all);
+  // Defined, with its derivatives, for all arguments.
+  for (const Ball& coefficient : over_range) {
+    if (!coefficient.finite()) {
+      return BallPolynomial::everything();
+    }
+  }
+  const double size = abs(all - middle).upper_double();
+  return value_of_taylor(expansion(series, middle), deviation, size, abs(over_range[kTerms]));
+}
+
+/// The cosine or the sine, whose fifth derivatives are at most 1.
+BallPolynomial wave(const BallPolynomial& x, bool is_cosine) {
+  if (!x.known()) {
+    return BallPolynomial::everything();
+  }
+  spend(static_cast<std::int64_t>(kTerms));
+  const Ball middle(x.constant());
+  Ball c;
+  Ball s;
+  arb_sin_cos(s.raw(), c.raw(), middle.raw(), precision());
+  static const Ball sixth = one / Ball(6.0);
+  static const Ball twentyfourth = one / Ball(24.0);
+  static const Ball remainder = one / Ball(120.0);
+  const BallPolynomial deviation = x - BallPolynomial(x.constant());
+  const double size = abs(x.range() - middle).upper_double();
+  return is_cosine ? value_of_taylor({c, -s, -half * c, sixth * s, twentyfourth * c, zero}, deviation, size,
+                                     remainder)
+                   : value_of_taylor({s, c, -half * s, -sixth * c, twentyfourth * s, zero}, deviation, size,
+                                     remainder);
+}
+
+}  // namespace
+
+BallPolynomial reciprocal(const BallPolynomial& x) {
+  return function_of(arb_poly_inv_series, x);
+}
+BallPolynomial sqrt(const BallPolynomial& x) {
+  return certainly_positive(x.range()) ? function_of(arb_poly_sqrt_series, x) : BallPolynomial::everything();
+}
+BallPolynomial exp(const BallPolynomial& x) {
+  return function_of(arb_poly_exp_series, x);
+}
+BallPolynomial log(const BallPolynomial& x) {
+  return certainly_positive(x.range()) ? function_of(arb_poly_log_series, x) : BallPolynomial::everything();
+}
+BallPolynomial sin(const BallPolynomial& x) {
+  return wave(x, false);
+}
+BallPolynomial cos(const BallPolynomial& x) {
+  return wave(x, true);
+}
+BallPolynomial tangent(const BallPolynomial& x) {
+  // No pole lies between two where the cosine vanishes.
+  return certainly_positive(abs(cos(x.range()))) ? function_of(arb_poly_tan_series, x)
+                                                 : BallPolynomial::everything();
+}
+BallPolynomial arcsine(const BallPolynomial& x) {
+  return certainly_less(abs(x.range()), one) ? function_of(arb_poly_asin_series, x)
+                                             : BallPolynomial::everything();
+}
+BallPolynomial arccosine(const BallPolynomial& x) {
+  return certainly_less(abs(x.range()), one) ? function_of(arb_poly_acos_series, x)
+                                             : BallPolynomial::everything();
+}
+BallPolynomial arctangent(const BallPolynomial& x) {
+  return function_of(arb_poly_atan_series, x);
+}
+
+BallPolynomial arctangent2(const BallPolynomial& y, const BallPolynomial& x) {
+  const Ball of_x = x.range();
+  const Ball of_y = y.range();
+  const bool is_flat = certainly_less(Ball(std::abs(y.constant())), Ball(std::abs(x.constant())));
+  const BallPolynomial quarter(half * pi());
+  if (is_flat && certainly_positive(of_x)) {
+    return arctangent(y / x);
+  }
+  if (is_flat && certainly_positive(-of_x) && certainly_positive(of_y)) {
+    return BallPolynomial(pi()) + arctangent(y / x);
+  }
+  if (is_flat && certainly_positive(-of_x) && certainly_positive(-of_y)) {
+    return arctangent(y / x) - BallPolynomial(pi());
+  }
+  if (certainly_positive(of_y)) {
+    return quarter - arctangent(x / y);
+  }
+  if (certainly_positive(-of_y)) {
+    return -quarter - arctangent(x / y);
+  }
+  return certainly_positive(of_x) ? arctangent(y / x) : BallPolynomial::everything();
+}
+
+BallPolynomial stays_within(const BallPolynomial& x, const BallPolynomial& low, const BallPolynomial& high) {
+  return certainly_less(low.range(), x.range()) && certainly_less(x.range(), high.range())
+             ? x
+             : BallPolynomial::everything();
+}
+
+}  // namespace veritrack::checker

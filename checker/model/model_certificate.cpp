@@ -1,0 +1,71 @@
+#include "checker/model/model_certificate.hpp"
+
+#include <map>
+#include <set>
+
+#include "checker/model/model_claims.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+constexpr std::size_t kMostStates = 16;
+
+/// The sets that are verified, with a part for each.
+std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const ModelDesign& design,
+                                             const TrackedModel& model, Verification& result) {
+  std::map<std::string, TubeSet> sets;
+  std::set<std::string> names;
+  for (const Tree& tree : tubes.elements()) {
+    Objections objections;
+    TubeSet set = read_tube_set(tree, model.recursion->states(), objections);
+    const bool is_known = set.name == "starts" || set.name == "assumed" || set.name == "noise";
+    if (!is_known || !names.insert(set.name).second) {
+      objections.emplace_back(is_known ? "a second set of this name" : kUnknown);
+    }
+    if (!certainly_equal(Ball(set.slew), zero)) {
+      objections.emplace_back("sets for a frequency that moves are not known to this checker");
+    }
+    check_cover(set, design.lowest, design.highest, objections);
+    if (objections.empty()) {
+      // It objects itself where it fails.
+      (void)TubeCheck(model, set, result.cells).is_never_left(objections);
+    }
+    result.parts.push_back({"tubes " + set.name, objections});
+    if (objections.empty()) {
+      const std::string name = set.name;
+      sets.emplace(name, std::move(set));
+    }
+  }
+  return sets;
+}
+
+void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
+  const Tree& tree = certificate.at("design");
+  Objections objections;
+  ModelRecursion recursion(tree.at("model"));
+  const ModelDesign design = read_model_design(tree, recursion, objections);
+  if (recursion.states() > kMostStates) {
+    objections.emplace_back("too many states");
+  }
+  result.parts.push_back({"design", objections});
+  if (!objections.empty()) {
+    return;  // nothing is said of what is no design
+  }
+  for (const Tree& derivation : certificate.at("derivations").elements()) {
+    result.parts.push_back({derivation.at("id").text(), {kUnknown}});
+  }
+  const TrackedModel model{&recursion, design.amplitude};
+  const std::map<std::string, TubeSet> sets = verified_sets(certificate.at("tubes"), design, model, result);
+  const ModelClaims claims(tree, design, model, sets, result.cells);
+  const auto check = [&](const Tree& claim, Objections& found) { return claims.check(claim, found); };
+  check_claims(certificate, claims.required(), check, result);
+}
+
+}  // namespace
+
+TrackerKind model_tracker() {
+  return {"model", verify_model};
+}
+
+}  // namespace veritrack::checker

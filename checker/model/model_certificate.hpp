@@ -1,0 +1,10 @@
+// Certificates for trackers that are written down as recursions.
+#pragma once
+
+#include "checker/document/parts.hpp"
+
+namespace veritrack::checker {
+
+TrackerKind model_tracker();
+
+}  // namespace veritrack::checker

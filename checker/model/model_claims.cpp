@@ -1,0 +1,258 @@
+#include "checker/model/model_claims.hpp"
+
+#include <algorithm>
+
+#include "checker/numbers/decimal_text.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+const std::string kErrorBound = "model/frequency-error-bound";
+const std::string kSettlingTime = "model/settling-time";
+const std::string kLargestNoise = "model/largest-noise";
+const std::string kLargestSlew = "model/largest-slew";
+const std::string kRadius = "model/frequency-error-radius";
+const std::string kBias = "model/bias";
+const std::string kRipple = "model/ripple";
+const std::string kGuarantee = "model/guarantee";
+const std::string kLimits = "model/limits";
+const std::string kSteadyState = "model/steady-state";
+const std::string kRadPerSample = " rad/sample";
+const std::string kSettled = ", without noise, started in the tube in the certificate";
+
+std::size_t first_level(const Tube& /*tube*/) {
+  return 0;
+}
+
+/// A decimal that the claim writes: what is said of a value, exactly.
+Ball written(const Tree& claim, const char* name) {
+  constexpr std::size_t kLongest = 40;
+  const std::string& text = claim.at(name).text();
+  if (text.size() > kLongest) {
+    throw Malformed("a decimal of more than 40 characters");
+  }
+  return from_decimal(text);
+}
+
+}  // namespace
+
+ModelClaims::ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
+                         const std::map<std::string, TubeSet>& sets, std::int64_t& cells)
+    : design_(&design), model_(&model), sets_(&sets), cells_(&cells), words_(tree) {}
+
+std::string ModelClaims::short_text(const std::string& id) const {
+  if (id == kErrorBound) {
+    return "the frequency error stays below " + design_->frequency_error_below->text + kRadPerSample +
+           " for ever";
+  }
+  if (id == kSettlingTime) {
+    return "from sample " + design_->settles_within->text + " on, the frequency error stays below " +
+           design_->settled_below->text + kRadPerSample;
+  }
+  if (id == kLargestNoise) {
+    return "the tracker tolerates noise up to " + design_->largest_noise->text +
+           ": a certified invariant set exists";
+  }
+  if (id == kLargestSlew) {
+    return "the tracker tolerates a slew up to " + design_->largest_slew->text + kRadPerSample +
+           " per sample: a certified invariant set exists";
+  }
+  if (id == kRadius) {
+    return "a certified invariant set contains frequency errors up to " + design_->radius->text +
+           kRadPerSample + " at every phase";
+  }
+  if (id == kBias) {
+    return "the mean frequency error is at most " + design_->bias->text + kRadPerSample;
+  }
+  return "the frequency error varies by at most " + design_->ripple->text + kRadPerSample;
+}
+
+std::vector<Requirement> ModelClaims::required() const {
+  std::vector<Requirement> asked;
+  const auto require = [&](bool is_asked, const std::string& id) {
+    if (is_asked) {
+      asked.push_back({id, short_text(id)});
+    }
+  };
+  require(design_->frequency_error_below.has_value(), kErrorBound);
+  require(design_->settles_within.has_value(), kSettlingTime);
+  require(design_->largest_noise.has_value(), kLargestNoise);
+  require(design_->largest_slew.has_value(), kLargestSlew);
+  require(design_->radius.has_value(), kRadius);
+  require(design_->bias.has_value(), kBias);
+  require(design_->ripple.has_value(), kRipple);
+  return asked;
+}
+
+const TubeSet* ModelClaims::find(const std::string& name) const {
+  const auto found = sets_->find(name);
+  return found != sets_->end() ? &found->second : nullptr;
+}
+
+const TubeSet* ModelClaims::deciding_set() const {
+  const TubeSet* set = find("assumed");
+  if (set == nullptr && !design_->is_noisy()) {
+    set = find("starts");
+  }
+  const bool covers = set != nullptr && certainly_at_most(design_->noise, Ball(set->noise)) &&
+                      certainly_at_most(design_->slew, Ball(set->slew));
+  return covers ? set : nullptr;
+}
+
+bool ModelClaims::settles(const TubeSet& set) const {
+  return std::all_of(set.tubes.begin(), set.tubes.end(),
+                     [](const Tube& tube) { return tube.levels.size() > 1; });
+}
+
+const TubeSet* ModelClaims::settling_set() const {
+  const TubeSet* set = find("starts");
+  return set != nullptr && settles(*set) ? set : nullptr;
+}
+
+bool ModelClaims::contains_assumed_starts(const TubeSet& set) const {
+  return design_->start_within.empty() || of(set).contains_starts(design_->start_within);
+}
+
+Claim ModelClaims::bound() const {
+  const TubeSet* set = deciding_set();
+  Claim found;
+  found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
+                    words_.assumed_start() + ", " + short_text(kErrorBound) + ".";
+  found.verdict = proved_if(set != nullptr && contains_assumed_starts(*set) &&
+                            of(*set).error_is_below(first_level, design_->frequency_error_below->value));
+  return found;
+}
+
+Claim ModelClaims::settling() const {
+  const TubeSet* set = deciding_set();
+  Claim found;
+  found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
+                    words_.assumed_start() + ", " + short_text(kSettlingTime) + ".";
+  // The last level that is reached in time.
+  const auto level = [this](const Tube& tube) {
+    std::size_t reached = 0;
+    while (reached < last_level(tube) &&
+           certainly_at_most(samples_to_level(tube, reached + 1), design_->settles_within->value)) {
+      ++reached;
+    }
+    return reached;
+  };
+  found.verdict = proved_if(set != nullptr && contains_assumed_starts(*set) &&
+                            of(*set).error_is_below(level, design_->settled_below->value));
+  return found;
+}
+
+Claim ModelClaims::size(const std::string& id) const {
+  Claim found;
+  if (id == kLargestNoise) {
+    found.statement = words_.constant_tone();
+    found.verdict = proved_if(std::any_of(sets_->begin(), sets_->end(), [this](const auto& set) {
+      return certainly_at_most(design_->largest_noise->value, Ball(set.second.noise));
+    }));
+  } else if (id == kLargestSlew) {
+    found.statement = words_.tone_in_band() + ", without noise";
+    found.verdict = proved_if(std::any_of(sets_->begin(), sets_->end(), [this](const auto& set) {
+      return certainly_at_most(design_->largest_slew->value, Ball(set.second.slew));
+    }));
+  } else {
+    const TubeSet* set = deciding_set();
+    found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy());
+    found.verdict = proved_if(set != nullptr && of(*set).contains_errors(design_->radius->value));
+  }
+  found.statement += ", " + short_text(id) + ".";
+  return found;
+}
+
+Claim ModelClaims::long_run(const std::string& id) const {
+  const TubeSet* set = settling_set();
+  Claim found;
+  if (id == kBias) {
+    const Ball& most = design_->bias->value;
+    found.statement = words_.constant_tone() + kSettled +
+                      ", the mean over the phase of the frequency error in the long run is at most " +
+                      design_->bias->text + kRadPerSample + " in absolute value.";
+    found.verdict = proved_if(set != nullptr && of(*set).mean_error_is_between(-most, most));
+  } else {
+    found.statement = words_.constant_tone() + kSettled +
+                      ", the frequency error in the long run varies by at most " + design_->ripple->text +
+                      kRadPerSample + " over the phase.";
+    found.verdict = proved_if(set != nullptr && of(*set).error_varies_by_at_most(design_->ripple->value));
+  }
+  return found;
+}
+
+Claim ModelClaims::guarantee(const Tree& claim) const {
+  const TubeSet* set = deciding_set();
+  const Ball bound = written(claim, "frequency_error");
+  Claim found;
+  found.is_summary = true;
+  found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
+                    words_.assumed_start() + ", the frequency error stays at or below " +
+                    claim.at("frequency_error").text() + kRadPerSample + " for ever";
+  bool certain =
+      set != nullptr && contains_assumed_starts(*set) && of(*set).error_is_at_most(first_level, bound);
+  if (const Tree* settled = claim.find("settled_frequency_error")) {
+    found.statement += ", and at or below " + settled->text() + kRadPerSample + " in the long run";
+    certain = certain && settles(*set) &&
+              of(*set).error_is_at_most(last_level, written(claim, "settled_frequency_error"));
+  }
+  found.statement += ".";
+  found.verdict = proved_if(certain);
+  return found;
+}
+
+Claim ModelClaims::limits(const Tree& claim) const {
+  const TubeSet* noise = find("noise");
+  const TubeSet* starts = find("starts");
+  Claim found;
+  found.is_summary = true;
+  found.statement = words_.constant_tone() + ", the tracker tolerates noise up to " +
+                    claim.at("noise").text() +
+                    ", and without noise a certified invariant set contains frequency errors up to " +
+                    claim.at("reach").text() + kRadPerSample + " at every phase.";
+  const Ball reach = written(claim, "reach");
+  found.verdict = proved_if(noise != nullptr && starts != nullptr && certainly_positive(reach) &&
+                            certainly_at_most(written(claim, "noise"), Ball(noise->noise)) &&
+                            of(*starts).contains_errors(reach));
+  return found;
+}
+
+Claim ModelClaims::steady_state(const Tree& claim) const {
+  const TubeSet* set = settling_set();
+  Claim found;
+  found.is_summary = true;
+  found.statement = words_.constant_tone() + kSettled +
+                    ", the mean over the phase of the frequency error in the long run is between " +
+                    claim.at("bias_low").text() + " and " + claim.at("bias_high").text() + kRadPerSample +
+                    ", and the error varies by at most " + claim.at("ripple").text() + kRadPerSample +
+                    " over the phase.";
+  found.verdict =
+      proved_if(set != nullptr &&
+                of(*set).mean_error_is_between(written(claim, "bias_low"), written(claim, "bias_high")) &&
+                of(*set).error_varies_by_at_most(written(claim, "ripple")));
+  return found;
+}
+
+Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
+  const std::string& id = claim.at("id").text();
+  const std::vector<Requirement> asked = required();
+  const bool is_told = id == kGuarantee || id == kLimits || id == kSteadyState;
+  const bool is_asked = std::any_of(asked.begin(), asked.end(),
+                                    [&](const Requirement& requirement) { return requirement.claim == id; });
+  if (!is_told && !is_asked) {
+    objections.emplace_back("[require] does not ask for this");
+    return {};
+  }
+  Claim found = id == kGuarantee               ? guarantee(claim)
+                : id == kLimits                ? limits(claim)
+                : id == kSteadyState           ? steady_state(claim)
+                : id == kErrorBound            ? bound()
+                : id == kSettlingTime          ? settling()
+                : id == kBias || id == kRipple ? long_run(id)
+                                               : size(id);
+  check_claim(claim, found, objections);
+  return found;
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,53 @@
+// The claims of a certificate for a model, decided by its sets of tubes once these are verified.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "checker/document/parts.hpp"
+#include "checker/model/model_design.hpp"
+#include "checker/model/tube_check.hpp"
+
+namespace veritrack::checker {
+
+class ModelClaims {
+ public:
+  /// `sets`: those that are verified, by name; they cover the band. All must outlive this.
+  ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
+              const std::map<std::string, TubeSet>& sets, std::int64_t& cells);
+
+  /// What [require] asks for.
+  [[nodiscard]] std::vector<Requirement> required() const;
+  /// The claim in the checker's words, with its verdict. Objects where the certificate says something else.
+  Claim check(const Tree& claim, Objections& objections) const;
+
+ private:
+  [[nodiscard]] const TubeSet* find(const std::string& name) const;
+  /// Whose noise and slew are at least the assumed ones.
+  [[nodiscard]] const TubeSet* deciding_set() const;
+  /// "starts", if there are levels to come down to.
+  [[nodiscard]] const TubeSet* settling_set() const;
+  [[nodiscard]] TubeCheck of(const TubeSet& set) const { return {*model_, set, *cells_}; }
+  /// Starts as they are assumed are in the set.
+  [[nodiscard]] bool contains_assumed_starts(const TubeSet& set) const;
+  [[nodiscard]] bool settles(const TubeSet& set) const;
+
+  [[nodiscard]] std::string short_text(const std::string& id) const;
+  [[nodiscard]] Claim bound() const;
+  [[nodiscard]] Claim settling() const;
+  [[nodiscard]] Claim size(const std::string& id) const;
+  [[nodiscard]] Claim long_run(const std::string& id) const;
+  [[nodiscard]] Claim guarantee(const Tree& claim) const;
+  [[nodiscard]] Claim limits(const Tree& claim) const;
+  [[nodiscard]] Claim steady_state(const Tree& claim) const;
+
+  const ModelDesign* design_;
+  const TrackedModel* model_;
+  const std::map<std::string, TubeSet>* sets_;
+  std::int64_t* cells_;
+  ModelWords words_;
+};
+
+}  // namespace veritrack::checker

@@ -1,0 +1,146 @@
+#include "checker/model/model_design.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "checker/document/design_number.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+/// 2 pi/sample_rate, of a frequency in hertz.
+Ball turn_per_sample(const Tree& assume, Objections& objections) {
+  return two * pi() / read_positive(assume.at("sample_rate"), "sample_rate", objections);
+}
+
+void read_model_band(const Tree& assume, ModelDesign& design, Objections& objections) {
+  const Tree& band = assume.at("frequency");
+  if (band.elements().size() != 2) {
+    throw Malformed("a band has two ends");
+  }
+  const Ball low = read_positive(band.at(0), "frequency", objections);
+  const Ball high = read_positive(band.at(1), "frequency", objections);
+  if (text_of(band.at(0)) != text_of(band.at(1)) && !certainly_at_most(low, high)) {
+    objections.emplace_back("the frequencies must go from low to high");
+  }
+  const Ball scale = assume.at("frequency_in_hertz").truth() ? turn_per_sample(assume, objections) : one;
+  design.lowest = low * scale;
+  design.highest = high * scale;
+  if (!certainly_less(design.highest, pi())) {
+    objections.emplace_back("the frequencies must be below pi rad/sample");
+  }
+}
+
+void read_start(const Tree& start, ModelRecursion& recursion, ModelDesign& design, Objections& objections) {
+  const std::vector<std::string>& names = recursion.state_names();
+  design.start_within.assign(names.size(), zero);
+  std::vector<bool> is_given(names.size(), false);
+  for (const Tree& entry : start.elements()) {
+    const std::string& name = entry.at("name").text();
+    const auto found = std::find(names.begin(), names.end(), name);
+    const auto at = static_cast<std::size_t>(found - names.begin());
+    if (found == names.end() || is_given[at]) {
+      objections.push_back("start_within: " + name + " is no state, or there twice");
+      continue;
+    }
+    is_given[at] = true;
+    design.start_within[at] = recursion.constant_value(entry.at("formula").text());
+    if (!certainly_not_negative(design.start_within[at])) {
+      objections.push_back("start_within: " + name + " must not be negative");
+    }
+  }
+}
+
+void read_requirements(const Tree& require, ModelDesign& design, Objections& objections) {
+  const std::array<std::pair<std::string, std::optional<RequiredNumber>*>, 8> keys{
+      {{"frequency_error_below", &design.frequency_error_below},
+       {"settles_within", &design.settles_within},
+       {"settled_below", &design.settled_below},
+       {"largest_noise_at_least", &design.largest_noise},
+       {"largest_slew_at_least", &design.largest_slew},
+       {"frequency_error_radius_at_least", &design.radius},
+       {"bias_below", &design.bias},
+       {"ripple_below", &design.ripple}}};
+  for (const auto& member : require.members()) {
+    const std::string& name = member.first;
+    const auto* const key =
+        std::find_if(keys.begin(), keys.end(), [&](const auto& known) { return known.first == name; });
+    if (key == keys.end()) {
+      objections.push_back("[require] has no key " + name);
+      continue;
+    }
+    *key->second = RequiredNumber{text_of(member.second), read_positive(member.second, name, objections)};
+  }
+  if (design.settles_within.has_value() != design.settled_below.has_value()) {
+    objections.emplace_back("settles_within and settled_below need each other");
+    design.settles_within.reset();
+    design.settled_below.reset();
+  }
+}
+
+}  // namespace
+
+ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objections& objections) {
+  const Tree& assume = tree.at("assume");
+  ModelDesign design;
+  design.amplitude = read_positive(assume.at("amplitude"), "amplitude", objections);
+  read_model_band(assume, design, objections);
+  design.noise = read_not_negative(assume.at("noise"), "noise", objections);
+  design.slew = read_not_negative(assume.at("slew"), "slew", objections);
+  if (assume.at("slew_in_hertz_per_second").truth()) {
+    const Ball rate = read_positive(assume.at("sample_rate"), "sample_rate", objections);
+    design.slew = design.slew * turn_per_sample(assume, objections) / rate;
+  }
+  if (const Tree* rate = assume.find("sample_rate")) {
+    read_positive(*rate, "sample_rate", objections);
+  }
+  if (const Tree* start = assume.find("start_within")) {
+    read_start(*start, recursion, design, objections);
+  }
+  read_requirements(tree.at("require"), design, objections);
+  return design;
+}
+
+std::string ModelWords::tone(const std::string& frequency) const {
+  const auto& signal = design_->at("model").at("signal").elements();
+  const bool is_tone = !signal.empty() && signal.size() <= 2 && signal[0].text() == "A*cos(phi)" &&
+                       (signal.size() < 2 || signal[1].text() == "A*sin(phi)");
+  return std::string("In exact arithmetic, on ") + (is_tone ? "a tone" : "the signal of the design file") +
+         " of amplitude " + text_of(assume().at("amplitude")) + " with " + frequency;
+}
+
+std::string ModelWords::band() const {
+  const Tree& ends = assume().at("frequency");
+  const std::string unit = assume().at("frequency_in_hertz").truth()
+                               ? "Hz at " + text_of(assume().at("sample_rate")) + " samples per second"
+                               : std::string("rad/sample");
+  return "[" + text_of(ends.at(0)) + ", " + text_of(ends.at(1)) + "] " + unit;
+}
+
+std::string ModelWords::assumed_tone(bool moves) const {
+  if (!moves) {
+    return constant_tone();
+  }
+  return tone_in_band() + " and changes by at most " + text_of(assume().at("slew")) +
+         (assume().at("slew_in_hertz_per_second").truth() ? " Hz per second" : " rad/sample per sample");
+}
+
+std::string ModelWords::assumed_noise(bool is_noisy) const {
+  return is_noisy ? ", with noise below " + text_of(assume().at("noise")) : ", without noise";
+}
+
+std::string ModelWords::assumed_start() const {
+  const Tree* start = assume().find("start_within");
+  if (start == nullptr) {
+    return ", started in the tube in the certificate";
+  }
+  std::string list;
+  for (const Tree& entry : start->elements()) {
+    list += (list.empty() ? "" : ", ") + entry.at("name").text() + ": " + entry.at("formula").text();
+  }
+  return ", started within {" + list + "} of the curve in the certificate";
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,60 @@
+// The design of a certificate for a tracker that is written down as a recursion, and the words for it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checker/document/json_tree.hpp"
+#include "checker/document/statement.hpp"
+#include "checker/model/model_recursion.hpp"
+
+namespace veritrack::checker {
+
+/// What a key of [require] asks: the decimal as written, and it with the double nearest to it.
+struct RequiredNumber {
+  std::string text;
+  Ball value;
+};
+
+/// In rad/sample and signal units: each number both as the decimal and as the double nearest to it.
+struct ModelDesign {
+  Ball amplitude;
+  Ball lowest, highest;            ///< of the frequency
+  Ball noise;                      ///< bound on the length of the error of a sample, all channels together
+  Ball slew;                       ///< rad/sample per sample
+  std::vector<Ball> start_within;  ///< of each state; empty: not given
+  std::optional<RequiredNumber> frequency_error_below, settles_within, settled_below, largest_noise,
+      largest_slew, radius, bias, ripple;
+
+  [[nodiscard]] bool is_noisy() const { return !certainly_equal(noise, zero); }
+  [[nodiscard]] bool moves() const { return !certainly_equal(slew, zero); }
+};
+
+/// Reads the members "assume" and "require" of a design. Objects unless 0 < lowest <= highest < pi, the
+/// amplitude is positive, and nothing that has to be is negative.
+ModelDesign read_model_design(const Tree& design, ModelRecursion& recursion, Objections& objections);
+
+/// The hypotheses of sentences.
+class ModelWords {
+ public:
+  explicit ModelWords(const Tree& design) : design_(&design) {}
+
+  /// "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.2, 0.5] rad/sample".
+  [[nodiscard]] std::string constant_tone() const { return tone("any constant frequency in " + band()); }
+  /// With a frequency that may move at any rate.
+  [[nodiscard]] std::string tone_in_band() const { return tone("a frequency that stays in " + band()); }
+  /// With the assumed slew.
+  [[nodiscard]] std::string assumed_tone(bool moves) const;
+  [[nodiscard]] std::string assumed_noise(bool is_noisy) const;
+  [[nodiscard]] std::string assumed_start() const;
+
+ private:
+  [[nodiscard]] const Tree& assume() const { return design_->at("assume"); }
+  [[nodiscard]] std::string tone(const std::string& frequency) const;
+  [[nodiscard]] std::string band() const;
+
+  const Tree* design_;
+};
+
+}  // namespace veritrack::checker

@@ -1,0 +1,38 @@
+// Functions of the place (s, z) in a cell alone, in an array: what the sums of tubes are made of, of which
+// there are very many.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "checker/model/ball_polynomial.hpp"
+
+namespace veritrack::checker {
+
+/// A polynomial of degree at most four in s and z in [-1, 1], and a bound on the distance from it.
+struct PlacePolynomial {
+  std::array<double, BallPolynomial::kPlaces> coefficients{};  ///< by degree, and then by the power of z
+  double error = 0.0;  ///< infinite or "not a number" when nothing is known
+
+  /// A bound on the polynomial.
+  [[nodiscard]] double norm() const;
+};
+
+/// cos and sin of constant + by_phase s + by_frequency z.
+struct CosineSine {
+  PlacePolynomial cosine, sine;
+  CosineSine(const Ball& constant, const Ball& by_phase, const Ball& by_frequency);
+};
+
+/// (middle + half_width z)^d for d = 0, 1, ...: so many of them. middle and half_width are at most 1.
+std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, std::size_t count);
+
+/// x y, where y is a function of z alone.
+PlacePolynomial product_with_power(const PlacePolynomial& x, const PlacePolynomial& y);
+
+/// The sum of factors times functions, of which there are as many.
+BallPolynomial linear_combination(const std::vector<double>& factors,
+                                  const std::vector<PlacePolynomial>& functions);
+
+}  // namespace veritrack::checker

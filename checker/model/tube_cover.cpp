@@ -1,0 +1,81 @@
+#include "checker/model/tube_cover.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include "checker/numbers/threads.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+constexpr int kMostHalvings = 40;
+/// The middle of a part is asked after every so many halvings.
+constexpr int kBetweenMiddles = 3;
+
+/// A part that is not certain yet.
+struct OpenPart {
+  TubePart part;
+  std::vector<std::size_t> questions;
+  int halvings = 0;
+};
+
+bool is_certain(const Tube& tube, const TubePart& first, std::size_t count, const PartQuestion& ask,
+                std::int64_t& cells) {
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<OpenPart> open{{first, std::move(all), 0}};
+  while (!open.empty()) {
+    const OpenPart here = std::move(open.back());
+    open.pop_back();
+    ++cells;
+    PartAnswer answer = ask(tube, here.part, here.questions);
+    if (answer.open.empty()) {
+      continue;
+    }
+    const bool is_time = here.halvings % kBetweenMiddles == kBetweenMiddles - 1;
+    if (here.halvings == kMostHalvings ||
+        (is_time && !ask(tube, here.part.middle(), answer.open).open.empty())) {
+      return false;
+    }
+    for (const bool second : {true, false}) {
+      open.push_back({answer.halve_frequencies ? here.part.half_of_frequencies(second)
+                                               : here.part.half_of_phases(second),
+                      answer.open, here.halvings + 1});
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool certain_everywhere(const std::vector<Tube>& tubes, const std::function<FirstGrid(const Tube&)>& grid,
+                        const std::function<std::size_t(const Tube&)>& count, const PartQuestion& ask,
+                        std::int64_t& cells) {
+  struct Item {
+    const Tube* tube;
+    TubePart part;
+  };
+  std::vector<Item> items;
+  for (const Tube& tube : tubes) {
+    const FirstGrid parts = grid(tube);
+    spend(static_cast<std::int64_t>(parts.phases * parts.frequencies));
+    for (std::size_t q = 0; q < parts.frequencies; ++q) {
+      for (std::size_t p = 0; p < parts.phases; ++p) {
+        items.push_back({&tube, TubePart::of_grid(p, parts.phases, q, parts.frequencies)});
+      }
+    }
+  }
+  std::atomic<std::int64_t> all_cells = 0;
+  const std::size_t failed = first_failure(items.size(), [&](std::size_t k) {
+    std::int64_t of_item = 0;
+    const Tube& tube = *items[k].tube;
+    const bool certain = is_certain(tube, items[k].part, count(tube), ask, of_item);
+    all_cells += of_item;
+    return certain;
+  });
+  cells += all_cells;
+  return !items.empty() && failed == items.size();
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,150 @@
+#include "checker/model/tube_evidence.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "checker/document/evidence.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+constexpr std::size_t kMostParts = 1U << 16U;
+
+double double_from(const Tree& number) {
+  const Ball exact = exact_number(number);
+  const double value = exact.near();
+  if (!certainly_equal(exact, Ball(value))) {
+    throw std::invalid_argument("a number that is not in the range of doubles");
+  }
+  return value;
+}
+
+std::vector<double> doubles_from(const Tree& list) {
+  std::vector<double> values;
+  values.reserve(list.elements().size());
+  for (const Tree& number : list.elements()) {
+    values.push_back(double_from(number));
+  }
+  return values;
+}
+
+std::vector<PhaseSeries> series_from(const Tree& list) {
+  std::vector<PhaseSeries> all;
+  for (const Tree& series : list.elements()) {
+    all.emplace_back();
+    for (const Tree& harmonic : series.elements()) {
+      all.back().emplace_back();
+      for (const Tree& coefficient : harmonic.elements()) {
+        if (coefficient.elements().size() != 2) {
+          throw Malformed("a coefficient has a real and an imaginary part");
+        }
+        all.back().back().emplace_back(double_from(coefficient.at(0)), double_from(coefficient.at(1)));
+      }
+    }
+  }
+  return all;
+}
+
+std::size_t power_of_two_from(const Tree& number, Objections& objections) {
+  const long value = number.integer();
+  const auto size = static_cast<std::size_t>(std::clamp<long>(value, 1, static_cast<long>(kMostParts)));
+  if (static_cast<long>(size) != value || (size & (size - 1)) != 0) {
+    objections.emplace_back("a first grid has a power of two parts, and not too many");
+  }
+  return size;
+}
+
+bool is_falling(const std::vector<double>& levels) {
+  for (std::size_t j = 0; j + 1 < levels.size(); ++j) {
+    if (!certainly_less(Ball(levels[j + 1]), Ball(levels[j]))) {
+      return false;
+    }
+  }
+  return !levels.empty() && certainly_positive(Ball(levels.back()));
+}
+
+/// In (0, 1], and below 1 when there are levels to come down.
+bool is_shrinking(const Tube& tube) {
+  const bool has_one_level = tube.levels.size() <= 1;
+  return tube.shrinking.size() == std::max<std::size_t>(tube.levels.size(), 2) - 1 &&
+         std::all_of(tube.shrinking.begin(), tube.shrinking.end(), [&](double rate) {
+           return certainly_positive(Ball(rate)) &&
+                  (has_one_level ? certainly_at_most(Ball(rate), one) : certainly_less(Ball(rate), one));
+         });
+}
+
+Tube tube_from(const Tree& cell, std::size_t states, Objections& objections) {
+  Tube tube;
+  tube.frequency = double_from(cell.at("frequency"));
+  tube.half_width = double_from(cell.at("half_width"));
+  tube.levels = doubles_from(cell.at("levels"));
+  tube.shrinking = doubles_from(cell.at("shrinking"));
+  for (const Tree& turns : cell.at("turns").elements()) {
+    tube.turns.push_back(turns.integer());
+  }
+  tube.curve = series_from(cell.at("curve"));
+  tube.shape = series_from(cell.at("shape"));
+  tube.phases = power_of_two_from(cell.at("phases"), objections);
+  tube.frequencies = power_of_two_from(cell.at("frequencies"), objections);
+  if (tube.turns.size() != states || tube.curve.size() != states ||
+      tube.shape.size() != states * (states + 1) / 2) {
+    objections.emplace_back("a curve or a shape that is not of as many states as the tracker has");
+  }
+  if (!certainly_positive(Ball(tube.half_width))) {
+    objections.emplace_back("the half width of a cell is not positive");
+  }
+  if (!is_falling(tube.levels)) {
+    objections.emplace_back("levels fall and are positive");
+  }
+  if (!is_shrinking(tube)) {
+    objections.emplace_back("rates of shrinking are for each pair of levels, positive and below 1");
+  }
+  constexpr long kMostTurns = 1000;
+  if (std::any_of(tube.turns.begin(), tube.turns.end(),
+                  [](long turns) { return turns > kMostTurns || turns < -kMostTurns; })) {
+    objections.emplace_back("too many turns");
+  }
+  return tube;
+}
+
+}  // namespace
+
+TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections) {
+  TubeSet result;
+  result.name = set.at("name").text();
+  result.slew = double_from(set.at("slew"));
+  result.noise = double_from(set.at("noise"));
+  if (!certainly_not_negative(Ball(result.slew)) || !certainly_not_negative(Ball(result.noise))) {
+    objections.emplace_back("slew and noise must not be negative");
+  }
+  for (const Tree& cell : set.at("cells").elements()) {
+    result.tubes.push_back(tube_from(cell, states, objections));
+  }
+  if (result.tubes.empty()) {
+    objections.emplace_back("a set without cells");
+  }
+  return result;
+}
+
+void check_cover(const TubeSet& set, const Ball& lowest, const Ball& highest, Objections& objections) {
+  const char* const objection = "the cells do not cover the band from low frequencies to high ones";
+  if (set.tubes.empty()) {
+    objections.emplace_back(objection);
+    return;
+  }
+  const auto low = [](const Tube& tube) { return Ball(tube.frequency) - Ball(tube.half_width); };
+  const auto high = [](const Tube& tube) { return Ball(tube.frequency) + Ball(tube.half_width); };
+  bool covers =
+      certainly_at_most(low(set.tubes.front()), lowest) && certainly_at_most(highest, high(set.tubes.back()));
+  for (std::size_t i = 0; i + 1 < set.tubes.size(); ++i) {
+    // In order, so that nothing between two neighbours is missed.
+    covers = covers && certainly_less(Ball(set.tubes[i].frequency), Ball(set.tubes[i + 1].frequency)) &&
+             certainly_at_most(low(set.tubes[i + 1]), high(set.tubes[i]));
+  }
+  if (!covers) {
+    objections.emplace_back(objection);
+  }
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,47 @@
+// Tubes around the curve of a tracker, as a certificate writes them. Any numbers will do: they are evidence.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "checker/document/json_tree.hpp"
+#include "checker/document/statement.hpp"
+
+namespace veritrack::checker {
+
+/// Re sum_h sum_d c[h][d] z^d exp(i h phi). Nothing: 0.
+using PhaseSeries = std::vector<std::vector<std::complex<double>>>;
+
+/// C(phi, omega) + U(phi, omega) xi, |xi| <= R, over the frequencies |omega - frequency| <= half_width,
+/// where C(phi, omega) = turns phi + curve and U is lower triangular; rad/sample.
+struct Tube {
+  double frequency = 0.0;
+  double half_width = 0.0;        ///< z = (omega - frequency)/half_width
+  std::vector<double> levels;     ///< R_0 > R_1 > ... > R_m > 0
+  std::vector<double> shrinking;  ///< of the levels between neighbours, in (0, 1]; for m = 0 of R_0
+  std::vector<long> turns;
+  std::vector<PhaseSeries> curve;
+  std::vector<PhaseSeries> shape;  ///< the lower triangle, row by row
+  std::size_t phases = 1;          ///< parts of a turn, and of the frequencies, to begin with
+  std::size_t frequencies = 1;
+};
+
+/// Tubes for the frequencies of a band, for so much noise (signal units) and slew (rad/sample per sample).
+struct TubeSet {
+  std::string name;
+  double slew = 0.0;
+  double noise = 0.0;
+  std::vector<Tube> tubes;
+};
+
+/// Reads a set for a tracker with so many states. Objects to what cannot be one: levels or rates out of their
+/// order, widths that are not positive, wrong numbers of states. Throws Malformed or std::invalid_argument
+/// for what cannot be read.
+TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections);
+
+/// Objects unless the tubes go from low frequencies to high ones and together cover [lowest, highest].
+void check_cover(const TubeSet& set, const Ball& lowest, const Ball& highest, Objections& objections);
+
+}  // namespace veritrack::checker

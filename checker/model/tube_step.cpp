@@ -1,0 +1,178 @@
+#include "checker/model/tube_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "checker/model/place_polynomial.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+/// cos and sin of h phi, times powers of z, for all that a tube needs.
+class HarmonicBasis {
+ public:
+  HarmonicBasis(const Tube& tube, const TubePart& part, bool later) {
+    std::size_t most_harmonics = 0;
+    for (const std::vector<PhaseSeries>* list : {&tube.curve, &tube.shape}) {
+      for (const PhaseSeries& series : *list) {
+        most_harmonics = std::max(most_harmonics, series.size());
+        for (const auto& harmonic : series) {
+          powers_ = std::max(powers_, harmonic.size());
+        }
+      }
+    }
+    const std::vector<PlacePolynomial> powers = powers_of_place(part.z, part.half_z, powers_);
+    const Ball turn = two * pi();
+    const Ball width = Ball(tube.half_width);
+    for (std::size_t h = 0; h < most_harmonics; ++h) {
+      const Ball number(static_cast<double>(h));
+      // Whole turns do not matter.
+      const double turns = static_cast<double>(h) * part.turn;
+      Ball constant = turn * Ball(turns - std::round(turns));
+      Ball by_z;
+      if (later) {
+        constant += number * (Ball(tube.frequency) + width * Ball(part.z));
+        by_z = number * width * Ball(part.half_z);
+      }
+      const CosineSine wave(constant, turn * number * Ball(part.half_turn), by_z);
+      for (const PlacePolynomial& power : powers) {
+        functions_.push_back(product_with_power(wave.cosine, power));
+        functions_.push_back(product_with_power(wave.sine, power));
+      }
+    }
+  }
+
+  /// The value of a series.
+  [[nodiscard]] BallPolynomial value(const PhaseSeries& series) const {
+    std::vector<double> factors(functions_.size(), 0.0);
+    for (std::size_t h = 0; h < series.size(); ++h) {
+      for (std::size_t d = 0; d < series[h].size(); ++d) {
+        const std::size_t at = 2 * (h * powers_ + d);
+        factors.at(at) = series[h][d].real();
+        factors.at(at + 1) = h > 0 ? -series[h][d].imag() : 0.0;
+      }
+    }
+    return linear_combination(factors, functions_);
+  }
+
+ private:
+  std::size_t powers_ = 1;
+  std::vector<PlacePolynomial> functions_;
+};
+
+/// phi, or phi + omega.
+BallPolynomial phase_over(const Tube& tube, const TubePart& part, bool later) {
+  const Ball turn = two * pi();
+  BallPolynomial phase = BallPolynomial(turn * Ball(part.turn));
+  phase += BallPolynomial(turn * Ball(part.half_turn)) * BallPolynomial::phase();
+  return later ? phase + frequency_over(tube, part) : phase;
+}
+
+}  // namespace
+
+TubePart TubePart::of_grid(std::size_t phase, std::size_t phases, std::size_t frequency,
+                           std::size_t frequencies) {
+  const double half_turn = 0.5 / static_cast<double>(phases);
+  const double half_z = 1.0 / static_cast<double>(frequencies);
+  return {static_cast<double>(2 * phase + 1) * half_turn, half_turn,
+          static_cast<double>(2 * frequency + 1) * half_z - 1.0, half_z};
+}
+
+TubePart TubePart::half_of_phases(bool second) const {
+  const double less = half_turn / 2.0;
+  return {second ? turn + less : turn - less, less, z, half_z};
+}
+
+TubePart TubePart::half_of_frequencies(bool second) const {
+  const double less = half_z / 2.0;
+  return {turn, half_turn, second ? z + less : z - less, less};
+}
+
+TubeOver::TubeOver(const Tube& tube, const TubePart& part, bool later) {
+  const HarmonicBasis basis(tube, part, later);
+  const BallPolynomial phase = phase_over(tube, part, later);
+  for (std::size_t i = 0; i < tube.curve.size(); ++i) {
+    curve.push_back(basis.value(tube.curve[i]));
+    curve.back() += BallPolynomial(static_cast<double>(tube.turns[i])) * phase;
+  }
+  for (const PhaseSeries& entry : tube.shape) {
+    shape.push_back(basis.value(entry));
+  }
+}
+
+bool TubeOver::has_shape() const {
+  bool all = true;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    all = all && certainly_positive(shape[i * (i + 1) / 2 + i].range());
+  }
+  return all;
+}
+
+std::vector<BallPolynomial> TubeOver::point(double radius, const std::vector<BallPolynomial>& x) const {
+  std::vector<BallPolynomial> state = curve;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    BallPolynomial deviation;
+    for (std::size_t j = 0; j <= i; ++j) {
+      deviation += shape[i * (i + 1) / 2 + j] * x[j];
+    }
+    state[i].add(deviation, radius);
+  }
+  return state;
+}
+
+std::vector<BallPolynomial> TubeOver::coordinates(const std::vector<BallPolynomial>& vector) const {
+  std::vector<BallPolynomial> result;
+  for (std::size_t i = 0; i < vector.size(); ++i) {
+    BallPolynomial rest = vector[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      rest -= shape[i * (i + 1) / 2 + j] * result[j];
+    }
+    result.push_back(rest / shape[i * (i + 1) / 2 + i]);
+  }
+  return result;
+}
+
+BallPolynomial frequency_over(const Tube& tube, const TubePart& part) {
+  const Ball width(tube.half_width);
+  return BallPolynomial(Ball(tube.frequency) + width * Ball(part.z)) +
+         BallPolynomial(width * Ball(part.half_z)) * BallPolynomial::frequency();
+}
+
+BallPolynomial frequency_error(const TrackedModel& model, const Tube& tube, const TubePart& part,
+                               const std::vector<BallPolynomial>& state) {
+  return model.recursion->frequency(state) - frequency_over(tube, part);
+}
+
+std::vector<BallPolynomial> components(const VectorMonomials& monomials) {
+  std::vector<BallPolynomial> xi;
+  for (std::size_t i = 0; i < monomials.balls(); ++i) {
+    xi.push_back(BallPolynomial::variable(monomials, i));
+  }
+  return xi;
+}
+
+TubeStep::TubeStep(const TrackedModel& model, const Tube& tube, const TubePart& part)
+    : model_(&model),
+      here_(tube, part, false),
+      there_(tube, part, true),
+      signal_(model.recursion->signal(BallPolynomial(model.amplitude), phase_over(tube, part, true))) {}
+
+std::vector<BallPolynomial> TubeStep::map(const VectorMonomials& monomials, double radius,
+                                          double noise) const {
+  std::vector<BallPolynomial> samples = signal_;
+  if (noise != 0.0) {
+    for (std::size_t c = 0; c < samples.size(); ++c) {
+      samples[c].add(BallPolynomial::variable(monomials, monomials.balls() + c), noise);
+    }
+  }
+  std::vector<BallPolynomial> next =
+      model_->recursion->next(here_.point(radius, components(monomials)), samples);
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    next[i] -= there_.curve[i];
+  }
+  return there_.coordinates(next);
+}
+
+}  // namespace veritrack::checker

@@ -1,0 +1,79 @@
+// One step of a tracker in the coordinates of a tube, over a part of the tube's phases and frequencies:
+//   F(xi, v) = U(phi + omega, omega)^-1 [G(C(phi, omega) + U(phi, omega) xi, Y(phi + omega) + v)
+//              - C(phi + omega, omega)],
+// where G is the step, Y the signal and C + U xi the tube. U^-1 is not computed: forward substitution.
+#pragma once
+
+#include <vector>
+
+#include "checker/model/ball_polynomial.hpp"
+#include "checker/model/model_recursion.hpp"
+#include "checker/model/tube_evidence.hpp"
+
+namespace veritrack::checker {
+
+/// The tracker, and the amplitude of its signal.
+struct TrackedModel {
+  const ModelRecursion* recursion = nullptr;
+  Ball amplitude;
+};
+
+/// Phases 2 pi (turn - half_turn) to 2 pi (turn + half_turn), and z - half_z to z + half_z of a tube.
+/// Binary fractions, so that parts fit together exactly. s and z of ball polynomials are places in it.
+struct TubePart {
+  double turn = 0.5;
+  double half_turn = 0.5;
+  double z = 0.0;
+  double half_z = 1.0;
+
+  /// Part number `phase` of so many parts of a turn, number `frequency` of so many parts of the frequencies:
+  /// both powers of two.
+  static TubePart of_grid(std::size_t phase, std::size_t phases, std::size_t frequency,
+                          std::size_t frequencies);
+  /// The first or the second half.
+  [[nodiscard]] TubePart half_of_phases(bool second) const;
+  [[nodiscard]] TubePart half_of_frequencies(bool second) const;
+  /// The point in the middle.
+  [[nodiscard]] TubePart middle() const { return {turn, 0.0, z, 0.0}; }
+};
+
+/// The curve and the shape over a part of a tube, or where they are a sample later.
+struct TubeOver {
+  std::vector<BallPolynomial> curve;
+  std::vector<BallPolynomial> shape;  ///< the lower triangle, row by row
+
+  TubeOver(const Tube& tube, const TubePart& part, bool later);
+  /// The diagonal of the shape is certainly positive.
+  [[nodiscard]] bool has_shape() const;
+  /// C + radius U x, for components x.
+  [[nodiscard]] std::vector<BallPolynomial> point(double radius, const std::vector<BallPolynomial>& x) const;
+  /// U^-1 of a vector.
+  [[nodiscard]] std::vector<BallPolynomial> coordinates(const std::vector<BallPolynomial>& vector) const;
+};
+
+/// omega over the part, and the estimate of the frequency at a state less that; rad/sample.
+BallPolynomial frequency_over(const Tube& tube, const TubePart& part);
+BallPolynomial frequency_error(const TrackedModel& model, const Tube& tube, const TubePart& part,
+                               const std::vector<BallPolynomial>& state);
+/// The components of xi.
+std::vector<BallPolynomial> components(const VectorMonomials& monomials);
+
+/// The step over a part of a tube.
+class TubeStep {
+ public:
+  TubeStep(const TrackedModel& model, const Tube& tube, const TubePart& part);
+
+  /// Whether the shape is one here and a sample later: certainly positive on its diagonal.
+  [[nodiscard]] bool has_shape() const { return here_.has_shape() && there_.has_shape(); }
+  /// F for |xi| <= radius, |v| <= noise, where the ball polynomials are in xi/radius and v/noise. The
+  /// monomials have disturbances for all samples if there is noise.
+  [[nodiscard]] std::vector<BallPolynomial> map(const VectorMonomials& monomials, double radius,
+                                                double noise) const;
+
+ private:
+  const TrackedModel* model_;
+  TubeOver here_, there_;
+  std::vector<BallPolynomial> signal_;  ///< a sample later
+};
+
+}  // namespace veritrack::checker

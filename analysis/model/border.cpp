@@ -106,10 +106,7 @@ StepBounds bound_border(const TrackerModel& model, const Tube& from, const Tube&
     deviation[i] = deviation[i] + radius * BallModel::ball(static_cast<int>(i));
   }
   StepBounds bounds;
-  bounds.steps.reserve(scales.size());
-  for (const double scale : scales) {
-    bounds.steps.push_back(length_bound(deviation, scale));
-  }
+  bounds.steps = length_bounds(deviation, scales);
   const WidthShares shares = width_shares(deviation);
   bounds.by_phase = shares.by_phase;
   bounds.by_frequency = shares.by_frequency;

@@ -67,10 +67,10 @@ std::pair<BallModel, BallModel> coefficient_of(const PhaseSeries& series, std::s
   for (std::size_t d = 0; h < series.coefficients.size() && d < series.coefficients[h].size(); ++d) {
     const std::complex<double>& coefficient = series.coefficients[h][d];
     if (coefficient.real() != 0.0) {
-      sum.first = sum.first + BallModel(coefficient.real()) * powers[d];
+      sum.first.add_multiple(powers[d], coefficient.real());
     }
     if (coefficient.imag() != 0.0 && h > 0) {
-      sum.second = sum.second + BallModel(coefficient.imag()) * powers[d];
+      sum.second.add_multiple(powers[d], coefficient.imag());
     }
   }
   return sum;

@@ -50,9 +50,7 @@ StepBounds bound_step(const TrackerModel& model, const Tube& tube, const TubeCel
   }
   const std::vector<BallModel> deviation = in_units_of(frame.there, next);  // F
   StepBounds bounds;
-  for (const double scale : scales) {
-    bounds.steps.push_back(length_bound(deviation, scale, is_noisy && is_moving));
-  }
+  bounds.steps = length_bounds(deviation, scales, is_noisy && is_moving);
   const WidthShares shares = width_shares(deviation);
   bounds.by_phase = shares.by_phase;
   bounds.by_frequency = shares.by_frequency;

@@ -187,6 +187,29 @@ void BallModel::add(const BallModel& other, double sign) {
   }
 }
 
+void BallModel::add_multiple(const BallModel& other, double factor) {
+  if (monomials_ != other.monomials_) {
+    throw std::logic_error("ball models of different scopes");
+  }
+  // Two rounding errors a coefficient: of the product, and of the sum.
+  const double size = std::fabs(factor);
+  error_ += size * other.error_ + 2.0 * kRounding * (polynomial_bound() + size * other.polynomial_bound()) +
+            kUnderflow;
+  if (!std::isfinite(factor)) {
+    error_ = kNothingKnown;
+  }
+  for (std::size_t number = 0; number < norms_.size(); ++number) {
+    if (other.norms_[number] == 0.0) {
+      continue;  // as in add
+    }
+    const BallMonomials::Class& here = monomials_->classes()[number];
+    for (std::size_t i = here.first; i < here.last; ++i) {
+      coefficients_[i] += factor * other.coefficients_[i];
+    }
+    find_norm(number);
+  }
+}
+
 BallModel operator+(const BallModel& a, const BallModel& b) {
   BallModel result = a;
   result.add(b, 1.0);

@@ -76,6 +76,8 @@ class BallModel {
   [[nodiscard]] Interval mean_over_s() const;
   /// The same without the constant: f - constant().
   [[nodiscard]] BallModel without_constant() const;
+  /// Adds the double `factor` times the other.
+  void add_multiple(const BallModel& other, double factor);
   /// The same functions of s and z among the models of this thread's scope. Throws std::logic_error when
   /// there are terms in x or v.
   [[nodiscard]] BallModel lifted() const;

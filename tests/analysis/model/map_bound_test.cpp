@@ -78,8 +78,8 @@ TEST_CASE("bounds of a step with two disturbances, together in a ball or one of 
     const std::vector<BallModel> vector = map.model(2);
     for (const double scale : {1.0, 0.25}) {
       const double half = std::sqrt(0.5);
-      const double alone = length_bound(vector, scale, true);
-      const double together = length_bound(vector, scale, false);
+      const double alone = length_bounds(vector, {scale}, true).front();
+      const double together = length_bounds(vector, {scale}, false).front();
       const double of_alone = sampled(map, scale, half, half);
       CHECK(alone >= of_alone);
       CHECK(together >= of_alone);  // both at their limits are in the ball, too
@@ -94,10 +94,12 @@ TEST_CASE("a last disturbance that does nothing, or is the only one that does") 
   const RandomMap other(random, 0.0, 0.3);
   const rigor::BallModelScope scope(2, 2);
   const double half = std::sqrt(0.5);
-  CHECK(length_bound(map.model(2), 1.0, true) >= sampled(map, 1.0, half, half));
-  CHECK(length_bound(map.model(2), 1.0, true) <= length_bound(map.model(2), 1.0, false));
-  CHECK(length_bound(other.model(2), 1.0, true) >= sampled(other, 1.0, half, half));
-  CHECK(length_bound(other.model(2), 1.0, true) <= length_bound(other.model(2), 1.0, false));
+  CHECK(length_bounds(map.model(2), {1.0}, true).front() >= sampled(map, 1.0, half, half));
+  CHECK(length_bounds(map.model(2), {1.0}, true).front() <=
+        length_bounds(map.model(2), {1.0}, false).front());
+  CHECK(length_bounds(other.model(2), {1.0}, true).front() >= sampled(other, 1.0, half, half));
+  CHECK(length_bounds(other.model(2), {1.0}, true).front() <=
+        length_bounds(other.model(2), {1.0}, false).front());
 }
 
 TEST_CASE("where nothing is known there is no bound") {
@@ -106,10 +108,10 @@ TEST_CASE("where nothing is known there is no bound") {
   const RandomMap map(random, 0.1, 0.1);
   std::vector<BallModel> vector = map.model(2);
   vector[1] = vector[1].widened(std::numeric_limits<double>::quiet_NaN());
-  CHECK_FALSE(std::isfinite(length_bound(vector, 1.0, true)));
+  CHECK_FALSE(std::isfinite(length_bounds(vector, {1.0}, true).front()));
   vector = map.model(2);
   vector[0] = BallModel(std::numeric_limits<double>::quiet_NaN()) * BallModel::disturbance(1);
-  CHECK_FALSE(std::isfinite(length_bound(vector, 1.0, true)));
+  CHECK_FALSE(std::isfinite(length_bounds(vector, {1.0}, true).front()));
 }
 
 }  // namespace

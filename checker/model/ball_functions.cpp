@@ -99,8 +99,23 @@ BallPolynomial wave(const BallPolynomial& x, bool is_cosine) {
 
 }  // namespace
 
+// 1/(c + d) less its Taylor polynomial of degree four is -d^5/(c^5 (c + d)).
 BallPolynomial reciprocal(const BallPolynomial& x) {
-  return function_of(arb_poly_inv_series, x);
+  const Ball middle(x.constant());
+  const Ball all = x.range();
+  const Ball size = abs(all - middle).upper();
+  const Ball least = abs(middle) - size;
+  if (!x.known() || !certainly_positive(least)) {
+    return BallPolynomial::everything();
+  }
+  spend(static_cast<std::int64_t>(kTerms));
+  std::array<Ball, kTerms + 1> coefficients;
+  coefficients[0] = one / middle;
+  for (std::size_t k = 1; k <= kTerms; ++k) {
+    coefficients[k] = -(coefficients[k - 1] * coefficients[0]);
+  }
+  const BallPolynomial deviation = x - BallPolynomial(x.constant());
+  return value_of_taylor(coefficients, deviation, size.upper_double(), abs(coefficients[kTerms - 1]) / least);
 }
 BallPolynomial sqrt(const BallPolynomial& x) {
   return certainly_positive(x.range()) ? function_of(arb_poly_sqrt_series, x) : BallPolynomial::everything();

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kUnit = 0x1p-52;  // of any rounding, relative
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kBlocks = BallPolynomial::kMostOfVectors + 1;
 
 /// At least x, whatever roundings of up to 2^17 operations on non-negative numbers, and underflows, took
 /// away.
@@ -201,20 +200,21 @@ const BallPolynomial::Norms& BallPolynomial::norms() const {
       }
     }
     for (int w = 1; w <= degree_; ++w) {
-      std::array<std::array<double, size_of_block(1)>, kBlocks> squares{};
+      std::array<std::array<double, size_of_block(1)>, VectorMonomials::kForms> squares{};
       const std::size_t size = size_of_block(w);
       for (const VectorMonomials::Kind& kind : monomials_->kinds(w)) {
-        auto& sums = squares[static_cast<std::size_t>(kind.degree_of_v)];
+        auto& sums = squares[kind.form];
         for (std::size_t place = 0; place < size; ++place) {
           sums[place] += kind.weight * coefficients_[at] * coefficients_[at];
           ++at;
         }
       }
-      for (int of_v = 0; of_v <= w; ++of_v) {
+      for (const auto& sums : squares) {
         std::size_t place = 0;
         for (int d = 0; d <= kMostDegree - w; ++d) {
           for (int m = 0; m <= d; ++m) {
-            norms_.of[group(w, d)] += std::sqrt(squares[static_cast<std::size_t>(of_v)][place++]);
+            const double square = sums[place++];
+            norms_.of[group(w, d)] += square != 0.0 ? std::sqrt(square) : 0.0;
           }
         }
       }

@@ -110,7 +110,7 @@ LengthBound::Gram LengthBound::gram_of(const std::vector<BallPolynomial>& vector
   return gram;
 }
 
-LengthBound::LengthBound(const std::vector<BallPolynomial>& vector) : size_(vector.size()), of_x_{}, of_v_{} {
+LengthBound::LengthBound(const std::vector<BallPolynomial>& vector) : size_(vector.size()) {
   double error = 0.0;
   const VectorMonomials* monomials = nullptr;
   for (const BallPolynomial& component : vector) {
@@ -123,122 +123,186 @@ LengthBound::LengthBound(const std::vector<BallPolynomial>& vector) : size_(vect
     error_ = std::numeric_limits<double>::infinity();
     return;
   }
-  of_x_ = gram_of(vector, 0, monomials->balls());
-  has_v_ = monomials->variables() > monomials->balls();
-  if (has_v_) {
-    of_v_ = gram_of(vector, monomials->balls(), monomials->variables());
+  for (std::size_t k = 0; k < VectorMonomials::kVectors; ++k) {
+    if (monomials->size(k) > 0) {
+      grams_.push_back(gram_of(vector, monomials->first(k), monomials->first(k + 1)));
+      grams_.back().is_of_x = k == 0;
+    }
   }
-  const double size = near_largest_eigenvalue(of_x_.terms[0]);
+  const double size = near_largest_eigenvalue(grams_.front().terms[0]);
   for (std::size_t k = 1; k < kSide * kSide; ++k) {
-    const double share = of_x_.terms[k].length() / (std::sqrt(size) + 1e-300);
+    const double share = grams_.front().terms[k].length() / (std::sqrt(size) + 1e-300);
     by_phase_ += k >= kSide ? share : 0.0;
     by_frequency_ += k % kSide > 0 ? share : 0.0;
   }
   for (const int degree : {0, 2, 3}) {
-    add_parts(vector, degree);
+    add_parts(vector, *monomials, degree);
   }
 }
 
-void LengthBound::add_parts(const std::vector<BallPolynomial>& vector, int degree) {
-  const VectorMonomials::Kind scalar;
-  const VectorMonomials* monomials = nullptr;
-  for (const BallPolynomial& component : vector) {
-    monomials = component.monomials() != nullptr ? component.monomials() : monomials;
+void LengthBound::add_parts(const std::vector<BallPolynomial>& vector, const VectorMonomials& monomials,
+                            int degree) {
+  std::array<bool, VectorMonomials::kForms> is_there{};
+  for (const VectorMonomials::Kind& kind : monomials.kinds(degree)) {
+    is_there[kind.form] = true;
   }
-  const std::size_t count = degree == 0 ? 1 : monomials->count(degree);
-  const std::size_t places = places_up_to(BallPolynomial::kMostDegree - degree);
-  for (int of_v = 0; of_v <= (has_v_ ? degree : 0); ++of_v) {
-    for (std::size_t place = 0; place < places; ++place) {
-      std::vector<double> rows(vector.size() * count, 0.0);
-      bool is_zero = true;
-      for (std::size_t number = 0; number < count; ++number) {
-        const VectorMonomials::Kind& kind = degree == 0 ? scalar : monomials->kinds(degree)[number];
-        if (kind.degree_of_v != of_v) {
-          continue;
-        }
-        const double root = std::sqrt(kind.weight) * (1.0 + 0x1p-50);
-        for (std::size_t i = 0; i < vector.size(); ++i) {
-          const std::span<const double> block = vector[i].block(degree, number);
-          const double entry = place < block.size() ? block[place] * root : 0.0;
-          rows[i * count + number] = entry;
-          is_zero = is_zero && entry == 0.0;
-        }
-      }
-      if (is_zero) {
-        continue;
-      }
-      double norm = length_of(rows);
-      if (degree > 0 && vector.size() > 1) {
-        SymmetricMatrix gram(vector.size());
-        for (std::size_t i = 0; i < vector.size(); ++i) {
-          for (std::size_t j = 0; j <= i; ++j) {
-            double entry = 0.0;
-            for (std::size_t k = 0; k < count; ++k) {
-              entry += rows[i * count + k] * rows[j * count + k];
-            }
-            gram.add(i, j, entry);
-          }
-        }
-        spend(static_cast<std::int64_t>(vector.size()));
-        const double square = eigenvalue_bound(gram) + 0x1p-36 * norm * norm;
-        norm = std::min(norm, at_least(std::sqrt(at_least(square))));
-      }
-      parts_.push_back({degree - of_v, norm});
-      const Powers powers = powers_at(place);
-      by_phase_ += powers.of_s > 0 ? norm : 0.0;
-      by_frequency_ += powers.of_z > 0 ? norm : 0.0;
+  for (std::size_t form = 0; form < is_there.size(); ++form) {
+    if (is_there[form]) {
+      add_form(vector, monomials, degree, form);
     }
   }
 }
 
-/// Where N N'/t + B B'/(1 - t) has its least largest eigenvalue, in the middle of the part: a proposal.
-double LengthBound::proposed_share(double scale) const {
-  const auto share = [](double u) { return 1.0 / (1.0 + std::exp(-u)); };
-  const auto eigenvalue = [&](double u) {
-    SymmetricMatrix sum(size_);
-    sum.add(of_x_.terms[0], scale * scale / share(u));
-    sum.add(of_v_.terms[0], 1.0 / (1.0 - share(u)));
-    return near_largest_eigenvalue(sum);
-  };
-  // Golden sections.
+void LengthBound::add_form(const std::vector<BallPolynomial>& vector, const VectorMonomials& monomials,
+                           int degree, std::size_t form) {
+  std::vector<std::size_t> numbers;
+  int degree_in_x = 0;
+  for (std::size_t number = 0; number < monomials.count(degree); ++number) {
+    const VectorMonomials::Kind& kind = monomials.kinds(degree)[number];
+    if (kind.form == form) {
+      numbers.push_back(number);
+      degree_in_x = kind.degree_of_x;
+    }
+  }
+  const std::size_t count = numbers.size();
+  std::vector<double> rows(vector.size() * count);
+  for (std::size_t place = 0; place < places_up_to(BallPolynomial::kMostDegree - degree); ++place) {
+    bool is_zero = true;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double root = std::sqrt(monomials.kinds(degree)[numbers[k]].weight) * (1.0 + 0x1p-50);
+      for (std::size_t i = 0; i < vector.size(); ++i) {
+        const std::span<const double> block = vector[i].block(degree, numbers[k]);
+        rows[i * count + k] = place < block.size() ? block[place] * root : 0.0;
+        is_zero = is_zero && rows[i * count + k] == 0.0;
+      }
+    }
+    if (is_zero) {
+      continue;
+    }
+    double norm = length_of(rows);
+    if (count > 1 && vector.size() > 1) {
+      SymmetricMatrix gram(vector.size());
+      for (std::size_t i = 0; i < vector.size(); ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+          double entry = 0.0;
+          for (std::size_t k = 0; k < count; ++k) {
+            entry += rows[i * count + k] * rows[j * count + k];
+          }
+          gram.add(i, j, entry);
+        }
+      }
+      spend(static_cast<std::int64_t>(vector.size()));
+      const double square = eigenvalue_bound(gram) + 0x1p-36 * norm * norm;
+      norm = std::min(norm, at_least(std::sqrt(at_least(square))));
+    }
+    parts_.push_back({degree_in_x, norm});
+    const Powers powers = powers_at(place);
+    by_phase_ += powers.of_s > 0 ? norm : 0.0;
+    by_frequency_ += powers.of_z > 0 ? norm : 0.0;
+  }
+}
+
+std::vector<double> LengthBound::factors(const Shares& shares, double scale) const {
+  std::vector<double> result;
+  result.reserve(grams_.size());
+  for (std::size_t k = 0; k < grams_.size(); ++k) {
+    result.push_back((grams_[k].is_of_x ? scale * scale : 1.0) / shares[k]);
+  }
+  return result;
+}
+
+namespace {
+
+/// The least value of a function that falls and then rises, by golden sections.
+template <typename Function>
+double place_of_least(double low, double high, int sections, const Function& function) {
   constexpr double kRatio = 0.6180339887498949;
-  double low = -4.0;
-  double high = 12.0;
   double left = high - kRatio * (high - low);
   double right = low + kRatio * (high - low);
-  double at_left = eigenvalue(left);
-  double at_right = eigenvalue(right);
-  constexpr int kSections = 16;
-  for (int i = 0; i < kSections; ++i) {
+  double at_left = function(left);
+  double at_right = function(right);
+  for (int i = 0; i < sections; ++i) {
     if (at_left < at_right) {
       high = right;
       right = left;
       at_right = at_left;
       left = high - kRatio * (high - low);
-      at_left = eigenvalue(left);
+      at_left = function(left);
     } else {
       low = left;
       left = right;
       at_left = at_right;
       right = low + kRatio * (high - low);
-      at_right = eigenvalue(right);
+      at_right = function(right);
     }
   }
-  return share(0.5 * (low + high));
+  return 0.5 * (low + high);
 }
 
-// A polynomial of degree two in s and in z is a convex combination of its nine Bernstein coefficients: those
-// of 1, s, s^2 are (1, 1, 1), (-1, 0, 1), (1, -1, 1).
-bool LengthBound::linear_part_is_at_most(double square, double scale, double t) const {
+double share_of(double logit) {
+  return 1.0 / (1.0 + std::exp(-logit));
+}
+
+}  // namespace
+
+/// Where the largest eigenvalue is about the least, in the middle of the part: a proposal.
+LengthBound::Shares LengthBound::proposed_shares(double scale) const {
+  constexpr int kSections = 16;
+  constexpr int kSectionsInside = 10;
+  constexpr double kLow = -4.0;
+  constexpr double kHigh = 12.0;
+  const auto eigenvalue = [&](const Shares& shares) {
+    const std::vector<double> factor = factors(shares, scale);
+    SymmetricMatrix sum(size_);
+    for (std::size_t k = 0; k < grams_.size(); ++k) {
+      sum.add(grams_[k].terms[0], factor[k]);
+    }
+    return near_largest_eigenvalue(sum);
+  };
+  if (grams_.size() == 1) {
+    return {1.0};
+  }
+  if (grams_.size() == 2) {
+    const auto shares = [](double u) { return Shares{share_of(u), 1.0 - share_of(u)}; };
+    return shares(place_of_least(kLow, kHigh, kSections, [&](double u) { return eigenvalue(shares(u)); }));
+  }
+  const auto shares = [](double u, double v) {
+    const double rest = 1.0 - share_of(u);
+    return Shares{share_of(u), rest * share_of(v), rest * (1.0 - share_of(v))};
+  };
+  const auto best_inside = [&](double u) {
+    return place_of_least(-6.0, 6.0, kSectionsInside, [&](double v) { return eigenvalue(shares(u, v)); });
+  };
+  const double u = place_of_least(kLow, kHigh, kSectionsInside, [&](double outside) {
+    return eigenvalue(shares(outside, best_inside(outside)));
+  });
+  return shares(u, best_inside(u));
+}
+
+// With p + q + r <= 1, |N x + B v + D w|^2 <= |[N/sqrt p, B/sqrt q, D/sqrt r]|^2 (p |x|^2 + q |v|^2 + r
+// |w|^2). A polynomial of degree two in s and in z is a convex combination of its nine Bernstein
+// coefficients: those of 1, s, s^2 are (1, 1, 1), (-1, 0, 1), (1, -1, 1).
+bool LengthBound::linear_part_is_at_most(double square, double scale, const Shares& shares) const {
   constexpr std::array<std::array<double, kSide>, kSide> kBernstein{
       std::array<double, kSide>{1.0, -1.0, 1.0}, {1.0, 0.0, -1.0}, {1.0, 1.0, 1.0}};
-  const double factor_x = scale * scale / t;
-  const double factor_v = has_v_ ? 1.0 / (1.0 - t) : 0.0;
-  double slack = (of_x_.others + of_x_.rounding) * factor_x + (of_v_.others + of_v_.rounding) * factor_v;
-  for (std::size_t k = 0; k < kSide * kSide; ++k) {
-    slack +=
-        0x1p-44 * (of_x_.terms[k].length() * factor_x + (has_v_ ? of_v_.terms[k].length() * factor_v : 0.0));
+  double sum_of_shares = 0.0;
+  bool are_shares = true;
+  for (const double share : shares) {
+    are_shares = are_shares && share > 0x1p-50 && share <= 1.0;
+    sum_of_shares += share;
   }
+  if (!are_shares || !(sum_of_shares <= 1.0 + 0x1p-40)) {
+    return false;
+  }
+  const std::vector<double> factor = factors(shares, scale);
+  double slack = 0.0;
+  for (std::size_t k = 0; k < grams_.size(); ++k) {
+    slack += (grams_[k].others + grams_[k].rounding) * factor[k];
+    for (const SymmetricMatrix& term : grams_[k].terms) {
+      slack += 0x1p-44 * term.length() * factor[k];
+    }
+  }
+  // The sum of the shares may exceed 1 by so little.
   const double room = square * (1.0 - 0x1p-34) - at_least(slack);
   bool all = true;
   for (std::size_t p = 0; p < kSide && all; ++p) {
@@ -247,11 +311,8 @@ bool LengthBound::linear_part_is_at_most(double square, double scale, double t) 
       for (std::size_t l = 0; l < kSide; ++l) {
         for (std::size_t m = 0; m < kSide; ++m) {
           const double weight = kBernstein[p][l] * kBernstein[q][m];
-          if (weight != 0.0) {
-            control.add(of_x_.terms[l * kSide + m], weight * factor_x);
-            if (has_v_) {
-              control.add(of_v_.terms[l * kSide + m], weight * factor_v);
-            }
+          for (std::size_t k = 0; k < grams_.size() && weight != 0.0; ++k) {
+            control.add(grams_[k].terms[l * kSide + m], weight * factor[k]);
           }
         }
       }
@@ -273,18 +334,7 @@ bool LengthBound::is_at_most(double bound, double scale) const {
   }
   const double room = (bound - at_least(rest)) * (1.0 - 0x1p-34);
   const bool is_sensible = room > 0x1p-400 && room < 0x1p400 && scale > 0x1p-400 && scale <= 0x1p400;
-  if (!is_sensible) {
-    return false;
-  }
-  double share = 1.0;
-  if (has_v_) {
-    share = proposed_share(scale);
-    const bool is_share = share > 0x1p-50 && share < 1.0 - 0x1p-50;
-    if (!is_share) {
-      return false;
-    }
-  }
-  return linear_part_is_at_most(room * room, scale, share);
+  return is_sensible && linear_part_is_at_most(room * room, scale, proposed_shares(scale));
 }
 
 }  // namespace veritrack::checker

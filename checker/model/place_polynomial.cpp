@@ -78,10 +78,12 @@ CosineSine::CosineSine(const Ball& constant, const Ball& by_phase, const Ball& b
   sine = taylor({near_s, near_c, -near_s, -near_c, near_s}, a, b, error, size);
 }
 
-std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, std::size_t count) {
+std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, double error,
+                                             std::size_t count) {
   PlacePolynomial z;
   z.coefficients[place_of(0, 0)] = middle;
   z.coefficients[place_of(1, 1)] = half_width;
+  z.error = error;
   std::vector<PlacePolynomial> powers(1);
   powers[0].coefficients[0] = 1.0;
   while (powers.size() < count) {
@@ -121,7 +123,7 @@ BallPolynomial linear_combination(const std::vector<double>& factors,
   std::array<double, BallPolynomial::kPlaces> sum{};
   double error = 0.0;
   double size = 0.0;
-  std::size_t terms = 2;
+  std::size_t terms = 12;
   for (std::size_t i = 0; i < functions.size(); ++i) {
     const double factor = factors[i];
     if (factor == 0.0) {

@@ -93,6 +93,7 @@ std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, d
 }
 
 PlacePolynomial product_with_power(const PlacePolynomial& x, const PlacePolynomial& y) {
+  spend();
   PlacePolynomial result;
   double cut_off = 0.0;
   for (int power = 0; power <= BallPolynomial::kMostDegree; ++power) {

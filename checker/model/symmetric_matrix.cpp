@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "checker/numbers/budget.hpp"
+
 namespace veritrack::checker {
 
 double SymmetricMatrix::length() const {
@@ -60,6 +62,7 @@ bool certainly_bounded(const SymmetricMatrix& matrix, double bound CHECKER_DECLA
 // Jacobi's rotations.
 double near_largest_eigenvalue(const SymmetricMatrix& matrix) {
   const std::size_t n = matrix.size();
+  spend(1 + static_cast<std::int64_t>(n * n / 2));
   std::vector<double> a(n * n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {

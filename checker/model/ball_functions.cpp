@@ -7,6 +7,7 @@
 
 #include "checker/model/ball_polynomial.hpp"
 #include "checker/model/formula.hpp"
+#include "checker/model/rounding.hpp"
 #include "checker/numbers/budget.hpp"
 
 namespace veritrack::checker {
@@ -16,10 +17,6 @@ namespace {
 constexpr std::size_t kTerms = BallPolynomial::kMostDegree + 1;
 
 using ArbSeries = void (*)(arb_poly_struct*, const arb_poly_struct*, slong, slong);
-
-double rounded_up(double x) {
-  return x * (1.0 + 0x1p-34) + 0x1p-500;
-}
 
 /// f(at + t), the coefficients of t^0 to t^5: enclosures for all points of `at`.
 std::array<Ball, kTerms + 1> expansion(ArbSeries series, const Ball& at) {
@@ -47,7 +44,7 @@ BallPolynomial value_of_taylor(const std::array<Ball, kTerms + 1>& f, const Ball
   double error = remainder.upper_double();
   for (std::size_t k = kTerms; k-- > 0;) {
     near[k] = f[k].near();
-    error = rounded_up(error * size + abs(f[k] - Ball(near[k])).upper_double());
+    error = bound_on(error * size + abs(f[k] - Ball(near[k])).upper_double());
   }
   const BallPolynomial square = x * x;
   BallPolynomial high(near[2]);

@@ -2,18 +2,12 @@
 
 #include <cmath>
 
+#include "checker/model/rounding.hpp"
 #include "checker/numbers/budget.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-constexpr double kRounding = 0x1p-52;  // of any operation, in any mode
-
-/// At least x, whatever some 2^16 operations on non-negative numbers took away.
-double bound_on(double x) {
-  return x * (1.0 + 0x1p-34) + 0x1p-500;
-}
 
 constexpr std::size_t place_of(int degree, int of_z) {
   return static_cast<std::size_t>(degree * (degree + 1) / 2 + of_z);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "checker/model/rounding.hpp"
 #include "checker/numbers/budget.hpp"
 
 namespace veritrack::checker {
@@ -13,7 +14,7 @@ double SymmetricMatrix::length() const {
   for (const double entry : entries_) {
     sum += entry * entry;
   }
-  return std::sqrt(sum) * (1.0 + 0x1p-34) + 0x1p-500;
+  return bound_on(std::sqrt(sum));
 }
 
 double SymmetricMatrix::trace() const {

@@ -134,6 +134,8 @@ void check_step(const Tracked& tracked, double radius, double noise, double slew
       const double zeta = random.below(2) == 0 ? 1.0 : random.uniform(-1.0, 1.0);
       std::vector<Ball> xi;
       std::vector<Ball> error;
+      xi.reserve(x.size());
+      error.reserve(v.size());
       for (const double component : x) {
         xi.push_back(Ball(radius) * Ball(component));
       }

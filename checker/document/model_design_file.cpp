@@ -43,7 +43,8 @@ class CertificateSays {
           break;
         }
         for (const auto& [name, member] : value.members()) {
-          add(path.empty() ? name : path + "." + name, member);
+          std::string inside = path;
+          add(inside.append(path.empty() ? "" : ".").append(name), member);
         }
         break;
       default:

@@ -7,6 +7,7 @@
 
 #include "checker/model/ball_polynomial.hpp"
 #include "checker/model/formula.hpp"
+#include "checker/model/rounding.hpp"
 #include "checker/numbers/budget.hpp"
 
 namespace veritrack::checker {
@@ -16,10 +17,6 @@ namespace {
 constexpr std::size_t kTerms = BallPolynomial::kMostDegree + 1;
 
 using ArbSeries = void (*)(arb_poly_struct*, const arb_poly_struct*, slong, slong);
-
-double rounded_up(double x) {
-  return x * (1.0 + 0x1p-34) + 0x1p-500;
-}
 
 /// f(at + t), the coefficients of t^0 to t^5: enclosures for all points of `at`.
 std::array<Ball, kTerms + 1> expansion(ArbSeries series, const Ball& at) {
@@ -47,7 +44,7 @@ BallPolynomial value_of_taylor(const std::array<Ball, kTerms + 1>& f, const Ball
   double error = remainder.upper_double();
   for (std::size_t k = kTerms; k-- > 0;) {
     near[k] = f[k].near();
-    error = rounded_up(error * size + abs(f[k] - Ball(near[k])).upper_double());
+    error = bound_on(error * size + abs(f[k] - Ball(near[k])).upper_double());
   }
   const BallPolynomial square = x * x;
   BallPolynomial high(near[2]);
@@ -99,8 +96,23 @@ BallPolynomial wave(const BallPolynomial& x, bool is_cosine) {
 
 }  // namespace
 
+// 1/(c + d) less its Taylor polynomial of degree four is -d^5/(c^5 (c + d)).
 BallPolynomial reciprocal(const BallPolynomial& x) {
-  return function_of(arb_poly_inv_series, x);
+  const Ball middle(x.constant());
+  const Ball all = x.range();
+  const Ball size = abs(all - middle).upper();
+  const Ball least = abs(middle) - size;
+  if (!x.known() || !certainly_positive(least)) {
+    return BallPolynomial::everything();
+  }
+  spend(static_cast<std::int64_t>(kTerms));
+  std::array<Ball, kTerms + 1> coefficients;
+  coefficients[0] = one / middle;
+  for (std::size_t k = 1; k <= kTerms; ++k) {
+    coefficients[k] = -(coefficients[k - 1] * coefficients[0]);
+  }
+  const BallPolynomial deviation = x - BallPolynomial(x.constant());
+  return value_of_taylor(coefficients, deviation, size.upper_double(), abs(coefficients[kTerms - 1]) / least);
 }
 BallPolynomial sqrt(const BallPolynomial& x) {
   return certainly_positive(x.range()) ? function_of(arb_poly_sqrt_series, x) : BallPolynomial::everything();

@@ -1,10 +1,10 @@
-// Functions of a vector x in a ball |x| <= 1, a vector v in another, |v| <= 1, and two places s, z in [-1, 1]
-// of a cell: a polynomial of degree at most three in x and v together and at most four in all, and a bound on
+// Functions of vectors x, v and w in balls |x| <= 1, |v| <= 1, |w| <= 1, and two places s, z in [-1, 1] of a
+// cell: a polynomial of degree at most three in the vectors together and at most four in all, and a bound on
 // the distance from it.
 //
-// The coefficients of all x^a v^b with |a| = j, |b| = k that stand with one s^l z^m are a form, whose
-// Bombieri norm [p]^2 = sum |c_ab|^2 a!/|a|! b!/|b|! bounds it on the balls; [pq] <= [p][q] (Beauzamy,
-// Bombieri, Enflo, Montgomery), so that norms bound what is cut off of products, too.
+// The coefficients of all x^a v^b w^c of the same degrees |a|, |b|, |c| that stand with one s^l z^m are a
+// form, whose Bombieri norm [p]^2 = sum |p_abc|^2 a!/|a|! b!/|b|! c!/|c|! bounds it on the balls; [pq] <=
+// [p][q] (Beauzamy, Bombieri, Enflo, Montgomery), so that norms bound what is cut off of products, too.
 //
 // Coefficients are doubles. Whatever the mode of rounding, an operation of doubles is wrong by at most
 // 2^-52 of its result or of the subnormal unit: that goes into the bound, generously.
@@ -42,7 +42,7 @@ class BallPolynomial {
   /// s and z.
   static BallPolynomial phase();
   static BallPolynomial frequency();
-  /// A component of x, or of v. The monomials must outlive all that is computed.
+  /// A component of one of the vectors. The monomials must outlive all that is computed.
   static BallPolynomial variable(const VectorMonomials& monomials, std::size_t number);
   /// constant + by_phase s + by_frequency z, up to an error.
   static BallPolynomial affine(double constant, double by_phase, double by_frequency, double error);

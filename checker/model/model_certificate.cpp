@@ -19,12 +19,10 @@ std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const ModelDesig
   for (const Tree& tree : tubes.elements()) {
     Objections objections;
     TubeSet set = read_tube_set(tree, model.recursion->states(), objections);
-    const bool is_known = set.name == "starts" || set.name == "assumed" || set.name == "noise";
+    const bool is_known =
+        set.name == "starts" || set.name == "assumed" || set.name == "noise" || set.name == "slew";
     if (!is_known || !names.insert(set.name).second) {
       objections.emplace_back(is_known ? "a second set of this name" : kUnknown);
-    }
-    if (!certainly_equal(Ball(set.slew), zero)) {
-      objections.emplace_back("sets for a frequency that moves are not known to this checker");
     }
     check_cover(set, design.lowest, design.highest, objections);
     if (objections.empty()) {

@@ -130,10 +130,10 @@ Claim ModelClaims::settling() const {
   found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
                     words_.assumed_start() + ", " + short_text(kSettlingTime) + ".";
   // The last level that is reached in time.
-  const auto level = [this](const Tube& tube) {
+  const auto level = [this, set](const Tube& tube) {
     std::size_t reached = 0;
     while (reached < last_level(tube) &&
-           certainly_at_most(samples_to_level(tube, reached + 1), design_->settles_within->value)) {
+           certainly_at_most(samples_to_level(*set, tube, reached + 1), design_->settles_within->value)) {
       ++reached;
     }
     return reached;

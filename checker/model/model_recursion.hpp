@@ -157,6 +157,7 @@ std::vector<Scalar> ModelRecursion::next_of_filter(const std::vector<Scalar>& st
     }
   }
   std::vector<Scalar> predicted_estimate;
+  predicted_estimate.reserve(predicted.size());
   for (const Jet<Scalar>& each : predicted) {
     predicted_estimate.push_back(each.value);
   }

@@ -2,18 +2,12 @@
 
 #include <cmath>
 
+#include "checker/model/rounding.hpp"
 #include "checker/numbers/budget.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-constexpr double kRounding = 0x1p-52;  // of any operation, in any mode
-
-/// At least x, whatever some 2^16 operations on non-negative numbers took away.
-double bound_on(double x) {
-  return x * (1.0 + 0x1p-34) + 0x1p-500;
-}
 
 constexpr std::size_t place_of(int degree, int of_z) {
   return static_cast<std::size_t>(degree * (degree + 1) / 2 + of_z);
@@ -78,10 +72,12 @@ CosineSine::CosineSine(const Ball& constant, const Ball& by_phase, const Ball& b
   sine = taylor({near_s, near_c, -near_s, -near_c, near_s}, a, b, error, size);
 }
 
-std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, std::size_t count) {
+std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, double error,
+                                             std::size_t count) {
   PlacePolynomial z;
   z.coefficients[place_of(0, 0)] = middle;
   z.coefficients[place_of(1, 1)] = half_width;
+  z.error = error;
   std::vector<PlacePolynomial> powers(1);
   powers[0].coefficients[0] = 1.0;
   while (powers.size() < count) {
@@ -91,6 +87,7 @@ std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, s
 }
 
 PlacePolynomial product_with_power(const PlacePolynomial& x, const PlacePolynomial& y) {
+  spend();
   PlacePolynomial result;
   double cut_off = 0.0;
   for (int power = 0; power <= BallPolynomial::kMostDegree; ++power) {
@@ -121,7 +118,7 @@ BallPolynomial linear_combination(const std::vector<double>& factors,
   std::array<double, BallPolynomial::kPlaces> sum{};
   double error = 0.0;
   double size = 0.0;
-  std::size_t terms = 2;
+  std::size_t terms = 12;
   for (std::size_t i = 0; i < functions.size(); ++i) {
     const double factor = factors[i];
     if (factor == 0.0) {

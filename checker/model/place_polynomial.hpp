@@ -25,13 +25,15 @@ struct CosineSine {
   CosineSine(const Ball& constant, const Ball& by_phase, const Ball& by_frequency);
 };
 
-/// (middle + half_width z)^d for d = 0, 1, ...: so many of them. middle and half_width are at most 1.
-std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, std::size_t count);
+/// y^d for d = 0, 1, ...: so many of them, where y is within `error` of middle + half_width z.
+std::vector<PlacePolynomial> powers_of_place(double middle, double half_width, double error,
+                                             std::size_t count);
 
 /// x y, where y is a function of z alone.
 PlacePolynomial product_with_power(const PlacePolynomial& x, const PlacePolynomial& y);
 
-/// The sum of factors times functions, of which there are as many.
+/// The sum of factors times functions, of which there are as many. Factors may be wrong by up to eight
+/// roundings.
 BallPolynomial linear_combination(const std::vector<double>& factors,
                                   const std::vector<PlacePolynomial>& functions);
 

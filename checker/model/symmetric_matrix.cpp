@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "checker/model/rounding.hpp"
+#include "checker/numbers/budget.hpp"
+
 namespace veritrack::checker {
 
 double SymmetricMatrix::length() const {
@@ -11,7 +14,7 @@ double SymmetricMatrix::length() const {
   for (const double entry : entries_) {
     sum += entry * entry;
   }
-  return std::sqrt(sum) * (1.0 + 0x1p-34) + 0x1p-500;
+  return bound_on(std::sqrt(sum));
 }
 
 double SymmetricMatrix::trace() const {
@@ -60,6 +63,7 @@ bool certainly_bounded(const SymmetricMatrix& matrix, double bound CHECKER_DECLA
 // Jacobi's rotations.
 double near_largest_eigenvalue(const SymmetricMatrix& matrix) {
   const std::size_t n = matrix.size();
+  spend(1 + static_cast<std::int64_t>(n * n / 2));
   std::vector<double> a(n * n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {

@@ -4,51 +4,69 @@
 #include <cmath>
 
 #include "checker/model/length_bound.hpp"
+#include "checker/model/tube_borders.hpp"
 #include "checker/model/turn_count.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
-std::size_t pairs_of(const Tube& tube) {
-  return std::max<std::size_t>(tube.levels.size(), 2) - 1;
-}
-
-/// Between the levels number j and j + 1, with a bound on F for |xi| <= R_j.
-bool shrinks(const LengthBound& step, const Tube& tube, std::size_t j) {
+/// Between the levels number j and j + 1, with a bound on F for |xi| <= R_j. `low_end`: R_{j+1}, or a little
+/// less.
+bool shrinks(const LengthBound& step, const Tube& tube, std::size_t j, double low_end) {
   constexpr double kDown = 1.0 - 0x1p-48;
   constexpr double kUp = 1.0 + 0x1p-48;
   const double rate = tube.shrinking[j] * kDown;
-  const bool at_high_end = step.is_at_most(rate * tube.levels[j], 1.0);
+  const bool at_high_end = step.is_at_most(rate * tube.levels[j] * kDown, 1.0);
   if (!at_high_end || tube.levels.size() == 1) {
     return at_high_end;
   }
-  const double low_end = tube.levels[j + 1];
-  return step.is_at_most(rate * low_end, low_end / tube.levels[j] * kUp);
+  return step.is_at_most(rate * low_end * kDown, low_end / tube.levels[j] * kUp);
+}
+
+/// The number of samples in which r falls from `from` to `to` when each multiplies it by `rate`.
+Ball samples_between(const Ball& from, const Ball& to, const Ball& rate) {
+  const Ball samples = log(to / from) / log(rate);
+  // A whole number that is enough, or the next one.
+  const double near = std::round(samples.near());
+  bool is_enough = near >= 0.0 && near < 1e15;
+  if (is_enough) {
+    Ball power;
+    arb_pow_ui(power.raw(), rate.raw(), static_cast<ulong>(near), precision());
+    is_enough = certainly_at_most(power * from, to);
+  }
+  return Ball(is_enough ? near : std::ceil(samples.upper_double()));
 }
 
 }  // namespace
 
 bool TubeCheck::is_never_left(Objections& objections) const {
   const ModelRecursion& recursion = *model_->recursion;
+  const std::size_t before = objections.size();
   if (const std::string objection = angle_objection(recursion); !objection.empty()) {
     objections.push_back(objection);
-    return false;
   }
   for (const Tube& tube : set_->tubes) {
     for (std::size_t i = 0; i < recursion.states(); ++i) {
       if (tube.turns.at(i) != 0 && !recursion.is_angle()[i]) {
         objections.emplace_back("the curve turns in a state that is no angle");
-        return false;
       }
     }
   }
   const bool is_noisy = !certainly_equal(Ball(set_->noise), zero);
-  const VectorMonomials monomials(recursion.states(), is_noisy ? recursion.samples() : 0);
-  const auto grid = [](const Tube& tube) { return FirstGrid{tube.phases, tube.frequencies}; };
-  const auto ask = [&](const Tube& tube, const TubePart& part, const std::vector<std::size_t>& pairs) {
+  const bool moves = !certainly_equal(Ball(set_->slew), zero);
+  if (moves) {
+    check_common_levels(*set_, objections);
+  }
+  if (objections.size() > before) {
+    return false;
+  }
+  const VectorMonomials monomials(recursion.states(), is_noisy ? recursion.samples() : 0, moves ? 1 : 0);
+  const std::vector<Ball> common = common_levels(*set_);
+  const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& pairs) {
+    const Tube& tube = set_->tubes[number];
     PartAnswer answer;
-    const TubeStep step(*model_, tube, part);
+    const TubeStep step(*model_, tube, part, monomials, set_->slew);
     if (!step.has_shape()) {
       answer.open = pairs;
       return answer;
@@ -57,8 +75,11 @@ bool TubeCheck::is_never_left(Objections& objections) const {
     double by_frequency = 0.0;
     for (const std::size_t j : pairs) {
       const double radius = tube.levels[j];
-      const LengthBound bound(step.map(monomials, radius, set_->noise));
-      if (!shrinks(bound, tube, j)) {
+      const LengthBound bound(step.map(radius, set_->noise));
+      const double low_end = tube.levels.size() == 1 ? radius
+                             : moves                 ? (common[j + 1] * Ball(tube.levels[0])).lower_double()
+                                                     : tube.levels[j + 1];
+      if (!shrinks(bound, tube, j, low_end)) {
         answer.open.push_back(j);
         by_phase += bound.by_phase() / radius;
         by_frequency += bound.by_frequency() / radius;
@@ -67,29 +88,34 @@ bool TubeCheck::is_never_left(Objections& objections) const {
     answer.halve_frequencies = by_frequency > by_phase;
     return answer;
   };
-  const bool certain = certain_everywhere(set_->tubes, grid, pairs_of, ask, *cells_);
-  if (!certain) {
-    objections.emplace_back("a step may leave the tube, or not shrink as much as is said");
+  std::vector<FirstGrid> grids;
+  grids.reserve(set_->tubes.size());
+  for (const Tube& tube : set_->tubes) {
+    grids.push_back({tube.phases, tube.frequencies, pairs_of(tube)});
   }
-  return certain;
+  if (!certain_everywhere(grids, ask, *cells_)) {
+    objections.emplace_back("a step may leave the tube, or not shrink as much as is said");
+  } else if (moves && !crosses_borders(*set_, recursion.states(), *cells_)) {
+    objections.emplace_back("a tube may be left where the frequency crosses the border of a cell");
+  }
+  return objections.size() == before;
 }
 
-Ball samples_to_level(const Tube& tube, std::size_t level) {
+Ball samples_to_level(const TubeSet& set, const Tube& tube, std::size_t level) {
+  const bool moves = !certainly_equal(Ball(set.slew), zero);
+  const std::vector<Ball> common = common_levels(set);
   Ball sum;
   for (std::size_t j = 0; j < level; ++j) {
-    const Ball from(tube.levels.at(j));
-    const Ball to(tube.levels.at(j + 1));
-    const Ball rate(tube.shrinking.at(j));
-    const Ball samples = log(to / from) / log(rate);
-    // A whole number that is enough, or the next one.
-    const double near = std::round(samples.near());
-    bool is_enough = near >= 0.0 && near < 1e15;
-    if (is_enough) {
-      Ball power;
-      arb_pow_ui(power.raw(), rate.raw(), static_cast<ulong>(near), precision());
-      is_enough = certainly_at_most(power * from, to);
+    if (!moves) {
+      sum +=
+          samples_between(Ball(tube.levels.at(j)), Ball(tube.levels.at(j + 1)), Ball(tube.shrinking.at(j)));
+      continue;
     }
-    sum += Ball(is_enough ? near : std::ceil(samples.upper_double()));
+    Ball rate(set.crossing.at(j));
+    for (const Tube& each : set.tubes) {
+      rate = max(rate, Ball(each.shrinking.at(j)));
+    }
+    sum += samples_between(common.at(j), common.at(j + 1), rate);
   }
   return sum.upper();
 }

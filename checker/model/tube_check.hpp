@@ -16,11 +16,12 @@ class TubeCheck {
   TubeCheck(const TrackedModel& model, const TubeSet& set, std::int64_t& cells)
       : model_(&model), set_(&set), cells_(&cells) {}
 
-  /// For all phases, all frequencies of the cells and |v| <= noise: |F| <= shrinking_j r for all |xi| <= r,
-  /// for all r from R_{j+1} to R_j; with one level, |F| <= shrinking_0 R_0 for |xi| <= R_0. (A bound that is
-  /// made of terms of degree a in xi times the a-th power of the scale, and an error that is kept, is convex
-  /// in the scale: the ends decide.) Also: the shape is one, everything is defined, only angles turn, and
-  /// angles are known modulo 2 pi.
+  /// For all phases, all frequencies of the cells, |v| <= noise and a frequency that moves by at most the
+  /// slew: |F| <= shrinking_j r for all |xi| <= r, for all r from R_{j+1} to R_j; with one level, |F| <=
+  /// shrinking_0 R_0 for |xi| <= R_0. (A bound that is made of terms of degree a in xi times the a-th power
+  /// of the scale, and an error that is kept, is convex in the scale: the ends decide.) With slew, also the
+  /// borders of the cells, which must be in order (tube_borders.hpp). The shape is one, everything is
+  /// defined, only angles turn, and angles are known modulo 2 pi.
   [[nodiscard]] bool is_never_left(Objections& objections) const;
 
   /// |h - omega| < bound, or <= bound, at all states of the level with this number.
@@ -60,7 +61,8 @@ class TubeCheck {
 inline std::size_t last_level(const Tube& tube) {
   return tube.levels.size() - 1;
 }
-/// After how many samples a state of level R_0 is at level R_j for ever.
-Ball samples_to_level(const Tube& tube, std::size_t level);
+/// After how many samples a state of level R_0 of this tube of the set is at level R_j for ever: of all tubes
+/// that the frequency moves through.
+Ball samples_to_level(const TubeSet& set, const Tube& tube, std::size_t level);
 
 }  // namespace veritrack::checker

@@ -20,7 +20,7 @@ struct OpenPart {
   int halvings = 0;
 };
 
-bool is_certain(const Tube& tube, const TubePart& first, std::size_t count, const PartQuestion& ask,
+bool is_certain(std::size_t tube, const TubePart& first, std::size_t count, const PartQuestion& ask,
                 std::int64_t& cells) {
   std::vector<std::size_t> all(count);
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -49,33 +49,33 @@ bool is_certain(const Tube& tube, const TubePart& first, std::size_t count, cons
 
 }  // namespace
 
-bool certain_everywhere(const std::vector<Tube>& tubes, const std::function<FirstGrid(const Tube&)>& grid,
-                        const std::function<std::size_t(const Tube&)>& count, const PartQuestion& ask,
-                        std::int64_t& cells) {
+bool certain_everywhere(const std::vector<FirstGrid>& tubes, const PartQuestion& ask, std::int64_t& cells) {
   struct Item {
-    const Tube* tube;
+    std::size_t tube;
     TubePart part;
   };
   std::vector<Item> items;
-  for (const Tube& tube : tubes) {
-    const FirstGrid parts = grid(tube);
+  bool all_are_asked = !tubes.empty();
+  for (std::size_t tube = 0; tube < tubes.size(); ++tube) {
+    const FirstGrid& parts = tubes[tube];
     spend(static_cast<std::int64_t>(parts.phases * parts.frequencies));
+    all_are_asked = all_are_asked && parts.phases > 0 && parts.frequencies > 0 && parts.questions > 0;
     for (std::size_t q = 0; q < parts.frequencies; ++q) {
       for (std::size_t p = 0; p < parts.phases; ++p) {
-        items.push_back({&tube, TubePart::of_grid(p, parts.phases, q, parts.frequencies)});
+        items.push_back({tube, TubePart::of_grid(p, parts.phases, q, parts.frequencies)});
       }
     }
   }
   std::atomic<std::int64_t> all_cells = 0;
   const std::size_t failed = first_failure(items.size(), [&](std::size_t k) {
     std::int64_t of_item = 0;
-    const Tube& tube = *items[k].tube;
-    const bool certain = is_certain(tube, items[k].part, count(tube), ask, of_item);
+    const std::size_t tube = items[k].tube;
+    const bool certain = is_certain(tube, items[k].part, tubes[tube].questions, ask, of_item);
     all_cells += of_item;
     return certain;
   });
   cells += all_cells;
-  return !items.empty() && failed == items.size();
+  return all_are_asked && failed == items.size();
 }
 
 }  // namespace veritrack::checker

@@ -18,20 +18,21 @@ struct PartAnswer {
   std::vector<std::size_t> open;
   bool halve_frequencies = false;
 };
-/// Asks some questions of a part. Called from several threads.
-using PartQuestion = std::function<PartAnswer(const Tube& tube, const TubePart& part,
+/// Asks some questions of a part of a tube, or of something else with this number. Called from several
+/// threads.
+using PartQuestion = std::function<PartAnswer(std::size_t number, const TubePart& part,
                                               const std::vector<std::size_t>& questions)>;
-/// How many parts of a turn, and of the frequencies of the tube, to begin with: powers of two.
+/// How many parts of a turn, and of the frequencies of the tube, to begin with: powers of two; and how many
+/// questions there are.
 struct FirstGrid {
   std::size_t phases = 32;
   std::size_t frequencies = 1;
+  std::size_t questions = 1;
 };
 
-/// True only when the answer is certain on parts that cover all phases and frequencies of all tubes, for all
-/// questions 0 to count(tube) - 1 of each tube. Gives up where the middle of a part fails. Adds the parts to
+/// True only when the answer is certain on parts that cover all phases and frequencies of all tubes, number
+/// 0, 1, ..., and there are tubes and questions. Gives up where the middle of a part fails. Adds the parts to
 /// `cells`.
-bool certain_everywhere(const std::vector<Tube>& tubes, const std::function<FirstGrid(const Tube&)>& grid,
-                        const std::function<std::size_t(const Tube&)>& count, const PartQuestion& ask,
-                        std::int64_t& cells);
+bool certain_everywhere(const std::vector<FirstGrid>& tubes, const PartQuestion& ask, std::int64_t& cells);
 
 }  // namespace veritrack::checker

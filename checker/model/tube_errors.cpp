@@ -50,12 +50,6 @@ Ball length_of_vector(const std::vector<BallPolynomial>& vector) {
   return sum + root_of_non_negative(errors);
 }
 
-FirstGrid usual_grid(const Tube& /*tube*/) {
-  return {};
-}
-std::size_t one_question(const Tube& /*tube*/) {
-  return 1;
-}
 PartAnswer answer_of(bool certain, const Extent& extent) {
   return {certain ? std::vector<std::size_t>() : std::vector<std::size_t>{0}, extent.is_in_frequency()};
 }
@@ -82,7 +76,8 @@ std::vector<double> steepest(const BallPolynomial& error, std::size_t states) {
 bool TubeCheck::error_is_within(const std::function<std::size_t(const Tube&)>& level, const Ball& bound,
                                 bool strictly) const {
   const VectorMonomials monomials(model_->recursion->states(), 0);
-  const auto ask = [&](const Tube& tube, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
+  const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
+    const Tube& tube = set_->tubes[number];
     const TubeOver over(tube, part, false);
     const double radius = tube.levels.at(level(tube));
     const BallPolynomial error =
@@ -92,13 +87,14 @@ bool TubeCheck::error_is_within(const std::function<std::size_t(const Tube&)>& l
     extent.add(error);
     return answer_of(strictly ? certainly_less(size, bound) : certainly_at_most(size, bound), extent);
   };
-  return certain_everywhere(set_->tubes, usual_grid, one_question, ask, *cells_);
+  return certain_everywhere(std::vector<FirstGrid>(set_->tubes.size()), ask, *cells_);
 }
 
 bool TubeCheck::contains_errors(const Ball& reach) const {
   const std::size_t n = model_->recursion->states();
   const VectorMonomials monomials(n, 0);
-  const auto ask = [&](const Tube& tube, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
+  const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
+    const Tube& tube = set_->tubes[number];
     const double radius = tube.levels.front();
     const TubePart middle = part.middle();
     const std::vector<double> direction =
@@ -120,7 +116,7 @@ bool TubeCheck::contains_errors(const Ball& reach) const {
     }
     return answer_of(certain, extent);
   };
-  return certain_everywhere(set_->tubes, usual_grid, one_question, ask, *cells_);
+  return certain_everywhere(std::vector<FirstGrid>(set_->tubes.size()), ask, *cells_);
 }
 
 bool TubeCheck::contains_starts(const std::vector<Ball>& deviations) const {
@@ -136,7 +132,8 @@ bool TubeCheck::contains_starts(const std::vector<Ball>& deviations) const {
   }
   // A convex function is greatest at a corner, and it is even: the first sign may be chosen.
   const std::size_t corners = moved.empty() ? 1 : std::size_t{1} << (moved.size() - 1);
-  const auto ask = [&](const Tube& tube, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
+  const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
+    const Tube& tube = set_->tubes[number];
     const TubeOver over(tube, part, false);
     bool certain = over.has_shape();
     Extent extent;
@@ -154,7 +151,7 @@ bool TubeCheck::contains_starts(const std::vector<Ball>& deviations) const {
     }
     return answer_of(certain, extent);
   };
-  return certain_everywhere(set_->tubes, usual_grid, one_question, ask, *cells_);
+  return certain_everywhere(std::vector<FirstGrid>(set_->tubes.size()), ask, *cells_);
 }
 
 bool TubeCheck::holds_for_turns(

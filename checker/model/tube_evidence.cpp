@@ -10,6 +10,8 @@ namespace veritrack::checker {
 namespace {
 
 constexpr std::size_t kMostParts = 1U << 16U;
+constexpr std::size_t kMostPowers = 32;
+constexpr std::size_t kMostHarmonics = 512;
 
 double double_from(const Tree& number) {
   const Ball exact = exact_number(number);
@@ -41,6 +43,9 @@ std::vector<PhaseSeries> series_from(const Tree& list) {
         }
         all.back().back().emplace_back(double_from(coefficient.at(0)), double_from(coefficient.at(1)));
       }
+      if (all.back().back().size() > kMostPowers || all.back().size() > kMostHarmonics) {
+        throw Malformed("a series of too many terms");
+      }
     }
   }
   return all;
@@ -67,7 +72,7 @@ bool is_falling(const std::vector<double>& levels) {
 /// In (0, 1], and below 1 when there are levels to come down.
 bool is_shrinking(const Tube& tube) {
   const bool has_one_level = tube.levels.size() <= 1;
-  return tube.shrinking.size() == std::max<std::size_t>(tube.levels.size(), 2) - 1 &&
+  return tube.shrinking.size() == pairs_of(tube) &&
          std::all_of(tube.shrinking.begin(), tube.shrinking.end(), [&](double rate) {
            return certainly_positive(Ball(rate)) &&
                   (has_one_level ? certainly_at_most(Ball(rate), one) : certainly_less(Ball(rate), one));
@@ -117,6 +122,9 @@ TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objection
   result.noise = double_from(set.at("noise"));
   if (!certainly_not_negative(Ball(result.slew)) || !certainly_not_negative(Ball(result.noise))) {
     objections.emplace_back("slew and noise must not be negative");
+  }
+  if (certainly_positive(Ball(result.slew))) {
+    result.crossing = doubles_from(set.at("crossing"));
   }
   for (const Tree& cell : set.at("cells").elements()) {
     result.tubes.push_back(tube_from(cell, states, objections));

@@ -33,8 +33,14 @@ struct TubeSet {
   std::string name;
   double slew = 0.0;
   double noise = 0.0;
+  std::vector<double> crossing;  ///< of relative levels at the borders of cells; with slew only
   std::vector<Tube> tubes;
 };
+
+/// How many pairs of neighbouring levels a tube has; one if there is one level.
+inline std::size_t pairs_of(const Tube& tube) {
+  return tube.levels.size() > 1 ? tube.levels.size() - 1 : 1;
+}
 
 /// Reads a set for a tracker with so many states. Objects to what cannot be one: levels or rates out of their
 /// order, widths that are not positive, wrong numbers of states. Throws Malformed or std::invalid_argument

@@ -23,7 +23,7 @@ class HarmonicBasis {
         }
       }
     }
-    const std::vector<PlacePolynomial> powers = powers_of_place(part.z, part.half_z, powers_);
+    const std::vector<PlacePolynomial> powers = powers_of_place(part.z, part.half_z, part.z_error, powers_);
     const Ball turn = two * pi();
     const Ball width = Ball(tube.half_width);
     for (std::size_t h = 0; h < most_harmonics; ++h) {
@@ -45,19 +45,37 @@ class HarmonicBasis {
   }
 
   /// The value of a series.
-  [[nodiscard]] BallPolynomial value(const PhaseSeries& series) const {
+  [[nodiscard]] BallPolynomial value(const PhaseSeries& series) const { return taylor_term(series, 0); }
+  /// The value where z has moved.
+  [[nodiscard]] BallPolynomial value(const PhaseSeries& series, const FrequencyMove* move) const {
+    BallPolynomial sum = taylor_term(series, 0);
+    if (move == nullptr) {
+      return sum;
+    }
+    BallPolynomial power(1.0);
+    for (std::size_t k = 1; k < powers_; ++k) {
+      power = power * move->zeta * BallPolynomial(move->most);
+      sum += power * taylor_term(series, k);
+    }
+    return sum;
+  }
+
+ private:
+  /// The coefficient of y^k in the value at z + y: z^d becomes (d over k) z^(d - k).
+  [[nodiscard]] BallPolynomial taylor_term(const PhaseSeries& series, std::size_t k) const {
     std::vector<double> factors(functions_.size(), 0.0);
     for (std::size_t h = 0; h < series.size(); ++h) {
-      for (std::size_t d = 0; d < series[h].size(); ++d) {
-        const std::size_t at = 2 * (h * powers_ + d);
-        factors.at(at) = series[h][d].real();
-        factors.at(at + 1) = h > 0 ? -series[h][d].imag() : 0.0;
+      double binomial = 1.0;
+      for (std::size_t d = k; d < series[h].size(); ++d) {
+        const std::size_t at = 2 * (h * powers_ + d - k);
+        factors.at(at) = binomial * series[h][d].real();
+        factors.at(at + 1) = h > 0 ? -binomial * series[h][d].imag() : 0.0;
+        binomial = binomial * static_cast<double>(d + 1) / static_cast<double>(d + 1 - k);
       }
     }
     return linear_combination(factors, functions_);
   }
 
- private:
   std::size_t powers_ = 1;
   std::vector<PlacePolynomial> functions_;
 };
@@ -82,23 +100,23 @@ TubePart TubePart::of_grid(std::size_t phase, std::size_t phases, std::size_t fr
 
 TubePart TubePart::half_of_phases(bool second) const {
   const double less = half_turn / 2.0;
-  return {second ? turn + less : turn - less, less, z, half_z};
+  return {second ? turn + less : turn - less, less, z, half_z, z_error};
 }
 
 TubePart TubePart::half_of_frequencies(bool second) const {
   const double less = half_z / 2.0;
-  return {turn, half_turn, second ? z + less : z - less, less};
+  return {turn, half_turn, second ? z + less : z - less, less, z_error};
 }
 
-TubeOver::TubeOver(const Tube& tube, const TubePart& part, bool later) {
+TubeOver::TubeOver(const Tube& tube, const TubePart& part, bool later, const FrequencyMove* move) {
   const HarmonicBasis basis(tube, part, later);
   const BallPolynomial phase = phase_over(tube, part, later);
   for (std::size_t i = 0; i < tube.curve.size(); ++i) {
-    curve.push_back(basis.value(tube.curve[i]));
+    curve.push_back(basis.value(tube.curve[i], move));
     curve.back() += BallPolynomial(static_cast<double>(tube.turns[i])) * phase;
   }
   for (const PhaseSeries& entry : tube.shape) {
-    shape.push_back(basis.value(entry));
+    shape.push_back(basis.value(entry, move));
   }
 }
 
@@ -147,28 +165,38 @@ BallPolynomial frequency_error(const TrackedModel& model, const Tube& tube, cons
 
 std::vector<BallPolynomial> components(const VectorMonomials& monomials) {
   std::vector<BallPolynomial> xi;
-  for (std::size_t i = 0; i < monomials.balls(); ++i) {
+  for (std::size_t i = 0; i < monomials.size(0); ++i) {
     xi.push_back(BallPolynomial::variable(monomials, i));
   }
   return xi;
 }
 
-TubeStep::TubeStep(const TrackedModel& model, const Tube& tube, const TubePart& part)
+TubeOver TubeStep::after_step(const Tube& tube, const TubePart& part, double slew) const {
+  if (slew == 0.0) {
+    return {tube, part, true};
+  }
+  const FrequencyMove move{Ball(slew) / Ball(tube.half_width),
+                           BallPolynomial::variable(*monomials_, monomials_->first(2))};
+  return {tube, part, true, &move};
+}
+
+TubeStep::TubeStep(const TrackedModel& model, const Tube& tube, const TubePart& part,
+                   const VectorMonomials& monomials, double slew)
     : model_(&model),
+      monomials_(&monomials),
       here_(tube, part, false),
-      there_(tube, part, true),
+      there_(after_step(tube, part, slew)),
       signal_(model.recursion->signal(BallPolynomial(model.amplitude), phase_over(tube, part, true))) {}
 
-std::vector<BallPolynomial> TubeStep::map(const VectorMonomials& monomials, double radius,
-                                          double noise) const {
+std::vector<BallPolynomial> TubeStep::map(double radius, double noise) const {
   std::vector<BallPolynomial> samples = signal_;
   if (noise != 0.0) {
     for (std::size_t c = 0; c < samples.size(); ++c) {
-      samples[c].add(BallPolynomial::variable(monomials, monomials.balls() + c), noise);
+      samples[c].add(BallPolynomial::variable(*monomials_, monomials_->first(1) + c), noise);
     }
   }
   std::vector<BallPolynomial> next =
-      model_->recursion->next(here_.point(radius, components(monomials)), samples);
+      model_->recursion->next(here_.point(radius, components(*monomials_)), samples);
   for (std::size_t i = 0; i < next.size(); ++i) {
     next[i] -= there_.curve[i];
   }

@@ -1,7 +1,9 @@
 // One step of a tracker in the coordinates of a tube, over a part of the tube's phases and frequencies:
 //   F(xi, v) = U(phi + omega, omega)^-1 [G(C(phi, omega) + U(phi, omega) xi, Y(phi + omega) + v)
 //              - C(phi + omega, omega)],
-// where G is the step, Y the signal and C + U xi the tube. U^-1 is not computed: forward substitution.
+// where G is the step, Y the signal and C + U xi the tube. U^-1 is not computed: forward substitution. When
+// the frequency moves by W zeta, |zeta| <= 1, in a sample, C and U there are those of the frequency that it
+// moves to.
 #pragma once
 
 #include <vector>
@@ -25,6 +27,7 @@ struct TubePart {
   double half_turn = 0.5;
   double z = 0.0;
   double half_z = 1.0;
+  double z_error = 0.0;  ///< all within so much of these, too
 
   /// Part number `phase` of so many parts of a turn, number `frequency` of so many parts of the frequencies:
   /// both powers of two.
@@ -34,7 +37,13 @@ struct TubePart {
   [[nodiscard]] TubePart half_of_phases(bool second) const;
   [[nodiscard]] TubePart half_of_frequencies(bool second) const;
   /// The point in the middle.
-  [[nodiscard]] TubePart middle() const { return {turn, 0.0, z, 0.0}; }
+  [[nodiscard]] TubePart middle() const { return {turn, 0.0, z, 0.0, z_error}; }
+};
+
+/// How far the frequency moves: z by `most` zeta.
+struct FrequencyMove {
+  Ball most;
+  BallPolynomial zeta;
 };
 
 /// The curve and the shape over a part of a tube, or where they are a sample later.
@@ -42,7 +51,8 @@ struct TubeOver {
   std::vector<BallPolynomial> curve;
   std::vector<BallPolynomial> shape;  ///< the lower triangle, row by row
 
-  TubeOver(const Tube& tube, const TubePart& part, bool later);
+  /// `later`: a sample later, at the same frequency or one that it moves to.
+  TubeOver(const Tube& tube, const TubePart& part, bool later, const FrequencyMove* move = nullptr);
   /// The diagonal of the shape is certainly positive.
   [[nodiscard]] bool has_shape() const;
   /// C + radius U x, for components x.
@@ -61,17 +71,22 @@ std::vector<BallPolynomial> components(const VectorMonomials& monomials);
 /// The step over a part of a tube.
 class TubeStep {
  public:
-  TubeStep(const TrackedModel& model, const Tube& tube, const TubePart& part);
+  /// For a slew in rad/sample per sample: zeta is the only component of the third vector of the monomials,
+  /// which must outlive this.
+  TubeStep(const TrackedModel& model, const Tube& tube, const TubePart& part,
+           const VectorMonomials& monomials, double slew = 0.0);
 
   /// Whether the shape is one here and a sample later: certainly positive on its diagonal.
   [[nodiscard]] bool has_shape() const { return here_.has_shape() && there_.has_shape(); }
-  /// F for |xi| <= radius, |v| <= noise, where the ball polynomials are in xi/radius and v/noise. The
-  /// monomials have disturbances for all samples if there is noise.
-  [[nodiscard]] std::vector<BallPolynomial> map(const VectorMonomials& monomials, double radius,
-                                                double noise) const;
+  /// F for |xi| <= radius, |v| <= noise, where the ball polynomials are in xi/radius and v/noise. The second
+  /// vector of the monomials is v if there is noise.
+  [[nodiscard]] std::vector<BallPolynomial> map(double radius, double noise) const;
 
  private:
+  [[nodiscard]] TubeOver after_step(const Tube& tube, const TubePart& part, double slew) const;
+
   const TrackedModel* model_;
+  const VectorMonomials* monomials_;
   TubeOver here_, there_;
   std::vector<BallPolynomial> signal_;  ///< a sample later
 };

@@ -1,28 +1,38 @@
-// The monomials of degree at most three in the components of two vectors, x and v.
+// The monomials of degree at most three in the components of three vectors, x, v and w.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace veritrack::checker {
 
-/// x in R^balls, v in R^disturbances: variables number 0 to balls - 1, then those of v. The monomials of a
-/// degree are numbered from 0.
+/// x, v and w of these sizes: variables number 0 to x - 1, then those of v, then those of w. The monomials of
+/// a degree are numbered from 0.
 class VectorMonomials {
  public:
   static constexpr int kMostDegree = 3;
 
-  /// What Bombieri's norm needs of a monomial of exponents a in x and b in v.
+  static constexpr std::size_t kVectors = 3;
+  /// How many pairs of degrees in v and w there are.
+  static constexpr std::size_t kForms = (kMostDegree + 1) * (kMostDegree + 1);
+
+  /// What Bombieri's norm needs of a monomial of exponents a in x, b in v and c in w.
   struct Kind {
-    int degree_of_v = 0;
-    double weight = 1.0;  ///< a!/|a|! b!/|b|!, rounded up
+    int degree_of_x = 0;
+    std::size_t form = 0;  ///< the same for the same degrees in v and w
+    double weight = 1.0;   ///< a!/|a|! b!/|b|! c!/|c|!, rounded up
   };
 
   /// At most 20 variables. Throws std::invalid_argument for more, or none.
-  VectorMonomials(std::size_t balls, std::size_t disturbances);
+  explicit VectorMonomials(std::size_t x, std::size_t v = 0, std::size_t w = 0);
 
-  [[nodiscard]] std::size_t balls() const { return balls_; }
+  /// The first variable of x, v and w; of number kVectors: how many variables there are.
+  [[nodiscard]] std::size_t first(std::size_t vector) const { return firsts_.at(vector); }
+  [[nodiscard]] std::size_t size(std::size_t vector) const {
+    return firsts_.at(vector + 1) - firsts_[vector];
+  }
   [[nodiscard]] std::size_t variables() const { return variables_; }
   /// How many monomials of this degree there are.
   [[nodiscard]] std::size_t count(int degree) const {
@@ -39,7 +49,7 @@ class VectorMonomials {
   }
 
  private:
-  std::size_t balls_;
+  std::array<std::size_t, kVectors + 1> firsts_;
   std::size_t variables_;
   std::vector<std::vector<Kind>> kinds_;
   std::vector<std::uint32_t> pairs_;

@@ -133,6 +133,10 @@ double Ball::upper_double() const {
   return finite() ? arf_get_d(arb_midref(upper().x_), ARF_RND_CEIL) : HUGE_VAL;
 }
 
+double Ball::lower_double() const {
+  return finite() ? arf_get_d(arb_midref(lower().x_), ARF_RND_FLOOR) : -HUGE_VAL;
+}
+
 std::string Ball::text(slong digits) const {
   char* raw_text = arb_get_str(x_, digits, 0);
   std::string result(raw_text);

@@ -57,6 +57,8 @@ class Ball {
   [[nodiscard]] double near() const { return arf_get_d(arb_midref(x_), ARF_RND_NEAR); }
   /// A double that is certainly not below any point; infinity or "not a number" when there is none.
   [[nodiscard]] double upper_double() const;
+  /// Likewise one that is certainly not above any point.
+  [[nodiscard]] double lower_double() const;
   /// At most `digits` digits, for people.
   [[nodiscard]] std::string text(slong digits = 12) const;
 

@@ -229,6 +229,7 @@ TEST_CASE("random expressions") {
     Functions functions(random, 1 + random.below(9), random.below(3));
     const double size = std::pow(10.0, random.uniform(-3.0, -0.5));
     std::vector<Function> made;
+    made.reserve(16);
     for (int i = 0; i < 4; ++i) {
       made.push_back(functions.leaf(random.uniform(-2.0, 2.0), size));
     }

@@ -64,7 +64,7 @@ TEST_CASE("powers, products and sums") {
   for (std::int64_t trial = 0; trial < test::effort(300); ++trial) {
     const double middle = random.uniform(-1.0, 1.0);
     const double width = random.uniform(0.0, 1.0 - std::abs(middle));
-    const std::vector<PlacePolynomial> powers = powers_of_place(middle, width, 7);
+    const std::vector<PlacePolynomial> powers = powers_of_place(middle, width, 0.0, 7);
     REQUIRE(powers.size() == 7);
     const CosineSine wave{Ball(random.uniform(-3.0, 3.0)), Ball(0.2), Ball(0.1)};
     std::vector<PlacePolynomial> functions{wave.cosine, wave.sine};
@@ -113,7 +113,7 @@ TEST_CASE("what is not a number stays so") {
   nothing.coefficients[3] = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(linear_combination({1.0}, {nothing}).known());
   CHECK_FALSE(
-      linear_combination({1.0}, {product_with_power(nothing, powers_of_place(0.5, 0.5, 2)[1])}).known());
+      linear_combination({1.0}, {product_with_power(nothing, powers_of_place(0.5, 0.5, 0.0, 2)[1])}).known());
   CHECK_FALSE(linear_combination({std::numeric_limits<double>::quiet_NaN()}, {PlacePolynomial()}).known());
 }
 

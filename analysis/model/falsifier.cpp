@@ -39,58 +39,69 @@ class AttackRun {
  public:
   AttackRun(const TrackerModel& model, const Tube& tube, const AttackedTone& tone)
       : tracker_(model),
-        tube_(tube, tone.frequency),
+        low_(tube.frequency - tube.half_width),
+        high_(tube.frequency + tube.half_width),
+        tubes_(tone.slew > 0.0 ? 2 : 1, PointTube(tube, tone.frequency)),
         tone_(tone),
-        directions_(attack_directions(model.recursion->samples, tone.noise)) {}
+        directions_(attack_directions(model.recursion->samples, tone.noise)),
+        nexts_(directions_.size()) {}
 
   void begin(const Eigen::VectorXd& coordinates) {
-    count_ = 0;
-    tube_.at(phase(), frame_);
+    phase_ = tone_.phase;
+    frequency_ = tone_.frequency;
+    tubes_.front().move_to(frequency_);
+    tubes_.front().at(phase_, frame_);
     state_ = frame_.state(coordinates);
     level_ = coordinates.norm();
   }
-  /// The coordinates after the next sample, under the worst noise.
+  /// The coordinates after the next sample, under the worst disturbances.
   const Eigen::VectorXd& step() {
-    ++count_;
-    tube_.at(phase(), frame_);
-    const Eigen::VectorXd samples = tracker_.samples(phase());
+    phase_ += frequency_;
+    const Eigen::VectorXd samples = tracker_.samples(phase_);
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      nexts_[i] = tracker_.next(state_, samples + directions_[i]);
+    }
     level_ = -1.0;
-    Eigen::VectorXd worst = state_;
-    for (const Eigen::VectorXd& direction : directions_) {
-      const Eigen::VectorXd next = tracker_.next(state_, samples + direction);
-      const Eigen::VectorXd coordinates = frame_.coordinates(next);
-      const double level = coordinates.norm();
-      if (!std::isfinite(level)) {
-        level_ = std::numeric_limits<double>::infinity();
-        return coordinates_;
-      }
-      if (level > level_) {
-        level_ = level;
-        coordinates_ = coordinates;
-        worst = next;
+    const double before = frequency_;
+    for (std::size_t side = 0; side < tubes_.size(); ++side) {
+      const double frequency = std::clamp(before + (side == 0 ? tone_.slew : -tone_.slew), low_, high_);
+      tubes_[side].move_to(frequency);
+      tubes_[side].at(phase_, frame_);
+      for (const Eigen::VectorXd& next : nexts_) {
+        const Eigen::VectorXd coordinates = frame_.coordinates(next);
+        const double level = coordinates.norm();
+        if (!std::isfinite(level)) {
+          level_ = std::numeric_limits<double>::infinity();
+          return coordinates_;
+        }
+        if (level > level_) {
+          level_ = level;
+          coordinates_ = coordinates;
+          state_ = next;
+          frequency_ = frequency;
+        }
       }
     }
-    state_ = worst;
     return coordinates_;
   }
 
   [[nodiscard]] bool is_finite() const { return std::isfinite(level_); }
   [[nodiscard]] AttackedSample now() {
-    const double error = tracker_.frequency(state_) - tone_.frequency;
-    return {phase(), level_, std::isfinite(error) ? error : std::numeric_limits<double>::infinity()};
+    const double error = tracker_.frequency(state_) - frequency_;
+    return {phase_, level_, std::isfinite(error) ? error : std::numeric_limits<double>::infinity()};
   }
 
  private:
-  [[nodiscard]] double phase() const { return tone_.phase + count_ * tone_.frequency; }
-
   PointTracker tracker_;
-  PointTube tube_;
+  double low_, high_;
+  std::vector<PointTube> tubes_;  // one for each way that the frequency may go
   AttackedTone tone_;
-  std::vector<Eigen::VectorXd> directions_;
+  std::vector<Eigen::VectorXd> directions_, nexts_;
   PointFrame frame_;
   Eigen::VectorXd state_, coordinates_;
+  double phase_ = 0.0;
+  double frequency_ = 0.0;
   double level_ = 0.0;
-  int count_ = 0;
 };
 
 /// A direction of the rim from which the next level is larger: ascent along the gradient, of length R_0
@@ -163,7 +174,7 @@ TubeAttack attack_tubes(const TrackerModel& model, const TubeSet& set, const Att
     std::mt19937_64 engine(settings.seed + number);
     const ProvedTube& proved = set.tubes[number % set.tubes.size()];
     const double frequency = proved.tube.frequency + (2.0 * uniform(engine) - 1.0) * proved.tube.half_width;
-    AttackRun run(model, proved.tube, {frequency, kTurn * uniform(engine), set.noise});
+    AttackRun run(model, proved.tube, {frequency, kTurn * uniform(engine), set.noise, set.slew});
     Eigen::VectorXd start = proved.levels.front() * random_direction(engine, model.recursion->states);
     for (int i = 0; i < settings.ascents; ++i) {
       start = steeper(run, start);

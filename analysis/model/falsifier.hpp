@@ -11,13 +11,13 @@
 
 namespace veritrack::model {
 
-/// The tone of a simulation, and how its noise is.
+/// The tone of a simulation, and its disturbances. At each sample they are chosen, of those that are tried,
+/// so that the next level is the largest.
 struct AttackedTone {
-  double frequency = 0.0;  ///< rad/sample, constant
+  double frequency = 0.0;  ///< rad/sample, at the start
   double phase = 0.0;      ///< rad, at the start
-  /// At each sample the noise has this length (signal units), in the direction, of those that are tried, in
-  /// which the next level is the largest: both signs of one channel, 16 directions of two.
-  double noise = 0.0;
+  double noise = 0.0;      ///< its length, signal units: both signs of one channel, 16 directions of two
+  double slew = 0.0;       ///< up or down, rad/sample per sample; the frequency stays in the tube's cell
 };
 
 /// A sample of a simulation.
@@ -36,7 +36,7 @@ struct AttackedSample {
 /// How hard to try.
 struct AttackSettings {
   int starts = 200;    ///< over all tubes of a set
-  int samples = 2000;  ///< from each start, without noise
+  int samples = 2000;  ///< from each start
   int ascents = 4;     ///< of the level after one sample, over the rim, before each run
   std::uint64_t seed = 20261121;
 };
@@ -50,8 +50,8 @@ struct TubeAttack {
 };
 
 /// Starts on the rim of R_0, in all tubes in turn, at frequencies, phases and in directions drawn at random;
-/// a direction is improved until the next level is large. The frequency is constant. Deterministic, whatever
-/// the number of threads. For a set without tubes nothing is tried.
+/// a direction is improved until the next level is large. With the noise and the slew of the set.
+/// Deterministic, whatever the number of threads. For a set without tubes nothing is tried.
 [[nodiscard]] TubeAttack attack_tubes(const TrackerModel& model, const TubeSet& set,
                                       const AttackSettings& settings = {});
 

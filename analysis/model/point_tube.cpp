@@ -10,31 +10,41 @@ Eigen::VectorXd PointFrame::coordinates(const Eigen::VectorXd& state) const {
   return shape.triangularView<Eigen::Lower>().solve(state - curve);
 }
 
-PointTube::PointTube(const Tube& tube, double frequency) : turns_(tube.turns) {
-  const double z = (frequency - tube.frequency) / tube.half_width;
-  series_.reserve(tube.curve.size() + tube.shape.size());
-  const auto add = [&](const PhaseSeries& series) {
-    std::vector<std::complex<double>>& harmonics = series_.emplace_back();
-    harmonics.reserve(series.coefficients.size());
-    for (const std::vector<std::complex<double>>& powers : series.coefficients) {
-      std::complex<double> sum = 0.0;
-      for (std::size_t d = powers.size(); d-- > 0;) {
-        sum = sum * z + powers[d];
+PointTube::PointTube(const Tube& tube, double frequency)
+    : tube_(&tube), series_(tube.curve.size() + tube.shape.size()) {
+  move_to(frequency);
+}
+
+void PointTube::move_to(double frequency) {
+  if (frequency == frequency_) {
+    return;
+  }
+  frequency_ = frequency;
+  const double z = (frequency - tube_->frequency) / tube_->half_width;
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    const std::size_t states = tube_->curve.size();
+    const PhaseSeries& series = i < states ? tube_->curve[i] : tube_->shape[i - states];
+    series_[i].resize(series.coefficients.size());
+    for (std::size_t h = 0; h < series_[i].size(); ++h) {
+      double real = 0.0;
+      double imaginary = 0.0;
+      for (std::size_t d = series.coefficients[h].size(); d-- > 0;) {
+        real = real * z + series.coefficients[h][d].real();
+        imaginary = imaginary * z + series.coefficients[h][d].imag();
       }
-      harmonics.push_back(sum);
+      series_[i][h] = {real, imaginary};
     }
-    harmonics_ = std::max(harmonics_, harmonics.size());
-  };
-  std::for_each(tube.curve.begin(), tube.curve.end(), add);
-  std::for_each(tube.shape.begin(), tube.shape.end(), add);
+    harmonics_ = std::max(harmonics_, series_[i].size());
+  }
 }
 
 void PointTube::at(double phase, PointFrame& frame) const {
-  const auto states = static_cast<Eigen::Index>(turns_.size());
+  const auto states = static_cast<Eigen::Index>(tube_->turns.size());
   std::vector<std::complex<double>> turned(harmonics_, 1.0);
   const std::complex<double> turn = std::polar(1.0, phase);
   for (std::size_t h = 1; h < harmonics_; ++h) {
-    turned[h] = turned[h - 1] * turn;
+    turned[h] = {turned[h - 1].real() * turn.real() - turned[h - 1].imag() * turn.imag(),
+                 turned[h - 1].real() * turn.imag() + turned[h - 1].imag() * turn.real()};
   }
   std::size_t place = 0;
   const auto value = [&] {
@@ -47,7 +57,7 @@ void PointTube::at(double phase, PointFrame& frame) const {
   };
   frame.curve.resize(states);
   for (Eigen::Index i = 0; i < states; ++i) {
-    frame.curve[i] = turns_[static_cast<std::size_t>(i)] * phase + value();
+    frame.curve[i] = tube_->turns[static_cast<std::size_t>(i)] * phase + value();
   }
   frame.shape.setZero(states, states);
   for (Eigen::Index i = 0; i < states; ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <complex>
 #include <vector>
 
@@ -25,14 +26,18 @@ struct PointFrame {
 /// A tube at the frequency of one tone.
 class PointTube {
  public:
-  /// `frequency` in rad/sample, of the tube's cell.
+  /// `frequency` in rad/sample, of the tube's cell. `tube` must outlive the object.
   PointTube(const Tube& tube, double frequency);
+
+  /// The same tube at another frequency.
+  void move_to(double frequency);
 
   /// The frame at this phase, rad, into `frame`.
   void at(double phase, PointFrame& frame) const;
 
  private:
-  std::vector<int> turns_;
+  const Tube* tube_;
+  double frequency_ = NAN;
   // Harmonics of the curve and then of the lower triangle of the shape, the powers of z summed up.
   std::vector<std::vector<std::complex<double>>> series_;
   std::size_t harmonics_ = 0;

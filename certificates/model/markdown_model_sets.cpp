@@ -37,16 +37,24 @@ std::string picture(const MarkdownOptions& options, std::string_view file) {
 struct NamedSet {
   const ModelSet* set;
   std::string purpose;
-  bool is_noiseless = false;
+  bool is_given = false;  ///< noise and slew are; otherwise they are searched for
 };
 
 std::vector<NamedSet> named_sets(const ModelSets& sets) {
   std::vector<NamedSet> named{{&sets.starts, "large starts", true}};
   if (sets.assumed) {
-    named.push_back({&*sets.assumed, "the assumed noise", false});
+    const model::TubeSet& tubes = sets.assumed->tubes;
+    named.push_back({&*sets.assumed,
+                     !(tubes.slew > 0.0)    ? "the assumed noise"
+                     : !(tubes.noise > 0.0) ? "the assumed slew"
+                                            : "the assumed noise and slew",
+                     true});
   }
   if (sets.noise) {
     named.push_back({&*sets.noise, "the largest noise", false});
+  }
+  if (sets.slew) {
+    named.push_back({&*sets.slew, "the largest slew", false});
   }
   return named;
 }
@@ -55,7 +63,7 @@ std::vector<NamedSet> named_sets(const ModelSets& sets) {
 double samples_to_settle(const ModelSet& set) {
   double samples = 0.0;
   for (const ProvedTube& tube : set.tubes.tubes) {
-    const double until = samples_until(tube, tube.levels.size() - 1);
+    const double until = samples_until(tube, tube.levels.size() - 1, set.tubes.crossing);
     samples = std::isfinite(until) ? std::max(samples, until) : INFINITY;
   }
   return samples;
@@ -70,35 +78,46 @@ std::string levels_of(const ModelSet& set) {
              : fmt::format("{} to {}", least->levels.size(), most->levels.size());
 }
 
+/// A bound that disturbances keep; a dash where it was searched for and not found.
+std::string disturbance(double bound, bool is_known) {
+  return bound > 0.0 ? to_decimal(bound, 4, Direction::down) : is_known ? "none" : "—";
+}
+
 std::vector<std::string> row_of(const NamedSet& named, const ModelUnits& units) {
   const ModelSet& set = *named.set;
-  const std::string noise =
-      set.tubes.noise > 0.0 ? to_decimal(set.tubes.noise, 4, Direction::down) : std::string("none");
+  const bool is_known = named.is_given || set.is_proved();
+  std::vector<std::string> row{named.purpose, disturbance(set.tubes.noise, is_known),
+                               disturbance(set.tubes.slew, is_known)};
   if (!set.is_proved()) {
-    const std::string asked = set.tubes.noise > 0.0 || named.is_noiseless ? noise : "—";
-    return {named.purpose, asked, "not proved", "—", "—", "—", "—", "—"};
+    row.insert(row.end(), {"not proved", "—", "—", "—", "—", "—"});
+    return row;
   }
   const double samples = samples_to_settle(set);
   const bool settles = samples > 0.0;
-  return {named.purpose,
-          noise,
-          fmt::format("{}", set.tubes.tubes.size()),
-          levels_of(set),
-          units.at_most(set.frequency_error),
-          settles ? units.at_most(set.settled_error) : "as for ever",
-          settles ? fmt::format("{}", samples) : "—",
-          units.at_least(set.reach)};
+  row.insert(row.end(),
+             {fmt::format("{}", set.tubes.tubes.size()), levels_of(set), units.at_most(set.frequency_error),
+              settles ? units.at_most(set.settled_error) : "as for ever",
+              settles ? fmt::format("{}", samples) : "—", units.at_least(set.reach)});
+  return row;
+}
+
+/// "Without noise", "With noise of at most 0.02 signal units at every sample and a frequency that ...".
+std::string disturbances_of(const model::TubeSet& set) {
+  const std::string noise = set.noise > 0.0
+                                ? fmt::format("With noise of at most {} signal units at every sample",
+                                              to_decimal(set.noise, 4, Direction::down))
+                                : std::string("Without noise");
+  return set.slew > 0.0
+             ? fmt::format("{}, and a frequency that changes by at most {} rad/sample from sample to sample",
+                           noise, to_decimal(set.slew, 4, Direction::down))
+             : noise + ", at a constant frequency";
 }
 
 std::string sentence_of(const NamedSet& named, const ModelUnits& units) {
   const ModelSet& set = *named.set;
-  const std::string noise = to_decimal(set.tubes.noise, 4, Direction::down);
-  const std::string hypothesis =
-      set.tubes.noise > 0.0 ? fmt::format("With noise of at most {} signal units at every sample", noise)
-                            : std::string("Without noise");
   std::string text = fmt::format(
       "- *For {}*: {}, a start in this set stays in it for ever, with a frequency error of at most {}",
-      named.purpose, hypothesis, units.at_most(set.frequency_error));
+      named.purpose, disturbances_of(set.tubes), units.at_most(set.frequency_error));
   const double samples = samples_to_settle(set);
   if (samples > 0.0 && std::isfinite(samples) && std::isfinite(set.settled_error)) {
     text +=
@@ -160,7 +179,9 @@ std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker,
       "each{}, reached a frequency error of {:.3g} rad/sample{}: {:.2f} of the certified bound. After the "
       "first sample it reached at most {:.3f} of the set's size.\n\n",
       named.purpose, attack.starts, attack.samples,
-      set.tubes.noise > 0.0 ? " under noise that pushes outward at every sample" : "", attack.frequency_error,
+      set.tubes.noise > 0.0 || set.tubes.slew > 0.0 ? " under disturbances that push outward at every sample"
+                                                    : "",
+      attack.frequency_error,
       units.has_hertz() ? fmt::format(" ({:.3g} Hz)", units.drawn(attack.frequency_error)) : "",
       attack.frequency_error / set.frequency_error, attack.level_share);
 }
@@ -221,20 +242,18 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
     } else {
       failures += objections(named);
     }
-    // The assumed noise, or none.
-    const bool is_largest_noise = sets.noise && named.set == &*sets.noise;
-    attacked = named.set->is_proved() && !is_largest_noise ? &named : attacked;
+    attacked = named.set->is_proved() && named.is_given ? &named : attacked;
   }
-  text += markdown::table({"For", "Noise, at most, signal units", "Cells of frequencies", "Levels",
-                           "Frequency error for ever, at most", "In the long run, at most",
-                           "Long run: from sample", "Reach, at least"},
+  text += markdown::table({"For", "Noise, at most, signal units", "Slew, at most, rad/sample per sample",
+                           "Cells of frequencies", "Levels", "Frequency error for ever, at most",
+                           "In the long run, at most", "Long run: from sample", "Reach, at least"},
                           rows) +
           "\n" + meanings + (meanings.empty() ? "" : "\n") + failures;
   const ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
   if (!assume.start_within.empty() && deciding.is_proved() && std::isfinite(deciding.start_share)) {
     text += fmt::format("The assumed starts reach at most {} of the size of the set for {}{}.\n\n",
                         to_decimal(deciding.start_share, 4, Direction::up),
-                        sets.assumed ? "the assumed noise" : "large starts",
+                        attacked != nullptr ? attacked->purpose : "",
                         deciding.start_share <= 1.0 ? ", and are inside it" : ": some are outside");
   }
   if (attacked != nullptr) {

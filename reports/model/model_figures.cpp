@@ -123,8 +123,9 @@ std::string block_of_reach(const std::string& name, const ModelSet& set, const m
 
 Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& sets,
                     const model::TrackerModel& tracker, const ModelUnits& units) {
-  constexpr std::array<std::string_view, 3> kStyles{
-      "lw 2 dt 1 lc rgb '#000000'", "lw 2 dt 2 lc rgb '#000000'", "lw 2 dt 3 lc rgb '#000000'"};
+  constexpr std::array<std::string_view, 4> kStyles{
+      "lw 2 dt 1 lc rgb '#000000'", "lw 2 dt 2 lc rgb '#000000'", "lw 2 dt 3 lc rgb '#000000'",
+      "lw 2 dt 4 lc rgb '#666666'"};
   const std::vector<ProvedTube>& tubes = sets.front().second->tubes.tubes;
   const model::Tube& first = tubes.front().tube;
   const model::Tube& last = tubes.back().tube;
@@ -167,10 +168,16 @@ std::vector<Figure> draw_model_figures(const certificates::Certificate& certific
   };
   add("no noise", sets.starts);
   if (sets.assumed) {
-    add("assumed noise", *sets.assumed);
+    add(!(sets.assumed->tubes.slew > 0.0)    ? "assumed noise"
+        : !(sets.assumed->tubes.noise > 0.0) ? "assumed slew"
+                                             : "assumed noise and slew",
+        *sets.assumed);
   }
   if (sets.noise) {
     add("largest noise", *sets.noise);
+  }
+  if (sets.slew) {
+    add("largest slew", *sets.slew);
   }
   std::vector<Figure> figures;
   if (!proved.empty()) {

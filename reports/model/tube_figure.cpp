@@ -76,6 +76,20 @@ std::string envelope_block(TubeSection& section, const ProvedTube& proved, const
   return text + "END\n";
 }
 
+/// "for noise of at most 0.02 signal units".
+std::string tube_disturbances(const model::TubeSet& set) {
+  if (!(set.noise > 0.0) && !(set.slew > 0.0)) {
+    return "without noise";
+  }
+  std::string text =
+      set.noise > 0.0 ? fmt::format("for noise of at most {:.4g} signal units", set.noise) : std::string();
+  if (set.slew > 0.0) {
+    text += fmt::format("{} a slew of at most {:.4g} rad/sample per sample", text.empty() ? "for" : " and",
+                        set.slew);
+  }
+  return text;
+}
+
 /// "phase error" a line, phases in turns; a turn is a line of the picture, from edge to edge.
 std::string lines_of(const std::vector<model::AttackedSample>& run, const ModelUnits& units) {
   std::string text;
@@ -114,7 +128,7 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
   for (int i = 0; i < kStarts; ++i) {
     const double phase = kFullTurn * (i + 0.5) / kStarts;
     const double radius = i % 2 == 0 ? proved.levels.front() : -proved.levels.front();
-    const auto run = simulate_attack(tracker, proved.tube, {frequency, phase, set.noise},
+    const auto run = simulate_attack(tracker, proved.tube, {frequency, phase, set.noise, 0.0},
                                      radius * section.steepest(phase, proved.levels.front()), kSamples);
     errors += lines_of(run, units);
     starts += fmt::format("{:.5f} {:.7g}\n", phase / kFullTurn, units.drawn(run.front().frequency_error));
@@ -141,10 +155,10 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
           "(turns). A start in the tube stays between the solid lines and ends between the dashed ones. "
           "Grey: {} simulated starts on the rim (dots), {} samples each{}. The lines are drawn in floating "
           "point, and the simulations prove nothing.",
-          set.noise > 0.0 ? fmt::format("for noise of at most {:.4g} signal units", set.noise)
-                          : "without noise",
-          units.drawn(frequency), unit, unit, kStarts, kSamples,
-          set.noise > 0.0 ? ", with the noise that pushes outward most at every sample" : ""),
+          tube_disturbances(set), units.drawn(frequency), unit, unit, kStarts, kSamples,
+          set.noise > 0.0
+              ? ", with the noise that pushes outward most at every sample, at a constant frequency"
+              : ""),
       run_gnuplot(script)};
 }
 

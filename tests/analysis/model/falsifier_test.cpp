@@ -60,19 +60,34 @@ TEST_CASE("a tube that is too large, or for less noise, is left") {
   CHECK(attack_tubes(loop.model, {}, quick).starts == 0);
 }
 
+TEST_CASE("a frequency that moves up and down within its slew does not help, and a faster one does") {
+  const Example loop(test::phase_locked_loop());
+  SetTask task;
+  task.objective = ShapeObjective::largest_slew;
+  task.slew = 2e-5;
+  TubeSet set = prove_moving_set(test::tone_of(loop.tracker), loop.model, 0.28, 0.32, task);
+  REQUIRE(set.is_complete);
+  const TubeAttack attack = attack_tubes(loop.model, set);
+  CHECK(attack.level_share <= 1.0);
+  CHECK(attack.level_share > 0.85);
+  set.slew *= 10.0;
+  CHECK(attack_tubes(loop.model, set, {20, 500, 4, 1}).level_share > 1.0);
+}
+
 TEST_CASE("a simulation begins on the rim and settles on the curve without noise") {
   const Example loop(test::phase_locked_loop());
   const TubeSet set = proved_for(loop, 0.0);
   REQUIRE(set.is_complete);
   const ProvedTube& proved = set.tubes.front();
   const Eigen::Vector2d start(proved.levels.front(), 0.0);
-  const auto run = simulate_attack(loop.model, proved.tube, {proved.tube.frequency, 1.0, 0.0}, start, 1500);
+  const auto run =
+      simulate_attack(loop.model, proved.tube, {proved.tube.frequency, 1.0, 0.0, 0.0}, start, 1500);
   REQUIRE(run.size() == 1501);
   CHECK(run.front().level == doctest::Approx(proved.levels.front()));
   CHECK(run.front().phase == 1.0);
   CHECK(run.back().level < 1e-4 * proved.levels.front());
   const auto noisy =
-      simulate_attack(loop.model, proved.tube, {proved.tube.frequency, 1.0, 0.01}, start, 1500);
+      simulate_attack(loop.model, proved.tube, {proved.tube.frequency, 1.0, 0.01, 0.0}, start, 1500);
   CHECK(noisy.back().level > run.back().level);
 }
 

@@ -59,7 +59,7 @@ class ModelDocuments(CliTestCase):
                                         "\n[require]\nfrequency_error_below = 0.05\n")
         self.assertEqual(result.returncode, 1)
         self.assertIn("The set for the assumed noise was not proved for the whole band.", document)
-        self.assertIn("| the assumed noise | 3 | not proved |", document)
+        self.assertIn("| the assumed noise | 3 | none | not proved |", document)
 
 
 if __name__ == "__main__":

@@ -120,7 +120,7 @@ TEST_CASE("a proved loop: the sets in both units, and an attack that stays below
   CHECK(std::stod(found[1]) > 0.5);
   CHECK(std::stod(found[2]) <= 1.0);
   CHECK(std::stod(found[2]) > 0.9);
-  CHECK(std::regex_search(text, std::regex("\\| the assumed noise \\| 0[.]02 \\| [0-9]+ \\| [0-9]+ \\| "
+  CHECK(std::regex_search(text, std::regex("\\| the assumed noise \\| 0[.]02 \\| none \\| [0-9]+ \\| [0-9]+ \\| "
                                            "0[.]0[0-9]+ rad/sample \\([0-9.]+ Hz\\)")));
   CHECK(text.find("The assumed starts reach at most") != std::string::npos);
   CHECK(text.find("nan") == std::string::npos);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "reports/kkl_observer/kkl_observer_reports.hpp"
+#include "reports/model/model_reports.hpp"
 #include "reports/quadrature/quadrature_reports.hpp"
 #include "reports/single_channel/single_channel_reports.hpp"
 #include "reports/tracker_reports.hpp"
@@ -26,7 +27,8 @@ const TrackerReports* reports_of(std::string_view tracker) {
 }  // namespace
 
 std::span<const TrackerReports* const> tracker_reports() {
-  static const std::array all{&quadrature_reports(), &kkl_observer_reports(), &single_channel_reports()};
+  static const std::array all{&quadrature_reports(), &kkl_observer_reports(), &single_channel_reports(),
+                              &model_reports()};
   return all;
 }
 

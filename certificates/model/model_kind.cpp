@@ -4,8 +4,8 @@
 #include <string>
 
 #include "analysis/rigor/rounding.hpp"
-#include "certificates/document/markdown_text.hpp"
 #include "certificates/document/tracker_kind.hpp"
+#include "certificates/model/markdown_model.hpp"
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_claims.hpp"
 #include "certificates/model/model_json.hpp"
@@ -31,29 +31,14 @@ void certify_model(Certificate& certificate, const CertifyProgress& progress) {
   add_model_claims(certificate);
 }
 
-std::string summary(const Certificate& certificate) {
-  std::string text;
-  for (const Claim& claim : certificate.claims) {
-    if (!claim.required && claim.verdict != rigor::Verdict::undecided) {
-      text += fmt::format("{}: {}\n\n", markdown::verdict(claim.verdict), claim.statement);
-    }
-  }
-  return text;
-}
-
-std::string sections(const Certificate& certificate, const MarkdownOptions& /*options*/) {
-  return "## The recursion\n\n" + markdown::fenced(show(certificate.design, CodeLanguage::formulas), "") +
-         "\n";
-}
-
 }  // namespace
 
 const TrackerKind& model_kind() {
   static const TrackerKind kind{.name = "model",
                                 .design_json = model_design_json,
                                 .certify = certify_model,
-                                .summary = summary,
-                                .sections = sections,
+                                .summary = model_summary,
+                                .sections = model_sections,
                                 .evidence_json = model_evidence_json,
                                 .show = show};
   return kind;

@@ -107,7 +107,8 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
     is_first = false;
     if (cells != nullptr) {
       cells->push_back({proved.tube.frequency - proved.tube.half_width,
-                        proved.tube.frequency + proved.tube.half_width, mean, settled.ripple, reach});
+                        proved.tube.frequency + proved.tube.half_width, mean,
+                        with_room(1.01 * settled.ripple), reach});
     }
   }
   return set;

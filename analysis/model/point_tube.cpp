@@ -1,0 +1,107 @@
+#include "analysis/model/point_tube.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <span>
+
+namespace veritrack::model {
+
+Eigen::VectorXd PointFrame::coordinates(const Eigen::VectorXd& state) const {
+  return shape.triangularView<Eigen::Lower>().solve(state - curve);
+}
+
+PointTube::PointTube(const Tube& tube, double frequency)
+    : tube_(&tube), series_(tube.curve.size() + tube.shape.size()) {
+  move_to(frequency);
+}
+
+void PointTube::move_to(double frequency) {
+  if (frequency == frequency_) {
+    return;
+  }
+  frequency_ = frequency;
+  const double z = (frequency - tube_->frequency) / tube_->half_width;
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    const std::size_t states = tube_->curve.size();
+    const PhaseSeries& series = i < states ? tube_->curve[i] : tube_->shape[i - states];
+    series_[i].resize(series.coefficients.size());
+    for (std::size_t h = 0; h < series_[i].size(); ++h) {
+      double real = 0.0;
+      double imaginary = 0.0;
+      for (std::size_t d = series.coefficients[h].size(); d-- > 0;) {
+        real = real * z + series.coefficients[h][d].real();
+        imaginary = imaginary * z + series.coefficients[h][d].imag();
+      }
+      series_[i][h] = {real, imaginary};
+    }
+    harmonics_ = std::max(harmonics_, series_[i].size());
+  }
+}
+
+void PointTube::at(double phase, PointFrame& frame) const {
+  const auto states = static_cast<Eigen::Index>(tube_->turns.size());
+  std::vector<std::complex<double>> turned(harmonics_, 1.0);
+  const std::complex<double> turn = std::polar(1.0, phase);
+  for (std::size_t h = 1; h < harmonics_; ++h) {
+    turned[h] = {turned[h - 1].real() * turn.real() - turned[h - 1].imag() * turn.imag(),
+                 turned[h - 1].real() * turn.imag() + turned[h - 1].imag() * turn.real()};
+  }
+  std::size_t place = 0;
+  const auto value = [&] {
+    const std::vector<std::complex<double>>& harmonics = series_[place++];
+    double sum = 0.0;
+    for (std::size_t h = 0; h < harmonics.size(); ++h) {
+      sum += harmonics[h].real() * turned[h].real() - harmonics[h].imag() * turned[h].imag();
+    }
+    return sum;
+  };
+  frame.curve.resize(states);
+  for (Eigen::Index i = 0; i < states; ++i) {
+    frame.curve[i] = tube_->turns[static_cast<std::size_t>(i)] * phase + value();
+  }
+  frame.shape.setZero(states, states);
+  for (Eigen::Index i = 0; i < states; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      frame.shape(i, j) = value();
+    }
+  }
+}
+
+PointTracker::PointTracker(const TrackerModel& model) : model_(&model) {
+  for (const rigor::Interval& constant : model.constants) {
+    step_inputs_.push_back(0.5 * (constant.lower() + constant.upper()));
+  }
+  signal_inputs_ = step_inputs_;
+  signal_inputs_.push_back(0.5 * (model.amplitude.lower() + model.amplitude.upper()));
+  signal_inputs_.push_back(0.0);
+  frequency_inputs_ = step_inputs_;
+  frequency_inputs_.resize(frequency_inputs_.size() + static_cast<std::size_t>(states()));
+  step_inputs_.resize(frequency_inputs_.size() + static_cast<std::size_t>(channels()));
+}
+
+Eigen::VectorXd PointTracker::samples(double phase) {
+  signal_inputs_.back() = phase;
+  Eigen::VectorXd values(channels());
+  model_->signal->run(std::span<const double>(signal_inputs_), registers_,
+                      std::span(values.data(), static_cast<std::size_t>(values.size())));
+  return values;
+}
+
+Eigen::VectorXd PointTracker::next(const Eigen::VectorXd& state, const Eigen::VectorXd& samples) {
+  std::copy(samples.begin(), samples.end(), step_inputs_.end() - channels());
+  std::copy(state.begin(), state.end(), step_inputs_.end() - channels() - states());
+  Eigen::VectorXd result(states());
+  model_->recursion->step.run(std::span<const double>(step_inputs_), registers_,
+                              std::span(result.data(), static_cast<std::size_t>(result.size())));
+  return result;
+}
+
+double PointTracker::frequency(const Eigen::VectorXd& state) {
+  std::copy(state.begin(), state.end(), frequency_inputs_.end() - states());
+  double result = 0.0;
+  model_->recursion->frequency.run(std::span<const double>(frequency_inputs_), registers_,
+                                   std::span(&result, 1));
+  return result;
+}
+
+}  // namespace veritrack::model

@@ -1,0 +1,66 @@
+// A tube in floating point, at one frequency: for simulations and pictures, without any claim.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "analysis/model/tube_step.hpp"
+#include "trackers/model/model_tracker.hpp"
+
+namespace veritrack::model {
+
+/// Curve and shape at a phase.
+struct PointFrame {
+  Eigen::VectorXd curve;
+  Eigen::MatrixXd shape;  ///< lower triangular
+
+  [[nodiscard]] Eigen::VectorXd state(const Eigen::VectorXd& coordinates) const {
+    return curve + shape * coordinates;
+  }
+  /// xi with state = C + U xi.
+  [[nodiscard]] Eigen::VectorXd coordinates(const Eigen::VectorXd& state) const;
+};
+
+/// A tube at the frequency of one tone.
+class PointTube {
+ public:
+  /// `frequency` in rad/sample, of the tube's cell. `tube` must outlive the object.
+  PointTube(const Tube& tube, double frequency);
+
+  /// The same tube at another frequency.
+  void move_to(double frequency);
+
+  /// The frame at this phase, rad, into `frame`.
+  void at(double phase, PointFrame& frame) const;
+
+ private:
+  const Tube* tube_;
+  double frequency_ = NAN;
+  // Harmonics of the curve and then of the lower triangle of the shape, the powers of z summed up.
+  std::vector<std::vector<std::complex<double>>> series_;
+  std::size_t harmonics_ = 0;
+};
+
+/// A tracker on its signal in doubles: the constants are the middles of their intervals.
+class PointTracker {
+ public:
+  /// `model` must outlive the tracker.
+  explicit PointTracker(const TrackerModel& model);
+
+  [[nodiscard]] int states() const { return model_->recursion->states; }
+  [[nodiscard]] int channels() const { return model_->recursion->samples; }
+  /// The samples at this phase, without noise.
+  [[nodiscard]] Eigen::VectorXd samples(double phase);
+  /// The next state.
+  [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& state, const Eigen::VectorXd& samples);
+  /// The estimated frequency, rad/sample.
+  [[nodiscard]] double frequency(const Eigen::VectorXd& state);
+
+ private:
+  const TrackerModel* model_;
+  std::vector<double> signal_inputs_, step_inputs_, frequency_inputs_, registers_;
+};
+
+}  // namespace veritrack::model

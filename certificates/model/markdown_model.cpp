@@ -1,0 +1,162 @@
+#include "certificates/model/markdown_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "analysis/rigor/rounding.hpp"
+#include "certificates/document/code_language.hpp"
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/model/markdown_model_sets.hpp"
+#include "certificates/model/model_sets.hpp"
+#include "certificates/model/model_units.hpp"
+#include "certificates/model/recursion_text.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using markdown::escaped;
+
+std::string quoted(const std::string& text) {
+  return "`" + text + "`";
+}
+
+/// "`y1`, `y2`": names or formulas of the design file.
+std::string listed(const std::vector<SourceText>& texts) {
+  std::string list;
+  for (const SourceText& text : texts) {
+    list += (list.empty() ? "" : ", ") + quoted(text.text);
+  }
+  return list;
+}
+
+std::string equations(const std::vector<NamedText>& texts) {
+  std::string list;
+  for (const NamedText& text : texts) {
+    list += (list.empty() ? "" : ", ") + quoted(text.name.text + " = " + text.formula.text);
+  }
+  return list;
+}
+
+/// The states, each with its unit; the entries of a covariance are only counted.
+std::string states_of(const ModelTable& table, std::size_t states) {
+  const std::vector<SourceText>& named = table.ekf ? table.ekf->states : table.states;
+  std::string list;
+  for (const SourceText& state : named) {
+    const auto unit = std::find_if(table.units.begin(), table.units.end(),
+                                   [&](const NamedText& entry) { return entry.name.text == state.text; });
+    list += (list.empty() ? "" : ", ") + quoted(state.text) +
+            (unit != table.units.end() ? fmt::format(" ({})", escaped(unit->formula.text)) : "");
+  }
+  if (states > named.size()) {
+    list += fmt::format(", and the {} entries of the covariance's upper triangle", states - named.size());
+  }
+  return list;
+}
+
+std::string design_section(const Certificate& certificate, const ModelTables& tables, const Model& model) {
+  const Design& design = certificate.design;
+  const auto& [table, assume, require] = tables;
+  std::string text =
+      "## The design and what is assumed\n\n" +
+      fmt::format("{} — a recursion of the design file, tracker `{}`", escaped(design.name), design.tracker);
+  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
+  std::vector<std::vector<std::string>> rows{
+      {table.samples.size() == 1 ? "sample" : "samples, in phase and in quadrature", listed(table.samples),
+       "signal units"},
+      {"signal without noise, `A` its amplitude, `phi` its phase", listed(signal_of(table, assume.signal)),
+       "signal units"},
+      {fmt::format("states, {}", model.states.size()), states_of(table, model.states.size()),
+       table.units.empty() ? "—" : "in parentheses, as you named them"}};
+  if (!table.angles.empty()) {
+    rows.push_back({"states that are angles: known up to whole turns only", listed(table.angles), "rad"});
+  }
+  if (!table.parameters.empty()) {
+    rows.push_back({"parameters", equations(table.parameters), "—"});
+  }
+  rows.push_back({"estimated frequency", quoted(table.frequency.text), "rad/sample"});
+  rows.push_back({"amplitude of the signal, constant", quoted(assume.amplitude.text), "signal units"});
+  const ModelUnits units(assume);
+  const std::string band = fmt::format("[`{}`, `{}`]", assume.frequency[0].text, assume.frequency[1].text);
+  if (units.has_hertz()) {
+    rows.push_back({"samples per second", quoted(assume.sample_rate.value().text), "Hz"});
+  }
+  rows.push_back(
+      {"frequency of the signal, always within", band, assume.frequency_in_hertz ? "Hz" : "rad/sample"});
+  if (units.has_hertz()) {
+    const rigor::Interval radians = band_of(assume);
+    rows.push_back({"the same, rounded outward",
+                    assume.frequency_in_hertz ? outward(radians) : outward(units.in_hertz(radians)),
+                    assume.frequency_in_hertz ? "rad/sample" : "Hz"});
+  }
+  rows.push_back({table.samples.size() == 1 ? "noise of each sample, at most"
+                                            : "noise of each pair of samples, its length, at most",
+                  quoted(assume.noise.text), "signal units"});
+  const bool moves = assume.slew.value.upper() > 0.0;
+  rows.push_back({"change of the frequency, at most",
+                  moves ? quoted(assume.slew.text) : "none: it is constant",
+                  !moves                            ? "—"
+                  : assume.slew_in_hertz_per_second ? "Hz per second"
+                                                    : "rad/sample per sample"});
+  rows.push_back(
+      {"deviation of the starts from the steady state, at most",
+       assume.start_within.empty() ? "any that is inside the certified set" : equations(assume.start_within),
+       assume.start_within.empty() ? "—" : "of the state"});
+  return text + markdown::table({"What", "Is", "Unit"}, rows) + "\n";
+}
+
+std::string recursion_section(const Certificate& certificate, const Model& model) {
+  return "## The recursion\n\nWhat is certified is this recursion. `veritrack show` prints it as C, Python "
+         "or "
+         "Octave, too, for comparison with the program that you run.\n\n" +
+         markdown::fenced(recursion_text(model, certificate.design.name, CodeLanguage::formulas), "") + "\n";
+}
+
+std::string coverage_section(const ModelTables& tables) {
+  const bool moves = tables.assume.slew.value.upper() > 0.0;
+  return fmt::format(
+      "## What this certificate covers, and what it does not\n\n"
+      "- Covered: the recursion above in exact arithmetic, for every noise within the assumed bound, every "
+      "phase and every frequency of the band.\n"
+      "- Not covered: the rounding of the program that runs, quantised samples, and whatever the formulas do "
+      "not say, such as resets, lock detectors and limits that act.\n"
+      "- The amplitude is exactly the assumed one, and the signal has no other components than those of the "
+      "signal formula. What else is in the samples must fit into the noise.\n"
+      "- The frequency {}. A mean is the mean over the phase of the signal.\n"
+      "- The certified sets are the tubes in `certificate.json`. \"Started in the tube\" refers to them. How "
+      "the tracker gets there from another start is not covered.\n"
+      "- UNDECIDED refutes nothing: another set may exist.\n"
+      "- The proof is in `docs/model-proof.md` of the program's sources. Every bound was computed with "
+      "outward rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
+      moves
+          ? "stays in the band and changes by no more than assumed, or is constant where a statement says so"
+          : "is constant");
+}
+
+}  // namespace
+
+std::string model_summary(const Certificate& certificate) {
+  std::string text;
+  for (const Claim& claim : certificate.claims) {
+    if (!claim.required && claim.verdict != rigor::Verdict::undecided) {
+      text += fmt::format("{}: {}\n\n", markdown::verdict(claim.verdict), claim.statement);
+    }
+  }
+  return !text.empty() ? text
+                       : "Nothing was proved for the whole band. The reasons are under \"The certified "
+                         "sets\".\n\n";
+}
+
+std::string model_sections(const Certificate& certificate, const MarkdownOptions& options) {
+  const rigor::UpwardRounding upward;
+  const ModelTables& tables = model_tables(certificate.design);
+  const Model model = make_model(tables.model, tables.assume.signal);
+  return design_section(certificate, tables, model) + model_sets_section(certificate, model, options) +
+         model_bias_section(certificate, options) + recursion_section(certificate, model) +
+         coverage_section(tables);
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,305 @@
+#include "certificates/model/markdown_model_sets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "analysis/model/falsifier.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/model/model_sets.hpp"
+#include "certificates/model/model_units.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using model::ProvedTube;
+using rigor::Direction;
+using rigor::Interval;
+using rigor::to_decimal;
+
+/// The picture of this file name, where there is one.
+std::string picture(const MarkdownOptions& options, std::string_view file) {
+  for (const FigureReference& figure : options.figures) {
+    if (figure.path.ends_with(file)) {
+      return fmt::format("![{}]({})\n\n*{}*\n\n", markdown::escaped(figure.caption), figure.path,
+                         figure.caption);
+    }
+  }
+  return "";
+}
+
+/// A set, and what it is for.
+struct NamedSet {
+  const ModelSet* set;
+  std::string purpose;
+  bool is_given = false;  ///< noise and slew are; otherwise they are searched for
+};
+
+std::vector<NamedSet> named_sets(const ModelSets& sets) {
+  std::vector<NamedSet> named{{&sets.starts, "large starts", true}};
+  if (sets.assumed) {
+    const model::TubeSet& tubes = sets.assumed->tubes;
+    named.push_back({&*sets.assumed,
+                     !(tubes.slew > 0.0)    ? "the assumed noise"
+                     : !(tubes.noise > 0.0) ? "the assumed slew"
+                                            : "the assumed noise and slew",
+                     true});
+  }
+  if (sets.noise) {
+    named.push_back({&*sets.noise, "the largest noise", false});
+  }
+  if (sets.slew) {
+    named.push_back({&*sets.slew, "the largest slew", false});
+  }
+  return named;
+}
+
+/// After so many samples every start is at the lowest level.
+double samples_to_settle(const ModelSet& set) {
+  double samples = 0.0;
+  for (const ProvedTube& tube : set.tubes.tubes) {
+    const double until = samples_until(tube, tube.levels.size() - 1, set.tubes.crossing);
+    samples = std::isfinite(until) ? std::max(samples, until) : INFINITY;
+  }
+  return samples;
+}
+
+std::string levels_of(const ModelSet& set) {
+  const auto [least, most] = std::minmax_element(
+      set.tubes.tubes.begin(), set.tubes.tubes.end(),
+      [](const ProvedTube& a, const ProvedTube& b) { return a.levels.size() < b.levels.size(); });
+  return least->levels.size() == most->levels.size()
+             ? fmt::format("{}", most->levels.size())
+             : fmt::format("{} to {}", least->levels.size(), most->levels.size());
+}
+
+/// A bound that disturbances keep; a dash where it was searched for and not found.
+std::string disturbance(double bound, bool is_known) {
+  return bound > 0.0 ? to_decimal(bound, 4, Direction::down) : is_known ? "none" : "—";
+}
+
+std::vector<std::string> row_of(const NamedSet& named, const ModelUnits& units) {
+  const ModelSet& set = *named.set;
+  const bool is_known = named.is_given || set.is_proved();
+  std::vector<std::string> row{named.purpose, disturbance(set.tubes.noise, is_known),
+                               disturbance(set.tubes.slew, is_known)};
+  if (!set.is_proved()) {
+    row.insert(row.end(), {"not proved", "—", "—", "—", "—", "—"});
+    return row;
+  }
+  const double samples = samples_to_settle(set);
+  const bool settles = samples > 0.0;
+  row.insert(row.end(),
+             {fmt::format("{}", set.tubes.tubes.size()), levels_of(set), units.at_most(set.frequency_error),
+              settles ? units.at_most(set.settled_error) : "as for ever",
+              settles ? fmt::format("{}", samples) : "—", units.at_least(set.reach)});
+  return row;
+}
+
+/// "Without noise", "With noise of at most 0.02 signal units at every sample and a frequency that ...".
+std::string disturbances_of(const model::TubeSet& set) {
+  const std::string noise = set.noise > 0.0
+                                ? fmt::format("With noise of at most {} signal units at every sample",
+                                              to_decimal(set.noise, 4, Direction::down))
+                                : std::string("Without noise");
+  return set.slew > 0.0
+             ? fmt::format("{}, and a frequency that changes by at most {} rad/sample from sample to sample",
+                           noise, to_decimal(set.slew, 4, Direction::down))
+             : noise + ", at a constant frequency";
+}
+
+std::string sentence_of(const NamedSet& named, const ModelUnits& units) {
+  const ModelSet& set = *named.set;
+  std::string text = fmt::format(
+      "- *For {}*: {}, a start in this set stays in it for ever, with a frequency error of at most {}",
+      named.purpose, disturbances_of(set.tubes), units.at_most(set.frequency_error));
+  const double samples = samples_to_settle(set);
+  if (samples > 0.0 && std::isfinite(samples) && std::isfinite(set.settled_error)) {
+    text +=
+        fmt::format("; from sample {} on the error is at most {}", samples, units.at_most(set.settled_error));
+  }
+  return text + ".\n";
+}
+
+/// "[0.2, 0.3], [0.4, 0.5] rad/sample": frequencies with a proved tube, rounded inward.
+std::string proved_part(const model::TubeSet& set) {
+  std::vector<std::pair<double, double>> parts;
+  for (const ProvedTube& proved : set.tubes) {
+    const double low = proved.tube.frequency - proved.tube.half_width;
+    const double high = proved.tube.frequency + proved.tube.half_width;
+    if (!parts.empty() && low <= parts.back().second) {
+      parts.back().second = std::max(parts.back().second, high);
+    } else {
+      parts.emplace_back(low, high);
+    }
+  }
+  std::string text;
+  for (const auto& [low, high] : parts) {
+    text += fmt::format("{}[{}, {}]", text.empty() ? "" : ", ", to_decimal(low, 6, Direction::up),
+                        to_decimal(high, 6, Direction::down));
+  }
+  return text;
+}
+
+std::string objections(const NamedSet& named) {
+  const model::TubeSet& set = named.set->tubes;
+  const std::string part = proved_part(set);
+  std::string text =
+      fmt::format("The set for {} was not proved for the whole band. {}\n\n", named.purpose,
+                  part.empty() ? std::string("No part of it was proved.")
+                               : fmt::format("Frequencies with a proved tube: {} rad/sample.", part));
+  constexpr std::size_t kMostReasons = 8;
+  for (std::size_t i = 0; i < std::min(kMostReasons, set.reasons.size()); ++i) {
+    text += "- " + markdown::escaped(set.reasons[i]) + "\n";
+  }
+  if (set.reasons.size() > kMostReasons) {
+    text += fmt::format("- and {} more of this kind\n", set.reasons.size() - kMostReasons);
+  }
+  return text + "\n";
+}
+
+/// What simulations reach of the bounds of the set that decides.
+std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker, const ModelUnits& units) {
+  const ModelSet& set = *named.set;
+  const model::TubeAttack attack = attack_tubes(tracker, set.tubes);
+  if (attack.level_share > 1.0 || attack.frequency_error > set.frequency_error) {
+    return fmt::format(
+        "**ALARM**: a simulation left the set for {}. This must not happen: please report it, with the "
+        "design "
+        "file.\n\n",
+        named.purpose);
+  }
+  return fmt::format(
+      "*Simulated, not proved:* an attack on the set for {}, with {} starts on its rim and {} samples "
+      "each{}, reached a frequency error of {:.3g} rad/sample{}: {:.2f} of the certified bound. After the "
+      "first sample it reached at most {:.3f} of the set's size.\n\n",
+      named.purpose, attack.starts, attack.samples,
+      set.tubes.noise > 0.0 || set.tubes.slew > 0.0 ? " under disturbances that push outward at every sample"
+                                                    : "",
+      attack.frequency_error,
+      units.has_hertz() ? fmt::format(" ({:.3g} Hz)", units.drawn(attack.frequency_error)) : "",
+      attack.frequency_error / set.frequency_error, attack.level_share);
+}
+
+/// Cells of frequencies, joined: the hull of what is known of them.
+std::vector<ModelCell> joined(const std::vector<ModelCell>& cells, std::size_t most) {
+  std::vector<ModelCell> rows;
+  const std::size_t size = (cells.size() + most - 1) / most;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const ModelCell& cell = cells[i];
+    if (i % size == 0) {
+      rows.push_back(cell);
+      continue;
+    }
+    ModelCell& row = rows.back();
+    const bool is_known = rigor::is_finite(row.bias) && rigor::is_finite(cell.bias);
+    row.high = std::max(row.high, cell.high);
+    row.bias = is_known ? hull(row.bias, cell.bias) : Interval::empty();
+    row.ripple = std::isfinite(row.ripple) && std::isfinite(cell.ripple) ? std::max(row.ripple, cell.ripple)
+                                                                         : INFINITY;
+    row.reach = std::min(row.reach, cell.reach);
+  }
+  return rows;
+}
+
+std::string upper(const Interval& value) {
+  return rigor::is_finite(value) ? rigor::upper_decimal(value) : "unknown";
+}
+
+}  // namespace
+
+std::string model_sets_section(const Certificate& certificate, const Model& model,
+                               const MarkdownOptions& options) {
+  const ModelAssumptions& assume = model_tables(certificate.design).assume;
+  const ModelSets& sets = model_sets(certificate);
+  const ModelUnits units(assume);
+  std::string text = "## The certified sets\n\n";
+  if (!sets.objection.empty()) {
+    return text + "Nothing is certified: " + markdown::escaped(sets.objection) + ".\n\n";
+  }
+  text +=
+      "A certified set is a tube: for each phase of the signal and each frequency of the band, an ellipsoid "
+      "of "
+      "states around the state in which the tracker settles. A start in the tube never leaves it. The band "
+      "is divided into cells of frequencies, each with its own tube. A tube is divided into nested levels, "
+      "from the whole tube to its core; the errors shrink from level to level. The last column says how far "
+      "the tube reaches: at every phase it contains states with a frequency error of that size, in both "
+      "directions.\n\n";
+  const std::vector<NamedSet> all = named_sets(sets);
+  std::vector<std::vector<std::string>> rows;
+  std::string meanings;
+  std::string failures;
+  const NamedSet* attacked = nullptr;
+  for (const NamedSet& named : all) {
+    rows.push_back(row_of(named, units));
+    if (named.set->is_proved()) {
+      meanings += sentence_of(named, units);
+    } else {
+      failures += objections(named);
+    }
+    attacked = named.set->is_proved() && named.is_given ? &named : attacked;
+  }
+  text += markdown::table({"For", "Noise, at most, signal units", "Slew, at most, rad/sample per sample",
+                           "Cells of frequencies", "Levels", "Frequency error for ever, at most",
+                           "In the long run, at most", "Long run: from sample", "Reach, at least"},
+                          rows) +
+          "\n" + meanings + (meanings.empty() ? "" : "\n") + failures;
+  const ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
+  if (!assume.start_within.empty() && deciding.is_proved() && std::isfinite(deciding.start_share)) {
+    text += fmt::format("The assumed starts reach at most {} of the size of the set for {}{}.\n\n",
+                        to_decimal(deciding.start_share, 4, Direction::up),
+                        attacked != nullptr ? attacked->purpose : "",
+                        deciding.start_share <= 1.0 ? ", and are inside it" : ": some are outside");
+  }
+  if (attacked != nullptr) {
+    text += attack_on(*attacked, proved_model(model, assume), units);
+  }
+  return text + picture(options, "reach.svg") + picture(options, "tube.svg");
+}
+
+std::string model_bias_section(const Certificate& certificate, const MarkdownOptions& options) {
+  const ModelSets& sets = model_sets(certificate);
+  const std::vector<ProvedTube>& tubes = sets.starts.tubes.tubes;
+  // With one level only, starts are not proved to come closer.
+  const bool settles =
+      std::all_of(tubes.begin(), tubes.end(), [](const ProvedTube& tube) { return tube.levels.size() > 1; });
+  if (sets.cells.empty() || !settles) {
+    return "## Bias and ripple\n\nNothing is known of them: they need a set without noise, for the whole "
+           "band, in which errors shrink.\n\n";
+  }
+  const ModelUnits units(model_tables(certificate.design).assume);
+  std::string text =
+      "## Bias and ripple\n\nWithout noise, at a constant frequency and in the long run, the estimate "
+      "repeats "
+      "itself with the phase of the signal. Its *bias* is the mean over the phase of the frequency error "
+      "(estimate less true frequency), its *ripple* the largest less the smallest error over the phase. Both "
+      "are proved for every frequency of a row; a bias is between the two numbers.\n\n";
+  std::vector<std::string> header{"Frequency, rad/sample", "Bias, rad/sample", "Ripple, at most, rad/sample"};
+  if (units.has_hertz()) {
+    header.insert(header.end(), {"Frequency, Hz", "Bias, Hz", "Ripple, at most, Hz"});
+  }
+  constexpr std::size_t kMostRows = 16;
+  std::vector<std::vector<std::string>> rows;
+  for (const ModelCell& cell : joined(sets.cells, kMostRows)) {
+    const auto inward = [](const Interval& low, const Interval& high) {
+      return fmt::format("{} to {}", to_decimal(low.upper(), 6, Direction::up),
+                         to_decimal(high.lower(), 6, Direction::down));
+    };
+    std::vector<std::string> row{inward(Interval(cell.low), Interval(cell.high)), outward(cell.bias),
+                                 upper(Interval(cell.ripple))};
+    if (units.has_hertz()) {
+      row.insert(row.end(),
+                 {inward(units.in_hertz(Interval(cell.low)), units.in_hertz(Interval(cell.high))),
+                  outward(units.in_hertz(cell.bias)), upper(units.in_hertz(Interval(cell.ripple)))});
+    }
+    rows.push_back(row);
+  }
+  return text + markdown::table(header, rows) + "\n" + picture(options, "bias.svg");
+}
+
+}  // namespace veritrack::certificates

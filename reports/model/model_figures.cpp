@@ -1,0 +1,199 @@
+#include "reports/model/model_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "analysis/model/point_tube.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "certificates/model/model_sets.hpp"
+#include "certificates/model/model_units.hpp"
+#include "reports/gnuplot.hpp"
+#include "reports/model/tube_figure.hpp"
+
+namespace veritrack::reports {
+
+namespace {
+
+using certificates::ModelCell;
+using certificates::ModelSet;
+using certificates::ModelUnits;
+using model::ProvedTube;
+
+/// A value over each cell of frequencies, as a data block: two lines a cell.
+template <typename Values>
+std::string block_of_cells(const char* name, const std::vector<ModelCell>& cells, const ModelUnits& units,
+                           const Values& values) {
+  std::string text = fmt::format("${} << END\n", name);
+  for (const ModelCell& cell : cells) {
+    for (const double place : {cell.low, cell.high}) {
+      text += fmt::format("{:.9g} {}\n", units.drawn(place), values(cell));
+    }
+  }
+  return text + "0 NaN NaN\nEND\n";  // gnuplot refuses an empty block
+}
+
+/// The mean and the range of the frequency error on the curve of a tube, in floating point, over its
+/// frequencies: "frequency mean range" a line.
+std::string block_on_curve(const model::TrackerModel& tracker, const std::vector<ProvedTube>& tubes,
+                           const ModelUnits& units) {
+  constexpr int kPhases = 256;
+  constexpr std::size_t kPlaces = 60;
+  const std::size_t each = std::max<std::size_t>(2, kPlaces / tubes.size());
+  model::PointTracker points(tracker);
+  model::PointFrame frame;
+  std::string text = "$curve << END\n";
+  for (const ProvedTube& proved : tubes) {
+    for (std::size_t i = 0; i <= each; ++i) {
+      const double z = 2.0 * static_cast<double>(i) / static_cast<double>(each) - 1.0;
+      const double frequency = proved.tube.frequency + z * proved.tube.half_width;
+      const model::PointTube tube(proved.tube, frequency);
+      double sum = 0.0;
+      double least = INFINITY;
+      double most = -INFINITY;
+      for (int j = 0; j < kPhases; ++j) {
+        tube.at(2.0 * std::numbers::pi * j / kPhases, frame);
+        const double error = points.frequency(frame.curve) - frequency;
+        sum += error;
+        least = std::min(least, error);
+        most = std::max(most, error);
+      }
+      text += fmt::format("{:.9g} {:.9g} {:.9g}\n", units.drawn(frequency), units.drawn(sum / kPhases),
+                          units.drawn(most - least));
+    }
+  }
+  return text + "END\n";
+}
+
+Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::TrackerModel& tracker,
+                              const ModelUnits& units) {
+  const rigor::NearestRounding nearest;
+  const std::string unit = units.drawn_unit();
+  std::string script = gnuplot_style(520);
+  script += block_of_cells("bias", sets.cells, units, [&](const ModelCell& cell) {
+    return fmt::format("{:.9g} {:.9g}", units.drawn(cell.bias.lower()), units.drawn(cell.bias.upper()));
+  });
+  script += block_of_cells("ripple", sets.cells, units, [&](const ModelCell& cell) {
+    return fmt::format("{:.9g} NaN", units.drawn(cell.ripple));
+  });
+  script += block_on_curve(tracker, sets.starts.tubes.tubes, units);
+  script += fmt::format(
+      "set xrange [{:.9g}:{:.9g}]\n"
+      "set lmargin 13\nset rmargin 3\nset format y '%.3g'\n"
+      "set multiplot layout 2,1\n"
+      "set offsets 0, 0, graph 0.1, graph 0.1\n"
+      "set ylabel 'bias, {}' offset -1.5\n"
+      "plot $bias using 1:2:3 with filledcurves fc rgb '#d0d0d0' title 'bias, proved to be between', "
+      "'' using 1:2 with lines lw 1 lc rgb '#888888' notitle, '' using 1:3 with lines lw 1 lc rgb '#888888' "
+      "notitle, $curve using 1:2 with lines lw 1.6 dt 2 lc rgb '#000000' title 'computed, not proved'\n"
+      "set yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n"
+      "set xlabel 'frequency of the signal, {}'\n"
+      "set ylabel 'ripple, {}' offset -1.5\n"
+      "plot $ripple using 1:2 with lines lw 1.6 lc rgb '#000000' title 'ripple, proved to be at most', "
+      "$curve using 1:3 with lines lw 1.6 dt 2 lc rgb '#000000' title 'computed, not proved'\n"
+      "unset multiplot\n",
+      units.drawn(sets.cells.front().low), units.drawn(sets.cells.back().high), unit, unit, unit);
+  return {"bias.svg",
+          fmt::format("Bias (above) and ripple (below) of the frequency estimate in the long run, without "
+                      "noise, {}, against the frequency of the signal. The bias is proved to be in the grey "
+                      "band, the ripple to be below the solid line; the dashed lines are computed from the "
+                      "curve of the certificate in floating point and are not proved.",
+                      unit),
+          run_gnuplot(script)};
+}
+
+/// How far each tube of a set reaches, proved as for the whole set.
+std::string block_of_reach(const std::string& name, const ModelSet& set, const model::TrackerModel& tracker,
+                           const ModelUnits& units) {
+  std::string text = fmt::format("${} << END\n", name);
+  for (const ProvedTube& proved : set.tubes.tubes) {
+    const double reach = 0.999 * bound_reach(tracker, proved.tube, proved.levels.front(), {});
+    for (const double z : {-1.0, 1.0}) {
+      text += fmt::format("{:.9g} {:.9g}\n", units.drawn(proved.tube.frequency + z * proved.tube.half_width),
+                          units.drawn(reach));
+    }
+  }
+  return text + "END\n";
+}
+
+Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& sets,
+                    const model::TrackerModel& tracker, const ModelUnits& units) {
+  constexpr std::array<std::string_view, 4> kStyles{
+      "lw 2 dt 1 lc rgb '#000000'", "lw 2 dt 2 lc rgb '#000000'", "lw 2 dt 3 lc rgb '#000000'",
+      "lw 2 dt 4 lc rgb '#666666'"};
+  const std::vector<ProvedTube>& tubes = sets.front().second->tubes.tubes;
+  const model::Tube& first = tubes.front().tube;
+  const model::Tube& last = tubes.back().tube;
+  std::string script =
+      gnuplot_style(360) + fmt::format(
+                               "set xlabel 'frequency of the signal, {}'\nset ylabel 'reach, {}'\nset xrange "
+                               "[{:.9g}:{:.9g}]\nset yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n",
+                               units.drawn_unit(), units.drawn_unit(),
+                               units.drawn(first.frequency - first.half_width),
+                               units.drawn(last.frequency + last.half_width));
+  std::string plot;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const std::string name = fmt::format("set{}", i);
+    script += block_of_reach(name, *sets[i].second, tracker, units);
+    plot += fmt::format("{}${} using 1:2 with lines {} title '{}'", i == 0 ? "plot " : ", ", name,
+                        kStyles.at(i), sets[i].first);
+  }
+  return {"reach.svg",
+          fmt::format("How far the certified sets reach, {}, against the frequency of the signal: at every "
+                      "phase a set contains states with a frequency error of that size. Proved for each cell "
+                      "of frequencies.",
+                      units.drawn_unit()),
+          run_gnuplot(script + plot + "\n")};
+}
+
+}  // namespace
+
+std::vector<Figure> draw_model_figures(const certificates::Certificate& certificate) {
+  const rigor::UpwardRounding upward;
+  const certificates::ModelTables& tables = model_tables(certificate.design);
+  const certificates::ModelSets& sets = model_sets(certificate);
+  const certificates::Model model = make_model(tables.model, tables.assume.signal);
+  const model::TrackerModel tracker = proved_model(model, tables.assume);
+  const ModelUnits units(tables.assume);
+  std::vector<std::pair<std::string, const ModelSet*>> proved;
+  const auto add = [&](const char* name, const ModelSet& set) {
+    if (set.is_proved()) {
+      proved.emplace_back(name, &set);
+    }
+  };
+  add("no noise", sets.starts);
+  if (sets.assumed) {
+    add(!(sets.assumed->tubes.slew > 0.0)    ? "assumed noise"
+        : !(sets.assumed->tubes.noise > 0.0) ? "assumed slew"
+                                             : "assumed noise and slew",
+        *sets.assumed);
+  }
+  if (sets.noise) {
+    add("largest noise", *sets.noise);
+  }
+  if (sets.slew) {
+    add("largest slew", *sets.slew);
+  }
+  std::vector<Figure> figures;
+  if (!proved.empty()) {
+    figures.push_back(reach_figure(proved, tracker, units));
+    const bool has_assumed = sets.assumed && sets.assumed->is_proved();
+    if (has_assumed || sets.starts.is_proved()) {
+      figures.push_back(draw_tube(tracker, (has_assumed ? *sets.assumed : sets.starts).tubes, units));
+    }
+  }
+  const auto is_known = [](const ModelCell& cell) {
+    return rigor::is_finite(cell.bias) && std::isfinite(cell.ripple);
+  };
+  if (!sets.cells.empty() && std::all_of(sets.cells.begin(), sets.cells.end(), is_known)) {
+    figures.push_back(bias_and_ripple_figure(sets, tracker, units));
+  }
+  return figures;
+}
+
+}  // namespace veritrack::reports

@@ -1,0 +1,16 @@
+// The figures of a model's certificate.
+#pragma once
+
+#include <vector>
+
+#include "certificates/document/certificate.hpp"
+#include "reports/figures.hpp"
+
+namespace veritrack::reports {
+
+/// How far the certified sets reach, a tube with simulated errors in it, and bias and ripple, over the
+/// frequency; those of which something is proved. What is not in the certificate is computed anew. Throws
+/// FigureError.
+[[nodiscard]] std::vector<Figure> draw_model_figures(const certificates::Certificate& certificate);
+
+}  // namespace veritrack::reports

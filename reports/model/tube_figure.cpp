@@ -1,0 +1,165 @@
+#include "reports/model/tube_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/model/falsifier.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "reports/gnuplot.hpp"
+
+namespace veritrack::reports {
+
+namespace {
+
+using certificates::ModelUnits;
+using model::ProvedTube;
+
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
+
+/// The tube that contains the frequency; of two, the first.
+const ProvedTube& tube_at_frequency(const model::TubeSet& set, double frequency) {
+  const auto found = std::find_if(set.tubes.begin(), set.tubes.end(), [&](const ProvedTube& proved) {
+    return std::fabs(frequency - proved.tube.frequency) <= proved.tube.half_width;
+  });
+  return found != set.tubes.end() ? *found : set.tubes.front();
+}
+
+/// A tube at one frequency, seen as frequency errors.
+class TubeSection {
+ public:
+  TubeSection(const model::TrackerModel& tracker, const model::Tube& tube, double frequency)
+      : points_(tracker), tube_(tube, frequency), frequency_(frequency) {}
+
+  /// The direction of xi, of length 1, in which the estimated frequency grows most on the curve.
+  Eigen::VectorXd steepest(double phase, double radius) {
+    tube_.at(phase, frame_);
+    Eigen::VectorXd gradient(frame_.curve.size());
+    const double change = 1e-4 * radius;
+    for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+      const Eigen::VectorXd side = frame_.shape.col(i) * change;
+      gradient[i] = points_.frequency(frame_.curve + side) - points_.frequency(frame_.curve - side);
+    }
+    const double length = gradient.norm();
+    return length > 0.0 ? Eigen::VectorXd(gradient / length)
+                        : Eigen::VectorXd::Unit(gradient.size(), gradient.size() - 1);
+  }
+  /// The frequency error at these coordinates.
+  double error(double phase, const Eigen::VectorXd& coordinates) {
+    tube_.at(phase, frame_);
+    return points_.frequency(frame_.state(coordinates)) - frequency_;
+  }
+
+ private:
+  model::PointTracker points_;
+  model::PointTube tube_;
+  model::PointFrame frame_;
+  double frequency_;
+};
+
+/// "phase lower upper of R_0 lower upper of R_m" a line, phases in turns.
+std::string envelope_block(TubeSection& section, const ProvedTube& proved, const ModelUnits& units) {
+  constexpr int kPhases = 120;
+  std::string text = "$envelope << END\n";
+  for (int j = 0; j <= kPhases; ++j) {
+    const double phase = kFullTurn * j / kPhases;
+    const Eigen::VectorXd direction = section.steepest(phase, proved.levels.front());
+    text += fmt::format("{:.6g}", static_cast<double>(j) / kPhases);
+    for (const double radius : {proved.levels.front(), proved.levels.back()}) {
+      text += fmt::format(" {:.9g} {:.9g}", units.drawn(section.error(phase, -radius * direction)),
+                          units.drawn(section.error(phase, radius * direction)));
+    }
+    text += "\n";
+  }
+  return text + "END\n";
+}
+
+/// "for noise of at most 0.02 signal units".
+std::string tube_disturbances(const model::TubeSet& set) {
+  if (!(set.noise > 0.0) && !(set.slew > 0.0)) {
+    return "without noise";
+  }
+  std::string text =
+      set.noise > 0.0 ? fmt::format("for noise of at most {:.4g} signal units", set.noise) : std::string();
+  if (set.slew > 0.0) {
+    text += fmt::format("{} a slew of at most {:.4g} rad/sample per sample", text.empty() ? "for" : " and",
+                        set.slew);
+  }
+  return text;
+}
+
+/// "phase error" a line, phases in turns; a turn is a line of the picture, from edge to edge.
+std::string lines_of(const std::vector<model::AttackedSample>& run, const ModelUnits& units) {
+  std::string text;
+  double last_place = 0.0;
+  double last_error = 0.0;
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const double place = run[k].phase / kFullTurn;
+    const double error = units.drawn(run[k].frequency_error);
+    const double edge = std::floor(place);
+    if (k > 0 && last_place < edge) {
+      const double between = last_error + (error - last_error) * (edge - last_place) / (place - last_place);
+      text += fmt::format("1 {0:.7g}\n\n0 {0:.7g}\n", between);
+    }
+    text += fmt::format("{:.5f} {:.7g}\n", place - edge, error);
+    last_place = place;
+    last_error = error;
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, const ModelUnits& units) {
+  const rigor::NearestRounding nearest;
+  const model::Tube& first = set.tubes.front().tube;
+  const model::Tube& last = set.tubes.back().tube;
+  const double frequency = 0.5 * (first.frequency - first.half_width + last.frequency + last.half_width);
+  const ProvedTube& proved = tube_at_frequency(set, frequency);
+  TubeSection section(tracker, proved.tube, frequency);
+
+  constexpr int kStarts = 4;
+  constexpr int kSamples = 2000;
+  std::string script = envelope_block(section, proved, units);
+  std::string starts = "$starts << END\n";
+  std::string errors = "$errors << END\n";
+  for (int i = 0; i < kStarts; ++i) {
+    const double phase = kFullTurn * (i + 0.5) / kStarts;
+    const double radius = i % 2 == 0 ? proved.levels.front() : -proved.levels.front();
+    const auto run = simulate_attack(tracker, proved.tube, {frequency, phase, set.noise, 0.0},
+                                     radius * section.steepest(phase, proved.levels.front()), kSamples);
+    errors += lines_of(run, units);
+    starts += fmt::format("{:.5f} {:.7g}\n", phase / kFullTurn, units.drawn(run.front().frequency_error));
+  }
+  script += starts + "END\n" + errors + "END\n";
+  const std::string unit = units.drawn_unit();
+  script = gnuplot_style(440) +
+           fmt::format(
+               "set xlabel 'phase of the signal, turns'\nset ylabel 'frequency error, {}'\n"
+               "set xrange [0:1]\nset xtics 0.25\n"
+               "set offsets 0, 0, graph 0.06, graph 0.06\n",
+               unit) +
+           script +
+           "plot $errors using 1:2 with lines lw 0.7 lc rgb '#888888' title 'simulated', "
+           "$starts using 1:2 with points pt 7 ps 0.7 lc rgb '#000000' title 'starts', "
+           "$envelope using 1:2 with lines lw 2 lc rgb '#000000' title 'whole tube', "
+           "'' using 1:3 with lines lw 2 lc rgb '#000000' notitle, "
+           "'' using 1:4 with lines lw 2 dt 2 lc rgb '#000000' title 'lowest level', "
+           "'' using 1:5 with lines lw 2 dt 2 lc rgb '#000000' notitle\n";
+  return {
+      "tube.svg",
+      fmt::format(
+          "The certified tube {} at {:.6g} {}: frequency error ({}) against the phase of the signal "
+          "(turns). A start in the tube stays between the solid lines and ends between the dashed ones. "
+          "Grey: {} simulated starts on the rim (dots), {} samples each{}. The lines are drawn in floating "
+          "point, and the simulations prove nothing.",
+          tube_disturbances(set), units.drawn(frequency), unit, unit, kStarts, kSamples,
+          set.noise > 0.0
+              ? ", with the noise that pushes outward most at every sample, at a constant frequency"
+              : ""),
+      run_gnuplot(script)};
+}
+
+}  // namespace veritrack::reports

@@ -1,0 +1,51 @@
+// A phase-locked loop as a design file, and its certificate.
+#pragma once
+
+#include <string>
+
+#include "certificates/design/design_reader.hpp"
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::test {
+
+inline constexpr const char* kLoopText = R"(name = "a loop"
+tracker = "model"
+source = "our own"
+
+[model]
+samples = 'y'
+parameters = { wn = 0.02, zeta = 0.7071, ki = 'wn^2', kp = '2*zeta*wn' }
+states = ['theta', 'w']
+angles = ['theta']
+units = { theta = 'rad', w = 'rad/sample' }
+step = '''
+e      = -2*y*sin(theta + w)
+w'     = w + ki*e
+theta' = theta + w + kp*e
+'''
+frequency = 'w'
+start = { theta = 0, w = 'omega' }
+
+[assume]
+amplitude = 1
+sample_rate = 1000
+frequency = [0.3, 0.32]
+noise = 0.02
+start_within = { w = 0.001 }
+
+[require]
+frequency_error_below = 0.02
+)";
+
+inline certificates::Design loop_design(const std::string& text = kLoopText) {
+  return certificates::read_design(text, "loop.toml");
+}
+
+/// Of what is required, certified once in each test program.
+inline const certificates::Certificate& loop_certificate() {
+  static const certificates::Certificate certificate =
+      certificates::certify(loop_design(), "loop.toml", kLoopText, {}, certificates::Extent::requirements);
+  return certificate;
+}
+
+}  // namespace veritrack::test

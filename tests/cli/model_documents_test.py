@@ -1,0 +1,66 @@
+"""The folder of a certificate for a recursion that a user has written down."""
+
+import re
+import unittest
+
+from documents import read_documents
+from support import ROOT, CliTestCase
+
+DESIGN = ROOT / "designs" / "models" / "aranovskiy.toml"
+
+
+class ModelDocuments(CliTestCase):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.text = DESIGN.read_text()
+
+    def certify(self, text):
+        self.write(text)
+        result = self.run_here("certify", "design.toml", "--out", "out")
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        return result, (self.folder / "out" / "certificate.md").read_text()
+
+    def test_a_certified_model_has_all_its_files(self):
+        require = "\n[require]\nfrequency_error_below = 0.05\nripple_below = 0.001\n"
+        result, document = self.certify(self.text + require)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertEqual(self.files(), ["out/certificate.json", "out/certificate.md", "out/figures/bias.svg",
+                                        "out/figures/reach.svg", "out/figures/tube.svg", "out/report.json"])
+        self.assertTrue(document.startswith("# PROVED: the frequency error stays below 0.05 rad/sample for ever; "
+                                            "PROVED: the frequency error varies by at most 0.001 rad/sample\n"))
+        sections = re.findall(r"^## (.*)$", document, re.MULTILINE)
+        self.assertEqual(sections, ["What was required", "The design and what is assumed", "The certified sets",
+                                    "Bias and ripple", "The recursion",
+                                    "What this certificate covers, and what it does not",
+                                    "What the checker verifies", "How to reproduce it"])
+        for figure in re.findall(r"\]\((figures/[^)]*)\)", document):
+            self.assertIn("</svg>", (self.folder / "out" / figure).read_text())
+        self.assertEqual(document.count("](figures/"), 3)
+        certificate, _ = read_documents(self.folder / "out")
+        self.assertEqual([tubes["name"] for tubes in certificate["tubes"]][:2], ["starts", "assumed"])
+        # Simulations come close to what is proved, and never reach it.
+        shares = re.search(r": ([0-9.]+) of the certified bound\. After the first sample it reached at most ([0-9.]+)",
+                           document)
+        self.assertLessEqual(float(shares[1]), 1.0)
+        self.assertLessEqual(float(shares[2]), 1.0)
+        self.assertNotIn("ALARM", document)
+
+    def test_the_same_bytes_twice(self):
+        text = self.text.replace("[0.09, 0.11]", "[0.1, 0.101]")
+        _, first = self.certify(text)
+        figures = [path.read_bytes() for path in sorted((self.folder / "out" / "figures").iterdir())]
+        _, second = self.certify(text)
+        self.assertEqual(first, second)
+        self.assertEqual(figures, [path.read_bytes() for path in sorted((self.folder / "out" / "figures").iterdir())])
+
+    def test_what_cannot_be_proved_says_why(self):
+        result, document = self.certify(self.text.replace("noise = 0.01", "noise = 3") +
+                                        "\n[require]\nfrequency_error_below = 0.05\n")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("The set for the assumed noise was not proved for the whole band.", document)
+        self.assertIn("| the assumed noise | 3 | none | not proved |", document)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -74,14 +74,16 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
     const BallModel error = frequency_error(model, frame, state_in(frame.here, radius));
     cells[number] = {error.range(), error.mean_over_s()};
   });
-  TubeErrors result{Interval::empty(), Interval::empty(), 0.0};
+  const TubeErrors nothing_known{
+      Interval::empty(), Interval::empty(), std::numeric_limits<double>::quiet_NaN(), {}};
+  TubeErrors result{Interval::empty(), Interval::empty(), 0.0, {}};
   const auto phases = static_cast<std::size_t>(grid.phases);
   for (std::size_t first = 0; first < cells.size(); first += phases) {
     Interval range = cells[first].error;
     Interval sum(0.0);
     for (std::size_t number = first; number < first + phases; ++number) {
       if (rigor::is_empty(cells[number].error) || rigor::is_empty(cells[number].mean)) {
-        return {Interval::empty(), Interval::empty(), std::numeric_limits<double>::quiet_NaN()};
+        return nothing_known;
       }
       range = hull(range, cells[number].error);
       sum = sum + cells[number].mean;
@@ -89,7 +91,11 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
     const Interval mean = sum / Interval(static_cast<double>(grid.phases));
     result.error = first == 0 ? range : hull(result.error, range);
     result.mean = first == 0 ? mean : hull(result.mean, mean);
-    result.ripple = std::max(result.ripple, (Interval(range.upper()) - Interval(range.lower())).upper());
+    const double ripple = (Interval(range.upper()) - Interval(range.lower())).upper();
+    result.ripple = std::max(result.ripple, ripple);
+    const TubeCell place = cell_of(grid, first);
+    result.slices.push_back({tube.frequency + tube.half_width * (place.z - place.half_z),
+                             tube.frequency + tube.half_width * (place.z + place.half_z), mean, ripple});
   }
   return result;
 }

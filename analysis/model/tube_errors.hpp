@@ -18,11 +18,19 @@ struct ErrorGrid {
 /// Of h - omega, rad/sample, for all |xi| <= radius, phases and frequencies of the tube. Empty or NaN where
 /// nothing is known.
 struct TubeErrors {
+  /// The same for a part of the frequencies.
+  struct Slice {
+    double low = 0.0;  ///< rad/sample, to the nearest double
+    double high = 0.0;
+    rigor::Interval mean;
+    double ripple = 0.0;
+  };
   rigor::Interval error;  ///< contains all
   /// Contains the mean over the phase for each frequency, whatever xi does while the phase turns.
   rigor::Interval mean;
   /// For each frequency the largest less the smallest over the phase is at most this.
   double ripple = 0.0;
+  std::vector<Slice> slices;  ///< from low frequencies to high ones; none where nothing is known
 };
 
 /// Throws std::invalid_argument when sizes do not fit or the grid is none.

@@ -90,7 +90,9 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
     const double radius = proved.levels.front();
     const double reach = model::bound_reach(tracker, proved.tube, radius, grid) * 0.999;
     const double start = model::bound_start(tracker, proved.tube, deviations, grid);
-    const model::TubeErrors settled = model::bound_errors(tracker, proved.tube, proved.levels.back(), grid);
+    constexpr model::ErrorGrid kFine{128, 16};  // the bias changes with the frequency
+    const model::TubeErrors settled =
+        model::bound_errors(tracker, proved.tube, proved.levels.back(), cells != nullptr ? kFine : grid);
     const Interval whole = model::bound_errors(tracker, proved.tube, radius, grid).error;
     const double room =
         rigor::is_finite(settled.mean) ? 1e-3 * (size_of(settled.mean) + settled.ripple) : INFINITY;
@@ -106,9 +108,9 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
     set.bias = !is_known ? Interval::empty() : is_first ? mean : hull(set.bias, mean);
     is_first = false;
     if (cells != nullptr) {
-      cells->push_back({proved.tube.frequency - proved.tube.half_width,
-                        proved.tube.frequency + proved.tube.half_width, mean,
-                        with_room(1.01 * settled.ripple), reach});
+      for (const model::TubeErrors::Slice& slice : settled.slices) {
+        cells->push_back({slice.low, slice.high, slice.mean, slice.ripple, reach});
+      }
     }
   }
   return set;

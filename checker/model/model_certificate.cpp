@@ -27,7 +27,7 @@ std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const ModelDesig
     check_cover(set, design.lowest, design.highest, objections);
     if (objections.empty()) {
       // It objects itself where it fails.
-      (void)TubeCheck(model, set, result.cells).is_never_left(objections);
+      (void)PhaseTubeCheck(model, set, result.cells).is_never_left(objections);
     }
     result.parts.push_back({"tubes " + set.name, objections});
     if (objections.empty()) {

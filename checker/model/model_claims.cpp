@@ -21,7 +21,7 @@ const std::string kSteadyState = "model/steady-state";
 const std::string kRadPerSample = " rad/sample";
 const std::string kSettled = ", without noise, started in the tube in the certificate";
 
-std::size_t first_level(const Tube& /*tube*/) {
+std::size_t first_level(const PhaseTube& /*tube*/) {
   return 0;
 }
 
@@ -102,7 +102,7 @@ const TubeSet* ModelClaims::deciding_set() const {
 
 bool ModelClaims::settles(const TubeSet& set) const {
   return std::all_of(set.tubes.begin(), set.tubes.end(),
-                     [](const Tube& tube) { return tube.levels.size() > 1; });
+                     [](const PhaseTube& tube) { return tube.levels.size() > 1; });
 }
 
 const TubeSet* ModelClaims::settling_set() const {
@@ -130,7 +130,7 @@ Claim ModelClaims::settling() const {
   found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
                     words_.assumed_start() + ", " + short_text(kSettlingTime) + ".";
   // The last level that is reached in time.
-  const auto level = [this, set](const Tube& tube) {
+  const auto level = [this, set](const PhaseTube& tube) {
     std::size_t reached = 0;
     while (reached < last_level(tube) &&
            certainly_at_most(samples_to_level(*set, tube, reached + 1), design_->settles_within->value)) {

@@ -29,7 +29,7 @@ class ModelClaims {
   [[nodiscard]] const TubeSet* deciding_set() const;
   /// "starts", if there are levels to come down to.
   [[nodiscard]] const TubeSet* settling_set() const;
-  [[nodiscard]] TubeCheck of(const TubeSet& set) const { return {*model_, set, *cells_}; }
+  [[nodiscard]] PhaseTubeCheck of(const TubeSet& set) const { return {*model_, set, *cells_}; }
   /// Starts as they are assumed are in the set.
   [[nodiscard]] bool contains_assumed_starts(const TubeSet& set) const;
   [[nodiscard]] bool settles(const TubeSet& set) const;

@@ -9,22 +9,22 @@ namespace veritrack::checker {
 
 namespace {
 
-Ball low_end(const Tube& tube) {
+Ball low_end(const PhaseTube& tube) {
   return Ball(tube.frequency) - Ball(tube.half_width);
 }
-Ball high_end(const Tube& tube) {
+Ball high_end(const PhaseTube& tube) {
   return Ball(tube.frequency) + Ball(tube.half_width);
 }
 
 /// From one cell into another, over frequencies about `middle`, half_width to both sides.
 struct Crossing {
-  const Tube* from;
-  const Tube* to;
+  const PhaseTube* from;
+  const PhaseTube* to;
   Ball middle, half_width;
 };
 
 /// The same phases and frequencies, as a part of a tube.
-TubePart part_of_tube(const Crossing& crossing, const TubePart& part, const Tube& tube) {
+TubePart part_of_tube(const Crossing& crossing, const TubePart& part, const PhaseTube& tube) {
   const Ball width(tube.half_width);
   const Ball z = (crossing.middle + crossing.half_width * Ball(part.z) - Ball(tube.frequency)) / width;
   const Ball half_z = crossing.half_width * Ball(part.half_z) / width;
@@ -52,7 +52,7 @@ std::vector<BallPolynomial> in_other_coordinates(const Crossing& crossing, const
 
 std::vector<Ball> common_levels(const TubeSet& set) {
   std::vector<Ball> levels;
-  for (const Tube& tube : set.tubes) {
+  for (const PhaseTube& tube : set.tubes) {
     for (std::size_t j = 0; j < tube.levels.size(); ++j) {
       const Ball ratio = (Ball(tube.levels[j]) / Ball(tube.levels[0])).lower();
       if (j == levels.size()) {
@@ -68,7 +68,7 @@ std::vector<Ball> common_levels(const TubeSet& set) {
 void check_common_levels(const TubeSet& set, Objections& objections) {
   const std::vector<Ball> common = common_levels(set);
   const Ball little_more = one + Ball(0x1p-38);
-  for (const Tube& tube : set.tubes) {
+  for (const PhaseTube& tube : set.tubes) {
     bool is_common = tube.levels.size() == common.size() && set.crossing.size() == pairs_of(tube);
     for (std::size_t j = 0; j < tube.levels.size() && is_common; ++j) {
       is_common = certainly_at_most(Ball(tube.levels[j]), common[j] * Ball(tube.levels[0]) * little_more);
@@ -94,8 +94,8 @@ bool crosses_borders(const TubeSet& set, std::size_t states, std::int64_t& cells
   const std::vector<Ball> common = common_levels(set);
   std::vector<Crossing> crossings;
   for (std::size_t i = 0; i + 1 < set.tubes.size(); ++i) {
-    const Tube& below = set.tubes[i];
-    const Tube& above = set.tubes[i + 1];
+    const PhaseTube& below = set.tubes[i];
+    const PhaseTube& above = set.tubes[i + 1];
     const bool reaches_only_above =
         i + 2 == set.tubes.size() || certainly_at_most(high_end(below) + slew, high_end(above));
     const bool reaches_only_below = i == 0 || certainly_at_most(low_end(below), low_end(above) - slew);
@@ -118,7 +118,7 @@ bool crosses_borders(const TubeSet& set, std::size_t states, std::int64_t& cells
     for (const std::size_t j : questions) {
       constexpr double kDown = 1.0 - 0x1p-48;
       constexpr double kUp = 1.0 + 0x1p-48;
-      const Tube& from = *crossing.from;
+      const PhaseTube& from = *crossing.from;
       const double radius = from.levels[j] * from.shrinking[j] * kUp;
       const LengthBound bound(in_other_coordinates(crossing, part, radius, monomials));
       const double factor = set.crossing[j] * (crossing.to->levels[0] / from.levels[0]) * kDown * kDown;

@@ -13,7 +13,7 @@ namespace {
 
 /// Between the levels number j and j + 1, with a bound on F for |xi| <= R_j. `low_end`: R_{j+1}, or a little
 /// less.
-bool shrinks(const LengthBound& step, const Tube& tube, std::size_t j, double low_end) {
+bool shrinks(const LengthBound& step, const PhaseTube& tube, std::size_t j, double low_end) {
   constexpr double kDown = 1.0 - 0x1p-48;
   constexpr double kUp = 1.0 + 0x1p-48;
   const double rate = tube.shrinking[j] * kDown;
@@ -40,13 +40,13 @@ Ball samples_between(const Ball& from, const Ball& to, const Ball& rate) {
 
 }  // namespace
 
-bool TubeCheck::is_never_left(Objections& objections) const {
+bool PhaseTubeCheck::is_never_left(Objections& objections) const {
   const ModelRecursion& recursion = *model_->recursion;
   const std::size_t before = objections.size();
   if (const std::string objection = angle_objection(recursion); !objection.empty()) {
     objections.push_back(objection);
   }
-  for (const Tube& tube : set_->tubes) {
+  for (const PhaseTube& tube : set_->tubes) {
     for (std::size_t i = 0; i < recursion.states(); ++i) {
       if (tube.turns.at(i) != 0 && !recursion.is_angle()[i]) {
         objections.emplace_back("the curve turns in a state that is no angle");
@@ -64,7 +64,7 @@ bool TubeCheck::is_never_left(Objections& objections) const {
   const VectorMonomials monomials(recursion.states(), is_noisy ? recursion.samples() : 0, moves ? 1 : 0);
   const std::vector<Ball> common = common_levels(*set_);
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& pairs) {
-    const Tube& tube = set_->tubes[number];
+    const PhaseTube& tube = set_->tubes[number];
     PartAnswer answer;
     const TubeStep step(*model_, tube, part, monomials, set_->slew);
     if (!step.has_shape()) {
@@ -90,7 +90,7 @@ bool TubeCheck::is_never_left(Objections& objections) const {
   };
   std::vector<FirstGrid> grids;
   grids.reserve(set_->tubes.size());
-  for (const Tube& tube : set_->tubes) {
+  for (const PhaseTube& tube : set_->tubes) {
     grids.push_back({tube.phases, tube.frequencies, pairs_of(tube)});
   }
   if (!certain_everywhere(grids, ask, *cells_)) {
@@ -101,7 +101,7 @@ bool TubeCheck::is_never_left(Objections& objections) const {
   return objections.size() == before;
 }
 
-Ball samples_to_level(const TubeSet& set, const Tube& tube, std::size_t level) {
+Ball samples_to_level(const TubeSet& set, const PhaseTube& tube, std::size_t level) {
   const bool moves = !certainly_equal(Ball(set.slew), zero);
   const std::vector<Ball> common = common_levels(set);
   Ball sum;
@@ -112,7 +112,7 @@ Ball samples_to_level(const TubeSet& set, const Tube& tube, std::size_t level) {
       continue;
     }
     Ball rate(set.crossing.at(j));
-    for (const Tube& each : set.tubes) {
+    for (const PhaseTube& each : set.tubes) {
       rate = max(rate, Ball(each.shrinking.at(j)));
     }
     sum += samples_between(common.at(j), common.at(j + 1), rate);

@@ -11,9 +11,9 @@ namespace veritrack::checker {
 
 /// Statements about a set. Each is true only when it is certain; all but `is_never_left` are about the tubes
 /// alone. The model and the set must outlive it; cells are counted in `cells`.
-class TubeCheck {
+class PhaseTubeCheck {
  public:
-  TubeCheck(const TrackedModel& model, const TubeSet& set, std::int64_t& cells)
+  PhaseTubeCheck(const TrackedModel& model, const TubeSet& set, std::int64_t& cells)
       : model_(&model), set_(&set), cells_(&cells) {}
 
   /// For all phases, all frequencies of the cells, |v| <= noise and a frequency that moves by at most the
@@ -25,11 +25,11 @@ class TubeCheck {
   [[nodiscard]] bool is_never_left(Objections& objections) const;
 
   /// |h - omega| < bound, or <= bound, at all states of the level with this number.
-  [[nodiscard]] bool error_is_below(const std::function<std::size_t(const Tube&)>& level,
+  [[nodiscard]] bool error_is_below(const std::function<std::size_t(const PhaseTube&)>& level,
                                     const Ball& bound) const {
     return error_is_within(level, bound, true);
   }
-  [[nodiscard]] bool error_is_at_most(const std::function<std::size_t(const Tube&)>& level,
+  [[nodiscard]] bool error_is_at_most(const std::function<std::size_t(const PhaseTube&)>& level,
                                       const Ball& bound) const {
     return error_is_within(level, bound, false);
   }
@@ -45,8 +45,8 @@ class TubeCheck {
   [[nodiscard]] bool contains_starts(const std::vector<Ball>& deviations) const;
 
  private:
-  [[nodiscard]] bool error_is_within(const std::function<std::size_t(const Tube&)>& level, const Ball& bound,
-                                     bool strictly) const;
+  [[nodiscard]] bool error_is_within(const std::function<std::size_t(const PhaseTube&)>& level,
+                                     const Ball& bound, bool strictly) const;
   /// Whether the answer holds for all frequencies: asked of h - omega on all parts of a turn, for some of
   /// them.
   [[nodiscard]] bool holds_for_turns(
@@ -58,11 +58,11 @@ class TubeCheck {
 };
 
 /// The number of the last level of a tube: m.
-inline std::size_t last_level(const Tube& tube) {
+inline std::size_t last_level(const PhaseTube& tube) {
   return tube.levels.size() - 1;
 }
 /// After how many samples a state of level R_0 of this tube of the set is at level R_j for ever: of all tubes
 /// that the frequency moves through.
-Ball samples_to_level(const TubeSet& set, const Tube& tube, std::size_t level);
+Ball samples_to_level(const TubeSet& set, const PhaseTube& tube, std::size_t level);
 
 }  // namespace veritrack::checker

@@ -73,11 +73,11 @@ std::vector<double> steepest(const BallPolynomial& error, std::size_t states) {
 
 }  // namespace
 
-bool TubeCheck::error_is_within(const std::function<std::size_t(const Tube&)>& level, const Ball& bound,
-                                bool strictly) const {
+bool PhaseTubeCheck::error_is_within(const std::function<std::size_t(const PhaseTube&)>& level,
+                                     const Ball& bound, bool strictly) const {
   const VectorMonomials monomials(model_->recursion->states(), 0);
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
-    const Tube& tube = set_->tubes[number];
+    const PhaseTube& tube = set_->tubes[number];
     const TubeOver over(tube, part, false);
     const double radius = tube.levels.at(level(tube));
     const BallPolynomial error =
@@ -90,11 +90,11 @@ bool TubeCheck::error_is_within(const std::function<std::size_t(const Tube&)>& l
   return certain_everywhere(std::vector<FirstGrid>(set_->tubes.size()), ask, *cells_);
 }
 
-bool TubeCheck::contains_errors(const Ball& reach) const {
+bool PhaseTubeCheck::contains_errors(const Ball& reach) const {
   const std::size_t n = model_->recursion->states();
   const VectorMonomials monomials(n, 0);
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
-    const Tube& tube = set_->tubes[number];
+    const PhaseTube& tube = set_->tubes[number];
     const double radius = tube.levels.front();
     const TubePart middle = part.middle();
     const std::vector<double> direction =
@@ -119,7 +119,7 @@ bool TubeCheck::contains_errors(const Ball& reach) const {
   return certain_everywhere(std::vector<FirstGrid>(set_->tubes.size()), ask, *cells_);
 }
 
-bool TubeCheck::contains_starts(const std::vector<Ball>& deviations) const {
+bool PhaseTubeCheck::contains_starts(const std::vector<Ball>& deviations) const {
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     if (!certainly_equal(deviations[i], zero)) {
@@ -133,7 +133,7 @@ bool TubeCheck::contains_starts(const std::vector<Ball>& deviations) const {
   // A convex function is greatest at a corner, and it is even: the first sign may be chosen.
   const std::size_t corners = moved.empty() ? 1 : std::size_t{1} << (moved.size() - 1);
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
-    const Tube& tube = set_->tubes[number];
+    const PhaseTube& tube = set_->tubes[number];
     const TubeOver over(tube, part, false);
     bool certain = over.has_shape();
     Extent extent;
@@ -154,19 +154,19 @@ bool TubeCheck::contains_starts(const std::vector<Ball>& deviations) const {
   return certain_everywhere(std::vector<FirstGrid>(set_->tubes.size()), ask, *cells_);
 }
 
-bool TubeCheck::holds_for_turns(
+bool PhaseTubeCheck::holds_for_turns(
     const std::function<bool(const std::vector<BallPolynomial>& errors)>& holds) const {
   constexpr std::size_t kFirst = 32;
   constexpr std::size_t kMost = 4096;
   constexpr double kLeastWidth = 0x1p-12;
   const VectorMonomials monomials(model_->recursion->states(), 0);
   struct Open {
-    const Tube* tube;
+    const PhaseTube* tube;
     double z, half_z;
     std::size_t phases;
   };
   std::vector<Open> open;
-  for (const Tube& tube : set_->tubes) {
+  for (const PhaseTube& tube : set_->tubes) {
     open.push_back({&tube, 0.0, 1.0, kFirst});
   }
   bool certain = !open.empty();
@@ -201,7 +201,7 @@ bool TubeCheck::holds_for_turns(
   return certain;
 }
 
-bool TubeCheck::mean_error_is_between(const Ball& low, const Ball& high) const {
+bool PhaseTubeCheck::mean_error_is_between(const Ball& low, const Ball& high) const {
   return holds_for_turns([&](const std::vector<BallPolynomial>& errors) {
     BallPolynomial sum;
     for (const BallPolynomial& error : errors) {
@@ -212,7 +212,7 @@ bool TubeCheck::mean_error_is_between(const Ball& low, const Ball& high) const {
   });
 }
 
-bool TubeCheck::error_varies_by_at_most(const Ball& most) const {
+bool PhaseTubeCheck::error_varies_by_at_most(const Ball& most) const {
   return holds_for_turns([&](const std::vector<BallPolynomial>& errors) {
     Ball least = Ball::everything();
     Ball greatest = least;

@@ -70,7 +70,7 @@ bool is_falling(const std::vector<double>& levels) {
 }
 
 /// In (0, 1], and below 1 when there are levels to come down.
-bool is_shrinking(const Tube& tube) {
+bool is_shrinking(const PhaseTube& tube) {
   const bool has_one_level = tube.levels.size() <= 1;
   return tube.shrinking.size() == pairs_of(tube) &&
          std::all_of(tube.shrinking.begin(), tube.shrinking.end(), [&](double rate) {
@@ -79,8 +79,8 @@ bool is_shrinking(const Tube& tube) {
          });
 }
 
-Tube tube_from(const Tree& cell, std::size_t states, Objections& objections) {
-  Tube tube;
+PhaseTube tube_from(const Tree& cell, std::size_t states, Objections& objections) {
+  PhaseTube tube;
   tube.frequency = double_from(cell.at("frequency"));
   tube.half_width = double_from(cell.at("half_width"));
   tube.levels = doubles_from(cell.at("levels"));
@@ -141,8 +141,8 @@ void check_cover(const TubeSet& set, const Ball& lowest, const Ball& highest, Ob
     objections.emplace_back(objection);
     return;
   }
-  const auto low = [](const Tube& tube) { return Ball(tube.frequency) - Ball(tube.half_width); };
-  const auto high = [](const Tube& tube) { return Ball(tube.frequency) + Ball(tube.half_width); };
+  const auto low = [](const PhaseTube& tube) { return Ball(tube.frequency) - Ball(tube.half_width); };
+  const auto high = [](const PhaseTube& tube) { return Ball(tube.frequency) + Ball(tube.half_width); };
   bool covers =
       certainly_at_most(low(set.tubes.front()), lowest) && certainly_at_most(highest, high(set.tubes.back()));
   for (std::size_t i = 0; i + 1 < set.tubes.size(); ++i) {

@@ -16,7 +16,7 @@ using PhaseSeries = std::vector<std::vector<std::complex<double>>>;
 
 /// C(phi, omega) + U(phi, omega) xi, |xi| <= R, over the frequencies |omega - frequency| <= half_width,
 /// where C(phi, omega) = turns phi + curve and U is lower triangular; rad/sample.
-struct Tube {
+struct PhaseTube {
   double frequency = 0.0;
   double half_width = 0.0;        ///< z = (omega - frequency)/half_width
   std::vector<double> levels;     ///< R_0 > R_1 > ... > R_m > 0
@@ -34,11 +34,11 @@ struct TubeSet {
   double slew = 0.0;
   double noise = 0.0;
   std::vector<double> crossing;  ///< of relative levels at the borders of cells; with slew only
-  std::vector<Tube> tubes;
+  std::vector<PhaseTube> tubes;
 };
 
 /// How many pairs of neighbouring levels a tube has; one if there is one level.
-inline std::size_t pairs_of(const Tube& tube) {
+inline std::size_t pairs_of(const PhaseTube& tube) {
   return tube.levels.size() > 1 ? tube.levels.size() - 1 : 1;
 }
 

@@ -13,7 +13,7 @@ namespace {
 /// cos and sin of h phi, times powers of z, for all that a tube needs.
 class HarmonicBasis {
  public:
-  HarmonicBasis(const Tube& tube, const TubePart& part, bool later) {
+  HarmonicBasis(const PhaseTube& tube, const TubePart& part, bool later) {
     std::size_t most_harmonics = 0;
     for (const std::vector<PhaseSeries>* list : {&tube.curve, &tube.shape}) {
       for (const PhaseSeries& series : *list) {
@@ -81,7 +81,7 @@ class HarmonicBasis {
 };
 
 /// phi, or phi + omega.
-BallPolynomial phase_over(const Tube& tube, const TubePart& part, bool later) {
+BallPolynomial phase_over(const PhaseTube& tube, const TubePart& part, bool later) {
   const Ball turn = two * pi();
   BallPolynomial phase = BallPolynomial(turn * Ball(part.turn));
   phase += BallPolynomial(turn * Ball(part.half_turn)) * BallPolynomial::phase();
@@ -108,7 +108,7 @@ TubePart TubePart::half_of_frequencies(bool second) const {
   return {turn, half_turn, second ? z + less : z - less, less, z_error};
 }
 
-TubeOver::TubeOver(const Tube& tube, const TubePart& part, bool later, const FrequencyMove* move) {
+TubeOver::TubeOver(const PhaseTube& tube, const TubePart& part, bool later, const FrequencyMove* move) {
   const HarmonicBasis basis(tube, part, later);
   const BallPolynomial phase = phase_over(tube, part, later);
   for (std::size_t i = 0; i < tube.curve.size(); ++i) {
@@ -152,13 +152,13 @@ std::vector<BallPolynomial> TubeOver::coordinates(const std::vector<BallPolynomi
   return result;
 }
 
-BallPolynomial frequency_over(const Tube& tube, const TubePart& part) {
+BallPolynomial frequency_over(const PhaseTube& tube, const TubePart& part) {
   const Ball width(tube.half_width);
   return BallPolynomial(Ball(tube.frequency) + width * Ball(part.z)) +
          BallPolynomial(width * Ball(part.half_z)) * BallPolynomial::frequency();
 }
 
-BallPolynomial frequency_error(const TrackedModel& model, const Tube& tube, const TubePart& part,
+BallPolynomial frequency_error(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
                                const std::vector<BallPolynomial>& state) {
   return model.recursion->frequency(state) - frequency_over(tube, part);
 }
@@ -171,7 +171,7 @@ std::vector<BallPolynomial> components(const VectorMonomials& monomials) {
   return xi;
 }
 
-TubeOver TubeStep::after_step(const Tube& tube, const TubePart& part, double slew) const {
+TubeOver TubeStep::after_step(const PhaseTube& tube, const TubePart& part, double slew) const {
   if (slew == 0.0) {
     return {tube, part, true};
   }
@@ -180,7 +180,7 @@ TubeOver TubeStep::after_step(const Tube& tube, const TubePart& part, double sle
   return {tube, part, true, &move};
 }
 
-TubeStep::TubeStep(const TrackedModel& model, const Tube& tube, const TubePart& part,
+TubeStep::TubeStep(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
                    const VectorMonomials& monomials, double slew)
     : model_(&model),
       monomials_(&monomials),

@@ -52,7 +52,7 @@ struct TubeOver {
   std::vector<BallPolynomial> shape;  ///< the lower triangle, row by row
 
   /// `later`: a sample later, at the same frequency or one that it moves to.
-  TubeOver(const Tube& tube, const TubePart& part, bool later, const FrequencyMove* move = nullptr);
+  TubeOver(const PhaseTube& tube, const TubePart& part, bool later, const FrequencyMove* move = nullptr);
   /// The diagonal of the shape is certainly positive.
   [[nodiscard]] bool has_shape() const;
   /// C + radius U x, for components x.
@@ -62,8 +62,8 @@ struct TubeOver {
 };
 
 /// omega over the part, and the estimate of the frequency at a state less that; rad/sample.
-BallPolynomial frequency_over(const Tube& tube, const TubePart& part);
-BallPolynomial frequency_error(const TrackedModel& model, const Tube& tube, const TubePart& part,
+BallPolynomial frequency_over(const PhaseTube& tube, const TubePart& part);
+BallPolynomial frequency_error(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
                                const std::vector<BallPolynomial>& state);
 /// The components of xi.
 std::vector<BallPolynomial> components(const VectorMonomials& monomials);
@@ -73,7 +73,7 @@ class TubeStep {
  public:
   /// For a slew in rad/sample per sample: zeta is the only component of the third vector of the monomials,
   /// which must outlive this.
-  TubeStep(const TrackedModel& model, const Tube& tube, const TubePart& part,
+  TubeStep(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
            const VectorMonomials& monomials, double slew = 0.0);
 
   /// Whether the shape is one here and a sample later: certainly positive on its diagonal.
@@ -83,7 +83,7 @@ class TubeStep {
   [[nodiscard]] std::vector<BallPolynomial> map(double radius, double noise) const;
 
  private:
-  [[nodiscard]] TubeOver after_step(const Tube& tube, const TubePart& part, double slew) const;
+  [[nodiscard]] TubeOver after_step(const PhaseTube& tube, const TubePart& part, double slew) const;
 
   const TrackedModel* model_;
   const VectorMonomials* monomials_;

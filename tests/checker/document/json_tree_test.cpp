@@ -16,6 +16,7 @@ TEST_CASE("a tree contains what the text says, in its order") {
   CHECK(list.at(0).truth());
   CHECK(list.at(1).text() == "x");
   CHECK(list.at(2).kind() == Tree::Kind::integer);
+  CHECK(list.at(2).integer() == 3);
   CHECK(list.at(3).kind() == Tree::Kind::nothing);
   CHECK(!tree.at("a").at("c").truth());
   CHECK(tree.find("d") == nullptr);
@@ -25,6 +26,7 @@ TEST_CASE("what is asked for as another type, or is not there, is malformed") {
   const Tree tree = read_json(R"({"text": "x", "list": [1]})");
   CHECK_THROWS_AS((void)tree.at("none"), Malformed);
   CHECK_THROWS_AS((void)tree.at("text").truth(), Malformed);
+  CHECK_THROWS_AS((void)tree.at("text").integer(), Malformed);
   CHECK_THROWS_AS((void)tree.at("text").elements(), Malformed);
   CHECK_THROWS_AS((void)tree.at("list").members(), Malformed);
   CHECK_THROWS_AS((void)tree.at("list").at(1), Malformed);

@@ -13,8 +13,8 @@ namespace veritrack::checker {
 namespace {
 
 /// A tracker of one state, on whose curve the state is the frequency; |xi| is in units of `size`.
-Tube follows(double frequency, double half_width, double radius, double size = 1.0) {
-  Tube tube;
+PhaseTube follows(double frequency, double half_width, double radius, double size = 1.0) {
+  PhaseTube tube;
   tube.frequency = frequency;
   tube.half_width = half_width;
   tube.levels = {radius, radius / 2.0};
@@ -117,7 +117,7 @@ TEST_CASE("levels are common up to a little") {
   }
   // One level need not shrink.
   set = three_cells();
-  for (Tube& tube : set.tubes) {
+  for (PhaseTube& tube : set.tubes) {
     tube.levels.pop_back();
   }
   set.crossing = {1.0};
@@ -181,7 +181,7 @@ TEST_CASE("a phase-locked loop whose frequency moves, in one cell and in two") {
     const TubeSet tubes = read_tube_set(read_json(set.dump()), recursion.states(), objections);
     check_cover(tubes, Ball(0.28125), Ball(0.3125), objections);
     std::int64_t cells_taken = 0;
-    return objections.empty() && TubeCheck(model, tubes, cells_taken).is_never_left(objections);
+    return objections.empty() && PhaseTubeCheck(model, tubes, cells_taken).is_never_left(objections);
   };
   test::Json whole = certificate["tubes"][1]["cells"][0];
   whole["levels"] = test::hexadecimals({0.0045});

@@ -20,11 +20,11 @@ namespace {
 struct Tracked {
   ModelRecursion recursion;
   TrackedModel model;
-  Tube tube;
+  PhaseTube tube;
 
   Tracked(const std::string& name, double frequency, double half_width)
       : Tracked(test::ProposedModel(name), frequency, half_width) {}
-  Tracked(const std::string& name, const Tube& given)
+  Tracked(const std::string& name, const PhaseTube& given)
       : recursion(read_json(test::ProposedModel(name).design_json().dump()).at("model")),
         model{&recursion, one},
         tube(given) {}
@@ -61,7 +61,7 @@ Ball sum_at(const PhaseSeries& series, const Ball& phase, const Ball& z) {
   return sum;
 }
 
-std::vector<Ball> curve_at(const Tube& tube, const Ball& phase, const Ball& z) {
+std::vector<Ball> curve_at(const PhaseTube& tube, const Ball& phase, const Ball& z) {
   std::vector<Ball> point;
   for (std::size_t i = 0; i < tube.curve.size(); ++i) {
     point.push_back(Ball(static_cast<double>(tube.turns[i])) * phase + sum_at(tube.curve[i], phase, z));
@@ -72,7 +72,7 @@ std::vector<Ball> curve_at(const Tube& tube, const Ball& phase, const Ball& z) {
 /// F in balls, at a point: by the definition.
 std::vector<Ball> exact_step(const Tracked& tracked, const Ball& phase, const Ball& z,
                              const std::vector<Ball>& xi, const std::vector<Ball>& noise, const Ball& move) {
-  const Tube& tube = tracked.tube;
+  const PhaseTube& tube = tracked.tube;
   const Ball next_z = z + move / Ball(tube.half_width);
   const Ball next_phase = phase + Ball(tube.frequency) + Ball(tube.half_width) * z;
   std::vector<Ball> state = curve_at(tube, phase, z);
@@ -208,7 +208,7 @@ TEST_CASE("a second-order generalised integrator, with a division") {
 
 TEST_CASE("two channels, with an arctangent") {
   // On a tone it follows exactly: the phase, the frequency and no phase error.
-  Tube tube;
+  PhaseTube tube;
   tube.frequency = 0.3;
   tube.half_width = 0.01;
   tube.turns = {1, 0, 0};

@@ -78,16 +78,21 @@ std::string levels_of(const ModelSet& set) {
              : fmt::format("{} to {}", least->levels.size(), most->levels.size());
 }
 
-/// A bound that disturbances keep; a dash where it was searched for and not found.
-std::string disturbance(double bound, bool is_known) {
-  return bound > 0.0 ? to_decimal(bound, 4, Direction::down) : is_known ? "none" : "—";
+/// A bound that a disturbance keeps, rounded down; a dash where it was searched for and not found.
+std::string bound_in_table(double bound, const std::string& text, bool is_known) {
+  return bound > 0.0 ? text : is_known ? "none" : "—";
+}
+
+std::string noise_text(const model::TubeSet& set) {
+  return to_decimal(set.noise, 4, Direction::down);
 }
 
 std::vector<std::string> row_of(const NamedSet& named, const ModelUnits& units) {
   const ModelSet& set = *named.set;
   const bool is_known = named.is_given || set.is_proved();
-  std::vector<std::string> row{named.purpose, disturbance(set.tubes.noise, is_known),
-                               disturbance(set.tubes.slew, is_known)};
+  std::vector<std::string> row{named.purpose,
+                               bound_in_table(set.tubes.noise, noise_text(set.tubes), is_known),
+                               bound_in_table(set.tubes.slew, units.slew(set.tubes.slew), is_known)};
   if (!set.is_proved()) {
     row.insert(row.end(), {"not proved", "—", "—", "—", "—", "—"});
     return row;
@@ -101,15 +106,14 @@ std::vector<std::string> row_of(const NamedSet& named, const ModelUnits& units) 
   return row;
 }
 
-/// "Without noise", "With noise of at most 0.02 signal units at every sample and a frequency that ...".
-std::string disturbances_of(const model::TubeSet& set) {
-  const std::string noise = set.noise > 0.0
-                                ? fmt::format("With noise of at most {} signal units at every sample",
-                                              to_decimal(set.noise, 4, Direction::down))
-                                : std::string("Without noise");
+/// "Without noise, at a constant frequency", "With noise of at most 0.02 signal units at every sample, at
+/// ...".
+std::string disturbances_of(const model::TubeSet& set, const ModelUnits& units) {
+  const std::string noise =
+      set.noise > 0.0 ? fmt::format("With noise of at most {} signal units at every sample", noise_text(set))
+                      : std::string("Without noise");
   return set.slew > 0.0
-             ? fmt::format("{}, and a frequency that changes by at most {} rad/sample from sample to sample",
-                           noise, to_decimal(set.slew, 4, Direction::down))
+             ? fmt::format("{}, at a frequency that changes by at most {}", noise, units.slew(set.slew))
              : noise + ", at a constant frequency";
 }
 
@@ -117,7 +121,7 @@ std::string sentence_of(const NamedSet& named, const ModelUnits& units) {
   const ModelSet& set = *named.set;
   std::string text = fmt::format(
       "- *For {}*: {}, a start in this set stays in it for ever, with a frequency error of at most {}",
-      named.purpose, disturbances_of(set.tubes), units.at_most(set.frequency_error));
+      named.purpose, disturbances_of(set.tubes, units), units.at_most(set.frequency_error));
   const double samples = samples_to_settle(set);
   if (samples > 0.0 && std::isfinite(samples) && std::isfinite(set.settled_error)) {
     text +=
@@ -244,12 +248,17 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
     }
     attacked = named.set->is_proved() && named.is_given ? &named : attacked;
   }
-  text += markdown::table({"For", "Noise, at most, signal units", "Slew, at most, rad/sample per sample",
-                           "Cells of frequencies", "Levels", "Frequency error for ever, at most",
-                           "In the long run, at most", "Long run: from sample", "Reach, at least"},
+  text += markdown::table({"For", "Noise, at most, signal units", "Slew, at most", "Cells of frequencies",
+                           "Levels", "Frequency error for ever, at most", "In the long run, at most",
+                           "Long run: from sample", "Reach, at least"},
                           rows) +
           "\n" + meanings + (meanings.empty() ? "" : "\n") + failures;
   const ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
+  if (model_tables(certificate.design).require.sets.frequency_error_below && deciding.is_proved()) {
+    text +=
+        "Of the set that decides the required frequency error, only the levels that keep it are used, if the "
+        "assumed starts are inside them.\n\n";
+  }
   if (!assume.start_within.empty() && deciding.is_proved() && std::isfinite(deciding.start_share)) {
     text += fmt::format("The assumed starts reach at most {} of the size of the set for {}{}.\n\n",
                         to_decimal(deciding.start_share, 4, Direction::up),

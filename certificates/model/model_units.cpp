@@ -36,6 +36,15 @@ std::string ModelUnits::at_least(double radians) const {
          (has_hertz() ? fmt::format(" ({} Hz)", rigor::lower_decimal(in_hertz(Interval(radians)))) : "");
 }
 
+std::string ModelUnits::slew(double radians) const {
+  std::string text = rigor::to_decimal(radians, 4, rigor::Direction::down) + " rad/sample per sample";
+  if (has_hertz()) {
+    const Interval per_second = in_hertz(Interval(radians)) * assume_->sample_rate.value().value;
+    text += fmt::format(" ({} Hz per second)", rigor::lower_decimal(per_second));
+  }
+  return text;
+}
+
 std::string outward(const Interval& range, int digits) {
   return rigor::is_finite(range) ? fmt::format("[{}, {}]", rigor::lower_decimal(range, digits),
                                                rigor::upper_decimal(range, digits))

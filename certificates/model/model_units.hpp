@@ -26,6 +26,8 @@ class ModelUnits {
   [[nodiscard]] std::string at_most(double radians) const;
   /// Likewise a lower bound, rounded down.
   [[nodiscard]] std::string at_least(double radians) const;
+  /// "3.14e-7 rad/sample per sample (5 Hz per second)": a slew, both rounded down.
+  [[nodiscard]] std::string slew(double radians) const;
 
  private:
   const ModelAssumptions* assume_;

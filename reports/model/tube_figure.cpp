@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/model/falsifier.hpp"
+#include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "reports/gnuplot.hpp"
 
@@ -77,15 +78,13 @@ std::string envelope_block(TubeSection& section, const ProvedTube& proved, const
 }
 
 /// "for noise of at most 0.02 signal units".
-std::string tube_disturbances(const model::TubeSet& set) {
-  if (!(set.noise > 0.0) && !(set.slew > 0.0)) {
-    return "without noise";
-  }
-  std::string text =
-      set.noise > 0.0 ? fmt::format("for noise of at most {:.4g} signal units", set.noise) : std::string();
+std::string tube_disturbances(const model::TubeSet& set, const ModelUnits& units) {
+  const rigor::UpwardRounding upward;
+  std::string text = set.noise > 0.0 ? fmt::format("for noise of at most {} signal units",
+                                                   rigor::to_decimal(set.noise, 4, rigor::Direction::down))
+                                     : std::string("without noise");
   if (set.slew > 0.0) {
-    text += fmt::format("{} a slew of at most {:.4g} rad/sample per sample", text.empty() ? "for" : " and",
-                        set.slew);
+    text += fmt::format("{} a slew of at most {}", set.noise > 0.0 ? " and" : ", for", units.slew(set.slew));
   }
   return text;
 }
@@ -151,11 +150,11 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
   return {
       "tube.svg",
       fmt::format(
-          "The certified tube {} at {:.6g} {}: frequency error ({}) against the phase of the signal "
+          "The certified tube at {:.6g} {}, {}: frequency error ({}) against the phase of the signal "
           "(turns). A start in the tube stays between the solid lines and ends between the dashed ones. "
           "Grey: {} simulated starts on the rim (dots), {} samples each{}. The lines are drawn in floating "
           "point, and the simulations prove nothing.",
-          tube_disturbances(set), units.drawn(frequency), unit, unit, kStarts, kSamples,
+          units.drawn(frequency), unit, tube_disturbances(set, units), unit, kStarts, kSamples,
           set.noise > 0.0
               ? ", with the noise that pushes outward most at every sample, at a constant frequency"
               : ""),

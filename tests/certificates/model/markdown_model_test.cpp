@@ -120,8 +120,9 @@ TEST_CASE("a proved loop: the sets in both units, and an attack that stays below
   CHECK(std::stod(found[1]) > 0.5);
   CHECK(std::stod(found[2]) <= 1.0);
   CHECK(std::stod(found[2]) > 0.9);
-  CHECK(std::regex_search(text, std::regex("\\| the assumed noise \\| 0[.]02 \\| none \\| [0-9]+ \\| [0-9]+ \\| "
-                                           "0[.]0[0-9]+ rad/sample \\([0-9.]+ Hz\\)")));
+  CHECK(std::regex_search(text,
+                          std::regex("\\| the assumed noise \\| 0[.]02 \\| none \\| [0-9]+ \\| [0-9]+ \\| "
+                                     "0[.]0[0-9]+ rad/sample \\([0-9.]+ Hz\\)")));
   CHECK(text.find("The assumed starts reach at most") != std::string::npos);
   CHECK(text.find("nan") == std::string::npos);
   CHECK(text.find("inf ") == std::string::npos);
@@ -159,6 +160,7 @@ TEST_CASE("units") {
   CHECK(units.at_most(INFINITY) == "unknown");
   CHECK(units.drawn(0.1) == doctest::Approx(15.9154943));
   CHECK(outward(rigor::Interval::empty()) == "unknown");
+  CHECK(units.slew(0x1p-20) == "9.536e-7 rad/sample per sample (0.1517 Hz per second)");
   CHECK(outward(rigor::Interval(0.5)) == "[0.5, 0.5]");
 }
 

@@ -55,7 +55,7 @@ std::string block_on_curve(const model::TrackerModel& tracker, const std::vector
       const model::PointTube tube(proved.tube, frequency);
       double sum = 0.0;
       double least = INFINITY;
-      double most = -INFINITY;
+      double most = -least;
       for (int j = 0; j < kPhases; ++j) {
         tube.at(2.0 * std::numbers::pi * j / kPhases, frame);
         const double error = points.frequency(frame.curve) - frequency;

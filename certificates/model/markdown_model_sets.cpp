@@ -22,17 +22,6 @@ using rigor::Direction;
 using rigor::Interval;
 using rigor::to_decimal;
 
-/// The picture of this file name, where there is one.
-std::string picture(const MarkdownOptions& options, std::string_view file) {
-  for (const FigureReference& figure : options.figures) {
-    if (figure.path.ends_with(file)) {
-      return fmt::format("![{}]({})\n\n*{}*\n\n", markdown::escaped(figure.caption), figure.path,
-                         figure.caption);
-    }
-  }
-  return "";
-}
-
 /// A set, and what it is for.
 struct NamedSet {
   const ModelSet* set;
@@ -190,32 +179,17 @@ std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker,
       attack.frequency_error / set.frequency_error, attack.level_share);
 }
 
-/// Cells of frequencies, joined: the hull of what is known of them.
-std::vector<ModelCell> joined(const std::vector<ModelCell>& cells, std::size_t most) {
-  std::vector<ModelCell> rows;
-  const std::size_t size = (cells.size() + most - 1) / most;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const ModelCell& cell = cells[i];
-    if (i % size == 0) {
-      rows.push_back(cell);
-      continue;
-    }
-    ModelCell& row = rows.back();
-    const bool is_known = rigor::is_finite(row.bias) && rigor::is_finite(cell.bias);
-    row.high = std::max(row.high, cell.high);
-    row.bias = is_known ? hull(row.bias, cell.bias) : Interval::empty();
-    row.ripple = std::isfinite(row.ripple) && std::isfinite(cell.ripple) ? std::max(row.ripple, cell.ripple)
-                                                                         : INFINITY;
-    row.reach = std::min(row.reach, cell.reach);
-  }
-  return rows;
-}
-
-std::string upper(const Interval& value) {
-  return rigor::is_finite(value) ? rigor::upper_decimal(value) : "unknown";
-}
-
 }  // namespace
+
+std::string model_picture(const MarkdownOptions& options, std::string_view file) {
+  for (const FigureReference& figure : options.figures) {
+    if (figure.path.ends_with(file)) {
+      return fmt::format("![{}]({})\n\n*{}*\n\n", markdown::escaped(figure.caption), figure.path,
+                         figure.caption);
+    }
+  }
+  return "";
+}
 
 std::string model_sets_section(const Certificate& certificate, const Model& model,
                                const MarkdownOptions& options) {
@@ -268,47 +242,7 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
   if (attacked != nullptr) {
     text += attack_on(*attacked, proved_model(model, assume), units);
   }
-  return text + picture(options, "reach.svg") + picture(options, "tube.svg");
-}
-
-std::string model_bias_section(const Certificate& certificate, const MarkdownOptions& options) {
-  const ModelSets& sets = model_sets(certificate);
-  const std::vector<ProvedTube>& tubes = sets.starts.tubes.tubes;
-  // With one level only, starts are not proved to come closer.
-  const bool settles =
-      std::all_of(tubes.begin(), tubes.end(), [](const ProvedTube& tube) { return tube.levels.size() > 1; });
-  if (sets.cells.empty() || !settles) {
-    return "## Bias and ripple\n\nNothing is known of them: they need a set without noise, for the whole "
-           "band, in which errors shrink.\n\n";
-  }
-  const ModelUnits units(model_tables(certificate.design).assume);
-  std::string text =
-      "## Bias and ripple\n\nWithout noise, at a constant frequency and in the long run, the estimate "
-      "repeats "
-      "itself with the phase of the signal. Its *bias* is the mean over the phase of the frequency error "
-      "(estimate less true frequency), its *ripple* the largest less the smallest error over the phase. Both "
-      "are proved for every frequency of a row; a bias is between the two numbers.\n\n";
-  std::vector<std::string> header{"Frequency, rad/sample", "Bias, rad/sample", "Ripple, at most, rad/sample"};
-  if (units.has_hertz()) {
-    header.insert(header.end(), {"Frequency, Hz", "Bias, Hz", "Ripple, at most, Hz"});
-  }
-  constexpr std::size_t kMostRows = 16;
-  std::vector<std::vector<std::string>> rows;
-  for (const ModelCell& cell : joined(sets.cells, kMostRows)) {
-    const auto inward = [](const Interval& low, const Interval& high) {
-      return fmt::format("{} to {}", to_decimal(low.upper(), 6, Direction::up),
-                         to_decimal(high.lower(), 6, Direction::down));
-    };
-    std::vector<std::string> row{inward(Interval(cell.low), Interval(cell.high)), outward(cell.bias),
-                                 upper(Interval(cell.ripple))};
-    if (units.has_hertz()) {
-      row.insert(row.end(),
-                 {inward(units.in_hertz(Interval(cell.low)), units.in_hertz(Interval(cell.high))),
-                  outward(units.in_hertz(cell.bias)), upper(units.in_hertz(Interval(cell.ripple)))});
-    }
-    rows.push_back(row);
-  }
-  return text + markdown::table(header, rows) + "\n" + picture(options, "bias.svg");
+  return text + model_picture(options, "reach.svg") + model_picture(options, "tube.svg");
 }
 
 }  // namespace veritrack::certificates

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/markdown.hpp"
 #include "certificates/model/model.hpp"
 
 namespace veritrack::certificates {
+
+/// The figure of this file name with its caption; nothing where there is none.
+[[nodiscard]] std::string model_picture(const MarkdownOptions& options, std::string_view file);
 
 /// Both need the upward rounding mode, which the attack leaves for its time.
 [[nodiscard]] std::string model_sets_section(const Certificate& certificate, const Model& model,

@@ -75,9 +75,9 @@ TEST_CASE("bias and ripple have at most 16 rows, each with the worst of its cell
   ModelSets sets = unproved_sets();
   sets.starts.tubes.tubes = {tube_at(0.31, 0.01)};
   for (int i = 0; i < 40; ++i) {
-    const double low = 0.3 + 0.0005 * i;
+    const double low = 0.3125 + 0x1p-11 * i;
     sets.cells.push_back(
-        {low, low + 0.0005, rigor::Interval::from_bounds(-0.25 * i, 0.5 * i), 0.125 * i, 1.0});
+        {low, low + 0x1p-11, rigor::Interval::from_bounds(-0.25 * i, 0.5 * i), 0.125 * i, 1.0});
   }
   const std::string text = model_sections(with_sets(sets), kFigures);
   const std::string section = text.substr(text.find("## Bias and ripple"));
@@ -89,6 +89,10 @@ TEST_CASE("bias and ripple have at most 16 rows, each with the worst of its cell
   CHECK(rows == 14);
   CHECK(section.find("[-0.5, 1] | 0.25") != std::string::npos);
   CHECK(section.find("figures/bias.svg") != std::string::npos);
+  // What has no cell is in no row.
+  ModelSets with_gap = sets;
+  with_gap.cells.erase(with_gap.cells.begin() + 1);
+  CHECK(model_sections(with_sets(with_gap), kFigures).find("| 0.3125 to 0.312988 |") != std::string::npos);
   sets.cells[1].bias = rigor::Interval::empty();
   sets.cells[1].ripple = NAN;
   CHECK(model_sections(with_sets(sets), kFigures).find("| unknown | unknown |") != std::string::npos);

@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/model/markdown_model_sets.hpp"
+#include "certificates/model/model_sets.hpp"
+#include "certificates/model/model_units.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+/// Cells of frequencies, joined: the hull of what is known of them.
+std::vector<ModelCell> joined(const std::vector<ModelCell>& cells, std::size_t most) {
+  std::vector<ModelCell> rows;
+  const std::size_t size = (cells.size() + most - 1) / most;
+  std::size_t count = 0;
+  for (const ModelCell& cell : cells) {
+    // Ends are doubles near each other; a row must not span what has no cell.
+    const bool is_next = !rows.empty() && cell.low - rows.back().high < 1e-9 * cell.low;
+    if (!is_next || count == size) {
+      rows.push_back(cell);
+      count = 1;
+      continue;
+    }
+    ++count;
+    ModelCell& row = rows.back();
+    const bool is_known = rigor::is_finite(row.bias) && rigor::is_finite(cell.bias);
+    row.high = std::max(row.high, cell.high);
+    row.bias = is_known ? hull(row.bias, cell.bias) : rigor::Interval::empty();
+    row.ripple = std::isfinite(row.ripple) && std::isfinite(cell.ripple) ? std::max(row.ripple, cell.ripple)
+                                                                         : INFINITY;
+    row.reach = std::min(row.reach, cell.reach);
+  }
+  return rows;
+}
+
+std::string upper(const rigor::Interval& value) {
+  return rigor::is_finite(value) ? rigor::upper_decimal(value) : "unknown";
+}
+
+}  // namespace
+
+std::string model_bias_section(const Certificate& certificate, const MarkdownOptions& options) {
+  const ModelSets& sets = model_sets(certificate);
+  const std::vector<model::ProvedTube>& tubes = sets.starts.tubes.tubes;
+  // With one level only, starts are not proved to come closer.
+  const bool settles = std::all_of(tubes.begin(), tubes.end(),
+                                   [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
+  if (sets.cells.empty() || !settles) {
+    return "## Bias and ripple\n\nNothing is known of them: they need a set without noise, for the whole "
+           "band, in which errors shrink.\n\n";
+  }
+  const ModelUnits units(model_tables(certificate.design).assume);
+  std::string text =
+      "## Bias and ripple\n\nWithout noise, at a constant frequency and in the long run, the estimate "
+      "repeats "
+      "itself with the phase of the signal. Its *bias* is the mean over the phase of the frequency error "
+      "(estimate less true frequency), its *ripple* the largest less the smallest error over the phase. Both "
+      "are proved for every frequency of a row; a bias is between the two numbers.\n\n";
+  std::vector<std::string> header{"Frequency, rad/sample", "Bias, rad/sample", "Ripple, at most, rad/sample"};
+  if (units.has_hertz()) {
+    header.insert(header.end(), {"Frequency, Hz", "Bias, Hz", "Ripple, at most, Hz"});
+  }
+  constexpr std::size_t kMostRows = 16;
+  std::vector<std::vector<std::string>> rows;
+  for (const ModelCell& cell : joined(sets.cells, kMostRows)) {
+    const auto inward = [](const rigor::Interval& low, const rigor::Interval& high) {
+      return fmt::format("{} to {}", rigor::to_decimal(low.upper(), 6, rigor::Direction::up),
+                         rigor::to_decimal(high.lower(), 6, rigor::Direction::down));
+    };
+    std::vector<std::string> row{inward(rigor::Interval(cell.low), rigor::Interval(cell.high)),
+                                 outward(cell.bias), upper(rigor::Interval(cell.ripple))};
+    if (units.has_hertz()) {
+      row.insert(
+          row.end(),
+          {inward(units.in_hertz(rigor::Interval(cell.low)), units.in_hertz(rigor::Interval(cell.high))),
+           outward(units.in_hertz(cell.bias)), upper(units.in_hertz(rigor::Interval(cell.ripple)))});
+    }
+    rows.push_back(row);
+  }
+  return text + markdown::table(header, rows) + "\n" + model_picture(options, "bias.svg");
+}
+
+}  // namespace veritrack::certificates

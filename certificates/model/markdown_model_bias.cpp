@@ -62,7 +62,8 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
       "repeats "
       "itself with the phase of the signal. Its *bias* is the mean over the phase of the frequency error "
       "(estimate less true frequency), its *ripple* the largest less the smallest error over the phase. Both "
-      "are proved for every frequency of a row; a bias is between the two numbers.\n\n";
+      "are proved for every frequency of a row; a bias is between the two "
+      "numbers. The ends of rows are rounded to six digits.\n\n";
   std::vector<std::string> header{"Frequency, rad/sample", "Bias, rad/sample", "Ripple, at most, rad/sample"};
   if (units.has_hertz()) {
     header.insert(header.end(), {"Frequency, Hz", "Bias, Hz", "Ripple, at most, Hz"});
@@ -70,17 +71,13 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
   constexpr std::size_t kMostRows = 16;
   std::vector<std::vector<std::string>> rows;
   for (const ModelCell& cell : joined(sets.cells, kMostRows)) {
-    const auto inward = [](const rigor::Interval& low, const rigor::Interval& high) {
-      return fmt::format("{} to {}", rigor::to_decimal(low.upper(), 6, rigor::Direction::up),
-                         rigor::to_decimal(high.lower(), 6, rigor::Direction::down));
-    };
-    std::vector<std::string> row{inward(rigor::Interval(cell.low), rigor::Interval(cell.high)),
-                                 outward(cell.bias), upper(rigor::Interval(cell.ripple))};
+    const auto ends = [](double low, double high) { return fmt::format("{:.6g} to {:.6g}", low, high); };
+    std::vector<std::string> row{ends(cell.low, cell.high), outward(cell.bias),
+                                 upper(rigor::Interval(cell.ripple))};
     if (units.has_hertz()) {
-      row.insert(
-          row.end(),
-          {inward(units.in_hertz(rigor::Interval(cell.low)), units.in_hertz(rigor::Interval(cell.high))),
-           outward(units.in_hertz(cell.bias)), upper(units.in_hertz(rigor::Interval(cell.ripple)))});
+      row.insert(row.end(),
+                 {ends(units.drawn(cell.low), units.drawn(cell.high)), outward(units.in_hertz(cell.bias)),
+                  upper(units.in_hertz(rigor::Interval(cell.ripple)))});
     }
     rows.push_back(row);
   }

@@ -19,7 +19,6 @@ namespace {
 
 using model::ProvedTube;
 using rigor::Direction;
-using rigor::Interval;
 using rigor::to_decimal;
 
 /// A set, and what it is for.

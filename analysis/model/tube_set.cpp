@@ -105,6 +105,7 @@ class LevelSearch {
   bool holds(const LevelQuestion& question) {
     const LevelResult result = verify_level(*model_, proved_.tube, question, proved_.grid);
     const bool is_proved = result.verdict == Verdict::proved;
+    last_cells_ = is_proved ? result.cells : last_cells_;
     proved_.cells += is_proved ? result.cells : 0;
     return is_proved;
   }
@@ -113,7 +114,11 @@ class LevelSearch {
   void descend(double noise) {
     const double least = task_->with_curve ? 1e-6 * proved_.levels.front() : 0.02 * proved_.levels.front();
     constexpr std::size_t kMostLevels = 24;
-    while (proved_.levels.back() > least && proved_.levels.size() < kMostLevels && step_down(noise)) {
+    // Where cells become many, the curve itself is what the models cannot resolve.
+    const std::size_t most_cells = 3 * last_cells_ + 1000;
+    proved_.grid.most_cells = std::min(proved_.grid.most_cells, 2 * most_cells);
+    while (proved_.levels.back() > least && proved_.levels.size() < kMostLevels && last_cells_ < most_cells &&
+           step_down(noise)) {
     }
   }
 
@@ -153,6 +158,7 @@ class LevelSearch {
   const TubeProposal* proposal_;
   const SetTask* task_;
   ProvedTube proved_;
+  std::size_t last_cells_ = 0;  ///< of the last verification that succeeded
   double slow_ = 1.0;
   double fast_ = 1.0;
 };

@@ -90,8 +90,8 @@ class MovingSearch {
   /// Whether levels from `scale` radius to radius shrink by the factor in every cell.
   [[nodiscard]] bool shrinks(double radius, double scale, double factor, double slew) {
     return std::all_of(set_->tubes.begin(), set_->tubes.end(), [&](ProvedTube& proved) {
-      const LevelResult result =
-          verify_level(*model_, proved.tube, {radius, set_->noise, scale, factor, slew}, proved.grid);
+      const LevelResult result = verify_level(
+          *model_, proved.tube, {radius, set_->noise, scale, with_room(factor), slew}, proved.grid);
       proved.cells += result.cells;
       return result.verdict == Verdict::proved;
     });

@@ -44,6 +44,11 @@ void widen(Tube& tube) {
   tube.half_width += kShare * tube.half_width + 0x1p-50 * tube.frequency;
 }
 
+double with_room(double shrinking) {
+  constexpr double kShare = 0.1;
+  return shrinking - kShare * (1.0 - shrinking);
+}
+
 bool is_locked(const TrackerModel& model, const Tube& tube, double radius) {
   const Interval error = bound_errors(model, tube, radius, {64, 1}).error;
   return rigor::is_finite(error) && -error.lower() < tube.frequency && error.upper() < tube.frequency;

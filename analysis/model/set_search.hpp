@@ -11,6 +11,10 @@ namespace veritrack::model {
 /// How tubes are proposed for a task, over a band in rad/sample.
 [[nodiscard]] BandSettings settings_of(const SetTask& task, double low, double high);
 
+/// What is verified where `shrinking` is claimed: a little less, so that another program need not be as
+/// sharp.
+[[nodiscard]] double with_room(double shrinking);
+
 /// "between 0.1 and 0.2 rad/sample".
 [[nodiscard]] std::string place_of_cell(const TubeProposal& cell);
 

@@ -23,8 +23,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TubeCell cell_of(const ErrorGrid& grid, std::size_t number) {
   const auto phases = static_cast<std::size_t>(grid.phases);
+  const std::size_t row = number / phases;
   const auto i = static_cast<double>(number % phases);
-  const auto j = static_cast<double>(number / phases);
+  const auto j = static_cast<double>(row);
   return {(i + 0.5) / grid.phases, 0.5 / grid.phases, (2.0 * j + 1.0) / grid.frequencies - 1.0,
           1.0 / grid.frequencies};
 }
@@ -74,7 +75,7 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
     const BallModel error = frequency_error(model, frame, state_in(frame.here, radius));
     cells[number] = {error.range(), error.mean_over_s()};
   });
-  const TubeErrors nothing_known{
+  TubeErrors nothing_known{
       Interval::empty(), Interval::empty(), std::numeric_limits<double>::quiet_NaN(), {}};
   TubeErrors result{Interval::empty(), Interval::empty(), 0.0, {}};
   const auto phases = static_cast<std::size_t>(grid.phases);
@@ -163,8 +164,9 @@ double bound_start(const TrackerModel& model, const Tube& tube, const std::vecto
         sum = sum + square(x);
       }
       const Interval range = sum.range();
-      level = rigor::is_empty(range) ? kInfinity
-                                     : std::max(level, sqrt(Interval(std::max(range.upper(), 0.0))).upper());
+      const double length =
+          rigor::is_empty(range) ? kInfinity : sqrt(Interval(std::max(range.upper(), 0.0))).upper();
+      level = std::max(level, length);
     }
     levels[number] = level;
   });

@@ -102,7 +102,8 @@ class LevelSearch {
     return true;
   }
 
-  bool holds(const LevelQuestion& question) {
+  bool holds(LevelQuestion question) {
+    question.shrinking = with_room(question.shrinking);
     const LevelResult result = verify_level(*model_, proved_.tube, question, proved_.grid);
     const bool is_proved = result.verdict == Verdict::proved;
     last_cells_ = is_proved ? result.cells : last_cells_;

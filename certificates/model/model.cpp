@@ -241,6 +241,7 @@ Model make_model(const ModelTable& table, const std::vector<SourceText>& signal)
                         fmt::format("{} formulas for the signal; allowed: as many as there are samples, {}",
                                     signal_texts.size(), table.samples.size()));
   }
+  samples.reserve(signal_texts.size());
   for (const SourceText& text : signal_texts) {
     samples.push_back(language::parse_expression(text));
   }

@@ -118,7 +118,6 @@ void extended_kalman_filter(const TomlValue& value, ModelTable& target) {
 }
 
 using Table = ModelTable;
-constexpr std::string_view kFormula = "a formula between single quotes, or a number";
 constexpr std::string_view kNames = "a list of names, e.g. ['alpha', 'beta', 'w']";
 constexpr std::array kModelKeys{
     Key<Table>{"samples",

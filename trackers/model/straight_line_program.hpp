@@ -6,8 +6,8 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <compare>
+#include <cstddef>
 #include <map>
 #include <span>
 #include <stdexcept>
@@ -49,7 +49,9 @@ struct Instruction {
   int third = -1;
   int exponent = 0;
 
-  friend auto operator<=>(const Instruction&, const Instruction&) = default;
+  // clang-tidy 14 takes the 0 of a comparison for a null pointer.
+  friend auto operator<=>(const Instruction&,
+                          const Instruction&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 namespace detail {

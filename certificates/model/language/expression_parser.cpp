@@ -13,6 +13,7 @@
 
 namespace veritrack::certificates::language {
 
+// NOLINTBEGIN(readability-identifier-naming): rules are written as those of PEGTL are.
 namespace grammar {
 
 using namespace tao::pegtl;  // NOLINT(google-build-using-namespace): a grammar is made of it
@@ -80,6 +81,7 @@ struct no_more_lines : eof {};
 struct whole_step : must<star<any_space>, star<definition, star<any_space>>, no_more_lines> {};
 
 }  // namespace grammar
+// NOLINTEND(readability-identifier-naming)
 
 namespace {
 

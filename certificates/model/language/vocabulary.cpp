@@ -57,6 +57,7 @@ std::string objection_to_function(std::string_view name) {
     return "pow is unknown; allowed: x^n with a whole exponent, sqrt(x), or exp(p*log(x))";
   }
   std::vector<std::string> names;
+  names.reserve(std::size(kFunctions));
   for (const Function& function : kFunctions) {
     names.emplace_back(function.name);
   }

@@ -1,0 +1,124 @@
+#include "analysis/model/tube_set.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstddef>
+
+#include "analysis/model/border.hpp"
+#include "analysis/model/set_search.hpp"
+#include "tests/analysis/model/tube_examples.hpp"
+
+namespace veritrack::model {
+namespace {
+
+using rigor::Verdict;
+
+/// Every level of every tube again, by the verification alone.
+void check_levels(const TrackerModel& model, const TubeSet& set) {
+  REQUIRE_FALSE(set.tubes.empty());
+  for (const ProvedTube& proved : set.tubes) {
+    CAPTURE(proved.tube.frequency);
+    const std::vector<double>& levels = proved.levels;
+    REQUIRE(proved.shrinking.size() == std::max<std::size_t>(levels.size() - 1, 1));
+    for (std::size_t j = 0; j < proved.shrinking.size(); ++j) {
+      const double scale = j + 1 < levels.size() ? levels[j + 1] / levels[j] * (1.0 - 1e-12) : 1.0;
+      CHECK(verify_level(model, proved.tube, {levels[j], set.noise, scale, proved.shrinking[j], set.slew},
+                         proved.grid)
+                .verdict == Verdict::proved);
+      CHECK((j + 1 == levels.size() || levels[j + 1] < levels[j]));
+    }
+  }
+}
+
+TEST_CASE("a set for large starts: it covers the band, and every level is one") {
+  const test::Example loop(test::phase_locked_loop());
+  const TubeSet set = prove_set(test::tone_of(loop.tracker), loop.model, 0.28, 0.34,
+                                {.name = "starts", .with_curve = true, .deviations = {}});
+  REQUIRE(set.is_complete);
+  CHECK(set.reasons.empty());
+  CHECK(covers(set.tubes, 0.28, 0.34));
+  CHECK_FALSE(covers(set.tubes, 0.27, 0.34));
+  CHECK_FALSE(covers(set.tubes, 0.28, 0.35));
+  CHECK_FALSE(covers({}, 0.28, 0.34));
+  check_levels(loop.model, set);
+  // Down to what the curve is known to.
+  CHECK(set.tubes.front().levels.front() > 0.011);
+  CHECK(set.tubes.front().levels.back() < 2e-5 * set.tubes.front().levels.front());
+  for (const ProvedTube& proved : set.tubes) {
+    CHECK(is_locked(loop.model, proved.tube, proved.levels.front()));
+    CHECK_FALSE(is_locked(loop.model, proved.tube, 100.0));
+  }
+}
+
+TEST_CASE("sets for noise: as much as is asked, as much as is found, and none for too much") {
+  const test::Example loop(test::phase_locked_loop());
+  const TrackedTone tone = test::tone_of(loop.tracker);
+  SetTask task{
+      .name = "assumed", .objective = ShapeObjective::largest_noise, .noise = 0.02, .deviations = {}};
+  const TubeSet set = prove_set(tone, loop.model, 0.3, 0.31, task);
+  REQUIRE(set.is_complete);
+  CHECK(set.noise == 0.02);
+  check_levels(loop.model, set);
+  CHECK(set.tubes.front().levels.size() > 1);
+  task.noise = 0.0;
+  task.largest_noise = true;
+  const TubeSet largest = prove_set(tone, loop.model, 0.3, 0.31, task);
+  REQUIRE(largest.is_complete);
+  CHECK(largest.noise > 0.04);
+  check_levels(loop.model, largest);
+  task.largest_noise = false;
+  task.noise = 1.5 * largest.noise;
+  const TubeSet none = prove_set(tone, loop.model, 0.3, 0.31, task);
+  CHECK_FALSE(none.is_complete);
+  CHECK(none.tubes.empty());
+  REQUIRE_FALSE(none.reasons.empty());
+  CHECK(none.reasons.front().find("no radius was proved for noise") != std::string::npos);
+}
+
+TEST_CASE("sets for a frequency that moves have equal levels, and their borders are proved") {
+  const test::Example loop(test::phase_locked_loop());
+  const TrackedTone tone = test::tone_of(loop.tracker);
+  SetTask task{.name = "assumed",
+               .objective = ShapeObjective::largest_noise,
+               .noise = 0.01,
+               .slew = 1e-5,
+               .deviations = {}};
+  const TubeSet set = prove_moving_set(tone, loop.model, 0.2, 0.4, task);
+  REQUIRE(set.is_complete);
+  CHECK(set.slew == 1e-5);
+  REQUIRE(set.tubes.size() > 1);
+  check_levels(loop.model, set);
+  REQUIRE(set.crossing.size() == set.tubes.front().shrinking.size());
+  for (std::size_t i = 0; i + 1 < set.tubes.size(); ++i) {
+    CHECK(set.tubes[i].levels == set.tubes[i + 1].levels);
+    for (std::size_t j = 0; j < set.crossing.size(); ++j) {
+      CHECK(set.crossing[j] < 1.0);
+      const double radius = set.tubes[i].levels[j];
+      const BorderQuestion question{set.tubes[i].shrinking[j] * radius, set.crossing[j] * radius, set.slew,
+                                    1.0};
+      CHECK(verify_border(loop.model, set.tubes[i].tube, set.tubes[i + 1].tube, question, {}).verdict ==
+            Verdict::proved);
+    }
+  }
+  task.slew = 1e-3;
+  CHECK_FALSE(prove_moving_set(tone, loop.model, 0.2, 0.4, task).is_complete);
+}
+
+TEST_CASE("how long levels take") {
+  ProvedTube proved;
+  proved.levels = {1.0, 0.5, 0.125};
+  proved.shrinking = {0.99, 0.9};
+  CHECK(samples_until(proved, 0) == 0.0);
+  // ceil(ln 2 / -ln 0.99) = 69, ceil(ln 4 / -ln 0.9) = 14.
+  CHECK(samples_until(proved, 1) == 69.0);
+  CHECK(samples_until(proved, 2) == 83.0);
+  // At borders levels shrink by less: ceil(ln 2 / -ln 0.995) = 139.
+  CHECK(samples_until(proved, 1, {0.995, 0.5}) == 139.0);
+  CHECK(samples_until(proved, 2, {0.995, 0.5}) == 153.0);
+  proved.shrinking = {1.0, 0.9};
+  CHECK_FALSE(std::isfinite(samples_until(proved, 1)));
+}
+
+}  // namespace
+}  // namespace veritrack::model

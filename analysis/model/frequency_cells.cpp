@@ -17,8 +17,8 @@ namespace {
 /// Cells from the left to the right, halved where they fail.
 class Division {
  public:
-  Division(const TrackedTone& tone, const BandSettings& settings, double narrowest)
-      : tone_(&tone), settings_(&settings), narrowest_(narrowest) {}
+  Division(const TrackedTone& tone, const BandSettings& settings, double narrowest, double coarse)
+      : tone_(&tone), settings_(&settings), narrowest_(narrowest), coarse_(coarse) {}
 
   void divide(double low, double high) {
     // A stack, the next cell on top.
@@ -30,11 +30,16 @@ class Division {
       TubeProposal proposal = propose_tube(*tone_, middle, 0.5 * (to - from), settings_->tube, nearby_,
                                            settings_->one_shape && nearby_.has_value());
       const bool is_proposed = proposal.outcome == TubeOutcome::proposed;
-      if (!is_proposed && to - from > 2.0 * narrowest_) {
+      // Where the tracker does not settle, narrow cells show no more than wide ones; and when many cells have
+      // failed, the band will have gaps whatever becomes of the others.
+      const bool settles = proposal.outcome != TubeOutcome::no_steady_state;
+      const double narrowest = settles ? narrowest_ : std::max(narrowest_, coarse_);
+      if (!is_proposed && failures_ < kMostFailures && to - from > 2.0 * narrowest) {
         waiting.emplace_back(middle, to);
         waiting.emplace_back(from, middle);
         continue;
       }
+      failures_ += is_proposed ? 0 : 1;
       if (is_proposed && !(settings_->one_shape && nearby_)) {
         nearby_ = proposal.shape.parameters;
       }
@@ -48,7 +53,11 @@ class Division {
  private:
   const TrackedTone* tone_;
   const BandSettings* settings_;
+  static constexpr int kMostFailures = 6;
+
   double narrowest_;
+  double coarse_;  ///< for cells where the tracker does not settle
+  int failures_ = 0;
   std::optional<ShapeParameters> nearby_;
   std::vector<TubeProposal> cells_;
 };
@@ -62,7 +71,8 @@ BandProposal propose_band(const TrackedTone& tone, double low, double high, cons
   }
   constexpr double kMostCells = 1024.0;
   const double narrowest = std::max(settings.narrowest, (high - low) / kMostCells);
-  Division division(tone, settings, narrowest);
+  constexpr double kCoarseParts = 8.0;
+  Division division(tone, settings, narrowest, (high - low) / kCoarseParts);
   const int first = std::max(1, static_cast<int>(std::ceil((high - low) / settings.widest)));
   if (settings.one_shape) {
     const double half_width = std::max(narrowest, 1e-3 * (high - low));

@@ -24,7 +24,8 @@ class NumberFormatError : public std::invalid_argument {
 /// for NaN and infinities, and for magnitudes above the largest double.
 [[nodiscard]] Interval parse_decimal(std::string_view text);
 
-/// The double nearest to a decimal that parse_decimal accepts; NaN for other text. Holds its own rounding mode.
+/// The double nearest to a decimal that parse_decimal accepts; NaN for other text. Holds its own rounding
+/// mode.
 [[nodiscard]] double nearest_double(std::string_view decimal);
 
 /// The same for a C99 hexadecimal float, [+-] 0x digits [. digits] p [+-] digits in upper or lower case; a

@@ -35,6 +35,10 @@ mean-square       the same with the mean square in lock, and a larger bound on i
 lowest-snr        the same set as one for the lowest signal-to-noise ratio: checked fast
 From tests/certificates/steady-set.toml, the quadrature tracker with a leak in a narrow band:
 steady-set        the contraction with two levels, and the set for the largest noise
+From tests/certificates/model-observer.toml, a recursion of the design file at almost one frequency:
+model-observer    as it is: tubes with levels, with noise and without
+From tests/certificates/model-moving.toml, a loop with an angle, and a frequency that moves:
+model-moving      its tube for what is assumed, in two cells
 """
 import fractions
 import json
@@ -267,6 +271,13 @@ def lowest_snr(certificate):
     certificate["lowest_snr_set"] = certificate.pop("lock_sets")[0]
 
 
+def model_moving(certificate):
+    """Without what is told of a frequency that does not move."""
+    certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
+    certificate["claims"] = [claim for claim in certificate["claims"]
+                             if claim["id"] not in ("model/limits", "model/steady-state")]
+
+
 KINDS = {
     "theorem-2.9": without_sets(lambda name: name in ("theorem-2.9/printed", "theorem-2.9/errata")),
     "published": without_sets(is_published),
@@ -291,6 +302,8 @@ KINDS = {
     "frozen-filter": lambda certificate: keep(certificate, ["single-channel/transfer-function"], []),
     "phases": phases,
     "steady-set": steady_set,
+    "model-observer": lambda certificate: None,
+    "model-moving": model_moving,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

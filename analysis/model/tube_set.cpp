@@ -46,13 +46,18 @@ class LevelSearch {
     for (int i = 0; i < 60 && radius > 0.0 && !is_locked(*model_, proved_.tube, radius); ++i) {
       radius *= 0.93;
     }
+    std::optional<ProvedTube> largest;
     for (const double factor : kFactors) {
       if (radius > 0.0 && proves(factor * radius, noise)) {
         descend(noise);
-        return proved_;
+        // Near the largest radius nothing may shrink; a little below it there are levels.
+        if (proved_.levels.size() > 1) {
+          return proved_;
+        }
+        largest = largest ? largest : proved_;
       }
     }
-    return std::nullopt;
+    return largest;
   }
 
   /// The largest noise up to `most`, and the noise.

@@ -97,6 +97,14 @@ void LengthBound::add_form(const std::vector<BallPolynomial>& vector, const Vect
   }
 }
 
+bool LengthBound::is_cut_off() const {
+  double at_zero = 0.0;
+  for (const Part& part : parts_) {
+    at_zero += part.degree_in_x == 0 ? part.norm : 0.0;
+  }
+  return error_ > at_zero;
+}
+
 bool LengthBound::is_at_most(double bound, double scale) const {
   double rest = error_;
   for (const Part& part : parts_) {

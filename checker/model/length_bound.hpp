@@ -17,6 +17,9 @@ class LengthBound {
 
   /// True only when |F| <= bound for all |x| <= scale, |v| <= 1, |w| <= 1, and all s and z.
   [[nodiscard]] bool is_at_most(double bound, double scale) const;
+  /// Whether it is more what was cut off, which is less in smaller balls, than what is there at x = 0. Not
+  /// evidence.
+  [[nodiscard]] bool is_cut_off() const;
   /// How much of the bound comes from the extent in s, and in z, about. Not evidence.
   [[nodiscard]] double by_phase() const { return by_phase_; }
   [[nodiscard]] double by_frequency() const { return by_frequency_; }

@@ -12,16 +12,31 @@ namespace veritrack::checker {
 namespace {
 
 /// Between the levels number j and j + 1, with a bound on F for |xi| <= R_j. `low_end`: R_{j+1}, or a little
-/// less.
-bool shrinks(const LengthBound& step, const PhaseTube& tube, std::size_t j, double low_end) {
+/// less. `bound_up_to` bounds F for |xi| up to another radius: what is cut off is less there.
+bool shrinks(const LengthBound& step, const PhaseTube& tube, std::size_t j, double low_end,
+             const std::function<LengthBound(double radius)>& bound_up_to) {
   constexpr double kDown = 1.0 - 0x1p-48;
   constexpr double kUp = 1.0 + 0x1p-48;
   const double rate = tube.shrinking[j] * kDown;
-  const bool at_high_end = step.is_at_most(rate * tube.levels[j] * kDown, 1.0);
-  if (!at_high_end || tube.levels.size() == 1) {
+  const double radius = tube.levels[j];
+  const auto shrinks_to = [&](const LengthBound& bound, double r, double of) {
+    return bound.is_at_most(rate * r * kDown, r == of ? 1.0 : r / of * kUp);
+  };
+  const bool at_high_end = shrinks_to(step, radius, radius);
+  if (!at_high_end || tube.levels.size() == 1 || shrinks_to(step, low_end, radius)) {
     return at_high_end;
   }
-  return step.is_at_most(rate * low_end * kDown, low_end / tube.levels[j] * kUp);
+  if (!step.is_cut_off()) {
+    return false;
+  }
+  // From low_end to `between`, and from there to R_j.
+  const double between = std::sqrt(low_end * radius);
+  const bool is_between = low_end < between && between < radius;
+  if (!is_between || !shrinks_to(step, between, radius)) {
+    return false;
+  }
+  const LengthBound nearer = bound_up_to(between);
+  return shrinks_to(nearer, between, between) && shrinks_to(nearer, low_end, between);
 }
 
 /// The number of samples in which r falls from `from` to `to` when each multiplies it by `rate`.
@@ -75,11 +90,12 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
     double by_frequency = 0.0;
     for (const std::size_t j : pairs) {
       const double radius = tube.levels[j];
-      const LengthBound bound(step.map(radius, set_->noise));
+      const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, set_->noise)); };
+      const LengthBound bound = bound_up_to(radius);
       const double low_end = tube.levels.size() == 1 ? radius
                              : moves                 ? (common[j + 1] * Ball(tube.levels[0])).lower_double()
                                                      : tube.levels[j + 1];
-      if (!shrinks(bound, tube, j, low_end)) {
+      if (!shrinks(bound, tube, j, low_end, bound_up_to)) {
         answer.open.push_back(j);
         by_phase += bound.by_phase() / radius;
         by_frequency += bound.by_frequency() / radius;

@@ -32,11 +32,15 @@ void read_as_number(std::string_view text) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  constexpr std::int64_t kBudget = 20'000'000;  // a second or two
+  constexpr std::int64_t kBudget = 20'000'000;           // a second or two
+  constexpr std::int64_t kBudgetOfTubes = kBudget / 20;  // whose operations are of polynomials
   set_budget(kBudget);
   read_as_number(text);
   try {
     const Tree tree = read_json(text);
+    if (tree.find("tubes") != nullptr) {
+      set_budget(kBudgetOfTubes);
+    }
     const Tree* sets = tree.find("certified_sets");
     if (sets == nullptr || sets->elements().empty()) {  // sets take seconds
       (void)verify(tree);

@@ -15,6 +15,7 @@
 #include "certificates/design/design_format.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/kkl_observer/kkl_observer_design.hpp"
+#include "certificates/model/model_design.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
@@ -125,6 +126,26 @@ void check(const SingleChannelEkfTables& tables) {
           "a reversed frequency band");
 }
 
+void check(const ModelTables& tables) {
+  const ModelAssumptions& assume = tables.assume;
+  for (const Number& number :
+       {assume.amplitude, assume.frequency[0], assume.frequency[1], assume.noise, assume.slew}) {
+    check(number);
+    require(number.value.lower() >= 0.0, "a negative number");
+  }
+  require(assume.amplitude.value.lower() > 0.0, "an amplitude that may be zero");
+  require(assume.frequency[0].value.lower() <= assume.frequency[1].value.upper(),
+          "a reversed frequency band");
+  require(!assume.frequency_in_hertz || assume.sample_rate.has_value(), "hertz without a sample rate");
+  if (assume.sample_rate) {
+    check(*assume.sample_rate);
+    require(assume.sample_rate->value.lower() > 0.0, "a sample rate that may be zero");
+  }
+  const ModelTable& model = tables.model;
+  require(!model.samples.empty() && model.samples.size() <= 2, "neither one channel nor two");
+  require(model.ekf.has_value() == model.states.empty(), "states and a filter, or neither");
+}
+
 /// What the tables promise, when they are of that type.
 template <typename Tables>
 void check_tables_as(const Design& design) {
@@ -137,6 +158,7 @@ void check(const Design& design) {
   check_tables_as<QuadratureEkfTables>(design);
   check_tables_as<KklObserverTables>(design);
   check_tables_as<SingleChannelEkfTables>(design);
+  check_tables_as<ModelTables>(design);
   require(!design.name.empty() && design.name.size() <= 200, "a name out of range");
   const auto formats = design_formats();
   require(std::any_of(formats.begin(), formats.end(),

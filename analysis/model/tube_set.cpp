@@ -47,6 +47,7 @@ class LevelSearch {
       radius *= 0.93;
     }
     std::optional<ProvedTube> largest;
+    int tries = 0;
     for (const double factor : kFactors) {
       if (radius > 0.0 && proves(factor * radius, noise)) {
         descend(noise);
@@ -55,6 +56,10 @@ class LevelSearch {
           return proved_;
         }
         largest = largest ? largest : proved_;
+        constexpr int kMostTries = 3;
+        if (++tries == kMostTries) {
+          break;
+        }
       }
     }
     return largest;

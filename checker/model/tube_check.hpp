@@ -19,7 +19,8 @@ class PhaseTubeCheck {
   /// For all phases, all frequencies of the cells, |v| <= noise and a frequency that moves by at most the
   /// slew: |F| <= shrinking_j r for all |xi| <= r, for all r from R_{j+1} to R_j; with one level, |F| <=
   /// shrinking_0 R_0 for |xi| <= R_0. (A bound that is made of terms of degree a in xi times the a-th power
-  /// of the scale, and an error that is kept, is convex in the scale: the ends decide.) With slew, also the
+  /// of the scale, and an error that is kept, is convex in the scale: the ends decide, if need be those of
+  /// two parts of the interval, with a bound for each.) With slew, also the
   /// borders of the cells, which must be in order (tube_borders.hpp). The shape is one, everything is
   /// defined, only angles turn, and angles are known modulo 2 pi.
   [[nodiscard]] bool is_never_left(Objections& objections) const;

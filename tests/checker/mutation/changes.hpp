@@ -46,7 +46,7 @@ inline constexpr std::array kSubjects{
     Subject{"published", 40},   Subject{"repaired", 40},       Subject{"kkl-observer", 8},
     Subject{"kkl-paper", 12},   Subject{"frozen-filter", 100}, Subject{"phases", 4},
     Subject{"steady-state", 1}, Subject{"steady-set", 3},      Subject{"lock", 3},
-    Subject{"mean-square", 2}};
+    Subject{"mean-square", 2},  Subject{"model-observer", 3},  Subject{"model-moving", 3}};
 
 /// All values with the keys and indices on the way to them, outermost first.
 inline void collect(const Json& value, const Pointer& at, std::vector<Pointer>& found) {
@@ -103,7 +103,7 @@ inline bool is_quoted(const Pointer& at) {
 /// What proves, and does not claim: when it is changed and everything is still proved, it is other evidence.
 inline bool is_evidence(const Pointer& at) {
   const std::string text = at.to_string();
-  return text.starts_with("/certified_sets/") ||
+  return text.starts_with("/certified_sets/") || text.starts_with("/tubes/") ||
          (text.starts_with("/derivations/") && text.find("/evidence/") != std::string::npos);
 }
 

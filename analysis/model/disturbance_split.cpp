@@ -2,7 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <utility>
+
+#include "analysis/search/golden_section.hpp"
 
 namespace veritrack::model {
 
@@ -21,34 +22,11 @@ double logistic(double logit) {
 /// Splits are searched in their logits, which reach both ends: slow trackers need t close to 1.
 constexpr double kFarthestLogit = 20.0;
 
-/// The place in [-kFarthestLogit, kFarthestLogit] where a function with one valley is least, by the golden
-/// section.
+/// Where a function of the logit with one valley is least, and its value there.
 template <typename Function>
-std::pair<double, double> lowest_of(const Function& value) {
-  constexpr double kGolden = 0.6180339887498949;
+search::GoldenPoint lowest_of(const Function& value) {
   constexpr int kSteps = 22;
-  double low = -kFarthestLogit;
-  double high = kFarthestLogit;
-  double first = high - kGolden * (high - low);
-  double second = low + kGolden * (high - low);
-  double at_first = value(first);
-  double at_second = value(second);
-  for (int i = 0; i < kSteps; ++i) {
-    if (at_first < at_second) {
-      high = second;
-      second = first;
-      at_second = at_first;
-      first = high - kGolden * (high - low);
-      at_first = value(first);
-    } else {
-      low = first;
-      first = second;
-      at_first = at_second;
-      second = low + kGolden * (high - low);
-      at_second = value(second);
-    }
-  }
-  return at_first < at_second ? std::pair(first, at_first) : std::pair(second, at_second);
+  return search::golden_section(-kFarthestLogit, kFarthestLogit, kSteps, value);
 }
 
 }  // namespace
@@ -90,8 +68,8 @@ std::array<double, 3> proposed_shares(const Eigen::MatrixXd& x, const Eigen::Mat
       return largest_eigenvalue_about(x / t + v / (rest * logistic(logit)) + w / (rest * logistic(-logit)));
     });
   };
-  const double logit_of_x = lowest_of([&](double logit) { return of_others(logit).second; }).first;
-  const double logit_of_v = of_others(logit_of_x).first;
+  const double logit_of_x = lowest_of([&](double logit) { return of_others(logit).cost; }).point;
+  const double logit_of_v = of_others(logit_of_x).point;
   const double rest = logistic(-logit_of_x);
   return {logistic(logit_of_x), rest * logistic(logit_of_v), rest * logistic(-logit_of_v)};
 }

@@ -39,13 +39,7 @@ class MovingSearch {
 
   /// Levels for the noise and slew of the set.
   [[nodiscard]] bool find_levels() {
-    double radius = 0.0;
-    for (double guess = 1.6 * level_; guess > 0.02 * level_ && radius == 0.0; guess *= 0.8) {
-      radius = may_hold(guess, set_->slew) ? guess : 0.0;
-    }
-    for (double step = 1.12; step > 1.01 && radius > 0.0; step = std::sqrt(step)) {
-      radius = may_hold(radius * step, set_->slew) ? radius * step : radius;
-    }
+    const double radius = largest_radius(level_, [&](double tried) { return may_hold(tried, set_->slew); });
     for (const double factor : kFactors) {
       if (radius > 0.0 && proves(factor * radius, set_->slew)) {
         while (step_down()) {
@@ -62,7 +56,7 @@ class MovingSearch {
     double radius = 0.0;
     for (const double factor : {1.0, 0.75, 0.5}) {
       double tried = std::max(1.02 * slew, 0.02 * most_slew_);
-      if (!may_hold(factor * level_, tried)) {
+      if (!(tried > 0.0) || !may_hold(factor * level_, tried)) {
         continue;
       }
       for (double step = 1.6; step > 1.02; step = std::sqrt(step)) {

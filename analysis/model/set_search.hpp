@@ -1,6 +1,7 @@
 // What the searches for sets of tubes have in common.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,20 @@ namespace veritrack::model {
 
 /// How tubes are proposed for a task, over a band in rad/sample.
 [[nodiscard]] BandSettings settings_of(const SetTask& task, double low, double high);
+
+/// About the largest radius near `level` for which `may_hold(radius)`; 0 when there is none. With noise
+/// growth is too large for small radii, and always for large ones.
+template <typename Test>
+[[nodiscard]] double largest_radius(double level, const Test& may_hold) {
+  double radius = 0.0;
+  for (double guess = 1.6 * level; guess > 0.02 * level && radius == 0.0; guess *= 0.8) {
+    radius = may_hold(guess) ? guess : 0.0;
+  }
+  for (double step = 1.12; step > 1.01 && radius > 0.0; step = std::sqrt(step)) {
+    radius = may_hold(radius * step) ? radius * step : radius;
+  }
+  return radius;
+}
 
 /// What is verified where `shrinking` is claimed: a little less, so that another program need not be as
 /// sharp.

@@ -34,15 +34,7 @@ class LevelSearch {
 
   /// The largest radius about the proposal for this noise, with levels below; nothing when none is proved.
   [[nodiscard]] std::optional<ProvedTube> with_noise(double noise) {
-    // The largest radius that points allow, if any: growth is large for small radii with noise, and for
-    // large.
-    double radius = 0.0;
-    for (double guess = 1.6 * level(); guess > 0.02 * level() && radius == 0.0; guess *= 0.8) {
-      radius = may_hold(guess, noise) ? guess : 0.0;
-    }
-    for (double step = 1.12; step > 1.01 && radius > 0.0; step = std::sqrt(step)) {
-      radius = may_hold(radius * step, noise) ? radius * step : radius;
-    }
+    double radius = largest_radius(level(), [&](double tried) { return may_hold(tried, noise); });
     for (int i = 0; i < 60 && radius > 0.0 && !is_locked(*model_, proved_.tube, radius); ++i) {
       radius *= 0.93;
     }
@@ -73,7 +65,7 @@ class LevelSearch {
       const double radius = factor * level();
       // As a share of the guess: to be larger than the best so far.
       double noise = std::min(most, std::max(best_noise * 1.02, 0.05 * proposal_->worth.noise));
-      if (!may_hold(radius, noise)) {
+      if (!(noise > 0.0) || !may_hold(radius, noise)) {
         continue;
       }
       for (double step = 1.6; step > 1.01; step = std::sqrt(step)) {
@@ -146,8 +138,7 @@ class LevelSearch {
       const double next = step.factor * radius;
       // Points are cheap, and where they fail nothing is verified.
       constexpr int kPhases = 16;
-      if (!(sampled_growth(*model_, proved_.tube, {next, noise}, kPhases) <=
-            step.shrinking - 0.1 * (1.0 - step.shrinking))) {
+      if (!(sampled_growth(*model_, proved_.tube, {next, noise}, kPhases) <= with_room(step.shrinking))) {
         return false;
       }
       // What is verified is from this number up.

@@ -1,6 +1,8 @@
 #include "checker/model/model_recursion.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 namespace veritrack::checker {
@@ -82,6 +84,16 @@ Computed stays_within(const Computed& x, const Computed& low, const Computed& hi
   return stays_within(x.ball, low.ball, high.ball);
 }
 
+/// A certificate's sentences and the signal use these words: they have one meaning. Throws FormulaError.
+void require_free(const std::string& name) {
+  constexpr std::array<std::string_view, 15> kTaken{"pi",  "A",    "phi",  "omega", "sqrt",
+                                                    "exp", "log",  "sin",  "cos",   "tan",
+                                                    "asin", "acos", "atan", "atan2", "stays_within"};
+  if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end()) {
+    throw FormulaError(name + " has two meanings");
+  }
+}
+
 }  // namespace
 
 ModelRecursion::Slots ModelRecursion::numbered(const std::vector<std::string>& names) {
@@ -129,6 +141,7 @@ void ModelRecursion::read_parameters(const Tree& parameters) {
   for (const Tree& parameter : parameters.elements()) {
     const Ball value = constant_value(parameter.at("formula").text());
     const std::string& name = parameter.at("name").text();
+    require_free(name);
     if (!value.finite()) {
       throw FormulaError("the parameter " + name + " has no value");
     }
@@ -142,8 +155,10 @@ void ModelRecursion::read_parameters(const Tree& parameters) {
 void ModelRecursion::read_lines_of(const std::string& text, const std::vector<std::string>& inputs,
                                    const std::vector<std::string>& states) {
   Slots variables = numbered(inputs);
+  std::for_each(inputs.begin(), inputs.end(), require_free);
   int next = static_cast<int>(inputs.size());
   for (const FormulaLine& line : in_order_of_need(read_lines(text))) {
+    require_free(line.name);
     lines_.push_back(looked_up(line.value, variables));
     if (constant_slots_.contains(line.name) || !variables.try_emplace(line.name, next++).second) {
       throw FormulaError(line.name + " has two meanings");

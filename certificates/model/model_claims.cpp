@@ -49,15 +49,17 @@ class ModelWords {
     return assume_->noise.value.upper() > 0.0 ? ", with noise below " + assume_->noise.text
                                               : ", without noise";
   }
-  [[nodiscard]] std::string start() const {
+  /// The assumed start, in the set of that name.
+  [[nodiscard]] std::string start(const std::string& set) const {
     if (assume_->start_within.empty()) {
-      return ", started in the tube in the certificate";
+      return ", started in the set \"" + set + "\" of the certificate";
     }
     std::string states;
     for (const NamedText& entry : assume_->start_within) {
       states += (states.empty() ? "" : ", ") + entry.name.text + ": " + entry.formula.text;
     }
-    return ", started within {" + states + "} of the curve in the certificate";
+    return ", started within {" + states + "} of the curve of the set \"" + set +
+           "\" of the certificate, the other states on it";
   }
 
  private:
@@ -83,7 +85,8 @@ class ModelClaims {
 
   void add_told() {
     if (guaranteed()) {
-      Claim claim = told("model/guarantee", words_.assumed_tone() + words_.noise() + words_.start());
+      Claim claim = told("model/guarantee", words_.assumed_tone() + words_.noise() +
+                                                words_.start(sets_->assumed ? "assumed" : "starts"));
       const std::string bound = above(deciding_->frequency_error);
       claim.values = {{"frequency_error", bound}};
       claim.statement += fmt::format(", the frequency error stays at or below {} rad/sample for ever", bound);
@@ -107,8 +110,9 @@ class ModelClaims {
       add(claim);
     }
     if (has_bias()) {
-      Claim claim = told("model/steady-state",
-                         words_.constant_tone() + ", without noise, started in the tube in the certificate");
+      Claim claim =
+          told("model/steady-state",
+               words_.constant_tone() + ", without noise, started in the set \"starts\" of the certificate");
       const std::string low = below(starts.bias.lower());
       const std::string high = above(starts.bias.upper());
       const std::string ripple = above(starts.ripple);
@@ -126,7 +130,8 @@ class ModelClaims {
     const Requirements& sets = require.sets;
     const std::string assumed = words_.assumed_tone() + words_.noise();
     if (const auto& number = sets.frequency_error_below) {
-      Claim claim = required("model/frequency-error-bound", *number, assumed + words_.start(),
+      Claim claim = required("model/frequency-error-bound", *number,
+                             assumed + words_.start(sets_->assumed ? "assumed" : "starts"),
                              "the frequency error stays below {} rad/sample for ever");
       decide(claim, guaranteed(), deciding_->frequency_error, *number, "The proved bound is {} rad/sample",
              guarantee_objection());
@@ -155,7 +160,7 @@ class ModelClaims {
                   "The certified set reaches {} rad/sample");
     }
     const std::string settled =
-        words_.constant_tone() + ", without noise, started in the tube in the certificate";
+        words_.constant_tone() + ", without noise, started in the set \"starts\" of the certificate";
     if (const auto& number = require.bias_below) {
       Claim claim = required("model/bias", *number, "", "the mean frequency error is at most {} rad/sample");
       claim.statement = fmt::format(
@@ -232,10 +237,12 @@ class ModelClaims {
   Claim settling(const std::string& assumed) {
     const Number& within = *tables_->require.sets.settles_within;
     const Number& target = *tables_->require.sets.settled_below;
-    Claim claim = required("model/settling-time", within, assumed + words_.start(), "");
+    Claim claim = required("model/settling-time", within,
+                           assumed + words_.start(sets_->assumed ? "assumed" : "starts"), "");
     claim.requirement = fmt::format("from sample {} on, the frequency error stays below {} rad/sample",
                                     within.text, target.text);
-    claim.statement = fmt::format("{}, {}.", assumed + words_.start(), claim.requirement);
+    claim.statement = fmt::format("{}, {}.", assumed + words_.start(sets_->assumed ? "assumed" : "starts"),
+                                  claim.requirement);
     const double samples = guaranteed() ? samples_below(target) : INFINITY;
     if (!guaranteed()) {
       claim.reason = guarantee_objection();

@@ -19,7 +19,7 @@ const std::string kGuarantee = "model/guarantee";
 const std::string kLimits = "model/limits";
 const std::string kSteadyState = "model/steady-state";
 const std::string kRadPerSample = " rad/sample";
-const std::string kSettled = ", without noise, started in the tube in the certificate";
+const std::string kSettled = ", without noise, started in the set \"starts\" of the certificate";
 
 std::size_t first_level(const PhaseTube& /*tube*/) {
   return 0;
@@ -90,6 +90,10 @@ const TubeSet* ModelClaims::find(const std::string& name) const {
   return found != sets_->end() ? &found->second : nullptr;
 }
 
+std::string ModelClaims::deciding_name() const {
+  return find("assumed") != nullptr ? "assumed" : "starts";
+}
+
 const TubeSet* ModelClaims::deciding_set() const {
   const TubeSet* set = find("assumed");
   if (set == nullptr && !design_->is_noisy()) {
@@ -118,7 +122,7 @@ Claim ModelClaims::bound() const {
   const TubeSet* set = deciding_set();
   Claim found;
   found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
-                    words_.assumed_start() + ", " + short_text(kErrorBound) + ".";
+                    words_.assumed_start(deciding_name()) + ", " + short_text(kErrorBound) + ".";
   found.verdict = proved_if(set != nullptr && contains_assumed_starts(*set) &&
                             of(*set).error_is_below(first_level, design_->frequency_error_below->value));
   return found;
@@ -128,7 +132,7 @@ Claim ModelClaims::settling() const {
   const TubeSet* set = deciding_set();
   Claim found;
   found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
-                    words_.assumed_start() + ", " + short_text(kSettlingTime) + ".";
+                    words_.assumed_start(deciding_name()) + ", " + short_text(kSettlingTime) + ".";
   // The last level that is reached in time.
   const auto level = [this, set](const PhaseTube& tube) {
     std::size_t reached = 0;
@@ -188,7 +192,7 @@ Claim ModelClaims::guarantee(const Tree& claim) const {
   Claim found;
   found.is_summary = true;
   found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
-                    words_.assumed_start() + ", the frequency error stays at or below " +
+                    words_.assumed_start(deciding_name()) + ", the frequency error stays at or below " +
                     claim.at("frequency_error").text() + kRadPerSample + " for ever";
   bool certain =
       set != nullptr && contains_assumed_starts(*set) && of(*set).error_is_at_most(first_level, bound);

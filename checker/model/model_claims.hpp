@@ -27,6 +27,8 @@ class ModelClaims {
   [[nodiscard]] const TubeSet* find(const std::string& name) const;
   /// Whose noise and slew are at least the assumed ones.
   [[nodiscard]] const TubeSet* deciding_set() const;
+  /// The name of the set that a guarantee is about.
+  [[nodiscard]] std::string deciding_name() const;
   /// "starts", if there are levels to come down to.
   [[nodiscard]] const TubeSet* settling_set() const;
   [[nodiscard]] PhaseTubeCheck of(const TubeSet& set) const { return {*model_, set, *cells_}; }

@@ -131,16 +131,17 @@ std::string ModelWords::assumed_noise(bool is_noisy) const {
   return is_noisy ? ", with noise below " + text_of(assume().at("noise")) : ", without noise";
 }
 
-std::string ModelWords::assumed_start() const {
+std::string ModelWords::assumed_start(const std::string& set) const {
   const Tree* start = assume().find("start_within");
   if (start == nullptr) {
-    return ", started in the tube in the certificate";
+    return ", started in the set \"" + set + "\" of the certificate";
   }
   std::string list;
   for (const Tree& entry : start->elements()) {
     list += (list.empty() ? "" : ", ") + entry.at("name").text() + ": " + entry.at("formula").text();
   }
-  return ", started within {" + list + "} of the curve in the certificate";
+  return ", started within {" + list + "} of the curve of the set \"" + set +
+         "\" of the certificate, the other states on it";
 }
 
 }  // namespace veritrack::checker

@@ -47,7 +47,7 @@ class ModelWords {
   /// With the assumed slew.
   [[nodiscard]] std::string assumed_tone(bool moves) const;
   [[nodiscard]] std::string assumed_noise(bool is_noisy) const;
-  [[nodiscard]] std::string assumed_start() const;
+  [[nodiscard]] std::string assumed_start(const std::string& set) const;
 
  private:
   [[nodiscard]] const Tree& assume() const { return design_->at("assume"); }

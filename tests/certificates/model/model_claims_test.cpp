@@ -90,8 +90,8 @@ TEST_CASE("every claim is decided by its set") {
     CHECK(claim->statement.ends_with("."));
   }
   CHECK(find(certificate, "model/guarantee")
-            ->statement.find(", with noise below 0.02, started within {w: 0.001} of the curve in the "
-                             "certificate, the frequency "
+            ->statement.find(", with noise below 0.02, started within {w: 0.001} of the curve of the set "
+                             "\"assumed\" of the certificate, the other states on it, the frequency "
                              "error stays at or below 0.01563 rad/sample for ever, and at or below 0.007813 "
                              "rad/sample in the long "
                              "run.") != std::string::npos);

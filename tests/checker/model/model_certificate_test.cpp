@@ -57,7 +57,8 @@ TEST_CASE("a phase-locked loop is verified, in these words") {
   REQUIRE(found.sentences.size() == 3);
   CHECK(found.sentences[0].text ==
         "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.28125, 0.3125] "
-        "rad/sample, without noise, started in the tube in the certificate, the frequency error stays at or "
+        "rad/sample, without noise, started in the set \"starts\" of the certificate, the frequency error "
+        "stays at or "
         "below 0.014 rad/sample for ever, and at or below 0.0012 rad/sample in the long run.");
   CHECK(found.sentences[1].text ==
         "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.28125, 0.3125] "
@@ -66,7 +67,8 @@ TEST_CASE("a phase-locked loop is verified, in these words") {
   CHECK(
       found.sentences[2].text ==
       "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.28125, 0.3125] "
-      "rad/sample, without noise, started in the tube in the certificate, the mean over the phase of the "
+      "rad/sample, without noise, started in the set \"starts\" of the certificate, the mean over the phase "
+      "of the "
       "frequency error in the long run is between -0.0001 and 0.0001 rad/sample, and the error varies by at "
       "most 0.0023 rad/sample over the phase.");
 }
@@ -212,8 +214,9 @@ TEST_CASE("starts within given deviations") {
   CHECK(found.verified());
   REQUIRE(found.sentences.size() == 1);
   CHECK(found.sentences[0].text.find(
-            ", without noise, started within {w: wn/40, theta: pi/400} of the curve in "
-            "the certificate, the frequency error stays at or below 0.014 ") != std::string::npos);
+            ", without noise, started within {w: wn/40, theta: pi/400} of the curve of the set "
+            "\"starts\" of the certificate, the other states on it, the frequency error stays at or below "
+            "0.014 ") != std::string::npos);
   CHECK_FALSE(verify_json(with_starts("wn", "0")).verified());
   CHECK_FALSE(verify_json(with_starts("0", "3")).verified());
   CHECK_FALSE(verify_json(with_starts("-wn/40", "0")).verified());

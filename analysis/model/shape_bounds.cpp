@@ -204,6 +204,24 @@ ToleratedDisturbance largest_slew(const std::vector<PhaseBounds>& bounds, double
   });
 }
 
+ToleratedDisturbance largest_deviation(const std::vector<PhaseBounds>& bounds, double weight,
+                                       double exponent) {
+  // A deviation of `share` R has the weight of the shape's equation.
+  const double share = std::sqrt(weight / (2.0 * exponent));
+  constexpr double kLongest = 8.0;  // errors, in deviations
+  double level = std::numeric_limits<double>::infinity();
+  for (const PhaseBounds& b : bounds) {
+    const double room = 1.0 - b.disturbed_rate;
+    if (!(room > 0.0)) {
+      return {};
+    }
+    const double linear = 0.5 * b.second + b.mixed * share + 0.5 * kLongest * b.sample * share * share;
+    level = std::min(level, b.straight);
+    level = std::min(level, 2.0 * room / (linear + std::sqrt(linear * linear + b.third * room / 1.5)));
+  }
+  return bounds.empty() ? ToleratedDisturbance{} : ToleratedDisturbance{share * level, level};
+}
+
 double long_run_level(const std::vector<PhaseBounds>& bounds, const DisturbanceWeights& weights, double noise,
                       double slew) {
   const bool is_linear = noise == 0.0 && slew == 0.0;

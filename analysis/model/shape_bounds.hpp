@@ -52,6 +52,11 @@ struct ToleratedDisturbance {
 /// The largest slew, without noise.
 [[nodiscard]] ToleratedDisturbance largest_slew(const std::vector<PhaseBounds>& bounds, double weight);
 
+/// The largest deviation of Gaussian noise for which exp(exponent (level/R)^2) does not grow in the mean,
+/// over all R; the linear part is averaged over the noise, the rest bounded.
+[[nodiscard]] ToleratedDisturbance largest_deviation(const std::vector<PhaseBounds>& bounds, double weight,
+                                                     double exponent);
+
 /// The least level that is never left under these disturbances, or infinity. `noise` 0 and `slew` 0 mean
 /// disturbances so small that second orders do not count: then the level for noise 1.
 [[nodiscard]] double long_run_level(const std::vector<PhaseBounds>& bounds, const DisturbanceWeights& weights,

@@ -12,7 +12,13 @@
 namespace veritrack::model {
 
 /// What a tube is for.
-enum class ShapeObjective { largest_starts, largest_noise, least_long_run_error, largest_slew };
+enum class ShapeObjective {
+  largest_starts,
+  largest_noise,
+  least_long_run_error,
+  largest_slew,
+  largest_deviation  ///< of Gaussian noise
+};
 
 struct ShapeSettings {
   ShapeObjective objective = ShapeObjective::largest_starts;
@@ -20,6 +26,8 @@ struct ShapeSettings {
   /// each free, of which as large a multiple as possible shall be in the tube. Empty: the least of R |grad h
   /// U| over the phase shall be large.
   Eigen::VectorXd start;
+  /// For the largest deviation: the logarithm of how rarely the tube is to be left.
+  double exponent = 28.0;
   /// For the least error in the long run; both 0 mean a noise so small that second orders do not count.
   double noise = 0.0;  ///< of the samples together, Euclidean
   double slew = 0.0;   ///< rad/sample per sample
@@ -41,7 +49,7 @@ struct ShapeParameters {
 struct ShapeWorth {
   double score = 0.0;      ///< of the objective: its logarithm, to be large
   double level = 0.0;      ///< R
-  double noise = 0.0;      ///< that it tolerates, for the largest noise
+  double noise = 0.0;      ///< that it tolerates, for the largest noise, or its deviation
   double slew = 0.0;       ///< likewise
   double rate = 1.0;       ///< sup |U(phi+omega)^-1 A U|
   double reach = 0.0;      ///< R |grad h U|, the largest over the phase, rad/sample

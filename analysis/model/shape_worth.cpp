@@ -133,6 +133,13 @@ std::optional<ShapeWorth> worth_of(const CurveDynamics& dynamics, const ShapeOnG
       worth.score = std::log(tolerated.size);
       break;
     }
+    case ShapeObjective::largest_deviation: {
+      const ToleratedDisturbance tolerated = largest_deviation(*bounds, present.noise, settings.exponent);
+      worth.level = tolerated.level;
+      worth.noise = tolerated.size;
+      worth.score = std::log(tolerated.size);
+      break;
+    }
     case ShapeObjective::least_long_run_error:
       worth.level = long_run_level(*bounds, present, settings.noise, settings.slew);
       worth.score = -std::log(worth.level * worth.reach);

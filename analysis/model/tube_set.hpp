@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,12 +36,24 @@ struct SetTask {
   Eigen::VectorXd deviations;  ///< of starts, one for each state; or empty
 };
 
+/// Gaussian noise, and the inequality that is proved for every tube of a set (gaussian_drift.hpp), with
+/// R = levels[0]: E[exp(exponent (l+/R)^2); |v| <= most_noise] <= factor exp(exponent (l/R)^2) + constant.
+struct GaussianTerms {
+  double deviation = 0.0;   ///< of each sample, at most, signal units
+  double most_noise = 0.0;  ///< V, of all samples together, signal units
+  double exponent = 0.0;    ///< L
+  double factor = 1.0;      ///< kappa, below 1
+  double constant = 0.0;    ///< c0
+};
+
 /// A set of tubes that covers a band, or a part of it.
 struct TubeSet {
   std::string name;
   double noise = 0.0;  ///< V, signal units
   double slew = 0.0;   ///< W, rad/sample per sample; 0: constant frequencies
   std::vector<ProvedTube> tubes;
+  /// For Gaussian noise: one level in each tube, and no statement that no state leaves it; V is 0 here.
+  std::optional<GaussianTerms> gaussian;
   /// With a slew, for each pair of levels: how levels change at borders of cells, after the step's shrinking
   /// (docs/model-proof.md, section 4).
   std::vector<double> crossing;

@@ -48,6 +48,19 @@ struct StepBounds {
   double by_frequency = 0.0;
 };
 
+/// F over a cell, as ball models in xi/radius and the disturbances: v/noise, and then zeta.
+struct StepOver {
+  std::vector<rigor::BallModel> deviation;  ///< F
+  rigor::Interval frequency_error;          ///< of h(C + U xi) - omega; empty when nothing is known
+  bool is_known = false;                    ///< the shape is one, here and there
+};
+
+/// For |xi| <= radius, |v| <= noise stretch and a slew up to slew stretch. Needs the upward rounding mode,
+/// and a scope of ball models with as many components as there are states, and disturbances as there are
+/// samples (noise > 0) and one more (slew > 0). Throws std::invalid_argument when sizes do not fit.
+[[nodiscard]] StepOver step_over(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                                 double radius, double noise, double slew = 0.0, double stretch = 1.0);
+
 /// The bounds for |xi| <= scale radius, for each of the scales, in (0, 1], |v| <= noise (the length of
 /// the error of all samples, signal units), and a frequency that moves by at most `slew` (rad/sample per
 /// sample) from this sample to the next. Sets its own rounding mode. Throws std::invalid_argument when sizes

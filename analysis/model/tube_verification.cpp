@@ -38,23 +38,34 @@ bool holds(const StepBounds& bounds, const LevelQuestion& question, const std::v
 
 }  // namespace
 
+std::string objection_to_phases(const TrackerModel& model, const Tube& tube) {
+  std::string reason = angle_objection(*model.recursion, model.constants);
+  if (!reason.empty()) {
+    return reason;
+  }
+  if (!is_periodic(*model.signal, model.constants)) {
+    return "the signal is not known to have the period 2 pi in its phase";
+  }
+  for (std::size_t i = 0; i < tube.turns.size(); ++i) {
+    if (tube.turns[i] != 0 && !model.recursion->is_angle[i]) {
+      return "the curve turns in a state that is no angle";
+    }
+  }
+  return {};
+}
+
+std::string place_of_failure(const Tube& tube, const TubeCell& cell) {
+  return fmt::format("at phases about {:.4g} of a turn and frequencies about {:.4g} rad/sample", cell.turn,
+                     tube.frequency + tube.half_width * cell.z);
+}
+
 LevelResult verify_level(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
                          const VerificationBudget& budget) {
   LevelResult result;
   const rigor::UpwardRounding upward;
-  result.reason = angle_objection(*model.recursion, model.constants);
+  result.reason = objection_to_phases(model, tube);
   if (!result.reason.empty()) {
     return result;
-  }
-  if (!is_periodic(*model.signal, model.constants)) {
-    result.reason = "the signal is not known to have the period 2 pi in its phase";
-    return result;
-  }
-  for (std::size_t i = 0; i < tube.turns.size(); ++i) {
-    if (tube.turns[i] != 0 && !model.recursion->is_angle[i]) {
-      result.reason = "the curve turns in a state that is no angle";
-      return result;
-    }
   }
   const bool is_question = std::isfinite(question.radius) && question.radius > 0.0 && question.noise >= 0.0 &&
                            std::isfinite(question.noise) && question.least_scale > 0.0 &&
@@ -77,10 +88,7 @@ LevelResult verify_level(const TrackerModel& model, const Tube& tube, const Leve
   const CoverResult cover = cover_cells(ask, budget);
   if (!cover.is_proved) {
     result.worst_cell = cover.failed;
-    result.reason = fmt::format(
-        "at phases about {:.4g} of a turn and frequencies about {:.4g} rad/sample a step may grow beyond the "
-        "tube",
-        cover.failed.turn, tube.frequency + tube.half_width * cover.failed.z);
+    result.reason = place_of_failure(tube, cover.failed) + " a step may grow beyond the tube";
     return result;
   }
   result.cells = cover.cells;

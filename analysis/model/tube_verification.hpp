@@ -42,6 +42,12 @@ struct LevelResult {
 [[nodiscard]] LevelResult verify_level(const TrackerModel& model, const Tube& tube,
                                        const LevelQuestion& question, const VerificationBudget& budget);
 
+/// Why statements over phases from 0 to 2 pi say nothing of all of them; empty when they do.
+[[nodiscard]] std::string objection_to_phases(const TrackerModel& model, const Tube& tube);
+
+/// "at phases about 0.25 of a turn and frequencies about 0.3 rad/sample".
+[[nodiscard]] std::string place_of_failure(const Tube& tube, const TubeCell& cell);
+
 /// The largest |F|/R at points of the tube, by the bounds of verify_level over cells without width, at so
 /// many phases: what a verification could prove at best for this radius, noise and slew. Not evidence;
 /// infinity when nothing is known somewhere.

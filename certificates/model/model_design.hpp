@@ -45,7 +45,10 @@ struct ModelAssumptions {
   std::optional<Number> sample_rate;      ///< Hz
   std::array<Number, 2> frequency;        ///< [lowest, highest]
   bool frequency_in_hertz = false;        ///< otherwise rad/sample
-  Number noise;                           ///< |v(k)| <= noise for every k, signal units
+  /// |v(k)| <= noise for every k, signal units. Empty where the noise is Gaussian: nothing follows from it.
+  Number noise;
+  std::optional<GaussianNoise> gaussian;
+  std::optional<Number> samples;          ///< for how many a probability is asked; given with Gaussian noise
   Number slew;                            ///< of the frequency
   bool slew_in_hertz_per_second = false;  ///< otherwise rad/sample per sample
   std::vector<NamedText> start_within;    ///< of states: deviations from the curve at the start, at most

@@ -173,6 +173,10 @@ void slew_rate(const TomlValue& value, ModelAssumptions& assume) {
       value, "hz_per_second", [&](const TomlValue& number) { assume.slew = number.real(not_negative); });
 }
 
+void noise_of_samples(const TomlValue& value, ModelAssumptions& assume) {
+  read_noise(value, assume.noise, assume.gaussian);
+}
+
 using ModelAssume = ModelAssumptions;
 constexpr std::array kModelAssumeKeys{
     Key<ModelAssume>{"amplitude", kPositive, real<&ModelAssume::amplitude, positive>, defaults_to("1")},
@@ -182,7 +186,9 @@ constexpr std::array kModelAssumeKeys{
         "frequency",
         "[lowest, highest] in rad/sample, above 0, or with sample_rate { hz = [lowest, highest] }",
         frequency_band, kRequired},
-    Key<ModelAssume>{"noise", kNotNegative, real<&ModelAssume::noise, not_negative>, kRequired},
+    Key<ModelAssume>{"noise", kNoiseThatMayBeGaussian, noise_of_samples, kRequired},
+    Key<ModelAssume>{"samples", kSamplesOfProbability, real<&ModelAssume::samples, is_number_of_samples>,
+                     kOptional},
     Key<ModelAssume>{"slew", "a number, 0 or more, or with sample_rate { hz_per_second = number }", slew_rate,
                      defaults_to("0")},
     Key<ModelAssume>{"start_within",
@@ -203,6 +209,10 @@ void settles_within(const TomlValue& value, ModelRequire& target) {
   target.sets.settles_within =
       value.whole_number([](const Interval& x) { return rigor::certainly_less_equal(Interval(1.0), x); });
 }
+void probability_of_losing_lock(const TomlValue& value, ModelRequire& target) {
+  target.sets.probability_of_losing_lock_below = value.real(
+      [](const Interval& x) { return rigor::certainly_positive(x) && rigor::certainly_less(x, Interval(1.0)); });
+}
 constexpr std::array kModelRequireKeys{
     Key<ModelRequire>{"frequency_error_below", kPositive, of_sets<&Requirements::frequency_error_below>,
                       kOptional},
@@ -214,6 +224,8 @@ constexpr std::array kModelRequireKeys{
                       kOptional},
     Key<ModelRequire>{"frequency_error_radius_at_least", kPositive,
                       of_sets<&Requirements::frequency_error_radius_at_least>, kOptional},
+    Key<ModelRequire>{"probability_of_losing_lock_below", "a number above 0 and below 1",
+                      probability_of_losing_lock, kOptional},
     Key<ModelRequire>{"bias_below", kPositive, real<&ModelRequire::bias_below, positive>, kOptional},
     Key<ModelRequire>{"ripple_below", kPositive, real<&ModelRequire::ripple_below, positive>, kOptional},
 };
@@ -223,6 +235,15 @@ std::vector<BoundTable> bind_model_tables(std::any& tables) {
   return {bound_table("model", kModelKeys, target.model),
           bound_table("assume", kModelAssumeKeys, target.assume),
           bound_table("require", kModelRequireKeys, target.require)};
+}
+
+/// What goes with a bound of the noise does not go with Gaussian noise, and the other way round.
+std::optional<TableObjection> objection_to_noise(const ModelAssumptions& assume, const Requirements& require) {
+  Assumptions terms;
+  terms.gaussian = assume.gaussian;
+  terms.samples = assume.samples;
+  terms.slew = assume.slew;
+  return objection_to(terms, require);
 }
 
 std::optional<TableObjection> objection_to_model(const std::any& tables) {
@@ -236,6 +257,9 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
   }
   if (require.sets.settles_within.has_value() != require.sets.settled_below.has_value()) {
     return TableObjection{"require", "allowed: settles_within and settled_below together, or neither", {}};
+  }
+  if (auto objection = objection_to_noise(assume, require.sets)) {
+    return objection;
   }
   try {
     const Model made = make_model(model, assume.signal);

@@ -53,23 +53,7 @@ bool within_200_decibels(const Interval& x) {
 
 /// A bound, or the deviation of Gaussian noise.
 void noise(const TomlValue& value, Assumptions& assume) {
-  assume.gaussian.reset();
-  if (!value.is_table()) {
-    assume.noise = value.real(not_negative);
-    return;
-  }
-  assume.noise = {};
-  if (const auto level = value.fields({"snr_db"})) {
-    assume.gaussian = GaussianNoise{level->front().real(within_200_decibels), std::nullopt};
-  } else if (const auto deviation = value.fields({"deviation"})) {
-    assume.gaussian = GaussianNoise{std::nullopt, deviation->front().real(positive)};
-  } else {
-    value.refuse("a table with other keys");
-  }
-}
-
-bool at_least_one_sample(const Interval& x) {
-  return rigor::certainly_less_equal(Interval(1.0), x) && rigor::certainly_less_equal(x, Interval(1e15));
+  read_noise(value, assume.noise, assume.gaussian);
 }
 
 /// Symmetry is that of the intervals: they hold the symmetric matrices that a certificate is about.
@@ -205,16 +189,14 @@ constexpr std::array<Key<Assume>, kAssumeKeys.size() + 2> with_gaussian_noise() 
   std::copy(kAssumeKeys.begin(), kAssumeKeys.end(), keys.begin());
   for (Key<Assume>& key : keys) {
     if (key.name == "noise") {
-      key.allowed =
-          "a number, 0 or more (a bound), or Gaussian noise: { snr_db = a number from -200 to 200 } or { "
-          "deviation = a number above 0 }";
+      key.allowed = kNoiseThatMayBeGaussian;
       key.read = noise;
     }
   }
   keys[kAssumeKeys.size()] = {"frequency_walk", kNotNegative, real<&Assume::frequency_walk, not_negative>,
                               kOptional};
-  keys[kAssumeKeys.size() + 1] = {"samples", "a number from 1 to 1e15",
-                                  real<&Assume::samples, at_least_one_sample>, kOptional};
+  keys[kAssumeKeys.size() + 1] = {"samples", kSamplesOfProbability,
+                                  real<&Assume::samples, is_number_of_samples>, kOptional};
   return keys;
 }
 constexpr std::array kAssumeKeysWithGaussianNoise = with_gaussian_noise();
@@ -242,6 +224,26 @@ constexpr std::array kAssumeKeysWithOneFrequency = with_one_frequency();
 std::span<const Key<Assumptions>> assume_keys_with_one_frequency() {
   return kAssumeKeysWithOneFrequency;
 }
+void read_noise(const TomlValue& value, Number& bound, std::optional<GaussianNoise>& gaussian) {
+  gaussian.reset();
+  if (!value.is_table()) {
+    bound = value.real(not_negative);
+    return;
+  }
+  bound = {};
+  if (const auto level = value.fields({"snr_db"})) {
+    gaussian = GaussianNoise{level->front().real(within_200_decibels), std::nullopt};
+  } else if (const auto deviation = value.fields({"deviation"})) {
+    gaussian = GaussianNoise{std::nullopt, deviation->front().real(positive)};
+  } else {
+    value.refuse("a table with other keys");
+  }
+}
+
+bool is_number_of_samples(const Interval& x) {
+  return rigor::certainly_less_equal(Interval(1.0), x) && rigor::certainly_less_equal(x, Interval(1e15));
+}
+
 std::span<const Key<Assumptions>> assume_keys() {
   return kAssumeKeysWithGaussianNoise;
 }

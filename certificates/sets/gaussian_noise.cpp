@@ -11,14 +11,25 @@ namespace veritrack::certificates {
 
 using rigor::Interval;
 
-Interval deviation_at_unit_amplitude(const Assumptions& assume) {
-  const GaussianNoise& noise = assume.gaussian.value();
+namespace {
+
+constexpr const char* kGaussian =
+    ", with Gaussian measurement noise of mean zero, independent from sample to sample and from channel to "
+    "channel, and ";
+
+}  // namespace
+
+Interval deviation_at_unit_amplitude(const GaussianNoise& noise, const Number& amplitude) {
   if (noise.deviation) {
-    return noise.deviation->value / assume.amplitude.value;
+    return noise.deviation->value / amplitude.value;
   }
   // sigma^2 = 10^(-snr/10)/2.
   const Interval exponent = -(noise.snr_db->value / Interval(20.0)) * rigor::log(Interval(10.0));
   return rigor::exp(exponent) / rigor::sqrt(Interval(2.0));
+}
+
+Interval deviation_at_unit_amplitude(const Assumptions& assume) {
+  return deviation_at_unit_amplitude(assume.gaussian.value(), assume.amplitude);
 }
 
 double nearest_deviation(const Assumptions& assume) {
@@ -37,24 +48,26 @@ std::string stretch_of_samples(const Assumptions& assume) {
              : fmt::format("within any {} successive samples, however late", assume.samples.value().text);
 }
 
-std::string gaussian_disturbance(const Assumptions& assume) {
+std::string gaussian_words(const std::string& snr_db, const Interval& unit_deviation) {
   constexpr int kDigits = 3;
-  const GaussianNoise& noise = assume.gaussian.value();
-  std::string text = frequency_walks(assume)
-                         ? fmt::format(
-                               " at the start and walks in independent Gaussian steps of mean zero and "
-                               "deviation at most {} rad/sample",
-                               assume.frequency_walk->text)
-                         : " and is constant";
-  text +=
-      ", with Gaussian measurement noise of mean zero, independent from sample to sample and from channel to "
-      "channel, and ";
-  text += noise.snr_db
-              ? fmt::format(
-                    "an SNR of at least {} dB (a deviation of at most {} of the amplitude in each channel)",
-                    noise.snr_db->text, rigor::lower_decimal(deviation_at_unit_amplitude(assume), kDigits))
-              : fmt::format("a deviation of at most {} in each channel", noise.deviation->text);
-  return text;
+  return fmt::format("{}an SNR of at least {} dB (a deviation of at most {} of the amplitude in each channel)",
+                     kGaussian, snr_db, rigor::lower_decimal(unit_deviation, kDigits));
+}
+
+std::string gaussian_words(const GaussianNoise& noise, const Number& amplitude) {
+  return noise.snr_db ? gaussian_words(noise.snr_db->text, deviation_at_unit_amplitude(noise, amplitude))
+                      : fmt::format("{}a deviation of at most {} in each channel", kGaussian,
+                                    noise.deviation->text);
+}
+
+std::string gaussian_disturbance(const Assumptions& assume) {
+  const std::string text = frequency_walks(assume)
+                               ? fmt::format(
+                                     " at the start and walks in independent Gaussian steps of mean zero and "
+                                     "deviation at most {} rad/sample",
+                                     assume.frequency_walk->text)
+                               : " and is constant";
+  return text + gaussian_words(assume.gaussian.value(), assume.amplitude);
 }
 
 }  // namespace veritrack::certificates

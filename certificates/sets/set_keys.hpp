@@ -19,6 +19,15 @@ namespace veritrack::certificates {
 /// [simulate]
 [[nodiscard]] std::span<const Key<SimulationSettings>> simulate_keys();
 
+/// What `noise` may be when it may be Gaussian, and its reader: a bound, or the noise.
+inline constexpr std::string_view kNoiseThatMayBeGaussian =
+    "a number, 0 or more (a bound), or Gaussian noise: { snr_db = a number from -200 to 200 } or { deviation "
+    "= a number above 0 }";
+void read_noise(const TomlValue& value, Number& bound, std::optional<GaussianNoise>& gaussian);
+/// For how many samples a probability is asked: from 1 to 1e15.
+inline constexpr std::string_view kSamplesOfProbability = "a number from 1 to 1e15";
+[[nodiscard]] bool is_number_of_samples(const rigor::Interval& x);
+
 /// What no single key of [require] can say: that settling takes two.
 [[nodiscard]] std::optional<TableObjection> objection_to(const Requirements& require);
 /// Nor that what goes with Gaussian noise goes with a bound.

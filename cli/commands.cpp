@@ -60,10 +60,20 @@ class ProgressLine {
   bool shown_;
 };
 
+/// `seconds`: after which the search ends; 0: never.
 certificates::Certificate certify_with_progress(const std::string& design_path, bool quiet,
-                                                certificates::Extent extent) {
-  const ProgressLine line(quiet);
-  return certificates::certify_file(design_path, std::cref(line), extent);
+                                                certificates::Extent extent, double seconds) {
+  const search::Deadline deadline = seconds > 0.0 ? search::Deadline(seconds) : search::Deadline();
+  certificates::Certificate certificate = [&] {
+    const ProgressLine line(quiet);
+    return certificates::certify_file(design_path, std::cref(line), extent, deadline);
+  }();
+  if (seconds > 0.0 && !quiet && !certificates::kind_of(certificate.design).limited_in_time) {
+    fmt::print(stderr, "{}: --timeout has no effect on the tracker {}; it can stop: {}\n", design_path,
+               certificate.design.tracker,
+               certificates::names_of_kinds([](const auto& kind) { return kind.limited_in_time; }));
+  }
+  return certificate;
 }
 
 /// Throws InputError: the design's tracker cannot do what the command is for.
@@ -77,9 +87,12 @@ certificates::Certificate certify_with_progress(const std::string& design_path, 
 }
 
 /// One design file; what is wrong with it is told and noted, and the others are still checked.
-reports::CheckedDesign check_one(const std::string& path, bool quiet) {
+reports::CheckedDesign check_one(const std::string& path, const CheckOptions& options) {
   try {
-    return {path, certify_with_progress(path, quiet, certificates::Extent::requirements), {}, {}};
+    return {path,
+            certify_with_progress(path, options.quiet, certificates::Extent::requirements, options.seconds),
+            {},
+            {}};
   } catch (const certificates::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return {path, std::nullopt, error.message(), {error.line(), error.column()}};
@@ -141,7 +154,7 @@ ExitStatus run_certify(const CertifyOptions& options) {
   const std::filesystem::path directory =
       by_name ? default_folder("certificates-out", options.design) : std::filesystem::path(options.directory);
   certificates::Certificate certificate =
-      certify_with_progress(options.design, options.quiet, certificates::Extent::everything);
+      certify_with_progress(options.design, options.quiet, certificates::Extent::everything, options.seconds);
   if (options.coq) {
     certificate.formal_proofs = certificates::coq_proofs(certificate);
   }
@@ -162,7 +175,7 @@ ExitStatus run_check(const CheckOptions& options) {
   rehearse_reports(options);
   std::vector<reports::CheckedDesign> checked;
   for (const std::string& path : options.designs) {
-    checked.push_back(check_one(path, options.quiet));
+    checked.push_back(check_one(path, options));
   }
   write_reports(options, checked);
   ExitStatus status = all_proved;

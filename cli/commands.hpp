@@ -18,15 +18,17 @@ struct CertifyOptions {
   std::string design;
   std::string directory;
   bool coq = false;
-  bool quiet = false;  ///< no progress on standard error
+  double seconds = 0.0;  ///< after which the search ends; 0: never
+  bool quiet = false;    ///< no progress on standard error
 };
 
 struct CheckOptions {
   std::vector<std::string> designs;
   std::string junit;
   std::string sarif;
-  bool strict = false;  ///< a design that requires nothing is not_proved
-  bool quiet = false;   ///< no progress on standard error
+  bool strict = false;   ///< a design that requires nothing is not_proved
+  double seconds = 0.0;  ///< for each design, after which its search ends; 0: never
+  bool quiet = false;    ///< no progress on standard error
 };
 
 struct MapOptions {

@@ -64,6 +64,13 @@ int run(int argc, char** argv) {
   certify->add_flag("--coq", certify_options.coq,
                     "also write certificate.v, proofs that the proof assistant Coq can check (make proofs)");
 
+  const CLI::Range seconds(1e-3, 1e8);
+  certify
+      ->add_option("--timeout", certify_options.seconds,
+                   "end the search of a design with tracker model after so many seconds, and write what is "
+                   "proved by then")
+      ->check(seconds);
+
   CheckOptions check_options;
   CLI::App* check =
       app.add_subcommand("check", "the same verdicts without the documents, one line per requirement");
@@ -71,6 +78,10 @@ int run(int argc, char** argv) {
   check->add_option("--junit", check_options.junit, "also write the verdicts as JUnit XML");
   check->add_option("--sarif", check_options.sarif, "also write what is not PROVED as SARIF 2.1.0");
 
+  check
+      ->add_option("--timeout", check_options.seconds,
+                   "end the search of each design with tracker model after so many seconds")
+      ->check(seconds);
   check->add_flag("--strict", check_options.strict, "a design that requires nothing is 1, not 0");
 
   MapOptions map_options;

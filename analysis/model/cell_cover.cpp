@@ -99,6 +99,10 @@ class Cover {
     while (!open.empty()) {
       const TubeCell cell = open.back();
       open.pop_back();
+      if (budget_.deadline.is_over()) {
+        result.failed = cell;
+        return result;
+      }
       const CellAnswer answer = (*ask_)(cell);
       if (answer.is_proved) {
         ++result.cells;

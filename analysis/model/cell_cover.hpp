@@ -6,6 +6,7 @@
 
 #include "analysis/model/tube_step.hpp"
 #include "analysis/rigor/interval.hpp"
+#include "analysis/search/deadline.hpp"
 
 namespace veritrack::model {
 
@@ -14,6 +15,7 @@ struct VerificationBudget {
   int phases = 32;      ///< parts of a turn to begin with: a power of two
   int frequencies = 1;  ///< parts of the frequencies to begin with: a power of two
   std::size_t most_cells = 20'000;
+  search::Deadline deadline = {};  ///< after which nothing more is proved
 };
 
 /// What is known of a cell.

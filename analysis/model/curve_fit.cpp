@@ -19,12 +19,27 @@ Eigen::VectorXd turns_of(const std::vector<int>& turns) {
   return result;
 }
 
-/// The size of each state on the curve; an angle's is at least 1.
-Eigen::VectorXd sizes_on(const NodeCurve& curve) {
+/// The size of each state on the curve; an angle's is at least 1. A state that is 0 there up to rounding,
+/// such as a phase error, has the size that the others and the samples give it in a step.
+Eigen::VectorXd sizes_on(const TrackedTone& tone, const NodeCurve& curve) {
+  constexpr int kPhases = 12;
+  constexpr double kNothing = 1e-9;
   Eigen::VectorXd sizes = curve.harmonics.cwiseAbs().rowwise().sum();
   for (std::size_t i = 0; i < curve.turns.size(); ++i) {
     auto& size = sizes[static_cast<Eigen::Index>(i)];
     size = curve.turns[i] != 0 ? std::max(size, 1.0) : size;
+  }
+  Eigen::VectorXd given = Eigen::VectorXd::Zero(sizes.size());
+  for (int j = 0; j < kPhases; ++j) {
+    const double phase = 2.0 * std::numbers::pi * j / kPhases;
+    const Eigen::VectorXd samples = samples_of(tone.signal, tone.amplitude, phase + curve.frequency);
+    const Eigen::MatrixXd jacobian = tone.step.jacobian(state_at(curve, phase), samples).cwiseAbs();
+    given =
+        given.cwiseMax(jacobian.leftCols(sizes.size()) * sizes +
+                       tone.amplitude * jacobian.rightCols(jacobian.cols() - sizes.size()).rowwise().sum());
+  }
+  for (Eigen::Index i = 0; i < sizes.size(); ++i) {
+    sizes[i] = sizes[i] < kNothing * given[i] ? given[i] : sizes[i];
   }
   return sizes.cwiseMax(1e-12 * std::max(1.0, sizes.maxCoeff()));
 }
@@ -47,7 +62,7 @@ bool refine(const TrackedTone& tone, const PhaseGrid& grid, NodeCurve& curve) {
   double last = INFINITY;
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::MatrixXd residual = residual_of(tone, curve, grid);
-    const double size = largest(residual, sizes_on(curve));
+    const double size = largest(residual, sizes_on(tone, curve));
     if (!std::isfinite(size)) {
       return false;
     }
@@ -109,7 +124,7 @@ std::optional<NodeCurve> fit_curve_at(const TrackedTone& tone, double frequency,
       continue;
     }
     // The grid's own phases say nothing about those between them.
-    const double error = largest(residual_of(tone, curve, PhaseGrid(harmonics + 7)), sizes_on(curve));
+    const double error = largest(residual_of(tone, curve, PhaseGrid(harmonics + 7)), sizes_on(tone, curve));
     curve.residual = error;
     if (std::isfinite(error) && (!best || error < best->residual)) {
       best = curve;
@@ -230,7 +245,7 @@ std::optional<CurveFit> fit_curve(const TrackedTone& tone, double frequency, dou
     }
     fit.coefficients[static_cast<std::size_t>(d)] = sum;
   }
-  drop_small_harmonics(fit, sizes_on(fit.nodes[kNodes / 2]), negligible);
+  drop_small_harmonics(fit, sizes_on(tone, fit.nodes[kNodes / 2]), negligible);
   for (const double z : {-1.0, -0.8, -0.3, 0.0, 0.3, 0.8, 1.0}) {
     fit.frequency_error = std::max(fit.frequency_error, frequency_error_at(tone, fit, z));
   }

@@ -27,23 +27,31 @@ class Division {
       const auto [from, to] = waiting.back();
       waiting.pop_back();
       const double middle = 0.5 * (from + to);
+      if (settings_->deadline.is_over()) {
+        TubeProposal untried;
+        untried.outcome = TubeOutcome::time_limit;
+        untried.frequency = middle;
+        untried.half_width = 0.5 * (to - from);
+        decide(std::move(untried));
+        continue;
+      }
       TubeProposal proposal = propose_tube(*tone_, middle, 0.5 * (to - from), settings_->tube, nearby_,
                                            settings_->one_shape && nearby_.has_value());
       const bool is_proposed = proposal.outcome == TubeOutcome::proposed;
-      // Where the tracker does not settle, narrow cells show no more than wide ones; and when many cells have
-      // failed, the band will have gaps whatever becomes of the others.
+      // Where the tracker does not settle, narrow cells show no more than wide ones.
       const bool settles = proposal.outcome != TubeOutcome::no_steady_state;
-      const double narrowest = settles ? narrowest_ : std::max(narrowest_, coarse_);
-      if (!is_proposed && failures_ < kMostFailures && to - from > 2.0 * narrowest) {
+      const double least = settles ? narrowest_ : std::max(narrowest_, coarse_);
+      const double narrowest = std::ldexp(least, std::min(failures_, kMostDoublings));
+      if (!is_proposed && to - from > 2.0 * narrowest) {
         waiting.emplace_back(middle, to);
         waiting.emplace_back(from, middle);
         continue;
       }
-      failures_ += is_proposed ? 0 : 1;
+      failures_ = is_proposed ? 0 : failures_ + 1;
       if (is_proposed && !(settings_->one_shape && nearby_)) {
         nearby_ = proposal.shape.parameters;
       }
-      cells_.push_back(std::move(proposal));
+      decide(std::move(proposal));
     }
   }
 
@@ -51,13 +59,20 @@ class Division {
   [[nodiscard]] std::vector<TubeProposal> take() { return std::move(cells_); }
 
  private:
+  void decide(TubeProposal cell) {
+    if (settings_->decided) {
+      settings_->decided(cell);
+    }
+    cells_.push_back(std::move(cell));
+  }
+
   const TrackedTone* tone_;
   const BandSettings* settings_;
-  static constexpr int kMostFailures = 6;
+  static constexpr int kMostDoublings = 20;
 
   double narrowest_;
-  double coarse_;  ///< for cells where the tracker does not settle
-  int failures_ = 0;
+  double coarse_;     ///< for cells where the tracker does not settle
+  int failures_ = 0;  ///< since the last cell with a tube
   std::optional<ShapeParameters> nearby_;
   std::vector<TubeProposal> cells_;
 };

@@ -1,9 +1,12 @@
 // A band of frequencies, divided into cells that have a tube each: proposals.
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "analysis/model/tube_proposal.hpp"
+#include "analysis/search/deadline.hpp"
 
 namespace veritrack::model {
 
@@ -14,6 +17,10 @@ struct BandSettings {
   /// One shape's parameters for all cells, those of the cell in the middle: tubes of neighbouring cells then
   /// fit together, for a frequency that moves.
   bool one_shape = false;
+  search::Deadline deadline = {};  ///< cells that are tried later are not proposed: `time_limit`
+  /// Told each cell when it is decided, proposed or not, so that it can be proved before the next one is
+  /// tried.
+  std::function<void(TubeProposal& cell)> decided = {};
 };
 
 /// low <= omega <= high, rad/sample.
@@ -24,8 +31,10 @@ struct BandProposal {
   bool is_complete = false;  ///< all cells are proposed, and there is one
 };
 
-/// Halves cells until each has a tube or is too narrow to be divided. Deterministic; holds round-to-nearest.
-/// Throws std::invalid_argument unless 0 < low < high < pi.
+/// Halves cells until each has a tube or is too narrow to be divided: where neighbours have failed, the width
+/// that is too narrow doubles with each, so that a part of the band without tubes is passed in a few steps.
+/// Deterministic up to the deadline; holds round-to-nearest. Throws std::invalid_argument unless
+/// 0 < low < high < pi.
 [[nodiscard]] BandProposal propose_band(const TrackedTone& tone, double low, double high,
                                         const BandSettings& settings);
 

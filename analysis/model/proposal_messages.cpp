@@ -78,6 +78,8 @@ std::string reason_of(const TubeProposal& proposal) {
     case TubeOutcome::no_shape:
       return "no tube found around the steady state, where each sample multiplies errors by " +
              digits(proposal.steady_state.rate, 7);
+    case TubeOutcome::time_limit:
+      return kTimeLimit;
     case TubeOutcome::cell_too_wide:
       return "the steady state changes too much over the cell: a polynomial in the frequency is off by " +
              digits(proposal.curve_error, 2) + " rad/sample and costs " + digits(100.0 * proposal.loss, 2) +

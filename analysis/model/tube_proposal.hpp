@@ -26,6 +26,7 @@ enum class TubeOutcome {
   no_steady_state,  ///< see the steady state
   no_curve,         ///< the steady state of the simulation is not one at some frequency of the cell
   no_shape,         ///< no tube around the curve contracts
+  time_limit,       ///< it was not tried
   cell_too_wide     ///< curve or shape are no polynomials in the frequency over this cell: see the numbers
 };
 
@@ -52,6 +53,8 @@ struct TubeProposal {
                                         const TubeSettings& settings,
                                         const std::optional<ShapeParameters>& nearby = std::nullopt,
                                         bool keep = false);
+
+inline constexpr const char* kTimeLimit = "stopped by the time limit";
 
 /// What failed, in words and numbers, for a message; empty when nothing did.
 [[nodiscard]] std::string reason_of(const SteadyState& steady_state);

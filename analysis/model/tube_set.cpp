@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "analysis/model/set_parts.hpp"
 #include "analysis/model/set_search.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -28,6 +29,7 @@ class LevelSearch {
     constexpr double kLittleRoom = 0.02;
     proved_.grid.phases = room < kLittleRoom ? 64 : 32;
     proved_.tube = *proposal.tube;
+    proved_.grid.deadline = task.deadline;
     slow_ = 1.0 - 0.05 * room;
     fast_ = 1.0 - 0.5 * room;
   }
@@ -92,7 +94,8 @@ class LevelSearch {
 
   [[nodiscard]] bool may_hold(double radius, double noise) const {
     constexpr int kPhases = 24;
-    return sampled_growth(*model_, proved_.tube, {radius, noise}, kPhases) <= slow_;
+    return !task_->deadline.is_over() &&
+           sampled_growth(*model_, proved_.tube, {radius, noise}, kPhases) <= slow_;
   }
 
   bool proves(double radius, double noise) {
@@ -138,7 +141,8 @@ class LevelSearch {
       const double next = step.factor * radius;
       // Points are cheap, and where they fail nothing is verified.
       constexpr int kPhases = 16;
-      if (!(sampled_growth(*model_, proved_.tube, {next, noise}, kPhases) <= with_room(step.shrinking))) {
+      if (task_->deadline.is_over() ||
+          !(sampled_growth(*model_, proved_.tube, {next, noise}, kPhases) <= with_room(step.shrinking))) {
         return false;
       }
       // What is verified is from this number up.
@@ -170,44 +174,61 @@ class LevelSearch {
 TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low, double high,
                   const SetTask& task, const SetProgress& progress) {
   const rigor::NearestRounding nearest;
-  BandProposal band = propose_band(tone, low, high, settings_of(task, low, high));
   TubeSet set;
   set.name = task.name;
-  for (const std::string& reason : reasons_of(band)) {
-    set.reasons.push_back(reason);
-  }
   double noise = task.largest_noise ? INFINITY : task.noise;
-  std::size_t done = 0;
-  for (TubeProposal& cell : band.cells) {
-    ++done;
-    if (cell.outcome != TubeOutcome::proposed) {
-      continue;
-    }
-    widen(*cell.tube);
-    LevelSearch search(model, cell, task);
-    std::optional<ProvedTube> proved;
-    if (task.largest_noise) {
-      if (auto found = search.with_largest_noise(noise)) {
-        noise = found->second;
-        proved = std::move(found->first);
+  std::vector<std::pair<double, double>> noises;  // of the tube about a frequency
+  FailedCells failures;
+  const auto prove_cell = [&](TubeProposal& cell) {
+    const double from = cell.frequency - cell.half_width;
+    const double to = cell.frequency + cell.half_width;
+    if (cell.outcome == TubeOutcome::proposed) {
+      widen(*cell.tube);
+      LevelSearch search(model, cell, task);
+      std::optional<ProvedTube> proved;
+      if (task.largest_noise) {
+        if (auto found = search.with_largest_noise(noise)) {
+          noise = found->second;
+          proved = std::move(found->first);
+        }
+      } else {
+        proved = search.with_noise(noise);
       }
-    } else {
-      proved = search.with_noise(noise);
-    }
-    if (proved) {
-      set.tubes.push_back(*std::move(proved));
-    } else {
-      set.reasons.push_back(
-          fmt::format("no radius was proved {}{}",
-                      noise > 0.0 && std::isfinite(noise) ? fmt::format("for noise {:.4g} ", noise) : "",
-                      place_of_cell(cell)));
+      if (proved) {
+        set.tubes.push_back(*std::move(proved));
+        noises.emplace_back(cell.frequency, noise);
+      } else {
+        failures.add(task.deadline.is_over() ? std::string(kTimeLimit)
+                     : noise > 0.0 && std::isfinite(noise)
+                         ? fmt::format("no radius was proved for noise {:.4g}", noise)
+                         : std::string("no radius was proved"),
+                     from, to);
+      }
+      cell.tube.reset();
     }
     if (progress) {
-      progress(static_cast<double>(done) / static_cast<double>(band.cells.size()));
+      progress((to - low) / (high - low));
     }
+  };
+  BandSettings settings = settings_of(task, low, high);
+  settings.decided = prove_cell;
+  const BandProposal band = propose_band(tone, low, high, settings);
+  set.reasons = reasons_of(band);
+  for (const std::string& reason : failures.reasons()) {
+    set.reasons.push_back(reason);
   }
-  set.noise = std::isfinite(noise) ? noise : 0.0;
-  set.is_complete = band.is_complete && set.tubes.size() == band.cells.size() && covers(set.tubes, low, high);
+  keep_widest_part(set, low, high);
+  if (set.tubes.empty()) {
+    set.noise = std::isfinite(noise) ? noise : 0.0;
+    return set;
+  }
+  // What is proved for some noise is proved for less.
+  set.noise = INFINITY;
+  for (const auto& [frequency, proved_for] : noises) {
+    const bool is_kept =
+        set.tubes.front().tube.frequency <= frequency && frequency <= set.tubes.back().tube.frequency;
+    set.noise = is_kept ? std::min(set.noise, proved_for) : set.noise;
+  }
   return set;
 }
 

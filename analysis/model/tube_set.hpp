@@ -28,12 +28,13 @@ struct ProvedTube {
 struct SetTask {
   std::string name;
   ShapeObjective objective = ShapeObjective::largest_starts;
-  double noise = 0.0;          ///< V, signal units
-  double slew = 0.0;           ///< W, rad/sample per sample
-  bool largest_noise = false;  ///< search for the largest V, at a constant frequency
-  bool largest_slew = false;   ///< search for the largest W, with the V that is given
-  bool with_curve = false;     ///< levels down to what the curve is known to, for the bias
-  Eigen::VectorXd deviations;  ///< of starts, one for each state; or empty
+  double noise = 0.0;              ///< V, signal units
+  double slew = 0.0;               ///< W, rad/sample per sample
+  bool largest_noise = false;      ///< search for the largest V, at a constant frequency
+  bool largest_slew = false;       ///< search for the largest W, with the V that is given
+  bool with_curve = false;         ///< levels down to what the curve is known to, for the bias
+  Eigen::VectorXd deviations;      ///< of starts, one for each state; or empty
+  search::Deadline deadline = {};  ///< after which nothing more is proved
 };
 
 /// Gaussian noise, and the inequality that is proved for every tube of a set (gaussian_drift.hpp), with
@@ -46,7 +47,13 @@ struct GaussianTerms {
   double constant = 0.0;    ///< c0
 };
 
-/// A set of tubes that covers a band, or a part of it.
+/// low < high, rad/sample.
+struct FrequencyRange {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// A set of tubes that covers a band, or the widest part of it for which tubes without gaps were proved.
 struct TubeSet {
   std::string name;
   double noise = 0.0;  ///< V, signal units
@@ -59,13 +66,16 @@ struct TubeSet {
   std::vector<double> crossing;
   bool is_complete = false;          ///< every frequency of the band has a tube
   std::vector<std::string> reasons;  ///< otherwise: which part has none, and why
+  FrequencyRange part;               ///< with tubes: what they cover of the band, rounded inward
+  /// All parts of the band for which tubes were proved, also those that were given up for a wider one.
+  std::vector<FrequencyRange> parts;
 };
 
 /// Told the share of the band that is done.
 using SetProgress = std::function<void(double share)>;
 
-/// For low <= omega <= high, rad/sample, all of them covered when complete. Deterministic, whatever the
-/// number of threads. Throws std::invalid_argument unless 0 < low < high < pi.
+/// For low <= omega <= high, rad/sample, all of them covered when complete. Deterministic up to the deadline,
+/// whatever the number of threads. Throws std::invalid_argument unless 0 < low < high < pi.
 [[nodiscard]] TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low, double high,
                                 const SetTask& task, const SetProgress& progress = {});
 

@@ -29,20 +29,23 @@ std::string verdict_text(const Certificate& certificate) {
 }
 
 Certificate certify(const Design& design, const std::string& design_file, const std::string& design_text,
-                    const CertifyProgress& progress, Extent extent) {
+                    const CertifyProgress& progress, Extent extent, const search::Deadline& deadline) {
   const rigor::UpwardRounding upward;
   Certificate certificate;
   certificate.design = design;
   certificate.extent = extent;
+  certificate.deadline = deadline;
   certificate.design_file = design_file;
   certificate.design_text = design_text;
   kind_of(design).certify(certificate, progress);
   return certificate;
 }
 
-Certificate certify_file(const std::filesystem::path& path, const CertifyProgress& progress, Extent extent) {
+Certificate certify_file(const std::filesystem::path& path, const CertifyProgress& progress, Extent extent,
+                         const search::Deadline& deadline) {
   const std::string text = read_design_text(path);
-  return certify(read_design(text, path.string()), path.filename().string(), text, progress, extent);
+  return certify(read_design(text, path.string()), path.filename().string(), text, progress, extent,
+                 deadline);
 }
 
 }  // namespace veritrack::certificates

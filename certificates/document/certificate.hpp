@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "analysis/rigor/verdict.hpp"
+#include "analysis/search/deadline.hpp"
 #include "analysis/sets/contraction_result.hpp"
 #include "analysis/theorems/derivation.hpp"
 #include "certificates/design/design.hpp"
@@ -43,6 +44,7 @@ enum class Extent {
 struct Certificate {
   Design design;
   Extent extent = Extent::everything;
+  search::Deadline deadline;                      ///< of the search, where the kind of tracker keeps one
   std::string design_file;                        ///< its name, without folders
   std::string design_text;                        ///< as read
   std::vector<theorems::Derivation> derivations;  ///< what follows from what, by the kind of tracker
@@ -78,14 +80,16 @@ struct Progress {
 using CertifyProgress = std::function<void(const Progress&)>;
 
 /// Evaluates everything that can be said of the design. `design_text` is the file's text and `design_file`
-/// its name without folders, for the documents. Opens its own rounding scope.
+/// its name without folders, for the documents. Only kinds that are `limited_in_time` look at the deadline.
+/// Opens its own rounding scope.
 [[nodiscard]] Certificate certify(const Design& design, const std::string& design_file,
                                   const std::string& design_text, const CertifyProgress& progress = {},
-                                  Extent extent = Extent::everything);
+                                  Extent extent = Extent::everything, const search::Deadline& deadline = {});
 
 /// Reads the design file at `path` and certifies it. Throws InputError.
 [[nodiscard]] Certificate certify_file(const std::filesystem::path& path,
                                        const CertifyProgress& progress = {},
-                                       Extent extent = Extent::everything);
+                                       Extent extent = Extent::everything,
+                                       const search::Deadline& deadline = {});
 
 }  // namespace veritrack::certificates

@@ -64,8 +64,12 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
   text += fmt::format("Save the design file below as `{}` and run\n\n", certificate.design_file);
   text += markdown::fenced(
       "veritrack certify " + certificate.design_file + (certificate.formal_proofs ? " --coq" : ""), "");
+  text += certificate.deadline.has_struck()
+              ? "\nThis run was stopped by the time limit of `--timeout`. Without it the same file gives the "
+                "same bytes. "
+              : "\nThe same file gives the same bytes. ";
   text +=
-      "\nThe same file gives the same bytes. `certificate.json` beside this document contains every number "
+      "`certificate.json` beside this document contains every number "
       "with all its digits, as hexadecimal floats.\n\n";
   std::vector<std::vector<std::string>> rows{{"veritrack", VERITRACK_VERSION}};
   for (const auto& [name, version] : rigor::arithmetic_versions()) {
@@ -97,7 +101,12 @@ std::string headline(const Certificate& certificate) {
 
 std::string to_markdown(const Certificate& certificate, const MarkdownOptions& options) {
   const TrackerKind& kind = kind_of(certificate.design);
-  return "# " + headline(certificate) + "\n\n" + kind.summary(certificate) +
+  const std::string stopped = certificate.deadline.has_struck()
+                                  ? "*Stopped by the time limit.* What is PROVED is proved; what was not "
+                                    "reached in time is UNDECIDED, "
+                                    "and another run may reach more or less.\n\n"
+                                  : "";
+  return "# " + headline(certificate) + "\n\n" + stopped + kind.summary(certificate) +
          requirement_section(certificate) + kind.sections(certificate, options) +
          checker_section(certificate, options) + formal_proofs_section(certificate) +
          reproduction_section(certificate, options);

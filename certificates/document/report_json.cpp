@@ -121,6 +121,9 @@ std::string to_report_json(const Certificate& certificate) {
   if (certificate.formal_proofs) {
     json["formal_proofs"] = formal_proofs_json(*certificate.formal_proofs);
   }
+  if (certificate.deadline.has_struck()) {
+    json["stopped_by_time_limit"] = true;
+  }
   json["verdict"] = verdict_text(certificate);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -31,6 +31,8 @@ struct TrackerKind {
 
   // What not every kind has: null where it has none.
 
+  /// Its search ends when the deadline of the certificate is over.
+  bool limited_in_time = false;
   /// Members of certificate.json beside derivations and claims, from which something is verified.
   Json (*evidence_json)(const Certificate& certificate) = nullptr;
   /// Members of report.json beside derivations and claims, which are told and not verified.

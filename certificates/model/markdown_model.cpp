@@ -146,9 +146,10 @@ std::string model_summary(const Certificate& certificate) {
       text += fmt::format("{}: {}\n\n", markdown::verdict(claim.verdict), claim.statement);
     }
   }
-  return !text.empty() ? text
-                       : "Nothing was proved for the whole band. The reasons are under \"The certified "
-                         "sets\".\n\n";
+  return !text.empty()
+             ? text
+             : "Nothing was proved for the band, nor for a part of it. The reasons are under \"The certified "
+               "sets\".\n\n";
 }
 
 std::string model_sections(const Certificate& certificate, const MarkdownOptions& options) {

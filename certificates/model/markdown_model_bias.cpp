@@ -53,8 +53,8 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
   const bool settles = std::all_of(tubes.begin(), tubes.end(),
                                    [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   if (sets.cells.empty() || !settles) {
-    return "## Bias and ripple\n\nNothing is known of them: they need a set without noise, for the whole "
-           "band, in which errors shrink.\n\n";
+    return "## Bias and ripple\n\nNothing is known of them: they need a set without noise in which errors "
+           "shrink.\n\n";
   }
   const ModelUnits units(model_tables(certificate.design).assume);
   std::string text =

@@ -10,6 +10,7 @@
 #include "analysis/model/falsifier.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/model/band_part.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/model/model_units.hpp"
 
@@ -25,10 +26,13 @@ using rigor::to_decimal;
 struct NamedSet {
   const ModelSet* set;
   std::string purpose;
-  bool is_given = false;  ///< noise and slew are; otherwise they are searched for
+  bool is_given = false;   ///< noise and slew are; otherwise they are searched for
+  std::string where = {};  ///< ", over [0.2, 0.4] rad/sample only"; empty for the whole band
+
+  [[nodiscard]] bool is_any() const { return set->is_proved() || set->has_part(); }
 };
 
-std::vector<NamedSet> named_sets(const ModelSets& sets) {
+std::vector<NamedSet> named_sets(const ModelSets& sets, const ModelAssumptions& assume) {
   std::vector<NamedSet> named{{&sets.starts, "large starts", true}};
   if (sets.assumed) {
     const model::TubeSet& tubes = sets.assumed->tubes;
@@ -43,6 +47,13 @@ std::vector<NamedSet> named_sets(const ModelSets& sets) {
   }
   if (sets.slew) {
     named.push_back({&*sets.slew, "the largest slew", false});
+  }
+  for (NamedSet& each : named) {
+    const auto part = each.set->has_part() ? band_part(assume, each.set->tubes.part) : std::nullopt;
+    if (part) {
+      each.where = fmt::format(", over [{}, {}] {} only", part->from, part->to,
+                               assume.frequency_in_hertz ? "Hz" : "rad/sample");
+    }
   }
   return named;
 }
@@ -77,11 +88,11 @@ std::string noise_text(const model::TubeSet& set) {
 
 std::vector<std::string> row_of(const NamedSet& named, const ModelUnits& units) {
   const ModelSet& set = *named.set;
-  const bool is_known = named.is_given || set.is_proved();
-  std::vector<std::string> row{named.purpose,
+  const bool is_known = named.is_given || named.is_any();
+  std::vector<std::string> row{named.purpose + named.where,
                                bound_in_table(set.tubes.noise, noise_text(set.tubes), is_known),
                                bound_in_table(set.tubes.slew, units.slew(set.tubes.slew), is_known)};
-  if (!set.is_proved()) {
+  if (!named.is_any()) {
     row.insert(row.end(), {"not proved", "—", "—", "—", "—", "—"});
     return row;
   }
@@ -108,8 +119,8 @@ std::string disturbances_of(const model::TubeSet& set, const ModelUnits& units) 
 std::string sentence_of(const NamedSet& named, const ModelUnits& units) {
   const ModelSet& set = *named.set;
   std::string text = fmt::format(
-      "- *For {}*: {}, a start in this set stays in it for ever, with a frequency error of at most {}",
-      named.purpose, disturbances_of(set.tubes, units), units.at_most(set.frequency_error));
+      "- *For {}{}*: {}, a start in this set stays in it for ever, with a frequency error of at most {}",
+      named.purpose, named.where, disturbances_of(set.tubes, units), units.at_most(set.frequency_error));
   const double samples = samples_to_settle(set);
   if (samples > 0.0 && std::isfinite(samples) && std::isfinite(set.settled_error)) {
     text +=
@@ -120,18 +131,8 @@ std::string sentence_of(const NamedSet& named, const ModelUnits& units) {
 
 /// "[0.2, 0.3], [0.4, 0.5] rad/sample": frequencies with a proved tube, rounded inward.
 std::string proved_part(const model::TubeSet& set) {
-  std::vector<std::pair<double, double>> parts;
-  for (const ProvedTube& proved : set.tubes) {
-    const double low = proved.tube.frequency - proved.tube.half_width;
-    const double high = proved.tube.frequency + proved.tube.half_width;
-    if (!parts.empty() && low <= parts.back().second) {
-      parts.back().second = std::max(parts.back().second, high);
-    } else {
-      parts.emplace_back(low, high);
-    }
-  }
   std::string text;
-  for (const auto& [low, high] : parts) {
+  for (const auto& [low, high] : set.parts) {
     text += fmt::format("{}[{}, {}]", text.empty() ? "" : ", ", to_decimal(low, 6, Direction::up),
                         to_decimal(high, 6, Direction::down));
   }
@@ -207,19 +208,20 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
       "from the whole tube to its core; the errors shrink from level to level. The last column says how far "
       "the tube reaches: at every phase it contains states with a frequency error of that size, in both "
       "directions.\n\n";
-  const std::vector<NamedSet> all = named_sets(sets);
+  const std::vector<NamedSet> all = named_sets(sets, assume);
   std::vector<std::vector<std::string>> rows;
   std::string meanings;
   std::string failures;
   const NamedSet* attacked = nullptr;
   for (const NamedSet& named : all) {
     rows.push_back(row_of(named, units));
-    if (named.set->is_proved()) {
+    if (named.is_any()) {
       meanings += sentence_of(named, units);
-    } else {
+    }
+    if (!named.set->is_proved()) {
       failures += objections(named);
     }
-    attacked = named.set->is_proved() && named.is_given ? &named : attacked;
+    attacked = named.is_any() && named.is_given ? &named : attacked;
   }
   text += markdown::table({"For", "Noise, at most, signal units", "Slew, at most", "Cells of frequencies",
                            "Levels", "Frequency error for ever, at most", "In the long run, at most",
@@ -227,12 +229,14 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
                           rows) +
           "\n" + meanings + (meanings.empty() ? "" : "\n") + failures;
   const ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
-  if (model_tables(certificate.design).require.sets.frequency_error_below && deciding.is_proved()) {
+  if (model_tables(certificate.design).require.sets.frequency_error_below &&
+      (deciding.is_proved() || deciding.has_part())) {
     text +=
         "Of the set that decides the required frequency error, only the levels that keep it are used, if the "
         "assumed starts are inside them.\n\n";
   }
-  if (!assume.start_within.empty() && deciding.is_proved() && std::isfinite(deciding.start_share)) {
+  if (!assume.start_within.empty() && (deciding.is_proved() || deciding.has_part()) &&
+      std::isfinite(deciding.start_share)) {
     text += fmt::format("The assumed starts reach at most {} of the size of the set for {}{}.\n\n",
                         to_decimal(deciding.start_share, 4, Direction::up),
                         attacked != nullptr ? attacked->purpose : "",

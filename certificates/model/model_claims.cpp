@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <utility>
 
 #include "analysis/rigor/decimal.hpp"
+#include "certificates/model/band_part.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
@@ -20,7 +24,9 @@ using rigor::Verdict;
 /// The words of the hypotheses.
 class ModelWords {
  public:
-  explicit ModelWords(const ModelTables& tables) : assume_(&tables.assume) {}
+  /// `part`: of the band, to which statements are limited; none for the whole band.
+  explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt)
+      : assume_(&tables.assume), part_(std::move(part)) {}
 
   [[nodiscard]] std::string unit() const {
     return assume_->frequency_in_hertz
@@ -33,6 +39,9 @@ class ModelWords {
                        assume_->amplitude.text, frequency);
   }
   [[nodiscard]] std::string band() const {
+    if (part_) {
+      return fmt::format("[{}, {}] {} (a part of the assumed band)", part_->from, part_->to, unit());
+    }
     return fmt::format("[{}, {}] {}", assume_->frequency[0].text, assume_->frequency[1].text, unit());
   }
   [[nodiscard]] std::string constant_tone() const { return tone_with("any constant frequency in " + band()); }
@@ -64,6 +73,13 @@ class ModelWords {
 
  private:
   const ModelAssumptions* assume_;
+  std::optional<BandPart> part_;
+};
+
+/// The frequencies for which all of some sets are proved.
+struct Scope {
+  bool is_any = false;
+  std::optional<BandPart> part;  ///< of the band; none: all of it
 };
 
 std::string above(double value) {
@@ -84,11 +100,13 @@ class ModelClaims {
         deciding_(sets_->assumed ? &*sets_->assumed : &sets_->starts) {}
 
   void add_told() {
-    if (guaranteed()) {
-      Claim claim = told("model/guarantee", words_.assumed_tone() + words_.noise() +
-                                                words_.start(sets_->assumed ? "assumed" : "starts"));
+    if (const Scope scope = scope_of({deciding_}); scope.is_any && keeps_starts()) {
+      const ModelWords words(*tables_, scope.part);
+      Claim claim = told("model/guarantee", words.assumed_tone() + words.noise() +
+                                                words.start(sets_->assumed ? "assumed" : "starts"));
       const std::string bound = above(deciding_->frequency_error);
       claim.values = {{"frequency_error", bound}};
+      add_part(claim, scope);
       claim.statement += fmt::format(", the frequency error stays at or below {} rad/sample for ever", bound);
       if (std::isfinite(deciding_->settled_error) && settles()) {
         const std::string settled = above(deciding_->settled_error);
@@ -98,25 +116,28 @@ class ModelClaims {
       add(claim);
     }
     const ModelSet& starts = sets_->starts;
-    if (starts.is_proved() && sets_->noise && sets_->noise->is_proved() && starts.reach > 0.0) {
-      Claim claim = told("model/limits", words_.constant_tone());
+    if (const Scope scope = sets_->noise ? scope_of({&starts, &*sets_->noise}) : Scope{};
+        scope.is_any && starts.reach > 0.0) {
+      Claim claim = told("model/limits", ModelWords(*tables_, scope.part).constant_tone());
       const std::string noise = below(sets_->noise->tubes.noise);
       const std::string reach = below(starts.reach);
       claim.values = {{"noise", noise}, {"reach", reach}};
+      add_part(claim, scope);
       claim.statement += fmt::format(
           ", the tracker tolerates noise up to {}, and without noise a certified invariant set contains "
           "frequency errors up to {} rad/sample at every phase",
           noise, reach);
       add(claim);
     }
-    if (has_bias()) {
+    if (const Scope scope = scope_of({&starts}); scope.is_any && knows_bias()) {
       Claim claim =
-          told("model/steady-state",
-               words_.constant_tone() + ", without noise, started in the set \"starts\" of the certificate");
+          told("model/steady-state", ModelWords(*tables_, scope.part).constant_tone() +
+                                         ", without noise, started in the set \"starts\" of the certificate");
       const std::string low = below(starts.bias.lower());
       const std::string high = above(starts.bias.upper());
       const std::string ripple = above(starts.ripple);
       claim.values = {{"bias_low", low}, {"bias_high", high}, {"ripple", ripple}};
+      add_part(claim, scope);
       claim.statement += fmt::format(
           ", the mean over the phase of the frequency error in the long run is between {} and {} rad/sample, "
           "and the error varies by at most {} rad/sample over the phase",
@@ -133,8 +154,10 @@ class ModelClaims {
       Claim claim = required("model/frequency-error-bound", *number,
                              assumed + words_.start(sets_->assumed ? "assumed" : "starts"),
                              "the frequency error stays below {} rad/sample for ever");
+      const bool is_met =
+          keeps_starts() && rigor::certainly_less(Interval(deciding_->frequency_error), number->value);
       decide(claim, guaranteed(), deciding_->frequency_error, *number, "The proved bound is {} rad/sample",
-             guarantee_objection());
+             guarantee_objection(is_met));
     }
     if (sets.settles_within) {
       add(settling(assumed));
@@ -168,8 +191,10 @@ class ModelClaims {
           "absolute value.",
           settled, number->text);
       const Interval& bias = sets_->starts.bias;
-      decide(claim, has_bias(), std::max(bias.upper(), -bias.lower()), *number,
-             "The proved bound of the mean is {} rad/sample", objection_of(sets_->starts), true);
+      const double largest = std::max(bias.upper(), -bias.lower());
+      const bool is_met = knows_bias() && rigor::certainly_less_equal(Interval(largest), number->value);
+      decide(claim, has_bias(), largest, *number, "The proved bound of the mean is {} rad/sample",
+             objection_of(sets_->starts, is_met), true);
     }
     if (const auto& number = require.ripple_below) {
       Claim claim =
@@ -177,8 +202,10 @@ class ModelClaims {
       claim.statement = fmt::format(
           "{}, the frequency error in the long run varies by at most {} rad/sample over the phase.", settled,
           number->text);
+      const bool is_met =
+          knows_bias() && rigor::certainly_less_equal(Interval(sets_->starts.ripple), number->value);
       decide(claim, has_bias(), sets_->starts.ripple, *number, "It varies by at most {} rad/sample",
-             objection_of(sets_->starts), true);
+             objection_of(sets_->starts, is_met), true);
     }
     conclude_requirements(*certificate_);
   }
@@ -190,6 +217,30 @@ class ModelClaims {
     claim.statement = hypotheses;
     claim.verdict = Verdict::proved;
     return claim;
+  }
+  /// Where all of these sets are proved.
+  [[nodiscard]] Scope scope_of(std::initializer_list<const ModelSet*> sets) const {
+    Scope scope;
+    model::FrequencyRange range{0.0, INFINITY};
+    bool is_whole = true;
+    for (const ModelSet* set : sets) {
+      if (!sets_->objection.empty() || (!set->is_proved() && !set->has_part())) {
+        return scope;
+      }
+      if (!set->is_proved()) {
+        is_whole = false;
+        range = {std::max(range.low, set->tubes.part.low), std::min(range.high, set->tubes.part.high)};
+      }
+    }
+    scope.part = is_whole ? std::nullopt : band_part(tables_->assume, range);
+    scope.is_any = is_whole || scope.part.has_value();
+    return scope;
+  }
+  static void add_part(Claim& claim, const Scope& scope) {
+    if (scope.part) {
+      claim.values.emplace_back("from", scope.part->from);
+      claim.values.emplace_back("to", scope.part->to);
+    }
   }
   void add(Claim claim) {
     claim.statement += claim.statement.ends_with(".") ? "" : ".";
@@ -281,16 +332,20 @@ class ModelClaims {
   }
 
   [[nodiscard]] bool covers_assumptions() const { return sets_->objection.empty() && deciding_->is_proved(); }
-  [[nodiscard]] bool guaranteed() const {
-    return covers_assumptions() && deciding_->start_share <= 1.0 && std::isfinite(deciding_->frequency_error);
+  /// Of the set that decides, for the frequencies that it covers.
+  [[nodiscard]] bool keeps_starts() const {
+    return deciding_->start_share <= 1.0 && std::isfinite(deciding_->frequency_error);
   }
+  [[nodiscard]] bool guaranteed() const { return covers_assumptions() && keeps_starts(); }
   [[nodiscard]] bool settles() const {
     return std::all_of(deciding_->tubes.tubes.begin(), deciding_->tubes.tubes.end(),
                        [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   }
-  [[nodiscard]] bool has_bias() const {
+  [[nodiscard]] bool has_bias() const { return sets_->starts.is_proved() && knows_bias(); }
+  /// For the frequencies that the set without noise covers.
+  [[nodiscard]] bool knows_bias() const {
     const ModelSet& starts = sets_->starts;
-    return starts.is_proved() && rigor::is_finite(starts.bias) && std::isfinite(starts.ripple) &&
+    return rigor::is_finite(starts.bias) && std::isfinite(starts.ripple) &&
            std::all_of(starts.tubes.tubes.begin(), starts.tubes.tubes.end(),
                        [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   }
@@ -312,26 +367,31 @@ class ModelClaims {
     }
     return largest;
   }
-  static std::string objection_of(const ModelSet& set) {
+  /// `is_met`: what is required is proved for the frequencies that the set covers.
+  [[nodiscard]] std::string objection_of(const ModelSet& set, bool is_met = false) const {
     std::string text = "No set of tubes was proved for the whole band";
+    if (const Scope scope = scope_of({&set}); scope.part) {
+      text = fmt::format("{} over {} to {} {} only", is_met ? "Proved" : "A set of tubes was proved",
+                         scope.part->from, scope.part->to, words_.unit());
+    }
     constexpr std::size_t kMostReasons = 3;
     for (std::size_t i = 0; i < std::min(kMostReasons, set.tubes.reasons.size()); ++i) {
       text += (i == 0 ? ": " : "; ") + set.tubes.reasons[i];
     }
     return text + ".";
   }
-  [[nodiscard]] std::string assumption_objection() const {
+  [[nodiscard]] std::string assumption_objection(bool is_met = false) const {
     if (!sets_->objection.empty()) {
       return "Nothing is certified: " + sets_->objection + ".";
     }
-    return objection_of(*deciding_);
+    return objection_of(*deciding_, is_met);
   }
-  [[nodiscard]] std::string guarantee_objection() const {
+  [[nodiscard]] std::string guarantee_objection(bool is_met = false) const {
     if (covers_assumptions() && std::isfinite(deciding_->start_share)) {
       return fmt::format("The assumed starts are up to {} times outside the certified tube.",
                          above(deciding_->start_share));
     }
-    return assumption_objection();
+    return assumption_objection(is_met);
   }
 
   Certificate* certificate_;

@@ -133,7 +133,8 @@ Json model_evidence_json(const Certificate& certificate) {
   const ModelSets& sets = model_sets(certificate);
   Json list = Json::array();
   const auto add = [&](const ModelSet& set) {
-    if (set.is_proved()) {
+    // Nothing is told of a part of the set for the largest slew.
+    if (set.is_proved() || (set.has_part() && set.tubes.name != "slew")) {
       list.push_back(set_json(set.tubes));
     }
   };

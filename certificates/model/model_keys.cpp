@@ -161,7 +161,7 @@ bool in_unit(const TomlValue& value, std::string_view unit, const Read& read) {
 void frequency_band(const TomlValue& value, ModelAssumptions& assume) {
   assume.frequency_in_hertz = in_unit(value, "hz", [&](const TomlValue& band) {
     const std::vector<TomlValue> ends = band.elements(2);
-    assume.frequency = {ends[0].real(positive), ends[1].real(positive)};
+    assume.frequency = {ends[0].real(not_negative), ends[1].real(positive)};
     if (!rigor::certainly_less_equal(assume.frequency[0].tight, assume.frequency[1].tight)) {
       value.refuse(fmt::format("[{}, {}]", assume.frequency[0].text, assume.frequency[1].text));
     }
@@ -184,7 +184,7 @@ constexpr std::array kModelAssumeKeys{
                      kOptional},
     Key<ModelAssume>{
         "frequency",
-        "[lowest, highest] in rad/sample, above 0, or with sample_rate { hz = [lowest, highest] }",
+        "[lowest, highest] in rad/sample, 0 or more, or with sample_rate { hz = [lowest, highest] }",
         frequency_band, kRequired},
     Key<ModelAssume>{"noise", kNoiseThatMayBeGaussian, noise_of_samples, kRequired},
     Key<ModelAssume>{"samples", kSamplesOfProbability, real<&ModelAssume::samples, is_number_of_samples>,

@@ -27,7 +27,8 @@ std::string show(const Design& design, CodeLanguage language) {
 }
 
 void certify_model(Certificate& certificate, const CertifyProgress& progress) {
-  certificate.particulars = certify_sets(model_tables(certificate.design), certificate.extent, progress);
+  certificate.particulars =
+      certify_sets(model_tables(certificate.design), certificate.extent, certificate.deadline, progress);
   add_model_claims(certificate);
 }
 
@@ -39,6 +40,7 @@ const TrackerKind& model_kind() {
                                 .certify = certify_model,
                                 .summary = model_summary,
                                 .sections = model_sections,
+                                .limited_in_time = true,
                                 .evidence_json = model_evidence_json,
                                 .show = show};
   return kind;

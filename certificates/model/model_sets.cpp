@@ -1,11 +1,14 @@
 #include "certificates/model/model_sets.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <any>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "analysis/model/tube_errors.hpp"
 #include "analysis/rigor/elementary.hpp"
@@ -72,14 +75,14 @@ double size_of(const Interval& range) {
   return rigor::is_finite(range) ? std::max(std::fabs(range.lower()), std::fabs(range.upper())) : INFINITY;
 }
 
-/// What follows from tubes that cover the band.
+/// What follows from tubes, for the frequencies that they cover.
 ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::vector<Interval>& deviations,
                   std::vector<ModelCell>* cells) {
   const rigor::UpwardRounding upward;
   ModelSet set;
   set.tubes = std::move(tubes);
   set.frequency_error = set.settled_error = set.ripple = set.start_share = INFINITY;
-  if (!set.tubes.is_complete) {
+  if (set.tubes.tubes.empty()) {
     return set;
   }
   set.frequency_error = set.settled_error = set.ripple = set.start_share = 0.0;
@@ -136,7 +139,7 @@ TubeSet from_level(TubeSet set, std::size_t level) {
 /// the assumed starts are still inside; as it is when there is none.
 ModelSet meeting(const model::TrackerModel& tracker, ModelSet set, const std::vector<Interval>& deviations,
                  const Number& required) {
-  std::size_t most = set.is_proved() ? SIZE_MAX : 0;
+  std::size_t most = set.tubes.tubes.empty() ? 0 : SIZE_MAX;
   for (const model::ProvedTube& proved : set.tubes.tubes) {
     most = std::min(most, proved.levels.size());
   }
@@ -193,6 +196,35 @@ Interval band_of(const ModelAssumptions& assume) {
                                    : band;
 }
 
+SearchedBand searched_band(const Interval& band, std::size_t channels) {
+  SearchedBand searched{band.lower(), band.upper(), {}};
+  constexpr double kRoundedPi = 3.142;  // somebody may write pi with a few digits
+  if (!(band.lower() >= 0.0) || !(band.upper() <= kRoundedPi) || !(band.lower() < band.upper())) {
+    return {};
+  }
+  const bool is_one = channels == 1;
+  const double margin = (band.upper() - band.lower()) / 256.0;
+  if (!(band.lower() > 0.0)) {
+    searched.low = margin;
+    searched.out_of_reach.push_back(fmt::format(
+        "out of reach between 0 and {:.4g} rad/sample: {}", margin,
+        is_one ? "at 0 the samples are constant, and one channel does not tell the amplitude from "
+                 "the phase: there is no steady state to settle in"
+               : "at 0 the phase stands still, and the search for a steady state needs one that "
+                 "turns"));
+  }
+  if (!rigor::certainly_less(Interval(band.upper()), rigor::pi())) {
+    searched.high = rigor::pi().lower() - margin;
+    searched.out_of_reach.push_back(fmt::format(
+        "out of reach above {:.6g} rad/sample: {}", searched.high,
+        is_one ? "at pi, half the sample rate, the samples of one channel only change their sign, "
+                 "and do not tell the amplitude from the phase: there is no steady state to "
+                 "settle in"
+               : "frequencies above pi, half the sample rate, cannot be told from lower ones"));
+  }
+  return searched;
+}
+
 Interval slew_of(const ModelAssumptions& assume) {
   if (!assume.slew_in_hertz_per_second) {
     return assume.slew.value;
@@ -205,7 +237,8 @@ const ModelSets& model_sets(const Certificate& certificate) {
   return std::any_cast<const ModelSets&>(certificate.particulars);
 }
 
-ModelSets certify_sets(const ModelTables& tables, Extent extent, const CertifyProgress& progress) {
+ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::Deadline& deadline,
+                       const CertifyProgress& progress) {
   const rigor::UpwardRounding upward;
   const ModelAssumptions& assume = tables.assume;
   const Requirements& require = tables.require.sets;
@@ -216,9 +249,9 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const CertifyPr
   const Interval band = band_of(assume);
   ModelSets sets;
   sets.starts.frequency_error = sets.starts.settled_error = INFINITY;
-  const bool is_band = band.lower() > 0.0 && rigor::certainly_less(Interval(band.upper()), rigor::pi());
-  if (!is_band || band.lower() >= band.upper()) {
-    sets.objection = "the assumed frequencies are no band of some width above 0 and below pi rad/sample";
+  const SearchedBand searched = searched_band(band, model.samples.size());
+  if (!(searched.low < searched.high)) {
+    sets.objection = "the assumed frequencies are no band of some width from 0 to pi rad/sample";
     return sets;
   }
   Eigen::VectorXd sizes;
@@ -250,16 +283,22 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const CertifyPr
     tasks.push_back(
         {.name = "slew", .objective = ShapeObjective::largest_slew, .largest_slew = true, .deviations = {}});
   }
+  if (deadline.is_set() && tasks.size() > 1 && tasks[1].name == "assumed") {
+    std::swap(tasks[0], tasks[1]);  // what is required rests on it
+  }
   double done = 0.0;
-  for (const model::SetTask& task : tasks) {
+  for (model::SetTask& task : tasks) {
+    task.deadline = deadline;
     const auto tell = [&](double share) {
       if (progress) {
         progress({(done + share) / static_cast<double>(tasks.size()), 0.0, 0});
       }
     };
     const bool moves = task.slew > 0.0 || task.largest_slew;
-    TubeSet tubes = moves ? model::prove_moving_set(tone, tracker, band.lower(), band.upper(), task, tell)
-                          : model::prove_set(tone, tracker, band.lower(), band.upper(), task, tell);
+    TubeSet tubes = moves ? model::prove_moving_set(tone, tracker, searched.low, searched.high, task, tell)
+                          : model::prove_set(tone, tracker, searched.low, searched.high, task, tell);
+    tubes.is_complete = tubes.is_complete && searched.out_of_reach.empty();
+    tubes.reasons.insert(tubes.reasons.begin(), searched.out_of_reach.begin(), searched.out_of_reach.end());
     const bool is_first = task.name == "starts";
     ModelSet set = conclude(tracker, std::move(tubes), deviations, is_first ? &sets.cells : nullptr);
     if (is_first) {

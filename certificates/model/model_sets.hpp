@@ -11,8 +11,8 @@
 
 namespace veritrack::certificates {
 
-/// A set of tubes over the whole band, and what follows from it. Bounds have a thousandth of room, so that an
-/// independent program need not be as sharp. Infinite, or empty, where nothing is known.
+/// A set of tubes over the band, or a part of it, and what follows there. Bounds have a thousandth of room,
+/// so that an independent program need not be as sharp. Infinite, or empty, where nothing is known.
 struct ModelSet {
   model::TubeSet tubes;
   double frequency_error = 0.0;  ///< of level R_0, at most, rad/sample
@@ -22,7 +22,10 @@ struct ModelSet {
   rigor::Interval bias;          ///< contains the mean over the phase, without noise, at level R_m
   double ripple = 0.0;           ///< at most, likewise
 
+  /// For the whole band.
   [[nodiscard]] bool is_proved() const { return tubes.is_complete; }
+  /// For a part of it only: `tubes.part`.
+  [[nodiscard]] bool has_part() const { return !tubes.is_complete && !tubes.tubes.empty(); }
 };
 
 /// Of a cell of frequencies, for figures and tables.
@@ -49,14 +52,24 @@ struct ModelSets {
 /// The band, rad/sample. Needs the upward rounding mode.
 [[nodiscard]] rigor::Interval band_of(const ModelAssumptions& assume);
 
+/// The part of the band, rad/sample, in which sets are searched for, and why not in the rest: one sentence
+/// without a full stop for each end that is out of reach.
+struct SearchedBand {
+  double low = 0.0;
+  double high = 0.0;
+  std::vector<std::string> out_of_reach;
+};
+[[nodiscard]] SearchedBand searched_band(const rigor::Interval& band, std::size_t channels);
+
 /// The assumed slew, rad/sample per sample. Needs the upward rounding mode.
 [[nodiscard]] rigor::Interval slew_of(const ModelAssumptions& assume);
 
 /// Of the certificate of a design of this kind. Throws std::bad_any_cast for another.
 [[nodiscard]] const ModelSets& model_sets(const Certificate& certificate);
 
-/// Searches and verifies. `extent`: without what only is told beside the requirements.
+/// Searches and verifies. `extent`: without what only is told beside the requirements. After the deadline no
+/// more is searched for; what is proved by then is kept.
 [[nodiscard]] ModelSets certify_sets(const ModelTables& tables, Extent extent,
-                                     const CertifyProgress& progress);
+                                     const search::Deadline& deadline, const CertifyProgress& progress);
 
 }  // namespace veritrack::certificates

@@ -24,7 +24,7 @@ std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const ModelDesig
     if (!is_known || !names.insert(set.name).second) {
       objections.emplace_back(is_known ? "a second set of this name" : kUnknown);
     }
-    check_cover(set, design.lowest, design.highest, objections);
+    check_order(set, objections);
     if (objections.empty()) {
       // It objects itself where it fails.
       (void)PhaseTubeCheck(model, set, result.cells).is_never_left(objections);

@@ -39,7 +39,7 @@ Ball written(const Tree& claim, const char* name) {
 
 ModelClaims::ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
                          const std::map<std::string, TubeSet>& sets, std::int64_t& cells)
-    : design_(&design), model_(&model), sets_(&sets), cells_(&cells), words_(tree) {}
+    : tree_(&tree), design_(&design), model_(&model), sets_(&sets), cells_(&cells), words_(tree) {}
 
 std::string ModelClaims::short_text(const std::string& id) const {
   if (id == kErrorBound) {
@@ -85,23 +85,49 @@ std::vector<Requirement> ModelClaims::required() const {
   return asked;
 }
 
-const TubeSet* ModelClaims::find(const std::string& name) const {
+ModelClaims::Part ModelClaims::part_of(const Tree& claim, Objections& objections) const {
+  const Tree* from = claim.find("from");
+  const Tree* to = claim.find("to");
+  if (from == nullptr && to == nullptr) {
+    return std::nullopt;
+  }
+  const Ball low = written(claim, "from");
+  const Ball high = written(claim, "to");
+  BandPart part{claim.at("from").text(), claim.at("to").text(), low * design_->band_unit,
+                high * design_->band_unit};
+  // An end of the band as the design writes it is a number and a double.
+  const Tree& band = tree_->at("assume").at("frequency");
+  const bool begins_inside =
+      part.from == text_of(band.at(0)) || certainly_at_most(design_->lowest, part.lowest);
+  const bool ends_inside =
+      part.to == text_of(band.at(1)) || certainly_at_most(part.highest, design_->highest);
+  if (!certainly_less(low, high) || !begins_inside || !ends_inside) {
+    objections.emplace_back("from and to are no part of the assumed band");
+  }
+  return part;
+}
+
+bool ModelClaims::covers_all(const TubeSet& set, const Part& part) const {
+  return part ? covers(set, part->lowest, part->highest) : covers(set, design_->lowest, design_->highest);
+}
+
+const TubeSet* ModelClaims::find(const std::string& name, const Part& part) const {
   const auto found = sets_->find(name);
-  return found != sets_->end() ? &found->second : nullptr;
+  return found != sets_->end() && covers_all(found->second, part) ? &found->second : nullptr;
 }
 
 std::string ModelClaims::deciding_name() const {
-  return find("assumed") != nullptr ? "assumed" : "starts";
+  return sets_->contains("assumed") ? "assumed" : "starts";
 }
 
-const TubeSet* ModelClaims::deciding_set() const {
-  const TubeSet* set = find("assumed");
-  if (set == nullptr && !design_->is_noisy()) {
-    set = find("starts");
+const TubeSet* ModelClaims::deciding_set(const Part& part) const {
+  const TubeSet* set = find("assumed", part);
+  if (set == nullptr && !design_->is_noisy() && !sets_->contains("assumed")) {
+    set = find("starts", part);
   }
-  const bool covers = set != nullptr && certainly_at_most(design_->noise, Ball(set->noise)) &&
-                      certainly_at_most(design_->slew, Ball(set->slew));
-  return covers ? set : nullptr;
+  const bool is_enough = set != nullptr && certainly_at_most(design_->noise, Ball(set->noise)) &&
+                         certainly_at_most(design_->slew, Ball(set->slew));
+  return is_enough ? set : nullptr;
 }
 
 bool ModelClaims::settles(const TubeSet& set) const {
@@ -109,8 +135,8 @@ bool ModelClaims::settles(const TubeSet& set) const {
                      [](const PhaseTube& tube) { return tube.levels.size() > 1; });
 }
 
-const TubeSet* ModelClaims::settling_set() const {
-  const TubeSet* set = find("starts");
+const TubeSet* ModelClaims::settling_set(const Part& part) const {
+  const TubeSet* set = find("starts", part);
   return set != nullptr && settles(*set) ? set : nullptr;
 }
 
@@ -152,12 +178,13 @@ Claim ModelClaims::size(const std::string& id) const {
   if (id == kLargestNoise) {
     found.statement = words_.constant_tone();
     found.verdict = proved_if(std::any_of(sets_->begin(), sets_->end(), [this](const auto& set) {
-      return certainly_at_most(design_->largest_noise->value, Ball(set.second.noise));
+      return covers_all(set.second) &&
+             certainly_at_most(design_->largest_noise->value, Ball(set.second.noise));
     }));
   } else if (id == kLargestSlew) {
     found.statement = words_.tone_in_band() + ", without noise";
     found.verdict = proved_if(std::any_of(sets_->begin(), sets_->end(), [this](const auto& set) {
-      return certainly_at_most(design_->largest_slew->value, Ball(set.second.slew));
+      return covers_all(set.second) && certainly_at_most(design_->largest_slew->value, Ball(set.second.slew));
     }));
   } else {
     const TubeSet* set = deciding_set();
@@ -186,13 +213,14 @@ Claim ModelClaims::long_run(const std::string& id) const {
   return found;
 }
 
-Claim ModelClaims::guarantee(const Tree& claim) const {
-  const TubeSet* set = deciding_set();
+Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
+  const TubeSet* set = deciding_set(part);
+  const ModelWords words(*tree_, part);
   const Ball bound = written(claim, "frequency_error");
   Claim found;
   found.is_summary = true;
-  found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
-                    words_.assumed_start(deciding_name()) + ", the frequency error stays at or below " +
+  found.statement = words.assumed_tone(design_->moves()) + words.assumed_noise(design_->is_noisy()) +
+                    words.assumed_start(deciding_name()) + ", the frequency error stays at or below " +
                     claim.at("frequency_error").text() + kRadPerSample + " for ever";
   bool certain =
       set != nullptr && contains_assumed_starts(*set) && of(*set).error_is_at_most(first_level, bound);
@@ -206,12 +234,13 @@ Claim ModelClaims::guarantee(const Tree& claim) const {
   return found;
 }
 
-Claim ModelClaims::limits(const Tree& claim) const {
-  const TubeSet* noise = find("noise");
-  const TubeSet* starts = find("starts");
+Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
+  const TubeSet* noise = find("noise", part);
+  const TubeSet* starts = find("starts", part);
+  const ModelWords words(*tree_, part);
   Claim found;
   found.is_summary = true;
-  found.statement = words_.constant_tone() + ", the tracker tolerates noise up to " +
+  found.statement = words.constant_tone() + ", the tracker tolerates noise up to " +
                     claim.at("noise").text() +
                     ", and without noise a certified invariant set contains frequency errors up to " +
                     claim.at("reach").text() + kRadPerSample + " at every phase.";
@@ -222,11 +251,12 @@ Claim ModelClaims::limits(const Tree& claim) const {
   return found;
 }
 
-Claim ModelClaims::steady_state(const Tree& claim) const {
-  const TubeSet* set = settling_set();
+Claim ModelClaims::steady_state(const Tree& claim, const Part& part) const {
+  const TubeSet* set = settling_set(part);
+  const ModelWords words(*tree_, part);
   Claim found;
   found.is_summary = true;
-  found.statement = words_.constant_tone() + kSettled +
+  found.statement = words.constant_tone() + kSettled +
                     ", the mean over the phase of the frequency error in the long run is between " +
                     claim.at("bias_low").text() + " and " + claim.at("bias_high").text() + kRadPerSample +
                     ", and the error varies by at most " + claim.at("ripple").text() + kRadPerSample +
@@ -248,9 +278,10 @@ Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
     objections.emplace_back("[require] does not ask for this");
     return {};
   }
-  Claim found = id == kGuarantee               ? guarantee(claim)
-                : id == kLimits                ? limits(claim)
-                : id == kSteadyState           ? steady_state(claim)
+  const Part part = is_told ? part_of(claim, objections) : Part();
+  Claim found = id == kGuarantee               ? guarantee(claim, part)
+                : id == kLimits                ? limits(claim, part)
+                : id == kSteadyState           ? steady_state(claim, part)
                 : id == kErrorBound            ? bound()
                 : id == kSettlingTime          ? settling()
                 : id == kBias || id == kRipple ? long_run(id)

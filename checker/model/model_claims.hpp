@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace veritrack::checker {
 
 class ModelClaims {
  public:
-  /// `sets`: those that are verified, by name; they cover the band. All must outlive this.
+  /// `sets`: those that are verified, by name. All must outlive this.
   ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
               const std::map<std::string, TubeSet>& sets, std::int64_t& cells);
 
@@ -24,13 +25,19 @@ class ModelClaims {
   Claim check(const Tree& claim, Objections& objections) const;
 
  private:
-  [[nodiscard]] const TubeSet* find(const std::string& name) const;
+  /// Where a claim is made: a part of the band, or none for the whole band.
+  using Part = std::optional<BandPart>;
+  /// That of a claim that may name one. Objects to what is no part of the assumed band.
+  [[nodiscard]] Part part_of(const Tree& claim, Objections& objections) const;
+  [[nodiscard]] bool covers_all(const TubeSet& set, const Part& part = {}) const;
+  /// A set of that name that covers the part.
+  [[nodiscard]] const TubeSet* find(const std::string& name, const Part& part = {}) const;
   /// Whose noise and slew are at least the assumed ones.
-  [[nodiscard]] const TubeSet* deciding_set() const;
+  [[nodiscard]] const TubeSet* deciding_set(const Part& part = {}) const;
   /// The name of the set that a guarantee is about.
   [[nodiscard]] std::string deciding_name() const;
   /// "starts", if there are levels to come down to.
-  [[nodiscard]] const TubeSet* settling_set() const;
+  [[nodiscard]] const TubeSet* settling_set(const Part& part = {}) const;
   [[nodiscard]] PhaseTubeCheck of(const TubeSet& set) const { return {*model_, set, *cells_}; }
   /// Starts as they are assumed are in the set.
   [[nodiscard]] bool contains_assumed_starts(const TubeSet& set) const;
@@ -41,10 +48,11 @@ class ModelClaims {
   [[nodiscard]] Claim settling() const;
   [[nodiscard]] Claim size(const std::string& id) const;
   [[nodiscard]] Claim long_run(const std::string& id) const;
-  [[nodiscard]] Claim guarantee(const Tree& claim) const;
-  [[nodiscard]] Claim limits(const Tree& claim) const;
-  [[nodiscard]] Claim steady_state(const Tree& claim) const;
+  [[nodiscard]] Claim guarantee(const Tree& claim, const Part& part) const;
+  [[nodiscard]] Claim limits(const Tree& claim, const Part& part) const;
+  [[nodiscard]] Claim steady_state(const Tree& claim, const Part& part) const;
 
+  const Tree* tree_;
   const ModelDesign* design_;
   const TrackedModel* model_;
   const std::map<std::string, TubeSet>* sets_;

@@ -20,16 +20,16 @@ void read_model_band(const Tree& assume, ModelDesign& design, Objections& object
   if (band.elements().size() != 2) {
     throw Malformed("a band has two ends");
   }
-  const Ball low = read_positive(band.at(0), "frequency", objections);
+  const Ball low = read_not_negative(band.at(0), "frequency", objections);
   const Ball high = read_positive(band.at(1), "frequency", objections);
   if (text_of(band.at(0)) != text_of(band.at(1)) && !certainly_at_most(low, high)) {
     objections.emplace_back("the frequencies must go from low to high");
   }
-  const Ball scale = assume.at("frequency_in_hertz").truth() ? turn_per_sample(assume, objections) : one;
-  design.lowest = low * scale;
-  design.highest = high * scale;
-  if (!certainly_less(design.highest, pi())) {
-    objections.emplace_back("the frequencies must be below pi rad/sample");
+  design.band_unit = assume.at("frequency_in_hertz").truth() ? turn_per_sample(assume, objections) : one;
+  design.lowest = low * design.band_unit;
+  design.highest = high * design.band_unit;
+  if (!certainly_at_most(design.highest, from_decimal("3.142"))) {
+    objections.emplace_back("the frequencies must not be above pi rad/sample");
   }
 }
 
@@ -116,6 +116,9 @@ std::string ModelWords::band() const {
   const std::string unit = assume().at("frequency_in_hertz").truth()
                                ? "Hz at " + text_of(assume().at("sample_rate")) + " samples per second"
                                : std::string("rad/sample");
+  if (part_) {
+    return "[" + part_->from + ", " + part_->to + "] " + unit + " (a part of the assumed band)";
+  }
   return "[" + text_of(ends.at(0)) + ", " + text_of(ends.at(1)) + "] " + unit;
 }
 

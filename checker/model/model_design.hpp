@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "checker/document/json_tree.hpp"
@@ -21,6 +22,7 @@ struct RequiredNumber {
 struct ModelDesign {
   Ball amplitude;
   Ball lowest, highest;            ///< of the frequency
+  Ball band_unit;                  ///< in which the design writes them: Hz, or 1
   Ball noise;                      ///< bound on the length of the error of a sample, all channels together
   Ball slew;                       ///< rad/sample per sample
   std::vector<Ball> start_within;  ///< of each state; empty: not given
@@ -31,14 +33,22 @@ struct ModelDesign {
   [[nodiscard]] bool moves() const { return !certainly_equal(slew, zero); }
 };
 
-/// Reads the members "assume" and "require" of a design. Objects unless 0 < lowest <= highest < pi, the
-/// amplitude is positive, and nothing that has to be is negative.
+/// Reads the members "assume" and "require" of a design. Objects unless 0 <= lowest <= highest <= 3.142
+/// (pi, as one may write it), the amplitude is positive, and nothing that has to be is negative.
 ModelDesign read_model_design(const Tree& design, ModelRecursion& recursion, Objections& objections);
+
+/// A part of the band: what a claim writes, and it in rad/sample.
+struct BandPart {
+  std::string from, to;
+  Ball lowest, highest;
+};
 
 /// The hypotheses of sentences.
 class ModelWords {
  public:
-  explicit ModelWords(const Tree& design) : design_(&design) {}
+  /// `part`: of the band, to which the sentences are limited; none for the whole band.
+  explicit ModelWords(const Tree& design, std::optional<BandPart> part = std::nullopt)
+      : design_(&design), part_(std::move(part)) {}
 
   /// "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.2, 0.5] rad/sample".
   [[nodiscard]] std::string constant_tone() const { return tone("any constant frequency in " + band()); }
@@ -55,6 +65,7 @@ class ModelWords {
   [[nodiscard]] std::string band() const;
 
   const Tree* design_;
+  std::optional<BandPart> part_;
 };
 
 }  // namespace veritrack::checker

@@ -79,6 +79,14 @@ bool is_shrinking(const PhaseTube& tube) {
          });
 }
 
+Ball low_end(const PhaseTube& tube) {
+  return Ball(tube.frequency) - Ball(tube.half_width);
+}
+
+Ball high_end(const PhaseTube& tube) {
+  return Ball(tube.frequency) + Ball(tube.half_width);
+}
+
 PhaseTube tube_from(const Tree& cell, std::size_t states, Objections& objections) {
   PhaseTube tube;
   tube.frequency = double_from(cell.at("frequency"));
@@ -135,24 +143,20 @@ TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objection
   return result;
 }
 
-void check_cover(const TubeSet& set, const Ball& lowest, const Ball& highest, Objections& objections) {
-  const char* const objection = "the cells do not cover the band from low frequencies to high ones";
-  if (set.tubes.empty()) {
-    objections.emplace_back(objection);
-    return;
-  }
-  const auto low = [](const PhaseTube& tube) { return Ball(tube.frequency) - Ball(tube.half_width); };
-  const auto high = [](const PhaseTube& tube) { return Ball(tube.frequency) + Ball(tube.half_width); };
-  bool covers =
-      certainly_at_most(low(set.tubes.front()), lowest) && certainly_at_most(highest, high(set.tubes.back()));
+void check_order(const TubeSet& set, Objections& objections) {
   for (std::size_t i = 0; i + 1 < set.tubes.size(); ++i) {
     // In order, so that nothing between two neighbours is missed.
-    covers = covers && certainly_less(Ball(set.tubes[i].frequency), Ball(set.tubes[i + 1].frequency)) &&
-             certainly_at_most(low(set.tubes[i + 1]), high(set.tubes[i]));
+    if (!certainly_less(Ball(set.tubes[i].frequency), Ball(set.tubes[i + 1].frequency)) ||
+        !certainly_at_most(low_end(set.tubes[i + 1]), high_end(set.tubes[i]))) {
+      objections.emplace_back("the cells do not go from low frequencies to high ones without gaps");
+      return;
+    }
   }
-  if (!covers) {
-    objections.emplace_back(objection);
-  }
+}
+
+bool covers(const TubeSet& set, const Ball& lowest, const Ball& highest) {
+  return !set.tubes.empty() && certainly_at_most(low_end(set.tubes.front()), lowest) &&
+         certainly_at_most(highest, high_end(set.tubes.back()));
 }
 
 }  // namespace veritrack::checker

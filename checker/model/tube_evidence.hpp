@@ -47,7 +47,10 @@ inline std::size_t pairs_of(const PhaseTube& tube) {
 /// for what cannot be read.
 TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections);
 
-/// Objects unless the tubes go from low frequencies to high ones and together cover [lowest, highest].
-void check_cover(const TubeSet& set, const Ball& lowest, const Ball& highest, Objections& objections);
+/// Objects unless the tubes go from low frequencies to high ones, without gaps.
+void check_order(const TubeSet& set, Objections& objections);
+
+/// Whether tubes in this order cover [lowest, highest].
+bool covers(const TubeSet& set, const Ball& lowest, const Ball& highest);
 
 }  // namespace veritrack::checker

@@ -126,16 +126,19 @@ Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& 
   constexpr std::array<std::string_view, 4> kStyles{
       "lw 2 dt 1 lc rgb '#000000'", "lw 2 dt 2 lc rgb '#000000'", "lw 2 dt 3 lc rgb '#000000'",
       "lw 2 dt 4 lc rgb '#666666'"};
-  const std::vector<ProvedTube>& tubes = sets.front().second->tubes.tubes;
-  const model::Tube& first = tubes.front().tube;
-  const model::Tube& last = tubes.back().tube;
-  std::string script =
-      gnuplot_style(360) + fmt::format(
-                               "set xlabel 'frequency of the signal, {}'\nset ylabel 'reach, {}'\nset xrange "
-                               "[{:.9g}:{:.9g}]\nset yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n",
-                               units.drawn_unit(), units.drawn_unit(),
-                               units.drawn(first.frequency - first.half_width),
-                               units.drawn(last.frequency + last.half_width));
+  double lowest = INFINITY;
+  double highest = 0.0;
+  for (const auto& [name, set] : sets) {
+    const model::Tube& first = set->tubes.tubes.front().tube;
+    const model::Tube& last = set->tubes.tubes.back().tube;
+    lowest = std::min(lowest, first.frequency - first.half_width);
+    highest = std::max(highest, last.frequency + last.half_width);
+  }
+  std::string script = gnuplot_style(360) +
+                       fmt::format(
+                           "set xlabel 'frequency of the signal, {}'\nset ylabel 'reach, {}'\nset xrange "
+                           "[{:.9g}:{:.9g}]\nset yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n",
+                           units.drawn_unit(), units.drawn_unit(), units.drawn(lowest), units.drawn(highest));
   std::string plot;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const std::string name = fmt::format("set{}", i);
@@ -162,7 +165,7 @@ std::vector<Figure> draw_model_figures(const certificates::Certificate& certific
   const ModelUnits units(tables.assume);
   std::vector<std::pair<std::string, const ModelSet*>> proved;
   const auto add = [&](const char* name, const ModelSet& set) {
-    if (set.is_proved()) {
+    if (set.is_proved() || set.has_part()) {
       proved.emplace_back(name, &set);
     }
   };
@@ -182,8 +185,8 @@ std::vector<Figure> draw_model_figures(const certificates::Certificate& certific
   std::vector<Figure> figures;
   if (!proved.empty()) {
     figures.push_back(reach_figure(proved, tracker, units));
-    const bool has_assumed = sets.assumed && sets.assumed->is_proved();
-    if (has_assumed || sets.starts.is_proved()) {
+    const bool has_assumed = sets.assumed && (sets.assumed->is_proved() || sets.assumed->has_part());
+    if (has_assumed || sets.starts.is_proved() || sets.starts.has_part()) {
       figures.push_back(draw_tube(tracker, (has_assumed ? *sets.assumed : sets.starts).tubes, units));
     }
   }

@@ -6,6 +6,7 @@
 #include <regex>
 #include <string>
 
+#include "analysis/model/set_parts.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/model/model_units.hpp"
@@ -56,14 +57,16 @@ TEST_CASE("the sections of a design of which nothing is proved are those that we
 
 TEST_CASE("nothing proved is said at the top, without a verdict") {
   const std::string summary = model_summary(with_sets(unproved_sets()));
-  CHECK(summary.starts_with("Nothing was proved for the whole band."));
+  CHECK(summary.starts_with("Nothing was proved for the band, nor for a part of it."));
   CHECK(summary.find("**") == std::string::npos);
 }
 
 TEST_CASE("the part of the band that was proved is named, rounded inward") {
   ModelSets sets = unproved_sets();
   sets.starts.tubes.tubes = {tube_at(0.25, 0.125), tube_at(0.5, 0.1875), tube_at(1.0, 0.1 + 1e-12)};
+  model::keep_widest_part(sets.starts.tubes, 0.125, 1.1);
   const std::string text = model_sections(with_sets(sets), kFigures);
+  CHECK(text.find("| large starts, over [0.125, 0.6875] rad/sample only |") != std::string::npos);
   CHECK(text.find("Frequencies with a proved tube: [0.125, 0.6875], [0.9, 1.1] rad/sample.") !=
         std::string::npos);
   sets.objection = "the assumed frequencies are no band";

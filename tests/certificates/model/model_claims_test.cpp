@@ -146,6 +146,111 @@ TEST_CASE("what is not known, or not enough, is not proved") {
   CHECK(verdict(sets, "model/largest-noise") == Verdict::undecided);
 }
 
+/// Proved from 0.3 to 0.31 rad/sample only.
+void limit(ModelSet& set, double low = 0.3, double high = 0.31) {
+  set.tubes.is_complete = false;
+  set.tubes.part = {low, high};
+  set.tubes.reasons = {"no radius was proved between 0.31 and 0.32 rad/sample"};
+}
+
+TEST_CASE("a part of the band has claims of its own, and what is required stays undecided") {
+  ModelSets sets = sets_of();
+  limit(*sets.assumed);
+  limit(sets.starts, 0.3, 0.312345678);
+  limit(*sets.noise, 0.301, 0.32);
+  const Certificate certificate = certificate_of(sets, text_of(kRequired));
+  const Claim* guarantee = find(certificate, "model/guarantee");
+  REQUIRE(guarantee != nullptr);
+  CHECK(guarantee->verdict == Verdict::proved);
+  CHECK_FALSE(guarantee->required);
+  CHECK(
+      guarantee->statement.starts_with("In exact arithmetic, on a tone of amplitude 1 with any constant "
+                                       "frequency in [0.3, 0.31] rad/sample (a part "
+                                       "of the assumed band), with noise below 0.02, started"));
+  const auto value = [](const Claim* claim, const std::string& name) {
+    REQUIRE(claim != nullptr);
+    const auto found = std::find_if(claim->values.begin(), claim->values.end(),
+                                    [&](const auto& each) { return each.first == name; });
+    return found != claim->values.end() ? found->second : std::string();
+  };
+  CHECK(value(guarantee, "from") == "0.3");
+  CHECK(value(guarantee, "to") == "0.31");
+  CHECK(value(find(certificate, "model/steady-state"), "to") == "0.312345");
+  // Where both sets are proved.
+  CHECK(value(find(certificate, "model/limits"), "from") == "0.301");
+  CHECK(value(find(certificate, "model/limits"), "to") == "0.312345");
+  for (const char* id : {"model/frequency-error-bound", "model/largest-noise", "model/frequency-error-radius",
+                         "model/bias", "model/ripple"}) {
+    CAPTURE(id);
+    const Claim* claim = find(certificate, id);
+    REQUIRE(claim != nullptr);
+    CHECK(claim->verdict == Verdict::undecided);
+    CHECK(claim->statement.find("in [0.3, 0.32] rad/sample, ") != std::string::npos);
+    CHECK(claim->reason.find(" rad/sample only: no radius was proved between 0.31 and 0.32 rad/sample.") !=
+          std::string::npos);
+  }
+  CHECK(find(certificate, "model/frequency-error-bound")->reason.starts_with("Proved over 0.3 to 0.31 "));
+  CHECK(find(certificate, "model/bias")->reason.starts_with("Proved over 0.3 to 0.312345 "));
+  CHECK(certificate.verdict == Verdict::undecided);
+}
+
+TEST_CASE("a part that is empty, or in which too little is proved, has no claims") {
+  const auto has = [](const ModelSets& sets, const char* id) {
+    return find(certificate_of(sets, text_of(kRequired)), id) != nullptr;
+  };
+  ModelSets sets = sets_of();
+  limit(*sets.assumed, 0.3, 0.3);
+  CHECK_FALSE(has(sets, "model/guarantee"));
+  limit(*sets.assumed, 0.31, std::nan(""));
+  CHECK_FALSE(has(sets, "model/guarantee"));
+  limit(*sets.assumed);
+  CHECK(has(sets, "model/guarantee"));
+  sets.assumed->start_share = 1.1;
+  CHECK_FALSE(has(sets, "model/guarantee"));
+  sets = sets_of();
+  limit(sets.starts, 0.3, 0.305);
+  limit(*sets.noise, 0.306, 0.32);
+  CHECK_FALSE(has(sets, "model/limits"));
+  sets.noise->tubes.tubes.clear();
+  CHECK_FALSE(has(sets, "model/limits"));
+  sets.starts.ripple = INFINITY;
+  CHECK_FALSE(has(sets, "model/steady-state"));
+  sets = sets_of();
+  limit(*sets.assumed);
+  sets.assumed->frequency_error = 0.03;  // more than is required
+  const Certificate certificate = certificate_of(sets, text_of(kRequired));
+  CHECK(find(certificate, "model/frequency-error-bound")
+            ->reason.starts_with("A set of tubes was proved over 0.3 to 0.31 rad/sample only: "));
+}
+
+TEST_CASE("a band is searched as far as it can be reached") {
+  const rigor::UpwardRounding upward;
+  const SearchedBand inside = searched_band(Interval::from_bounds(0.2, 0.5), 1);
+  CHECK(inside.low == 0.2);
+  CHECK(inside.high == 0.5);
+  CHECK(inside.out_of_reach.empty());
+  const SearchedBand low = searched_band(Interval::from_bounds(0.0, 0.5), 1);
+  CHECK(low.low > 0.0);
+  CHECK(low.low < 0.01);
+  CHECK(low.high == 0.5);
+  REQUIRE(low.out_of_reach.size() == 1);
+  CHECK(low.out_of_reach.front().find("at 0 the samples are constant") != std::string::npos);
+  for (const double end : {3.1416, 3.1415926535897936}) {
+    const SearchedBand high = searched_band(Interval::from_bounds(1.0, end), 1);
+    CHECK(high.low == 1.0);
+    CHECK(high.high < 3.1415926);
+    CHECK(high.high > 3.1);
+    REQUIRE(high.out_of_reach.size() == 1);
+    CHECK(high.out_of_reach.front().find("half the sample rate") != std::string::npos);
+  }
+  CHECK(searched_band(Interval::from_bounds(0.0, 3.1416), 2).out_of_reach.size() == 2);
+  for (const Interval& none : {Interval(0.3), Interval::from_bounds(0.1, 3.2),
+                               Interval::from_bounds(-0.1, 0.2), Interval::empty()}) {
+    const SearchedBand nothing = searched_band(none, 1);
+    CHECK_FALSE(nothing.low < nothing.high);
+  }
+}
+
 TEST_CASE("a loop is certified for its design") {
   const Certificate& certificate = test::loop_certificate();
   CHECK(certificate.verdict == Verdict::proved);

@@ -127,7 +127,7 @@ TEST_CASE("evidence that is not in order is refused") {
   CHECK(refuses([&](Json& json) { json["derivations"].push_back({{"id", "contraction"}}); }));
 }
 
-TEST_CASE("the cells cover the band") {
+TEST_CASE("cells are in order, without gaps") {
   // Two halves, of which the evidence is wrong on purpose: only the cover is of interest.
   const auto cover = [](const std::vector<std::pair<double, double>>& cells) {
     Json json = test::loop_certificate();
@@ -140,18 +140,104 @@ TEST_CASE("the cells cover the band") {
       cell["half_width"] = hexadecimal(place.second);
       json["tubes"][0]["cells"].push_back(cell);
     }
-    return objections_to(verify_json(json), "tubes starts").find("do not cover the band") ==
-           std::string::npos;
+    return objections_to(verify_json(json), "tubes starts").find("without gaps") == std::string::npos;
   };
   constexpr double kHalf = 0x1p-7;  // the band is from 36 to 40 of these
   CHECK(cover({{37 * kHalf, kHalf}, {39 * kHalf, kHalf}}));
   CHECK(cover({{37 * kHalf, kHalf}, {38.5 * kHalf, 1.5 * kHalf}}));
   CHECK_FALSE(cover({{39 * kHalf, kHalf}, {37 * kHalf, kHalf}}));
-  CHECK_FALSE(cover({{37 * kHalf, kHalf}}));
-  CHECK_FALSE(cover({{39 * kHalf, kHalf}}));
   CHECK_FALSE(cover({{37 * kHalf, kHalf}, {39 * kHalf + 0x1p-50, kHalf}}));
-  CHECK_FALSE(cover({{37 * kHalf + 0x1p-50, kHalf}, {39 * kHalf, kHalf}}));
-  CHECK_FALSE(cover({{37 * kHalf, kHalf}, {39 * kHalf - 0x1p-50, kHalf}}));
+  // What they cover of the band counts for the claims.
+  CHECK(cover({{37 * kHalf, kHalf}}));
+  CHECK(cover({{39 * kHalf, kHalf}}));
+}
+
+TEST_CASE("sets of a part of the band prove claims about that part, and nothing else") {
+  // The band is wider than the sets.
+  const auto wider = [](const std::string& from, const std::string& to) {
+    Json json = test::loop_certificate();
+    json["design"]["assume"]["frequency"] = {decimal("0.25", 0.25, 0.25), decimal("0.3125", 0.3125, 0.3125)};
+    for (Json& claim : json["claims"]) {
+      claim["from"] = from;
+      claim["to"] = to;
+    }
+    return json;
+  };
+  const auto verifies = [](const Json& json) {
+    try {
+      return verify_json(json).verified();
+    } catch (const Malformed&) {
+      return false;
+    }
+  };
+  const Verification found = verify_json(wider("0.28", "0.3125"));
+  REQUIRE(found.verified());
+  REQUIRE(found.sentences.size() == 3);
+  for (const Sentence& sentence : found.sentences) {
+    CHECK(sentence.text.starts_with(
+        "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in "
+        "[0.28, 0.3125] rad/sample (a part of the assumed band), "));
+  }
+  CHECK(verifies(wider("0.29", "0.3")));
+  // More than the sets, beyond the band, nothing, half of it, no number.
+  CHECK_FALSE(verifies(wider("0.278", "0.3125")));
+  CHECK_FALSE(verifies(wider("0.25", "0.3125")));
+  CHECK_FALSE(verifies(wider("0.29", "0.3126")));
+  CHECK_FALSE(verifies(wider("0.3", "0.3")));
+  CHECK_FALSE(verifies(wider("0.31", "0.29")));
+  CHECK_FALSE(verifies(wider("-0.3", "0.3")));
+  CHECK_FALSE(verifies(wider("nan", "0.3")));
+  CHECK_FALSE(verifies(wider("", "0.3")));
+  for (const char* missing : {"from", "to"}) {
+    Json json = wider("0.29", "0.3");
+    json["claims"][0].erase(missing);
+    CHECK_FALSE(verifies(json));
+  }
+  // The whole band.
+  Json json = wider("0.29", "0.3");
+  json["claims"][0].erase("from");
+  json["claims"][0].erase("to");
+  CHECK_FALSE(verifies(json));
+  // What is required is required of the whole band.
+  const auto required = [&](const std::string& key, const std::string& id, const Json& number) {
+    Json demanding = wider("0.29", "0.3");
+    demanding["design"]["require"][key] = number;
+    demanding["claims"].push_back(test::told_claim(id, Json::object(), true));
+    demanding["verdict"] = "proved";
+    CHECK_FALSE(verifies(demanding));
+    demanding["claims"].back()["from"] = "0.29";
+    demanding["claims"].back()["to"] = "0.3";
+    CHECK_FALSE(verifies(demanding));
+    demanding["claims"].erase(3);
+    demanding["verdict"] = "undecided";
+    CHECK(verifies(demanding));
+  };
+  required("frequency_error_below", "model/frequency-error-bound", decimal("0.5", 0.5, 0.5));
+  required("largest_noise_at_least", "model/largest-noise", decimal("0.015625", 0.015625, 0.015625));
+  required("frequency_error_radius_at_least", "model/frequency-error-radius",
+           decimal("0.0078125", 0.0078125, 0.0078125));
+  required("bias_below", "model/bias", decimal("0.00048828125", 0x1p-11, 0x1p-11));
+  required("ripple_below", "model/ripple", decimal("0.00390625", 0x1p-8, 0x1p-8));
+  // Of two sets, both have to cover the part: here the cell of the noise begins at 0.29.
+  json = wider("0.28", "0.3125");
+  json["claims"].erase(0);
+  json["claims"].erase(1);
+  CHECK(verifies(json));
+  json["tubes"][1]["cells"][0]["frequency"] = hexadecimal(0.3105);
+  CHECK_FALSE(verifies(json));
+}
+
+TEST_CASE("a band may begin at 0 and end at half the sample rate") {
+  Json json = test::loop_certificate();
+  json["design"]["assume"]["frequency"] = {decimal("0", 0.0, 0.0),
+                                           decimal("3.1416", 3.1415999999999999, 3.1416000000000004)};
+  json["claims"] = Json::array({json["claims"][0]});
+  CHECK_FALSE(verify_json(json).verified());
+  json["claims"][0]["from"] = "0.28";
+  json["claims"][0]["to"] = "0.32";
+  CHECK(verify_json(json).verified());
+  json["design"]["assume"]["frequency"][1] = decimal("3.25", 3.25, 3.25);
+  CHECK_FALSE(verify_json(json).verified());
 }
 
 TEST_CASE("claims that say more are refused") {

@@ -1,0 +1,236 @@
+// The search for levels that all cells of a band have in common, for a frequency that moves: see
+// moving_set.cpp.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "analysis/model/border.hpp"
+#include "analysis/model/set_search.hpp"
+#include "analysis/rigor/rounding.hpp"
+
+namespace veritrack::model::detail {
+
+using rigor::Verdict;
+
+/// The search for levels that all cells of a band have in common.
+class MovingSearch {
+ public:
+  MovingSearch(const TrackerModel& model, std::span<const TubeProposal> cells,
+               const search::Deadline& deadline, TubeSet& set)
+      : model_(&model), deadline_(&deadline), set_(&set) {
+    double rate = 0.0;
+    for (const TubeProposal& cell : cells) {
+      ProvedTube proved;
+      proved.tube = *cell.tube;
+      proved.grid.deadline = deadline;
+      widen(proved.tube);
+      set.tubes.push_back(std::move(proved));
+      rate = std::max(rate, cell.worth.rate);
+      level_ = level_ > 0.0 ? std::min(level_, cell.worth.level) : cell.worth.level;
+      most_slew_ = most_slew_ > 0.0 ? std::min(most_slew_, cell.worth.slew) : cell.worth.slew;
+    }
+    constexpr double kLittleRoom = 0.02;
+    for (ProvedTube& proved : set.tubes) {
+      proved.grid.phases = 1.0 - rate < kLittleRoom ? 64 : 32;
+    }
+    slow_ = 1.0 - 0.05 * (1.0 - rate);
+    fast_ = 1.0 - 0.5 * (1.0 - rate);
+  }
+
+  /// Levels for the noise and slew of the set.
+  [[nodiscard]] bool find_levels() {
+    const double radius = largest_radius(level_, [&](double tried) { return may_hold(tried, set_->slew); });
+    if (!(radius > 0.0)) {
+      find_failures();
+    }
+    for (const double factor : kFactors) {
+      if (radius > 0.0 && proves(factor * radius, set_->slew)) {
+        while (step_down()) {
+        }
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// The largest slew, for the noise of the set, with one level.
+  [[nodiscard]] bool find_slew() {
+    double slew = 0.0;
+    double radius = 0.0;
+    for (const double factor : {1.0, 0.75, 0.5}) {
+      double tried = std::max(1.02 * slew, 0.02 * most_slew_);
+      if (!(tried > 0.0) || !may_hold(factor * level_, tried)) {
+        continue;
+      }
+      for (double step = 1.6; step > 1.02; step = std::sqrt(step)) {
+        while (may_hold(factor * level_, tried * step)) {
+          tried *= step;
+        }
+      }
+      slew = tried;
+      radius = factor * level_;
+    }
+    return std::any_of(kFactors.begin(), kFactors.end(),
+                       [&](double factor) { return slew > 0.0 && proves(radius, factor * slew); });
+  }
+
+  /// The cells in which the search failed, by their numbers.
+  [[nodiscard]] const std::vector<std::size_t>& failed() const { return failed_; }
+
+ private:
+  static constexpr std::array<double, 8> kFactors{0.98, 0.95, 0.91, 0.86, 0.8, 0.72, 0.62, 0.5};
+
+  [[nodiscard]] bool may_hold(const ProvedTube& proved, double radius, double slew) const {
+    constexpr int kPhases = 16;
+    return !deadline_->is_over() &&
+           sampled_growth(*model_, proved.tube, {radius, set_->noise, 1.0, 1.0, slew}, kPhases) <= slow_;
+  }
+  [[nodiscard]] bool may_hold(double radius, double slew) const {
+    return std::all_of(set_->tubes.begin(), set_->tubes.end(),
+                       [&](const ProvedTube& proved) { return may_hold(proved, radius, slew); });
+  }
+
+  /// The cells in which there is no level at all, whatever the others need.
+  void find_failures() {
+    failed_.clear();
+    for (std::size_t i = 0; i < set_->tubes.size(); ++i) {
+      const double radius =
+          largest_radius(level_, [&](double tried) { return may_hold(set_->tubes[i], tried, set_->slew); });
+      if (!(radius > 0.0)) {
+        failed_.push_back(i);
+      }
+    }
+  }
+
+  /// Whether levels from `scale` radius to radius shrink by the factor in a cell.
+  [[nodiscard]] bool shrinks(ProvedTube& proved, double radius, double scale, double factor, double slew) {
+    const LevelResult result = verify_level(
+        *model_, proved.tube, {radius, set_->noise, scale, with_room(factor), slew}, proved.grid);
+    proved.cells += result.cells;
+    return result.verdict == Verdict::proved;
+  }
+  [[nodiscard]] bool shrinks(double radius, double scale, double factor, double slew) {
+    return std::all_of(set_->tubes.begin(), set_->tubes.end(),
+                       [&](ProvedTube& proved) { return shrinks(proved, radius, scale, factor, slew); });
+  }
+
+  /// How levels change at the border of the tubes number i and i + 1: at most 1, or 2 when nothing was
+  /// proved.
+  [[nodiscard]] double crossing_at(std::size_t i, double radius, double scale, double factor,
+                                   double slew) const {
+    const ProvedTube& a = set_->tubes[i];
+    const ProvedTube& b = set_->tubes[i + 1];
+    double largest = 0.0;
+    for (const bool is_up : {true, false}) {
+      const BorderResult result = verify_border(*model_, is_up ? a.tube : b.tube, is_up ? b.tube : a.tube,
+                                                {factor * radius, radius, slew, scale}, a.grid);
+      if (result.verdict != Verdict::proved || !(result.largest < 1.0)) {
+        return 2.0;
+      }
+      largest = std::max(largest, result.largest);
+    }
+    return largest;
+  }
+  /// A little more than what was proved.
+  [[nodiscard]] static double with_some_room(double crossing) {
+    const rigor::UpwardRounding upward;
+    return crossing + 0.1 * (1.0 - crossing);
+  }
+  /// At all borders; at most 1, or 2 when nothing was proved.
+  [[nodiscard]] double crossing_of(double radius, double scale, double factor, double slew) const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i + 1 < set_->tubes.size() && largest < 1.0; ++i) {
+      largest = std::max(largest, crossing_at(i, radius, scale, factor, slew));
+    }
+    return largest < 1.0 ? with_some_room(largest) : 2.0;
+  }
+
+  /// One level for all tubes; when the time is over, for the first ones, without the others.
+  bool proves(double radius, double slew) {
+    for (std::size_t i = 0; i < set_->tubes.size(); ++i) {
+      if (!is_locked(*model_, set_->tubes[i].tube, radius)) {
+        failed_ = {i};
+        return false;
+      }
+    }
+    double crossing = 0.0;
+    for (std::size_t i = 0; i < set_->tubes.size(); ++i) {
+      double larger = crossing;
+      const bool is_proved = shrinks(set_->tubes[i], radius, 1.0, slow_, slew);
+      if (is_proved && i > 0) {
+        larger = std::max(larger, crossing_at(i - 1, radius, 1.0, slow_, slew));
+      }
+      if (!is_proved || !(larger < 1.0)) {
+        failed_ = {i};
+        if (i == 0 || !deadline_->is_over()) {
+          return false;
+        }
+        set_->tubes.erase(set_->tubes.begin() + static_cast<std::ptrdiff_t>(i), set_->tubes.end());
+        break;
+      }
+      crossing = larger;
+    }
+    set_->slew = slew;
+    set_->crossing = {with_some_room(crossing)};
+    for (ProvedTube& proved : set_->tubes) {
+      proved.levels = {radius};
+      proved.shrinking = {slow_};
+    }
+    return true;
+  }
+
+  bool step_down() {
+    constexpr std::size_t kMostLevels = 16;
+    const std::vector<double>& levels = set_->tubes.front().levels;
+    const bool is_first = levels.size() == 1;
+    struct Step {
+      double factor, shrinking;
+    };
+    const std::array<Step, 6> steps{
+        {{0.25, fast_}, {0.5, fast_}, {0.5, slow_}, {0.7, slow_}, {0.85, slow_}, {0.95, slow_}}};
+    const double radius = levels.back();
+    if (levels.size() > kMostLevels || radius < 0.02 * levels.front()) {
+      return false;
+    }
+    return std::any_of(steps.begin(), steps.end(), [&](const Step& step) {
+      const double next = step.factor * radius;
+      const double scale = next / radius * (1.0 - 1e-12);
+      if (!may_hold(next, set_->slew) || !shrinks(radius, scale, step.shrinking, set_->slew)) {
+        return false;
+      }
+      const double crossing = crossing_of(radius, scale, step.shrinking, set_->slew);
+      if (!(crossing < 1.0)) {
+        return false;
+      }
+      if (is_first) {
+        set_->crossing.clear();
+      }
+      set_->crossing.push_back(crossing);
+      for (ProvedTube& proved : set_->tubes) {
+        if (is_first) {
+          proved.shrinking.clear();
+        }
+        proved.levels.push_back(next);
+        proved.shrinking.push_back(step.shrinking);
+      }
+      return true;
+    });
+  }
+
+  const TrackerModel* model_;
+  const search::Deadline* deadline_;
+  TubeSet* set_;
+  std::vector<std::size_t> failed_;
+  double level_ = 0.0;
+  double most_slew_ = 0.0;
+  double slow_ = 1.0;
+  double fast_ = 1.0;
+};
+
+}  // namespace veritrack::model::detail

@@ -44,9 +44,14 @@ GaussianTerms terms_for(const GaussianTask& task, int channels, double deviation
   terms.factor = factor;
   terms.constant = constant;
   constexpr double kShareOfSamples = 0.98;
-  terms.exponent =
-      std::log((task.samples * constant * (1.0 + kShareOfStarts) + 1.01 * constant / (1.0 - factor)) /
-               (kShareOfSamples * task.probability));
+  const double of_samples =
+      task.samples * constant * (1.0 + kShareOfStarts) + 1.01 * constant / (1.0 - factor);
+  const double share = task.deviations.empty() ? task.start_share : 0.0;
+  constexpr int kSteps = 60;  // of an iteration that converges when starts are inside
+  for (int i = 0; i < kSteps; ++i) {
+    const double of_starts = std::exp(terms.exponent * share * share);
+    terms.exponent = std::log((of_samples + of_starts) / (kShareOfSamples * task.probability));
+  }
   // As little as leaves a thousandth of the probability to longer noise.
   for (double multiple = 3.0; multiple < 40.0; multiple += 0.25) {
     terms.most_noise = multiple * deviation;
@@ -67,6 +72,7 @@ class RadiusSearch {
       : model_(&model), proposal_(&proposal), task_(&task) {
     proved_.tube = *proposal.tube;
     constexpr double kLittleRoom = 0.02;
+    proved_.grid.deadline = task.deadline;
     proved_.grid.phases = 1.0 - proposal.worth.rate < kLittleRoom ? 64 : 32;
   }
 
@@ -198,7 +204,7 @@ class BandSearch {
   /// About the least radius: what is not left is then small.
   [[nodiscard]] bool proves(RadiusSearch& search) const {
     const double share =
-        std::sqrt(std::log(kShareOfStarts * task_->samples * terms_.constant) / terms_.exponent);
+        std::sqrt(std::log(std::max(2.0, kShareOfStarts * task_->samples * terms_.constant)) / terms_.exponent);
     const double start = 1.01 * search.start_level() / share;
     for (double radius = std::max(start, 0.35 * search.guess()); radius < 1.6 * search.guess();
          radius *= 1.08) {
@@ -225,6 +231,7 @@ TubeSet prove_gaussian_set(const TrackedTone& tone, const TrackerModel& model, d
   const rigor::NearestRounding nearest;
   SetTask shape;
   shape.objective = ShapeObjective::largest_deviation;
+  shape.deadline = task.deadline;
   BandSettings settings = settings_of(shape, low, high);
   settings.tube.shape.exponent = std::log(task.samples / task.probability);
   BandProposal band = propose_band(tone, low, high, settings);

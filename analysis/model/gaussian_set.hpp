@@ -16,7 +16,9 @@ struct GaussianTask {
   bool largest_deviation = false;  ///< search for the largest one
   double samples = 0.0;            ///< N: how long lock is to be kept
   double probability = 0.0;        ///< of losing lock in them, at most
-  /// Of starts, one for each state; empty: none. At the curve when all are 0.
+  double start_share = 0.5;
+  search::Deadline deadline;  ///< after which nothing more is proved
+  /// Of starts, one for each state; empty: starts have a level of at most `start_share` R.
   std::vector<rigor::Interval> deviations;
 };
 

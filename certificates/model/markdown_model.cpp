@@ -9,6 +9,7 @@
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/document/code_language.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/model/markdown_model_lock.hpp"
 #include "certificates/model/markdown_model_sets.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/model/model_units.hpp"
@@ -92,9 +93,23 @@ std::string design_section(const Certificate& certificate, const ModelTables& ta
                     assume.frequency_in_hertz ? outward(radians) : outward(units.in_hertz(radians)),
                     assume.frequency_in_hertz ? "rad/sample" : "Hz"});
   }
-  rows.push_back({table.samples.size() == 1 ? "noise of each sample, at most"
-                                            : "noise of each pair of samples, its length, at most",
-                  quoted(assume.noise.text), "signal units"});
+  const bool is_one = table.samples.size() == 1;
+  if (assume.gaussian) {
+    const GaussianNoise& noise = *assume.gaussian;
+    rows.push_back(
+        noise.snr_db
+            ? std::vector<std::string>{"Gaussian noise: its signal-to-noise ratio A^2/(2 sigma^2), at "
+                                       "least",
+                                       quoted(noise.snr_db->text), "dB"}
+            : std::vector<std::string>{"Gaussian noise: its deviation in each channel, at most",
+                                       quoted(noise.deviation->text), "signal units"});
+    rows.push_back(
+        {"successive samples for which lock is to be kept", quoted(assume.samples.value().text), "samples"});
+  } else {
+    rows.push_back(
+        {is_one ? "noise of each sample, at most" : "noise of each pair of samples, its length, at most",
+         quoted(assume.noise.text), "signal units"});
+  }
   const bool moves = assume.slew.value.upper() > 0.0;
   rows.push_back({"change of the frequency, at most",
                   moves ? quoted(assume.slew.text) : "none: it is constant",
@@ -156,9 +171,9 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
   const rigor::UpwardRounding upward;
   const ModelTables& tables = model_tables(certificate.design);
   const Model model = make_model(tables.model, tables.assume.signal);
-  return design_section(certificate, tables, model) + model_sets_section(certificate, model, options) +
-         model_bias_section(certificate, options) + recursion_section(certificate, model) +
-         coverage_section(tables);
+  return design_section(certificate, tables, model) + model_lock_section(certificate) +
+         model_sets_section(certificate, model, options) + model_bias_section(certificate, options) +
+         recursion_section(certificate, model) + coverage_section(tables);
 }
 
 }  // namespace veritrack::certificates

@@ -10,8 +10,9 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/model/band_part.hpp"
+#include "certificates/model/model_lock.hpp"
 #include "certificates/model/model_sets.hpp"
-#include "certificates/sets/guarantee_sentence.hpp"
+#include "certificates/model/model_words.hpp"
 #include "certificates/sets/required_claims.hpp"
 
 namespace veritrack::certificates {
@@ -20,61 +21,6 @@ namespace {
 
 using rigor::Interval;
 using rigor::Verdict;
-
-/// The words of the hypotheses.
-class ModelWords {
- public:
-  /// `part`: of the band, to which statements are limited; none for the whole band.
-  explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt)
-      : assume_(&tables.assume), part_(std::move(part)) {}
-
-  [[nodiscard]] std::string unit() const {
-    return assume_->frequency_in_hertz
-               ? fmt::format("Hz at {} samples per second", assume_->sample_rate.value().text)
-               : "rad/sample";
-  }
-  [[nodiscard]] std::string tone_with(const std::string& frequency) const {
-    return fmt::format("{}, on {} of amplitude {} with {}", kExactArithmetic,
-                       assume_->signal.empty() ? "a tone" : "the signal of the design file",
-                       assume_->amplitude.text, frequency);
-  }
-  [[nodiscard]] std::string band() const {
-    if (part_) {
-      return fmt::format("[{}, {}] {} (a part of the assumed band)", part_->from, part_->to, unit());
-    }
-    return fmt::format("[{}, {}] {}", assume_->frequency[0].text, assume_->frequency[1].text, unit());
-  }
-  [[nodiscard]] std::string constant_tone() const { return tone_with("any constant frequency in " + band()); }
-  [[nodiscard]] bool moves() const { return assume_->slew.value.upper() > 0.0; }
-  /// With the assumed slew.
-  [[nodiscard]] std::string assumed_tone() const {
-    return !moves()
-               ? constant_tone()
-               : tone_with(fmt::format(
-                     "a frequency that stays in {} and changes by at most {} {}", band(), assume_->slew.text,
-                     assume_->slew_in_hertz_per_second ? "Hz per second" : "rad/sample per sample"));
-  }
-  [[nodiscard]] std::string noise() const {
-    return assume_->noise.value.upper() > 0.0 ? ", with noise below " + assume_->noise.text
-                                              : ", without noise";
-  }
-  /// The assumed start, in the set of that name.
-  [[nodiscard]] std::string start(const std::string& set) const {
-    if (assume_->start_within.empty()) {
-      return ", started in the set \"" + set + "\" of the certificate";
-    }
-    std::string states;
-    for (const NamedText& entry : assume_->start_within) {
-      states += (states.empty() ? "" : ", ") + entry.name.text + ": " + entry.formula.text;
-    }
-    return ", started within {" + states + "} of the curve of the set \"" + set +
-           "\" of the certificate, the other states on it";
-  }
-
- private:
-  const ModelAssumptions* assume_;
-  std::optional<BandPart> part_;
-};
 
 /// The frequencies for which all of some sets are proved.
 struct Scope {
@@ -100,7 +46,10 @@ class ModelClaims {
         deciding_(sets_->assumed ? &*sets_->assumed : &sets_->starts) {}
 
   void add_told() {
-    if (const Scope scope = scope_of({deciding_}); scope.is_any && keeps_starts()) {
+    if (is_gaussian()) {
+      add_lock_claims(*certificate_);
+    }
+    if (const Scope scope = scope_of({deciding_}); scope.is_any && keeps_starts() && !is_gaussian()) {
       const ModelWords words(*tables_, scope.part);
       Claim claim = told("model/guarantee", words.assumed_tone() + words.noise() +
                                                 words.start(sets_->assumed ? "assumed" : "starts"));
@@ -147,6 +96,9 @@ class ModelClaims {
   }
 
   void add_required() {
+    if (tables_->require.sets.probability_of_losing_lock_below) {
+      certificate_->claims.push_back(required_lock_claim(*certificate_));
+    }
     const ModelRequirements& require = tables_->require;
     const Requirements& sets = require.sets;
     const std::string assumed = words_.assumed_tone() + words_.noise();
@@ -331,6 +283,8 @@ class ModelClaims {
     return samples;
   }
 
+  /// Then nothing holds for ever.
+  [[nodiscard]] bool is_gaussian() const { return tables_->assume.gaussian.has_value(); }
   [[nodiscard]] bool covers_assumptions() const { return sets_->objection.empty() && deciding_->is_proved(); }
   /// Of the set that decides, for the frequencies that it covers.
   [[nodiscard]] bool keeps_starts() const {

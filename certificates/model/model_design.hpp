@@ -41,10 +41,10 @@ struct ModelTable {
 
 /// [assume] of a model.
 struct ModelAssumptions {
-  Number amplitude;                       ///< signal units
-  std::optional<Number> sample_rate;      ///< Hz
-  std::array<Number, 2> frequency;        ///< [lowest, highest]
-  bool frequency_in_hertz = false;        ///< otherwise rad/sample
+  Number amplitude;                   ///< signal units
+  std::optional<Number> sample_rate;  ///< Hz
+  std::array<Number, 2> frequency;    ///< [lowest, highest]
+  bool frequency_in_hertz = false;    ///< otherwise rad/sample
   /// |v(k)| <= noise for every k, signal units. Empty where the noise is Gaussian: nothing follows from it.
   Number noise;
   std::optional<GaussianNoise> gaussian;

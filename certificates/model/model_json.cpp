@@ -69,12 +69,14 @@ Json tube_json(const model::ProvedTube& proved) {
   Json json{{"frequency", rigor::to_hexadecimal(tube.frequency)},
             {"half_width", rigor::to_hexadecimal(tube.half_width)},
             {"levels", hexadecimals(proved.levels)},
-            {"shrinking", hexadecimals(proved.shrinking)},
             {"turns", tube.turns},
             {"curve", Json::array()},
             {"shape", Json::array()},
             {"phases", proved.grid.phases},
             {"frequencies", proved.grid.frequencies}};
+  if (!proved.shrinking.empty()) {
+    json["shrinking"] = hexadecimals(proved.shrinking);
+  }
   for (const model::PhaseSeries& series : tube.curve) {
     json["curve"].push_back(series_json(series));
   }
@@ -85,10 +87,18 @@ Json tube_json(const model::ProvedTube& proved) {
 }
 
 Json set_json(const model::TubeSet& set) {
-  Json json{{"name", set.name},
-            {"slew", rigor::to_hexadecimal(set.slew)},
-            {"noise", rigor::to_hexadecimal(set.noise)},
-            {"cells", Json::array()}};
+  Json json{{"name", set.name}, {"cells", Json::array()}};
+  if (set.gaussian) {
+    const model::GaussianTerms& terms = *set.gaussian;
+    json["gaussian"] = {{"deviation", rigor::to_hexadecimal(terms.deviation)},
+                        {"most_noise", rigor::to_hexadecimal(terms.most_noise)},
+                        {"exponent", rigor::to_hexadecimal(terms.exponent)},
+                        {"factor", rigor::to_hexadecimal(terms.factor)},
+                        {"constant", rigor::to_hexadecimal(terms.constant)}};
+  } else {
+    json["slew"] = rigor::to_hexadecimal(set.slew);
+    json["noise"] = rigor::to_hexadecimal(set.noise);
+  }
   if (set.slew > 0.0) {
     json["crossing"] = hexadecimals(set.crossing);
   }
@@ -105,9 +115,10 @@ Json model_design_json(const Design& design) {
   Json assumed{{"amplitude", number_json(assume.amplitude)},
                {"frequency", {number_json(assume.frequency[0]), number_json(assume.frequency[1])}},
                {"frequency_in_hertz", assume.frequency_in_hertz},
-               {"noise", number_json(assume.noise)},
                {"slew", number_json(assume.slew)},
                {"slew_in_hertz_per_second", assume.slew_in_hertz_per_second}};
+  assumed["noise"] = noise_json(assume.noise, assume.gaussian);
+  add_number(assumed, "samples", assume.samples);
   add_number(assumed, "sample_rate", assume.sample_rate);
   if (!assume.start_within.empty()) {
     assumed["start_within"] = named_json(assume.start_within);
@@ -142,6 +153,11 @@ Json model_evidence_json(const Certificate& certificate) {
   for (const std::optional<ModelSet>* set : {&sets.assumed, &sets.noise, &sets.slew}) {
     if (*set) {
       add(**set);
+    }
+  }
+  for (const std::optional<ModelLock>* lock : {&sets.gaussian, &sets.lowest_snr}) {
+    if (*lock && (*lock)->is_proved()) {
+      list.push_back(set_json((*lock)->tubes));
     }
   }
   return {{"tubes", list}};

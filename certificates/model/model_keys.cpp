@@ -210,8 +210,9 @@ void settles_within(const TomlValue& value, ModelRequire& target) {
       value.whole_number([](const Interval& x) { return rigor::certainly_less_equal(Interval(1.0), x); });
 }
 void probability_of_losing_lock(const TomlValue& value, ModelRequire& target) {
-  target.sets.probability_of_losing_lock_below = value.real(
-      [](const Interval& x) { return rigor::certainly_positive(x) && rigor::certainly_less(x, Interval(1.0)); });
+  target.sets.probability_of_losing_lock_below = value.real([](const Interval& x) {
+    return rigor::certainly_positive(x) && rigor::certainly_less(x, Interval(1.0));
+  });
 }
 constexpr std::array kModelRequireKeys{
     Key<ModelRequire>{"frequency_error_below", kPositive, of_sets<&Requirements::frequency_error_below>,
@@ -238,7 +239,8 @@ std::vector<BoundTable> bind_model_tables(std::any& tables) {
 }
 
 /// What goes with a bound of the noise does not go with Gaussian noise, and the other way round.
-std::optional<TableObjection> objection_to_noise(const ModelAssumptions& assume, const Requirements& require) {
+std::optional<TableObjection> objection_to_noise(const ModelAssumptions& assume,
+                                                 const Requirements& require) {
   Assumptions terms;
   terms.gaussian = assume.gaussian;
   terms.samples = assume.samples;

@@ -261,7 +261,7 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
       sizes[static_cast<Eigen::Index>(i)] = deviations[i].upper();
     }
   }
-  const double noise = assume.noise.value.upper();
+  const double noise = assume.gaussian ? 0.0 : assume.noise.value.upper();
   const double slew = slew_of(assume).upper();
   const bool is_everything = extent == Extent::everything;
   std::vector<model::SetTask> tasks(1);
@@ -286,14 +286,25 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   if (deadline.is_set() && tasks.size() > 1 && tasks[1].name == "assumed") {
     std::swap(tasks[0], tasks[1]);  // what is required rests on it
   }
+  const double locks = !assume.gaussian ? 0.0 : is_everything ? 2.0 : 1.0;
+  const double all = static_cast<double>(tasks.size()) + locks;
   double done = 0.0;
+  const auto tell = [&](double share) {
+    if (progress) {
+      progress({(done + share) / all, 0.0, 0});
+    }
+  };
+  if (assume.gaussian && searched.out_of_reach.empty()) {
+    const LockSearch search{&tables, &model, &tone, &tracker, searched.low, searched.high, deadline};
+    sets.gaussian = certify_model_lock(search, false, tell);
+    if (is_everything) {
+      done += 1.0;
+      sets.lowest_snr = certify_model_lock(search, true, tell);
+    }
+    done = locks;
+  }
   for (model::SetTask& task : tasks) {
     task.deadline = deadline;
-    const auto tell = [&](double share) {
-      if (progress) {
-        progress({(done + share) / static_cast<double>(tasks.size()), 0.0, 0});
-      }
-    };
     const bool moves = task.slew > 0.0 || task.largest_slew;
     TubeSet tubes = moves ? model::prove_moving_set(tone, tracker, searched.low, searched.high, task, tell)
                           : model::prove_set(tone, tracker, searched.low, searched.high, task, tell);

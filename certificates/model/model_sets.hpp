@@ -8,6 +8,7 @@
 #include "analysis/model/tube_set.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/model/model.hpp"
+#include "certificates/model/model_lock.hpp"
 
 namespace veritrack::certificates {
 
@@ -37,12 +38,14 @@ struct ModelCell {
 };
 
 struct ModelSets {
-  ModelSet starts;                  ///< without noise
-  std::optional<ModelSet> assumed;  ///< for the assumed noise and slew; none when both are 0
-  std::optional<ModelSet> slew;     ///< for the largest slew, without noise
-  std::optional<ModelSet> noise;    ///< for the largest noise
-  std::vector<ModelCell> cells;     ///< of `starts`
-  std::string objection;            ///< why nothing is certified of the assumptions; or empty
+  ModelSet starts;                      ///< without noise
+  std::optional<ModelSet> assumed;      ///< for the assumed noise and slew; none when both are 0
+  std::optional<ModelSet> slew;         ///< for the largest slew, without noise
+  std::optional<ModelSet> noise;        ///< for the largest noise
+  std::optional<ModelLock> gaussian;    ///< for the assumed Gaussian noise
+  std::optional<ModelLock> lowest_snr;  ///< for as much Gaussian noise as can be proved
+  std::vector<ModelCell> cells;         ///< of `starts`
+  std::string objection;                ///< why nothing is certified of the assumptions; or empty
 };
 
 /// The tracker of a model on its signal: for proofs, and for proposals. The members refer to the model.

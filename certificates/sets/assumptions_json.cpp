@@ -27,17 +27,17 @@ Json initial_covariance(const Assumptions& assume) {
   return assume.initial_covariance ? rows_json(*assume.initial_covariance) : Json("steady-state");
 }
 
-Json noise_json(const Assumptions& assume) {
-  if (!assume.gaussian) {
-    return number_json(assume.noise);
+}  // namespace
+
+Json noise_json(const Number& bound, const std::optional<GaussianNoise>& gaussian) {
+  if (!gaussian) {
+    return number_json(bound);
   }
   Json json = Json::object();
-  add_number(json, "snr_db", assume.gaussian->snr_db);
-  add_number(json, "deviation", assume.gaussian->deviation);
+  add_number(json, "snr_db", gaussian->snr_db);
+  add_number(json, "deviation", gaussian->deviation);
   return json;
 }
-
-}  // namespace
 
 Json require_json(const Requirements& require) {
   Json json = Json::object();
@@ -55,7 +55,7 @@ Json require_json(const Requirements& require) {
 Json assume_json(const Assumptions& assume) {
   Json json = {{"amplitude", number_json(assume.amplitude)},
                {"frequency", {number_json(assume.frequency[0]), number_json(assume.frequency[1])}},
-               {"noise", noise_json(assume)},
+               {"noise", noise_json(assume.noise, assume.gaussian)},
                {"slew", number_json(assume.slew)},
                {"initial_frequency_error", number_json(assume.initial_frequency_error)},
                {"initial_phase_error", number_json(assume.initial_phase_error)},

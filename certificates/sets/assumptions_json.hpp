@@ -6,6 +6,8 @@
 
 namespace veritrack::certificates {
 
+/// A bound, or Gaussian noise.
+[[nodiscard]] Json noise_json(const Number& bound, const std::optional<GaussianNoise>& gaussian);
 [[nodiscard]] Json assume_json(const Assumptions& assume);
 [[nodiscard]] Json require_json(const Requirements& require);
 [[nodiscard]] Json simulate_json(const SimulationSettings& simulate);

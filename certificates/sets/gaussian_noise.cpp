@@ -50,14 +50,15 @@ std::string stretch_of_samples(const Assumptions& assume) {
 
 std::string gaussian_words(const std::string& snr_db, const Interval& unit_deviation) {
   constexpr int kDigits = 3;
-  return fmt::format("{}an SNR of at least {} dB (a deviation of at most {} of the amplitude in each channel)",
-                     kGaussian, snr_db, rigor::lower_decimal(unit_deviation, kDigits));
+  return fmt::format(
+      "{}an SNR of at least {} dB (a deviation of at most {} of the amplitude in each channel)", kGaussian,
+      snr_db, rigor::lower_decimal(unit_deviation, kDigits));
 }
 
 std::string gaussian_words(const GaussianNoise& noise, const Number& amplitude) {
-  return noise.snr_db ? gaussian_words(noise.snr_db->text, deviation_at_unit_amplitude(noise, amplitude))
-                      : fmt::format("{}a deviation of at most {} in each channel", kGaussian,
-                                    noise.deviation->text);
+  return noise.snr_db
+             ? gaussian_words(noise.snr_db->text, deviation_at_unit_amplitude(noise, amplitude))
+             : fmt::format("{}a deviation of at most {} in each channel", kGaussian, noise.deviation->text);
 }
 
 std::string gaussian_disturbance(const Assumptions& assume) {

@@ -9,7 +9,8 @@ namespace veritrack::certificates {
 
 /// The deviation of each channel relative to the amplitude. The noise must be Gaussian. Needs the upward
 /// mode.
-[[nodiscard]] rigor::Interval deviation_at_unit_amplitude(const GaussianNoise& noise, const Number& amplitude);
+[[nodiscard]] rigor::Interval deviation_at_unit_amplitude(const GaussianNoise& noise,
+                                                          const Number& amplitude);
 [[nodiscard]] rigor::Interval deviation_at_unit_amplitude(const Assumptions& assume);
 /// The double nearest to it: for simulations. Needs round-to-nearest.
 [[nodiscard]] double nearest_deviation(const Assumptions& assume);
@@ -21,8 +22,8 @@ namespace veritrack::certificates {
 /// `samples` must be given.
 [[nodiscard]] std::string stretch_of_samples(const Assumptions& assume);
 
-/// ", with Gaussian measurement noise of mean zero, ..., and an SNR of at least 17 dB (...)". Needs the upward
-/// mode.
+/// ", with Gaussian measurement noise of mean zero, ..., and an SNR of at least 17 dB (...)". Needs the
+/// upward mode.
 [[nodiscard]] std::string gaussian_words(const GaussianNoise& noise, const Number& amplitude);
 /// The same of an SNR, in dB, as it is written.
 [[nodiscard]] std::string gaussian_words(const std::string& snr_db, const rigor::Interval& unit_deviation);

@@ -90,7 +90,7 @@ void LengthBound::add_form(const std::vector<BallPolynomial>& vector, const Vect
       const double square = eigenvalue_bound(gram) + 0x1p-36 * norm * norm;
       norm = std::min(norm, bound_on(std::sqrt(bound_on(square))));
     }
-    parts_.push_back({degree_in_x, norm});
+    parts_.push_back({degree_in_x, form > 0, norm});
     const Powers powers = powers_at(place);
     by_phase_ += powers.of_s > 0 ? norm : 0.0;
     by_frequency_ += powers.of_z > 0 ? norm : 0.0;
@@ -105,14 +105,34 @@ bool LengthBound::is_cut_off() const {
   return error_ > at_zero;
 }
 
+double LengthBound::Part::at(double scale) const {
+  double value = norm;
+  for (int i = 0; i < degree_in_x; ++i) {
+    value *= scale;
+  }
+  return value;
+}
+
+double LengthBound::without_noise(double scale) const {
+  double sum = error_;
+  for (const Part& part : parts_) {
+    sum += part.has_noise ? 0.0 : part.at(scale);
+  }
+  return bound_on(sum);
+}
+
+double LengthBound::with_noise(double scale) const {
+  double sum = 0.0;
+  for (const Part& part : parts_) {
+    sum += part.has_noise ? part.at(scale) : 0.0;
+  }
+  return bound_on(sum);
+}
+
 bool LengthBound::is_at_most(double bound, double scale) const {
   double rest = error_;
   for (const Part& part : parts_) {
-    double norm = part.norm;
-    for (int i = 0; i < part.degree_in_x; ++i) {
-      norm *= scale;
-    }
-    rest += norm;
+    rest += part.at(scale);
   }
   const double room = (bound - bound_on(rest)) * (1.0 - 0x1p-34);
   const bool is_sensible = room > 0x1p-400 && room < 0x1p400 && scale > 0x1p-400 && scale <= 0x1p400;

@@ -20,6 +20,11 @@ class LengthBound {
   /// Whether it is more what was cut off, which is less in smaller balls, than what is there at x = 0. Not
   /// evidence.
   [[nodiscard]] bool is_cut_off() const;
+  /// The linear part, and bounds of what is not linear: of the terms without v and of the errors for |x| <=
+  /// scale, and of the terms with v, over |v|. Infinite when nothing is known.
+  [[nodiscard]] const LinearLength& linear() const { return linear_; }
+  [[nodiscard]] double without_noise(double scale) const;
+  [[nodiscard]] double with_noise(double scale) const;
   /// How much of the bound comes from the extent in s, and in z, about. Not evidence.
   [[nodiscard]] double by_phase() const { return by_phase_; }
   [[nodiscard]] double by_frequency() const { return by_frequency_; }
@@ -28,7 +33,9 @@ class LengthBound {
   /// A part that is not linear.
   struct Part {
     int degree_in_x = 0;
+    bool has_noise = false;  ///< of degree 1 or more in v or w
     double norm = 0.0;
+    [[nodiscard]] double at(double scale) const;
   };
   void add_parts(const std::vector<BallPolynomial>& vector, const VectorMonomials& monomials, int degree);
   void add_form(const std::vector<BallPolynomial>& vector, const VectorMonomials& monomials, int degree,

@@ -175,11 +175,8 @@ LinearLength::Shares LinearLength::proposed_shares(double scale) const {
 }
 
 // With p + q + r <= 1, |N x + B v + D w|^2 <= |[N/sqrt p, B/sqrt q, D/sqrt r]|^2 (p |x|^2 + q |v|^2 + r
-// |w|^2). A polynomial of degree two in s and in z is a convex combination of its nine Bernstein
-// coefficients: those of 1, s, s^2 are (1, 1, 1), (-1, 0, 1), (1, -1, 1).
+// |w|^2).
 bool LinearLength::is_bounded(double square, double scale, const Shares& shares) const {
-  constexpr std::array<std::array<double, kSide>, kSide> kBernstein{
-      std::array<double, kSide>{1.0, -1.0, 1.0}, {1.0, 0.0, -1.0}, {1.0, 1.0, 1.0}};
   double sum_of_shares = 0.0;
   bool are_shares = true;
   for (const double share : shares) {
@@ -189,7 +186,14 @@ bool LinearLength::is_bounded(double square, double scale, const Shares& shares)
   if (!are_shares || !(sum_of_shares <= 1.0 + 0x1p-40)) {
     return false;
   }
-  const std::vector<double> factor = factors(shares, scale);
+  return is_bounded(square, factors(shares, scale));
+}
+
+// A polynomial of degree two in s and in z is a convex combination of its nine Bernstein coefficients: those
+// of 1, s, s^2 are (1, 1, 1), (-1, 0, 1), (1, -1, 1).
+bool LinearLength::is_bounded(double bound, const std::vector<double>& factor) const {
+  constexpr std::array<std::array<double, kSide>, kSide> kBernstein{
+      std::array<double, kSide>{1.0, -1.0, 1.0}, {1.0, 0.0, -1.0}, {1.0, 1.0, 1.0}};
   double slack = 0.0;
   for (std::size_t k = 0; k < grams_.size(); ++k) {
     slack += (grams_[k].others + grams_[k].rounding) * factor[k];
@@ -198,7 +202,7 @@ bool LinearLength::is_bounded(double square, double scale, const Shares& shares)
     }
   }
   // The sum of the shares may exceed 1 by so little.
-  const double room = square * (1.0 - 0x1p-34) - bound_on(slack);
+  const double room = bound * (1.0 - 0x1p-34) - bound_on(slack);
   bool all = true;
   for (std::size_t p = 0; p < kSide && all; ++p) {
     for (std::size_t q = 0; q < kSide && all; ++q) {
@@ -216,6 +220,22 @@ bool LinearLength::is_bounded(double square, double scale, const Shares& shares)
   }
   spend(static_cast<std::int64_t>(size_ * size_));
   return all;
+}
+
+bool LinearLength::sum_is_at_most(double bound, double of_x, double of_v) const {
+  if (grams_.empty() || grams_.size() > 2 || !(bound > 0x1p-400 && bound < 0x1p400) || !(of_x >= 0.0) ||
+      !(of_v >= 0.0)) {
+    return false;
+  }
+  return is_bounded(bound, {of_x, of_v});
+}
+
+double LinearLength::near_sum(double of_x, double of_v) const {
+  SymmetricMatrix sum(size_);
+  for (std::size_t k = 0; k < grams_.size(); ++k) {
+    sum.add(grams_[k].terms[0], k == 0 ? of_x : of_v);
+  }
+  return near_largest_eigenvalue(sum);
 }
 
 bool LinearLength::square_is_at_most(double square, double scale) const {

@@ -20,6 +20,10 @@ class LinearLength {
 
   /// True only when its square is at most this for all |x| <= scale, |v| <= 1, |w| <= 1, and all s and z.
   [[nodiscard]] bool square_is_at_most(double square, double scale) const;
+  /// True only when of_x N N' + of_v B B' <= bound I, for all s and z; factors that are not negative.
+  [[nodiscard]] bool sum_is_at_most(double bound, double of_x, double of_v) const;
+  /// The largest eigenvalue of that matrix in the middle, about. Not evidence.
+  [[nodiscard]] double near_sum(double of_x, double of_v) const;
   /// How much of the bound comes from the extent in s, and in z, about. Not evidence.
   [[nodiscard]] double by_phase() const { return by_phase_; }
   [[nodiscard]] double by_frequency() const { return by_frequency_; }
@@ -38,6 +42,9 @@ class LinearLength {
   /// 1/p and so on, times the square of the scale for x.
   [[nodiscard]] std::vector<double> factors(const Shares& shares, double scale) const;
   [[nodiscard]] bool is_bounded(double square, double scale, const Shares& shares) const;
+  /// The sum of the Gram matrices times these factors is at most so much, but for what is taken off for the
+  /// parts that are not kept.
+  [[nodiscard]] bool is_bounded(double bound, const std::vector<double>& factor) const;
   [[nodiscard]] Shares proposed_shares(double scale) const;
 
   std::size_t size_ = 0;

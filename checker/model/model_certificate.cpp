@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "checker/model/gaussian_drift.hpp"
 #include "checker/model/model_claims.hpp"
 
 namespace veritrack::checker {
@@ -12,22 +13,24 @@ namespace {
 constexpr std::size_t kMostStates = 16;
 
 /// The sets that are verified, with a part for each.
-std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const ModelDesign& design,
-                                             const TrackedModel& model, Verification& result) {
+std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedModel& model,
+                                             Verification& result) {
   std::map<std::string, TubeSet> sets;
   std::set<std::string> names;
   for (const Tree& tree : tubes.elements()) {
     Objections objections;
     TubeSet set = read_tube_set(tree, model.recursion->states(), objections);
-    const bool is_known =
-        set.name == "starts" || set.name == "assumed" || set.name == "noise" || set.name == "slew";
+    const bool is_known = set.gaussian ? set.name == "gaussian" || set.name == "lowest-snr"
+                                       : set.name == "starts" || set.name == "assumed" ||
+                                             set.name == "noise" || set.name == "slew";
     if (!is_known || !names.insert(set.name).second) {
       objections.emplace_back(is_known ? "a second set of this name" : kUnknown);
     }
     check_order(set, objections);
     if (objections.empty()) {
-      // It objects itself where it fails.
-      (void)PhaseTubeCheck(model, set, result.cells).is_never_left(objections);
+      // They object themselves where they fail.
+      (void)(set.gaussian ? is_seldom_left(model, set, result.cells, objections)
+                          : PhaseTubeCheck(model, set, result.cells).is_never_left(objections));
     }
     result.parts.push_back({"tubes " + set.name, objections});
     if (objections.empty()) {
@@ -54,7 +57,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
     result.parts.push_back({derivation.at("id").text(), {kUnknown}});
   }
   const TrackedModel model{&recursion, design.amplitude};
-  const std::map<std::string, TubeSet> sets = verified_sets(certificate.at("tubes"), design, model, result);
+  const std::map<std::string, TubeSet> sets = verified_sets(certificate.at("tubes"), model, result);
   const ModelClaims claims(tree, design, model, sets, result.cells);
   const auto check = [&](const Tree& claim, Objections& found) { return claims.check(claim, found); };
   check_claims(certificate, claims.required(), check, result);

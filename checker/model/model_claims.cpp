@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "checker/document/design_number.hpp"
+#include "checker/model/gaussian_drift.hpp"
 #include "checker/numbers/decimal_text.hpp"
 
 namespace veritrack::checker {
@@ -18,6 +20,9 @@ const std::string kRipple = "model/ripple";
 const std::string kGuarantee = "model/guarantee";
 const std::string kLimits = "model/limits";
 const std::string kSteadyState = "model/steady-state";
+const std::string kLosingLock = "model/probability-of-losing-lock";
+const std::string kLock = "model/losing-lock";
+const std::string kLowestSnr = "model/lowest-snr";
 const std::string kRadPerSample = " rad/sample";
 const std::string kSettled = ", without noise, started in the set \"starts\" of the certificate";
 
@@ -62,6 +67,10 @@ std::string ModelClaims::short_text(const std::string& id) const {
     return "a certified invariant set contains frequency errors up to " + design_->radius->text +
            kRadPerSample + " at every phase";
   }
+  if (id == kLosingLock) {
+    return "the probability of losing lock is below " + design_->losing_lock->text + " " +
+           words_.stretch_of_samples();
+  }
   if (id == kBias) {
     return "the mean frequency error is at most " + design_->bias->text + kRadPerSample;
   }
@@ -80,6 +89,7 @@ std::vector<Requirement> ModelClaims::required() const {
   require(design_->largest_noise.has_value(), kLargestNoise);
   require(design_->largest_slew.has_value(), kLargestSlew);
   require(design_->radius.has_value(), kRadius);
+  require(design_->losing_lock.has_value(), kLosingLock);
   require(design_->bias.has_value(), kBias);
   require(design_->ripple.has_value(), kRipple);
   return asked;
@@ -121,6 +131,9 @@ std::string ModelClaims::deciding_name() const {
 }
 
 const TubeSet* ModelClaims::deciding_set(const Part& part) const {
+  if (design_->deviation) {
+    return nullptr;  // nothing holds for ever
+  }
   const TubeSet* set = find("assumed", part);
   if (set == nullptr && !design_->is_noisy() && !sets_->contains("assumed")) {
     set = find("starts", part);
@@ -213,6 +226,65 @@ Claim ModelClaims::long_run(const std::string& id) const {
   return found;
 }
 
+bool ModelClaims::is_seldom_left(const TubeSet* set, const Ball& deviation, const Ball& probability,
+                                 bool strictly) const {
+  if (set == nullptr || !set->gaussian || !certainly_at_most(deviation, Ball(set->gaussian->deviation))) {
+    return false;
+  }
+  const GaussianTerms& terms = *set->gaussian;
+  const auto leaves = [&](const Ball& share) {
+    return leaving_probability(terms, model_->recursion->samples(), design_->samples, share);
+  };
+  const auto is_enough = [&](const Ball& share) {
+    return strictly ? certainly_less(leaves(share), probability)
+                    : certainly_at_most(leaves(share), probability);
+  };
+  if (design_->start_within.empty()) {
+    return is_enough(half);
+  }
+  // How far inside starts have to be, about: what they add is exp(L (share^2 - 1)).
+  const Ball left = (probability - (leaves(zero) - exp(-Ball(terms.exponent)))) * Ball(0.9999);
+  if (!certainly_positive(left)) {
+    return false;
+  }
+  const Ball squared = one + log(left) / Ball(terms.exponent);
+  if (!certainly_positive(squared)) {
+    return false;
+  }
+  const Ball share = min(Ball(sqrt(squared).lower_double()), one);
+  return is_enough(share) && of(*set).contains_starts(design_->start_within, share);
+}
+
+Claim ModelClaims::required_lock() const {
+  Claim found;
+  found.statement = words_.constant_tone() + words_.gaussian_noise() + words_.start_inside("gaussian") +
+                    ", " + short_text(kLosingLock) + ".";
+  found.verdict =
+      proved_if(is_seldom_left(find("gaussian"), *design_->deviation, design_->losing_lock->value, true));
+  return found;
+}
+
+Claim ModelClaims::told_lock(const Tree& claim) const {
+  const bool is_lowest = claim.at("id").text() == kLowestSnr;
+  const std::string name = is_lowest ? "lowest-snr" : "gaussian";
+  const std::string decibels = is_lowest ? claim.at("snr_db").text() : std::string();
+  Claim found;
+  found.is_summary = true;
+  if (!design_->deviation) {
+    return found;
+  }
+  const TubeSet* set = find(name);
+  const Ball deviation =
+      is_lowest ? deviation_at(written(claim, "snr_db")) * design_->amplitude : *design_->deviation;
+  found.statement = words_.constant_tone() + words_.gaussian_noise(decibels) + words_.start_inside(name) +
+                    ", the probability that the tracker loses its lock " + words_.stretch_of_samples() +
+                    ", its frequency error exceeding " + claim.at("frequency_error").text() + kRadPerSample +
+                    " at one of them, is at most " + claim.at("probability").text() + ".";
+  found.verdict = proved_if(is_seldom_left(set, deviation, written(claim, "probability"), false) &&
+                            of(*set).error_is_at_most(first_level, written(claim, "frequency_error")));
+  return found;
+}
+
 Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   const TubeSet* set = deciding_set(part);
   const ModelWords words(*tree_, part);
@@ -271,17 +343,21 @@ Claim ModelClaims::steady_state(const Tree& claim, const Part& part) const {
 Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
   const std::string& id = claim.at("id").text();
   const std::vector<Requirement> asked = required();
-  const bool is_told = id == kGuarantee || id == kLimits || id == kSteadyState;
+  const bool is_told =
+      id == kGuarantee || id == kLimits || id == kSteadyState || id == kLock || id == kLowestSnr;
   const bool is_asked = std::any_of(asked.begin(), asked.end(),
                                     [&](const Requirement& requirement) { return requirement.claim == id; });
   if (!is_told && !is_asked) {
     objections.emplace_back("[require] does not ask for this");
     return {};
   }
-  const Part part = is_told ? part_of(claim, objections) : Part();
+  const bool is_lock = id == kLock || id == kLowestSnr;
+  const Part part = is_told && !is_lock ? part_of(claim, objections) : Part();
   Claim found = id == kGuarantee               ? guarantee(claim, part)
                 : id == kLimits                ? limits(claim, part)
                 : id == kSteadyState           ? steady_state(claim, part)
+                : is_lock                      ? told_lock(claim)
+                : id == kLosingLock            ? required_lock()
                 : id == kErrorBound            ? bound()
                 : id == kSettlingTime          ? settling()
                 : id == kBias || id == kRipple ? long_run(id)

@@ -48,6 +48,12 @@ class ModelClaims {
   [[nodiscard]] Claim settling() const;
   [[nodiscard]] Claim size(const std::string& id) const;
   [[nodiscard]] Claim long_run(const std::string& id) const;
+  /// In Gaussian noise of this deviation the assumed starts leave the set with a probability of at most so
+  /// much, or less than that.
+  [[nodiscard]] bool is_seldom_left(const TubeSet* set, const Ball& deviation, const Ball& probability,
+                                    bool strictly) const;
+  [[nodiscard]] Claim required_lock() const;
+  [[nodiscard]] Claim told_lock(const Tree& claim) const;
   [[nodiscard]] Claim guarantee(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim limits(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim steady_state(const Tree& claim, const Part& part) const;

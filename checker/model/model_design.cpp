@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "checker/document/design_number.hpp"
+#include "checker/numbers/decimal_text.hpp"
 
 namespace veritrack::checker {
 
@@ -53,14 +54,38 @@ void read_start(const Tree& start, ModelRecursion& recursion, ModelDesign& desig
   }
 }
 
+/// A bound, or Gaussian noise by one number, and then for how many samples.
+void read_noise(const Tree& assume, ModelDesign& design, Objections& objections) {
+  const Tree& noise = assume.at("noise");
+  const Tree* decibels = noise.find("snr_db");
+  const Tree* deviation = noise.find("deviation");
+  if (decibels == nullptr && deviation == nullptr) {
+    design.noise = read_not_negative(noise, "noise", objections);
+    return;
+  }
+  if (decibels != nullptr && deviation != nullptr) {
+    objections.emplace_back("noise is given by one number: snr_db or deviation");
+  }
+  design.deviation = decibels != nullptr ? deviation_at(read_number(*decibels, objections)) * design.amplitude
+                                         : read_positive(*deviation, "deviation", objections);
+  if (!certainly_positive(*design.deviation)) {
+    objections.emplace_back("the deviation of the noise is not a positive number");
+  }
+  design.samples = read_positive(assume.at("samples"), "samples", objections);
+  if (!certainly_at_most(one, design.samples)) {
+    objections.emplace_back("samples must be at least 1");
+  }
+}
+
 void read_requirements(const Tree& require, ModelDesign& design, Objections& objections) {
-  const std::array<std::pair<std::string, std::optional<RequiredNumber>*>, 8> keys{
+  const std::array<std::pair<std::string, std::optional<RequiredNumber>*>, 9> keys{
       {{"frequency_error_below", &design.frequency_error_below},
        {"settles_within", &design.settles_within},
        {"settled_below", &design.settled_below},
        {"largest_noise_at_least", &design.largest_noise},
        {"largest_slew_at_least", &design.largest_slew},
        {"frequency_error_radius_at_least", &design.radius},
+       {"probability_of_losing_lock_below", &design.losing_lock},
        {"bias_below", &design.bias},
        {"ripple_below", &design.ripple}}};
   for (const auto& member : require.members()) {
@@ -82,12 +107,16 @@ void read_requirements(const Tree& require, ModelDesign& design, Objections& obj
 
 }  // namespace
 
+Ball deviation_at(const Ball& decibels) {
+  return exp(-(decibels / Ball(20.0)) * log(Ball(10.0))) / sqrt(two);
+}
+
 ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objections& objections) {
   const Tree& assume = tree.at("assume");
   ModelDesign design;
   design.amplitude = read_positive(assume.at("amplitude"), "amplitude", objections);
   read_model_band(assume, design, objections);
-  design.noise = read_not_negative(assume.at("noise"), "noise", objections);
+  read_noise(assume, design, objections);
   design.slew = read_not_negative(assume.at("slew"), "slew", objections);
   if (assume.at("slew_in_hertz_per_second").truth()) {
     const Ball rate = read_positive(assume.at("sample_rate"), "sample_rate", objections);
@@ -100,6 +129,17 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
     read_start(*start, recursion, design, objections);
   }
   read_requirements(tree.at("require"), design, objections);
+  if (design.losing_lock && !design.deviation) {
+    objections.emplace_back("a probability of losing lock is asked for Gaussian noise only");
+  }
+  if (design.deviation && !certainly_equal(design.slew, zero)) {
+    objections.emplace_back("nothing is certified of Gaussian noise with a slew");
+  }
+  const bool asks_for_ever = design.frequency_error_below || design.settles_within || design.largest_noise ||
+                             design.largest_slew || design.radius;
+  if (design.deviation && asks_for_ever) {
+    objections.emplace_back("nothing holds for ever in Gaussian noise");
+  }
   return design;
 }
 
@@ -134,13 +174,43 @@ std::string ModelWords::assumed_noise(bool is_noisy) const {
   return is_noisy ? ", with noise below " + text_of(assume().at("noise")) : ", without noise";
 }
 
+std::string ModelWords::gaussian_noise(const std::string& decibels) const {
+  const std::string text =
+      ", with Gaussian measurement noise of mean zero, independent from sample to sample and from channel to "
+      "channel, and ";
+  const Tree* assumed = assume().at("noise").find("snr_db");
+  if (decibels.empty() && assumed == nullptr) {
+    return text + "a deviation of at most " + text_of(assume().at("noise").at("deviation")) +
+           " in each channel";
+  }
+  const std::string written = decibels.empty() ? text_of(*assumed) : decibels;
+  Objections known;  // the design has been read
+  const Ball unit = deviation_at(decibels.empty() ? read_number(*assumed, known) : from_decimal(decibels));
+  return text + "an SNR of at least " + written + " dB (a deviation of at most " + lower_decimal(unit) +
+         " of the amplitude in each channel)";
+}
+
+std::string ModelWords::stretch_of_samples() const {
+  return "within any " + text_of(assume().at("samples")) + " successive samples, however late";
+}
+
+std::string ModelWords::start_inside(const std::string& set) const {
+  return assume().find("start_within") != nullptr
+             ? start_within(set)
+             : ", started at a level of at most half of that of the set \"" + set + "\" of the certificate";
+}
+
 std::string ModelWords::assumed_start(const std::string& set) const {
   const Tree* start = assume().find("start_within");
   if (start == nullptr) {
     return ", started in the set \"" + set + "\" of the certificate";
   }
+  return start_within(set);
+}
+
+std::string ModelWords::start_within(const std::string& set) const {
   std::string list;
-  for (const Tree& entry : start->elements()) {
+  for (const Tree& entry : assume().at("start_within").elements()) {
     list += (list.empty() ? "" : ", ") + entry.at("name").text() + ": " + entry.at("formula").text();
   }
   return ", started within {" + list + "} of the curve of the set \"" + set +

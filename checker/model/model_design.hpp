@@ -21,17 +21,24 @@ struct RequiredNumber {
 /// In rad/sample and signal units: each number both as the decimal and as the double nearest to it.
 struct ModelDesign {
   Ball amplitude;
-  Ball lowest, highest;            ///< of the frequency
-  Ball band_unit;                  ///< in which the design writes them: Hz, or 1
-  Ball noise;                      ///< bound on the length of the error of a sample, all channels together
+  Ball lowest, highest;  ///< of the frequency
+  Ball band_unit;        ///< in which the design writes them: Hz, or 1
+  Ball noise;            ///< bound on the length of the error of a sample, all channels together
+  /// Gaussian noise in place of that bound: its deviation in each channel, signal units, and for how many
+  /// samples a probability is asked.
+  std::optional<Ball> deviation;
+  Ball samples;
   Ball slew;                       ///< rad/sample per sample
   std::vector<Ball> start_within;  ///< of each state; empty: not given
   std::optional<RequiredNumber> frequency_error_below, settles_within, settled_below, largest_noise,
-      largest_slew, radius, bias, ripple;
+      largest_slew, radius, bias, ripple, losing_lock;
 
   [[nodiscard]] bool is_noisy() const { return !certainly_equal(noise, zero); }
   [[nodiscard]] bool moves() const { return !certainly_equal(slew, zero); }
 };
+
+/// The deviation over the amplitude for this SNR in dB, 10 log10(amplitude^2/(2 deviation^2)).
+Ball deviation_at(const Ball& decibels);
 
 /// Reads the members "assume" and "require" of a design. Objects unless 0 <= lowest <= highest <= 3.142
 /// (pi, as one may write it), the amplitude is positive, and nothing that has to be is negative.
@@ -58,8 +65,15 @@ class ModelWords {
   [[nodiscard]] std::string assumed_tone(bool moves) const;
   [[nodiscard]] std::string assumed_noise(bool is_noisy) const;
   [[nodiscard]] std::string assumed_start(const std::string& set) const;
+  /// The same, for statements that depend on how far inside a start is.
+  [[nodiscard]] std::string start_inside(const std::string& set) const;
+  /// ", with Gaussian measurement noise of mean zero, ...": the assumed noise, or with this SNR in dB.
+  [[nodiscard]] std::string gaussian_noise(const std::string& decibels = {}) const;
+  /// "within any 1e6 successive samples, however late".
+  [[nodiscard]] std::string stretch_of_samples() const;
 
  private:
+  [[nodiscard]] std::string start_within(const std::string& set) const;
   [[nodiscard]] const Tree& assume() const { return design_->at("assume"); }
   [[nodiscard]] std::string tone(const std::string& frequency) const;
   [[nodiscard]] std::string band() const;

@@ -55,18 +55,28 @@ Ball samples_between(const Ball& from, const Ball& to, const Ball& rate) {
 
 }  // namespace
 
-bool PhaseTubeCheck::is_never_left(Objections& objections) const {
-  const ModelRecursion& recursion = *model_->recursion;
+bool has_known_angles(const TrackedModel& model, const TubeSet& set, Objections& objections) {
+  const ModelRecursion& recursion = *model.recursion;
   const std::size_t before = objections.size();
   if (const std::string objection = angle_objection(recursion); !objection.empty()) {
     objections.push_back(objection);
   }
-  for (const PhaseTube& tube : set_->tubes) {
+  for (const PhaseTube& tube : set.tubes) {
     for (std::size_t i = 0; i < recursion.states(); ++i) {
       if (tube.turns.at(i) != 0 && !recursion.is_angle()[i]) {
         objections.emplace_back("the curve turns in a state that is no angle");
       }
     }
+  }
+  return objections.size() == before;
+}
+
+bool PhaseTubeCheck::is_never_left(Objections& objections) const {
+  const ModelRecursion& recursion = *model_->recursion;
+  const std::size_t before = objections.size();
+  (void)has_known_angles(*model_, *set_, objections);
+  if (set_->gaussian) {
+    objections.emplace_back("in Gaussian noise every set is left some time");
   }
   const bool is_noisy = !certainly_equal(Ball(set_->noise), zero);
   const bool moves = !certainly_equal(Ball(set_->slew), zero);

@@ -42,8 +42,8 @@ class PhaseTubeCheck {
   /// The greatest h - omega less the least one over the phase, for every frequency and any states of level
   /// R_m.
   [[nodiscard]] bool error_varies_by_at_most(const Ball& most) const;
-  /// |U^-1 d| <= R_0 for all d with |d_i| <= deviations_i.
-  [[nodiscard]] bool contains_starts(const std::vector<Ball>& deviations) const;
+  /// |U^-1 d| <= share R_0 for all d with |d_i| <= deviations_i.
+  [[nodiscard]] bool contains_starts(const std::vector<Ball>& deviations, const Ball& share = one) const;
 
  private:
   [[nodiscard]] bool error_is_within(const std::function<std::size_t(const PhaseTube&)>& level,
@@ -57,6 +57,9 @@ class PhaseTubeCheck {
   const TubeSet* set_;
   std::int64_t* cells_;
 };
+
+/// Whether angles are known modulo 2 pi, and only angles turn. Objects otherwise.
+bool has_known_angles(const TrackedModel& model, const TubeSet& set, Objections& objections);
 
 /// The number of the last level of a tube: m.
 inline std::size_t last_level(const PhaseTube& tube) {

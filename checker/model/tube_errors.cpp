@@ -119,7 +119,7 @@ bool PhaseTubeCheck::contains_errors(const Ball& reach) const {
   return certain_everywhere(std::vector<FirstGrid>(set_->tubes.size()), ask, *cells_);
 }
 
-bool PhaseTubeCheck::contains_starts(const std::vector<Ball>& deviations) const {
+bool PhaseTubeCheck::contains_starts(const std::vector<Ball>& deviations, const Ball& share) const {
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     if (!certainly_equal(deviations[i], zero)) {
@@ -144,7 +144,7 @@ bool PhaseTubeCheck::contains_starts(const std::vector<Ball>& deviations) const 
         start[moved[k]] = k > 0 && ((corner >> (k - 1)) & 1U) != 0 ? -size : size;
       }
       const std::vector<BallPolynomial> coordinates = over.coordinates(start);
-      certain = certainly_at_most(length_of_vector(coordinates), Ball(tube.levels.front()));
+      certain = certainly_at_most(length_of_vector(coordinates), share * Ball(tube.levels.front()));
       for (const BallPolynomial& coordinate : coordinates) {
         extent.add(coordinate);
       }

@@ -87,12 +87,15 @@ Ball high_end(const PhaseTube& tube) {
   return Ball(tube.frequency) + Ball(tube.half_width);
 }
 
-PhaseTube tube_from(const Tree& cell, std::size_t states, Objections& objections) {
+/// `shrinks`: rates are given.
+PhaseTube tube_from(const Tree& cell, std::size_t states, bool shrinks, Objections& objections) {
   PhaseTube tube;
   tube.frequency = double_from(cell.at("frequency"));
   tube.half_width = double_from(cell.at("half_width"));
   tube.levels = doubles_from(cell.at("levels"));
-  tube.shrinking = doubles_from(cell.at("shrinking"));
+  if (shrinks) {
+    tube.shrinking = doubles_from(cell.at("shrinking"));
+  }
   for (const Tree& turns : cell.at("turns").elements()) {
     tube.turns.push_back(turns.integer());
   }
@@ -110,8 +113,9 @@ PhaseTube tube_from(const Tree& cell, std::size_t states, Objections& objections
   if (!is_falling(tube.levels)) {
     objections.emplace_back("levels fall and are positive");
   }
-  if (!is_shrinking(tube)) {
-    objections.emplace_back("rates of shrinking are for each pair of levels, positive and below 1");
+  if (shrinks ? !is_shrinking(tube) : tube.levels.size() != 1) {
+    objections.emplace_back(shrinks ? "rates of shrinking are for each pair of levels, positive and below 1"
+                                    : "a tube in Gaussian noise has one level");
   }
   constexpr long kMostTurns = 1000;
   if (std::any_of(tube.turns.begin(), tube.turns.end(),
@@ -121,13 +125,34 @@ PhaseTube tube_from(const Tree& cell, std::size_t states, Objections& objections
   return tube;
 }
 
+GaussianTerms terms_from(const Tree& tree, Objections& objections) {
+  GaussianTerms terms;
+  for (const auto& [name, member] :
+       {std::pair("deviation", &GaussianTerms::deviation),
+        std::pair("most_noise", &GaussianTerms::most_noise), std::pair("exponent", &GaussianTerms::exponent),
+        std::pair("factor", &GaussianTerms::factor), std::pair("constant", &GaussianTerms::constant)}) {
+    terms.*member = double_from(tree.at(name));
+    if (!certainly_positive(Ball(terms.*member))) {
+      objections.push_back(std::string("gaussian: ") + name + " must be positive");
+    }
+  }
+  if (!certainly_less(Ball(terms.factor), one)) {
+    objections.emplace_back("gaussian: factor must be below 1");
+  }
+  return terms;
+}
+
 }  // namespace
 
 TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections) {
   TubeSet result;
   result.name = set.at("name").text();
-  result.slew = double_from(set.at("slew"));
-  result.noise = double_from(set.at("noise"));
+  if (const Tree* terms = set.find("gaussian")) {
+    result.gaussian = terms_from(*terms, objections);
+  } else {
+    result.slew = double_from(set.at("slew"));
+    result.noise = double_from(set.at("noise"));
+  }
   if (!certainly_not_negative(Ball(result.slew)) || !certainly_not_negative(Ball(result.noise))) {
     objections.emplace_back("slew and noise must not be negative");
   }
@@ -135,7 +160,7 @@ TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objection
     result.crossing = doubles_from(set.at("crossing"));
   }
   for (const Tree& cell : set.at("cells").elements()) {
-    result.tubes.push_back(tube_from(cell, states, objections));
+    result.tubes.push_back(tube_from(cell, states, !result.gaussian, objections));
   }
   if (result.tubes.empty()) {
     objections.emplace_back("a set without cells");

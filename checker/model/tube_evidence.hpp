@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,12 +29,23 @@ struct PhaseTube {
   std::size_t frequencies = 1;
 };
 
+/// Gaussian noise of a deviation in each sample (signal units), and what is shown of tubes in it
+/// (gaussian_drift.hpp).
+struct GaussianTerms {
+  double deviation = 0.0;
+  double most_noise = 0.0;  ///< V, signal units: longer errors of a sample count as a loss
+  double exponent = 0.0;    ///< L
+  double factor = 0.0;      ///< kappa
+  double constant = 0.0;    ///< c_0
+};
+
 /// Tubes for the frequencies of a band, for so much noise (signal units) and slew (rad/sample per sample).
 struct TubeSet {
   std::string name;
   double slew = 0.0;
   double noise = 0.0;
-  std::vector<double> crossing;  ///< of relative levels at the borders of cells; with slew only
+  std::optional<GaussianTerms> gaussian;  ///< then there is no noise and no slew besides, and one level
+  std::vector<double> crossing;           ///< of relative levels at the borders of cells; with slew only
   std::vector<PhaseTube> tubes;
 };
 

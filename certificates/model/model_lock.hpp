@@ -1,0 +1,47 @@
+// What is certified of a model in Gaussian noise: how probable it is that it loses its lock.
+#pragma once
+
+#include <string>
+
+#include "analysis/model/gaussian_set.hpp"
+#include "certificates/document/certificate.hpp"
+#include "certificates/model/model.hpp"
+#include "certificates/model/model_design.hpp"
+
+namespace veritrack::certificates {
+
+/// A set of tubes for Gaussian noise over the whole band, and what follows from it. Bounds have a thousandth
+/// of room. Infinite where nothing is known.
+struct ModelLock {
+  model::TubeSet tubes;
+  double frequency_error = 0.0;  ///< in the set, at most, rad/sample
+  double start_share = 0.0;      ///< the level of the starts over R, at most
+  double probability = 1.0;      ///< of leaving the set within the assumed samples, at most
+  std::string snr_db;            ///< of the noise, at least, dB: a decimal
+
+  [[nodiscard]] bool is_proved() const { return tubes.is_complete; }
+};
+
+/// Where nothing is said of starts: the level of those that statements are about, over R.
+inline constexpr double kStartShare = 0.5;
+
+/// What a search for a set is given. The members refer to what the caller holds.
+struct LockSearch {
+  const ModelTables* tables = nullptr;
+  const Model* model = nullptr;
+  const model::TrackedTone* tone = nullptr;
+  const model::TrackerModel* tracker = nullptr;
+  double low = 0.0, high = 0.0;  ///< of the frequency, rad/sample
+  search::Deadline deadline;
+};
+
+/// For the assumed noise, or with `lowest_snr` for as much noise as can be proved. Needs the upward rounding
+/// mode.
+[[nodiscard]] ModelLock certify_model_lock(const LockSearch& search, bool lowest_snr,
+                                           const model::SetProgress& progress);
+
+/// What is told of Gaussian noise, and what is required: claims of the certificate of a model.
+void add_lock_claims(Certificate& certificate);
+[[nodiscard]] Claim required_lock_claim(const Certificate& certificate);
+
+}  // namespace veritrack::certificates

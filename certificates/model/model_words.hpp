@@ -1,0 +1,81 @@
+// The hypotheses of sentences about a model.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "certificates/model/band_part.hpp"
+#include "certificates/model/model_design.hpp"
+#include "certificates/sets/guarantee_sentence.hpp"
+
+namespace veritrack::certificates {
+
+/// The words of the hypotheses.
+class ModelWords {
+ public:
+  /// `part`: of the band, to which statements are limited; none for the whole band.
+  explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt)
+      : assume_(&tables.assume), part_(std::move(part)) {}
+
+  [[nodiscard]] std::string unit() const {
+    return assume_->frequency_in_hertz
+               ? fmt::format("Hz at {} samples per second", assume_->sample_rate.value().text)
+               : "rad/sample";
+  }
+  [[nodiscard]] std::string tone_with(const std::string& frequency) const {
+    return fmt::format("{}, on {} of amplitude {} with {}", kExactArithmetic,
+                       assume_->signal.empty() ? "a tone" : "the signal of the design file",
+                       assume_->amplitude.text, frequency);
+  }
+  [[nodiscard]] std::string band() const {
+    if (part_) {
+      return fmt::format("[{}, {}] {} (a part of the assumed band)", part_->from, part_->to, unit());
+    }
+    return fmt::format("[{}, {}] {}", assume_->frequency[0].text, assume_->frequency[1].text, unit());
+  }
+  [[nodiscard]] std::string constant_tone() const { return tone_with("any constant frequency in " + band()); }
+  [[nodiscard]] bool moves() const { return assume_->slew.value.upper() > 0.0; }
+  /// With the assumed slew.
+  [[nodiscard]] std::string assumed_tone() const {
+    return !moves()
+               ? constant_tone()
+               : tone_with(fmt::format(
+                     "a frequency that stays in {} and changes by at most {} {}", band(), assume_->slew.text,
+                     assume_->slew_in_hertz_per_second ? "Hz per second" : "rad/sample per sample"));
+  }
+  [[nodiscard]] std::string noise() const {
+    return assume_->noise.value.upper() > 0.0 ? ", with noise below " + assume_->noise.text
+                                              : ", without noise";
+  }
+  /// The assumed start, in the set of that name.
+  [[nodiscard]] std::string start(const std::string& set) const {
+    if (assume_->start_within.empty()) {
+      return ", started in the set \"" + set + "\" of the certificate";
+    }
+    return start_within(set);
+  }
+  /// The same, for statements that depend on how far inside a start is.
+  [[nodiscard]] std::string start_inside(const std::string& set) const {
+    return assume_->start_within.empty()
+               ? ", started at a level of at most half of that of the set \"" + set + "\" of the certificate"
+               : start_within(set);
+  }
+
+ private:
+  [[nodiscard]] std::string start_within(const std::string& set) const {
+    std::string states;
+    for (const NamedText& entry : assume_->start_within) {
+      states += (states.empty() ? "" : ", ") + entry.name.text + ": " + entry.formula.text;
+    }
+    return ", started within {" + states + "} of the curve of the set \"" + set +
+           "\" of the certificate, the other states on it";
+  }
+
+  const ModelAssumptions* assume_;
+  std::optional<BandPart> part_;
+};
+
+}  // namespace veritrack::certificates

@@ -15,7 +15,7 @@ namespace {
 using rigor::Interval;
 
 /// The levels between which the inequality is verified, relative to R, from the rim to the curve.
-constexpr std::array<double, 9> kShells{1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.375, 0.25, 0.0};
+constexpr std::array<double, 10> kShells{1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.42, 0.34, 0.22, 0.0};
 
 /// What is split by Young's inequality, in floating point; any positive numbers are valid.
 struct DriftSplit {

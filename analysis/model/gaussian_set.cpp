@@ -127,8 +127,12 @@ class RadiusSearch {
   [[nodiscard]] bool may_hold(double radius, double deviation, double factor, double constant) const {
     return may_hold(radius, terms_for(*task_, model_->recursion->samples, deviation, factor, constant));
   }
+  /// A little more than is claimed, so that another program need not be as sharp.
   static DriftQuestion question_of(double radius, const GaussianTerms& terms) {
-    return {radius, terms.deviation, terms.most_noise, terms.exponent, terms.factor, terms.constant};
+    constexpr double kMoreNoise = 1.004;
+    constexpr double kLessConstant = 0.85;
+    return {radius,       kMoreNoise * terms.deviation,  terms.most_noise, terms.exponent,
+            terms.factor, kLessConstant * terms.constant};
   }
 
   const TrackerModel* model_;
@@ -203,8 +207,8 @@ class BandSearch {
 
   /// About the least radius: what is not left is then small.
   [[nodiscard]] bool proves(RadiusSearch& search) const {
-    const double share =
-        std::sqrt(std::log(std::max(2.0, kShareOfStarts * task_->samples * terms_.constant)) / terms_.exponent);
+    const double share = std::sqrt(
+        std::log(std::max(2.0, kShareOfStarts * task_->samples * terms_.constant)) / terms_.exponent);
     const double start = 1.01 * search.start_level() / share;
     for (double radius = std::max(start, 0.35 * search.guess()); radius < 1.6 * search.guess();
          radius *= 1.08) {

@@ -182,7 +182,7 @@ class FileSays {
       } else if (name == "signal") {
         has_signal_ = true;
         list("model.signal", value);
-      } else if (name == "start_within") {
+      } else if (name == "start_within" || (name == "noise" && value.is_table())) {
         members(path, value);
       } else {
         leaf(path, value);

@@ -32,10 +32,10 @@ class Drift {
         twice_variance_(two * square(Ball(terms.deviation) / Ball(terms.most_noise))),
         half_channels_(half * Ball(static_cast<double>(channels))),
         scale_((unit_ * unit_).upper_double()) {
-    // |B|^2, a little more than it is at the middle.
+    // |B|^2 is a little more than at the middle, where it may vanish.
     const double near = step.linear().near_sum(0.0, scale_);
-    for (const double more : {1.02, 1.1, 1.5, 3.0}) {
-      const double tried = more * near + 1e-300;
+    for (const double tried : {1.02 * near, 1.1 * near, 1.3 * near, 2.0 * near, near + 1e-6, near + 1e-5,
+                               near + 1e-4, near + 1e-3, near + 1e-2, near + 0.1, near + 1.0}) {
       if (!gain_ && step.linear().sum_is_at_most(tried, 0.0, scale_)) {
         gain_ = Ball(tried);
       }

@@ -39,6 +39,8 @@ From tests/certificates/model-observer.toml, a recursion of the design file at a
 model-observer    as it is: tubes with levels, with noise and without
 From tests/certificates/model-moving.toml, a loop with an angle, and a frequency that moves:
 model-moving      its tube for what is assumed, in two cells
+From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian noise:
+model-gaussian    its tubes for the assumed noise and for as much as was proved
 """
 import fractions
 import json
@@ -278,6 +280,13 @@ def model_moving(certificate):
                              if claim["id"] not in ("model/limits", "model/steady-state")]
 
 
+def model_gaussian(certificate):
+    """Without what is told of no noise, and of noise with a bound."""
+    certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] in ("gaussian", "lowest-snr")]
+    certificate["claims"] = [claim for claim in certificate["claims"]
+                             if claim["id"] not in ("model/limits", "model/steady-state")]
+
+
 KINDS = {
     "theorem-2.9": without_sets(lambda name: name in ("theorem-2.9/printed", "theorem-2.9/errata")),
     "published": without_sets(is_published),
@@ -304,6 +313,7 @@ KINDS = {
     "steady-set": steady_set,
     "model-observer": lambda certificate: None,
     "model-moving": model_moving,
+    "model-gaussian": model_gaussian,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

@@ -46,7 +46,8 @@ inline constexpr std::array kSubjects{
     Subject{"published", 40},   Subject{"repaired", 40},       Subject{"kkl-observer", 8},
     Subject{"kkl-paper", 12},   Subject{"frozen-filter", 100}, Subject{"phases", 4},
     Subject{"steady-state", 1}, Subject{"steady-set", 3},      Subject{"lock", 3},
-    Subject{"mean-square", 2},  Subject{"model-observer", 3},  Subject{"model-moving", 3}};
+    Subject{"mean-square", 2},  Subject{"model-observer", 3},  Subject{"model-moving", 3},
+    Subject{"model-gaussian", 3}};
 
 /// All values with the keys and indices on the way to them, outermost first.
 inline void collect(const Json& value, const Pointer& at, std::vector<Pointer>& found) {

@@ -13,6 +13,7 @@
 #include "certificates/design/nearest_key.hpp"
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_design.hpp"
+#include "certificates/model/noise_objection.hpp"
 #include "certificates/sets/set_keys.hpp"
 
 namespace veritrack::certificates {
@@ -238,16 +239,6 @@ std::vector<BoundTable> bind_model_tables(std::any& tables) {
           bound_table("require", kModelRequireKeys, target.require)};
 }
 
-/// What goes with a bound of the noise does not go with Gaussian noise, and the other way round.
-std::optional<TableObjection> objection_to_noise(const ModelAssumptions& assume,
-                                                 const Requirements& require) {
-  Assumptions terms;
-  terms.gaussian = assume.gaussian;
-  terms.samples = assume.samples;
-  terms.slew = assume.slew;
-  return objection_to(terms, require);
-}
-
 std::optional<TableObjection> objection_to_model(const std::any& tables) {
   const auto& [model, assume, require] = std::any_cast<const ModelTables&>(tables);
   if ((assume.frequency_in_hertz || assume.slew_in_hertz_per_second) && !assume.sample_rate) {
@@ -260,7 +251,7 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
   if (require.sets.settles_within.has_value() != require.sets.settled_below.has_value()) {
     return TableObjection{"require", "allowed: settles_within and settled_below together, or neither", {}};
   }
-  if (auto objection = objection_to_noise(assume, require.sets)) {
+  if (auto objection = objection_to_noise(assume, require)) {
     return objection;
   }
   try {

@@ -46,6 +46,23 @@ class ModelDocuments(CliTestCase):
         self.assertLessEqual(float(shares[2]), 1.0)
         self.assertNotIn("ALARM", document)
 
+    def test_gaussian_noise_has_a_section_and_a_probability(self):
+        result, document = self.certify((ROOT / "tests" / "certificates" / "model-gaussian.toml").read_text())
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertTrue(document.startswith("# PROVED: the probability of losing lock is below 1e-4 within any 1e4 "
+                                            "successive samples, however late\n"))
+        self.assertIn("## Gaussian noise: the probability of losing lock\n", document)
+        self.assertNotIn("stays at or below", document)
+        certificate, _ = read_documents(self.folder / "out")
+        self.assertEqual([tubes["name"] for tubes in certificate["tubes"] if "gaussian" in tubes],
+                         ["gaussian", "lowest-snr"])
+        lowest = next(claim for claim in certificate["claims"] if claim["id"] == "model/lowest-snr")
+        self.assertLess(float(lowest["snr_db"]), 24.0)
+        rows = re.findall(r"^\| (1e\+0\d) \| ([0-9.e-]+) \|$", document, re.MULTILINE)
+        self.assertEqual([row[0] for row in rows], ["1e+03", "1e+04", "1e+06", "1e+08", "1e+09"][:len(rows)])
+        probabilities = [float(row[1]) for row in rows]
+        self.assertEqual(probabilities, sorted(probabilities))
+
     def test_the_same_bytes_twice(self):
         text = self.text.replace("[0.09, 0.11]", "[0.1, 0.101]")
         _, first = self.certify(text)

@@ -90,7 +90,12 @@ class LevelSearch {
   /// What is tried, as shares of what points allow.
   static constexpr std::array<double, 8> kFactors{0.985, 0.96, 0.93, 0.89, 0.84, 0.77, 0.68, 0.55};
 
-  [[nodiscard]] double level() const { return proposal_->worth.level; }
+  /// The guess, unless errors were larger than the frequency: of a step that is nearly linear.
+  [[nodiscard]] double level() const {
+    const ShapeWorth& worth = proposal_->worth;
+    return worth.reach > proposal_->frequency ? worth.level * proposal_->frequency / worth.reach
+                                              : worth.level;
+  }
 
   [[nodiscard]] bool may_hold(double radius, double noise) const {
     constexpr int kPhases = 24;

@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kMostStates = 16;
 
 /// The sets that are verified, with a part for each.
-std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const ModelDesign& design,
-                                             const TrackedModel& model, Verification& result) {
+std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedModel& model,
+                                             Verification& result) {
   std::map<std::string, TubeSet> sets;
   std::set<std::string> names;
   for (const Tree& tree : tubes.elements()) {
@@ -54,7 +54,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
     result.parts.push_back({derivation.at("id").text(), {kUnknown}});
   }
   const TrackedModel model{&recursion, design.amplitude};
-  const std::map<std::string, TubeSet> sets = verified_sets(certificate.at("tubes"), design, model, result);
+  const std::map<std::string, TubeSet> sets = verified_sets(certificate.at("tubes"), model, result);
   const ModelClaims claims(tree, design, model, sets, result.cells);
   const auto check = [&](const Tree& claim, Objections& found) { return claims.check(claim, found); };
   check_claims(certificate, claims.required(), check, result);

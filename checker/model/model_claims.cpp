@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "checker/document/design_number.hpp"
 #include "checker/numbers/decimal_text.hpp"
 
 namespace veritrack::checker {

@@ -29,17 +29,22 @@ Eigen::VectorXd sizes_on(const TrackedTone& tone, const NodeCurve& curve) {
     auto& size = sizes[static_cast<Eigen::Index>(i)];
     size = curve.turns[i] != 0 ? std::max(size, 1.0) : size;
   }
-  Eigen::VectorXd given = Eigen::VectorXd::Zero(sizes.size());
+  // How much of a next value each state and the samples give at most.
+  const Eigen::Index n = sizes.size();
+  Eigen::MatrixXd shares;
   for (int j = 0; j < kPhases; ++j) {
     const double phase = 2.0 * std::numbers::pi * j / kPhases;
     const Eigen::VectorXd samples = samples_of(tone.signal, tone.amplitude, phase + curve.frequency);
     const Eigen::MatrixXd jacobian = tone.step.jacobian(state_at(curve, phase), samples).cwiseAbs();
-    given =
-        given.cwiseMax(jacobian.leftCols(sizes.size()) * sizes +
-                       tone.amplitude * jacobian.rightCols(jacobian.cols() - sizes.size()).rowwise().sum());
+    shares = shares.size() == 0 ? jacobian : shares.cwiseMax(jacobian);
   }
-  for (Eigen::Index i = 0; i < sizes.size(); ++i) {
-    sizes[i] = sizes[i] < kNothing * given[i] ? given[i] : sizes[i];
+  // Such a state may be what gives another one its size: a delayed one.
+  for (Eigen::Index round = 0; round < n; ++round) {
+    const Eigen::VectorXd given =
+        shares.leftCols(n) * sizes + tone.amplitude * shares.rightCols(shares.cols() - n).rowwise().sum();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      sizes[i] = sizes[i] < kNothing * given[i] ? given[i] : sizes[i];
+    }
   }
   return sizes.cwiseMax(1e-12 * std::max(1.0, sizes.maxCoeff()));
 }

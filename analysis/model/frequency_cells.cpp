@@ -40,14 +40,16 @@ class Division {
       const bool is_proposed = proposal.outcome == TubeOutcome::proposed;
       // Where the tracker does not settle, narrow cells show no more than wide ones.
       const bool settles = proposal.outcome != TubeOutcome::no_steady_state;
-      const double least = settles ? narrowest_ : std::max(narrowest_, coarse_);
-      const double narrowest = std::ldexp(least, std::min(failures_, kMostDoublings));
+      // Far from the last tube, cells need not be as narrow as where tubes end.
+      constexpr double kShare = 1.0 / 6.0;
+      const double narrowest =
+          std::max({narrowest_, settles ? 0.0 : coarse_, kShare * (from - failing_from_.value_or(from))});
       if (!is_proposed && to - from > 2.0 * narrowest) {
         waiting.emplace_back(middle, to);
         waiting.emplace_back(from, middle);
         continue;
       }
-      failures_ = is_proposed ? 0 : failures_ + 1;
+      failing_from_ = is_proposed ? std::nullopt : std::optional(failing_from_.value_or(from));
       if (is_proposed && !(settings_->one_shape && nearby_)) {
         nearby_ = proposal.shape.parameters;
       }
@@ -68,11 +70,10 @@ class Division {
 
   const TrackedTone* tone_;
   const BandSettings* settings_;
-  static constexpr int kMostDoublings = 20;
 
   double narrowest_;
-  double coarse_;     ///< for cells where the tracker does not settle
-  int failures_ = 0;  ///< since the last cell with a tube
+  double coarse_;                       ///< for cells where the tracker does not settle
+  std::optional<double> failing_from_;  ///< where the cells without a tube begin that were the last ones
   std::optional<ShapeParameters> nearby_;
   std::vector<TubeProposal> cells_;
 };

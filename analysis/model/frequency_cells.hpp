@@ -31,8 +31,8 @@ struct BandProposal {
   bool is_complete = false;  ///< all cells are proposed, and there is one
 };
 
-/// Halves cells until each has a tube or is too narrow to be divided: where neighbours have failed, the width
-/// that is too narrow doubles with each, so that a part of the band without tubes is passed in a few steps.
+/// Halves cells until each has a tube or is too narrow to be divided. What is too narrow grows with the
+/// distance from the last tube, so that a part of the band without tubes is passed in a few steps.
 /// Deterministic up to the deadline; holds round-to-nearest. Throws std::invalid_argument unless
 /// 0 < low < high < pi.
 [[nodiscard]] BandProposal propose_band(const TrackedTone& tone, double low, double high,

@@ -80,13 +80,17 @@ class RadiusSearch {
   [[nodiscard]] std::pair<double, double> largest_deviation(double factor, double constant) const {
     double best = 0.0;
     double best_radius = 0.0;
-    for (const double share : {1.0, 0.75, 0.55, 1.3}) {
+    for (const double share : {1.0, 0.75, 0.55, 1.3, 0.3}) {
       const double radius = share * proposal_->worth.level;
-      double deviation = std::max(1.02 * best, 0.3 * proposal_->worth.noise);
-      if (!may_hold(radius, deviation, factor, constant)) {
+      double deviation = 0.0;
+      for (const double guess : {0.6, 0.2, 0.05}) {
+        const double tried = std::max(1.02 * best, guess * proposal_->worth.noise);
+        deviation = deviation == 0.0 && may_hold(radius, tried, factor, constant) ? tried : deviation;
+      }
+      if (deviation == 0.0) {
         continue;
       }
-      for (double step = 1.4; step > 1.01; step = std::sqrt(step)) {
+      for (double step = 1.4; step > 1.02; step = std::sqrt(step)) {
         while (may_hold(radius, deviation * step, factor, constant)) {
           deviation *= step;
         }

@@ -26,13 +26,18 @@ std::string at_frequency(const SteadyState& steady) {
   return ", at " + digits(steady.frequency, 6) + " rad/sample";
 }
 
-/// The states in which a mode mainly is, by their numbers.
-std::string states_in(const Eigen::VectorXd& mode) {
+std::string name_of(const SteadyState& steady, Eigen::Index state) {
+  const auto number = static_cast<std::size_t>(state);
+  return number < steady.names.size() ? steady.names[number] : "state " + std::to_string(state);
+}
+
+/// The states in which a mode mainly is.
+std::string states_in(const SteadyState& steady) {
   constexpr double kShare = 0.1;
   std::string text;
-  for (Eigen::Index i = 0; i < mode.size(); ++i) {
-    if (std::fabs(mode[i]) >= kShare) {
-      text += (text.empty() ? "" : ", ") + digits(mode[i], 2) + " of state " + std::to_string(i);
+  for (Eigen::Index i = 0; i < steady.mode.size(); ++i) {
+    if (std::fabs(steady.mode[i]) >= kShare) {
+      text += (text.empty() ? "" : ", ") + digits(steady.mode[i], 2) + " of " + name_of(steady, i);
     }
   }
   return text;
@@ -48,8 +53,8 @@ std::string reason_of(const SteadyState& steady) {
       return "no steady state: the simulation diverges or is undefined within " +
              std::to_string(steady.samples) + " samples" + at_frequency(steady);
     case SteadyStateOutcome::still_drifts:
-      return "no steady state: after " + std::to_string(steady.samples) + " samples state " +
-             std::to_string(steady.slowest_state) + " at phase 0 still moves by " +
+      return "no steady state: after " + std::to_string(steady.samples) + " samples " +
+             name_of(steady, steady.slowest_state) + " at phase 0 still moves by " +
              digits(std::fabs(steady.drift[steady.slowest_state]), 3) + " in " +
              std::to_string(steady.period) + " samples" + at_frequency(steady);
     case SteadyStateOutcome::repeats_later:
@@ -60,7 +65,7 @@ std::string reason_of(const SteadyState& steady) {
              digits(steady.frequency, 6) + ": it has locked to something else";
     case SteadyStateOutcome::not_exponentially_stable:
       return "not exponentially stable: each sample multiplies errors by " + digits(steady.rate, 7) +
-             at_frequency(steady) + ", in the mode " + states_in(steady.mode);
+             at_frequency(steady) + ", in the mode " + states_in(steady);
   }
   return "";
 }

@@ -71,6 +71,7 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
   constexpr double kHuge = 1e9;
   constexpr int kLongestRepetition = 8;
   SteadyState result;
+  result.names = tone.names;
   if (!(frequency > 0.0 && frequency < std::numbers::pi)) {
     throw std::invalid_argument("a steady state belongs to a frequency between 0 and pi");
   }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "analysis/model/step_derivatives.hpp"
@@ -19,6 +20,7 @@ struct TrackedTone {
   Signal signal;
   double amplitude = 1.0;
   StartState start;
+  std::vector<std::string> names = {};  ///< of the states, for messages; or empty
 };
 
 enum class SteadyStateOutcome {
@@ -44,6 +46,7 @@ struct SteadyStateSettings {
 /// The simulation uses a frequency 2 pi p/q next to the one asked for, so that phases return exactly.
 struct SteadyState {
   SteadyStateOutcome outcome = SteadyStateOutcome::diverges;
+  std::vector<std::string> names;  ///< of the states; or empty
   double asked_frequency = 0.0;
   double frequency = 0.0;  ///< 2 pi p/q, rad/sample
   int period = 0;          ///< q, samples

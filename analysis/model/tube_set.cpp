@@ -63,12 +63,10 @@ class LevelSearch {
   [[nodiscard]] std::optional<std::pair<ProvedTube, double>> with_largest_noise(double most) {
     double best_noise = 0.0;
     double best_radius = 0.0;
-    for (const double factor : {1.0, 0.8, 0.65, 0.5, 1.25}) {
-      const double radius = factor * level();
-      // As a share of the guess: to be larger than the best so far.
-      double noise = std::min(most, std::max(best_noise * 1.02, 0.05 * proposal_->worth.noise));
-      if (!(noise > 0.0) || !may_hold(radius, noise)) {
-        continue;
+    // From `noise` up, as much as points allow.
+    const auto improve = [&](double radius, double noise) {
+      if (!(noise > 0.0) || !may_hold(radius, noise) || !is_locked(*model_, proved_.tube, radius)) {
+        return;
       }
       for (double step = 1.6; step > 1.01; step = std::sqrt(step)) {
         while (noise * step <= most && may_hold(radius, noise * step)) {
@@ -77,6 +75,15 @@ class LevelSearch {
       }
       best_noise = noise;
       best_radius = radius;
+    };
+    for (const double factor : {1.0, 0.8, 0.65, 0.5, 1.25}) {
+      // As a share of the guess: to be larger than the best so far.
+      improve(factor * level(), std::min(most, std::max(best_noise * 1.02, 0.05 * proposal_->worth.noise)));
+    }
+    // Where the guess was far too large.
+    const double guess = proposal_->worth.noise * level() / proposal_->worth.level;
+    for (double factor = 0.35; factor > 0.02 && !(best_noise > 0.0); factor *= 0.7) {
+      improve(factor * level(), std::min(most, 0.05 * factor * guess));
     }
     for (const double factor : kFactors) {
       if (best_noise > 0.0 && proves(best_radius, factor * best_noise)) {
@@ -90,7 +97,12 @@ class LevelSearch {
   /// What is tried, as shares of what points allow.
   static constexpr std::array<double, 8> kFactors{0.985, 0.96, 0.93, 0.89, 0.84, 0.77, 0.68, 0.55};
 
-  [[nodiscard]] double level() const { return proposal_->worth.level; }
+  /// The guess, unless errors were larger than the frequency: of a step that is nearly linear.
+  [[nodiscard]] double level() const {
+    const ShapeWorth& worth = proposal_->worth;
+    return worth.reach > proposal_->frequency ? worth.level * proposal_->frequency / worth.reach
+                                              : worth.level;
+  }
 
   [[nodiscard]] bool may_hold(double radius, double noise) const {
     constexpr int kPhases = 24;

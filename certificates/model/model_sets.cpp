@@ -187,7 +187,8 @@ model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& ass
     program.run(std::span<const double>(inputs), registers, std::span(state));
     return state;
   };
-  return {model::StepMap(model.recursion, constants), spectrum_of(model, amplitude), amplitude, start};
+  return {model::StepMap(model.recursion, constants), spectrum_of(model, amplitude), amplitude, start,
+          model.states};
 }
 
 Interval band_of(const ModelAssumptions& assume) {

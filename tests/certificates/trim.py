@@ -37,6 +37,7 @@ From tests/certificates/steady-set.toml, the quadrature tracker with a leak in a
 steady-set        the contraction with two levels, and the set for the largest noise
 From tests/certificates/model-observer.toml, a recursion of the design file at almost one frequency:
 model-observer    as it is: tubes with levels, with noise and without
+model-part        the same sets, which are a part of a wider band
 From tests/certificates/model-moving.toml, a loop with an angle, and a frequency that moves:
 model-moving      its tube for what is assumed, in two cells
 From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian noise:
@@ -273,6 +274,15 @@ def lowest_snr(certificate):
     certificate["lowest_snr_set"] = certificate.pop("lock_sets")[0]
 
 
+def model_part(certificate):
+    """What is required is required of the wider band, and not decided."""
+    certificate["design"]["assume"]["frequency"] = [number("0.05"), number("0.1005")]
+    certificate["claims"] = [claim for claim in certificate["claims"] if not claim["required"]]
+    for claim in certificate["claims"]:
+        claim.update({"from": "0.0995", "to": "0.1005"})
+    certificate["verdict"] = "undecided"
+
+
 def model_moving(certificate):
     """Without what is told of a frequency that does not move."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
@@ -312,6 +322,7 @@ KINDS = {
     "phases": phases,
     "steady-set": steady_set,
     "model-observer": lambda certificate: None,
+    "model-part": model_part,
     "model-moving": model_moving,
     "model-gaussian": model_gaussian,
 }

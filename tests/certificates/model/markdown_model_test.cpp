@@ -66,7 +66,7 @@ TEST_CASE("the part of the band that was proved is named, rounded inward") {
   sets.starts.tubes.tubes = {tube_at(0.25, 0.125), tube_at(0.5, 0.1875), tube_at(1.0, 0.1 + 1e-12)};
   model::keep_widest_part(sets.starts.tubes, 0.125, 1.1);
   const std::string text = model_sections(with_sets(sets), kFigures);
-  CHECK(text.find("| large starts, over [0.125, 0.6875] rad/sample only |") != std::string::npos);
+  CHECK(text.find("| large starts, over [0.3, 0.32] rad/sample only |") != std::string::npos);
   CHECK(text.find("Frequencies with a proved tube: [0.125, 0.6875], [0.9, 1.1] rad/sample.") !=
         std::string::npos);
   sets.objection = "the assumed frequencies are no band";

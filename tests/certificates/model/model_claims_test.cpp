@@ -146,11 +146,11 @@ TEST_CASE("what is not known, or not enough, is not proved") {
   CHECK(verdict(sets, "model/largest-noise") == Verdict::undecided);
 }
 
-/// Proved from 0.3 to 0.31 rad/sample only.
-void limit(ModelSet& set, double low = 0.3, double high = 0.31) {
+/// Proved from 0.3 to 0.3125 rad/sample only.
+void limit(ModelSet& set, double low = 0.3, double high = 0.3125) {
   set.tubes.is_complete = false;
   set.tubes.part = {low, high};
-  set.tubes.reasons = {"no radius was proved between 0.31 and 0.32 rad/sample"};
+  set.tubes.reasons = {"no radius was proved between 0.3125 and 0.32 rad/sample"};
 }
 
 TEST_CASE("a part of the band has claims of its own, and what is required stays undecided") {
@@ -165,7 +165,7 @@ TEST_CASE("a part of the band has claims of its own, and what is required stays 
   CHECK_FALSE(guarantee->required);
   CHECK(
       guarantee->statement.starts_with("In exact arithmetic, on a tone of amplitude 1 with any constant "
-                                       "frequency in [0.3, 0.31] rad/sample (a part "
+                                       "frequency in [0.3, 0.3125] rad/sample (a part "
                                        "of the assumed band), with noise below 0.02, started"));
   const auto value = [](const Claim* claim, const std::string& name) {
     REQUIRE(claim != nullptr);
@@ -174,7 +174,7 @@ TEST_CASE("a part of the band has claims of its own, and what is required stays 
     return found != claim->values.end() ? found->second : std::string();
   };
   CHECK(value(guarantee, "from") == "0.3");
-  CHECK(value(guarantee, "to") == "0.31");
+  CHECK(value(guarantee, "to") == "0.3125");
   CHECK(value(find(certificate, "model/steady-state"), "to") == "0.312345");
   // Where both sets are proved.
   CHECK(value(find(certificate, "model/limits"), "from") == "0.301");
@@ -186,10 +186,10 @@ TEST_CASE("a part of the band has claims of its own, and what is required stays 
     REQUIRE(claim != nullptr);
     CHECK(claim->verdict == Verdict::undecided);
     CHECK(claim->statement.find("in [0.3, 0.32] rad/sample, ") != std::string::npos);
-    CHECK(claim->reason.find(" rad/sample only: no radius was proved between 0.31 and 0.32 rad/sample.") !=
+    CHECK(claim->reason.find(" rad/sample only: no radius was proved between 0.3125 and 0.32 rad/sample.") !=
           std::string::npos);
   }
-  CHECK(find(certificate, "model/frequency-error-bound")->reason.starts_with("Proved over 0.3 to 0.31 "));
+  CHECK(find(certificate, "model/frequency-error-bound")->reason.starts_with("Proved over 0.3 to 0.3125 "));
   CHECK(find(certificate, "model/bias")->reason.starts_with("Proved over 0.3 to 0.312345 "));
   CHECK(certificate.verdict == Verdict::undecided);
 }
@@ -220,7 +220,7 @@ TEST_CASE("a part that is empty, or in which too little is proved, has no claims
   sets.assumed->frequency_error = 0.03;  // more than is required
   const Certificate certificate = certificate_of(sets, text_of(kRequired));
   CHECK(find(certificate, "model/frequency-error-bound")
-            ->reason.starts_with("A set of tubes was proved over 0.3 to 0.31 rad/sample only: "));
+            ->reason.starts_with("A set of tubes was proved over 0.3 to 0.3125 rad/sample only: "));
 }
 
 TEST_CASE("a band is searched as far as it can be reached") {

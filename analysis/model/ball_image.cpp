@@ -15,10 +15,10 @@ namespace {
 
 using rigor::Interval;
 
-constexpr std::size_t kSmall = SlopeMatrix::kMost;
+constexpr std::size_t kDimensions = SlopeMatrix::kMost;
 constexpr double kUnknownLength = std::numeric_limits<double>::quiet_NaN();
 
-using SmallDoubles = Eigen::Matrix<double, static_cast<int>(kSmall), static_cast<int>(kSmall)>;
+using SmallDoubles = Eigen::Matrix<double, static_cast<int>(kDimensions), static_cast<int>(kDimensions)>;
 
 /// The constant parts of the entries.
 SmallDoubles constants_of(const SlopeMatrix& a) {
@@ -32,7 +32,7 @@ SmallDoubles constants_of(const SlopeMatrix& a) {
 }
 
 /// The lower triangle of a symmetric matrix of polynomials.
-using GramMatrix = std::array<std::array<SlopeModel, kSmall>, kSmall>;
+using GramMatrix = std::array<std::array<SlopeModel, kDimensions>, kDimensions>;
 
 /// sum += factor A A'.
 void add_gram(GramMatrix& sum, const SlopeMatrix& a, const Interval& factor) {
@@ -49,12 +49,12 @@ void add_gram(GramMatrix& sum, const SlopeMatrix& a, const Interval& factor) {
 }
 
 /// An upper bound of the norm of a symmetric matrix with |entries| at most these: the lesser one of two.
-Interval symmetric_norm(const rigor::LowerTriangle<kSmall>& sizes) {
+Interval symmetric_norm(const rigor::LowerTriangle<kDimensions>& sizes) {
   Interval squares(0.0);
   Interval most(0.0);
-  for (std::size_t i = 0; i < kSmall; ++i) {
+  for (std::size_t i = 0; i < kDimensions; ++i) {
     Interval row(0.0);
-    for (std::size_t j = 0; j < kSmall; ++j) {
+    for (std::size_t j = 0; j < kDimensions; ++j) {
       const Interval& entry = j <= i ? sizes[i][j] : sizes[j][i];
       squares += square(entry);
       row += entry;
@@ -67,9 +67,9 @@ Interval symmetric_norm(const rigor::LowerTriangle<kSmall>& sizes) {
 /// An upper bound of what all but the constant part contributes to the largest eigenvalue.
 Interval varying_part(const GramMatrix& gram) {
   Interval sum(0.0);
-  rigor::LowerTriangle<kSmall> sizes;
+  rigor::LowerTriangle<kDimensions> sizes;
   for (std::size_t term = 1; term <= SlopeModel::kTerms; ++term) {
-    for (std::size_t i = 0; i < kSmall; ++i) {
+    for (std::size_t i = 0; i < kDimensions; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         // Last of all the remainders.
         sizes[i][j] = Interval(term < SlopeModel::kTerms ? std::fabs(gram[i][j].coefficients()[term])
@@ -81,9 +81,9 @@ Interval varying_part(const GramMatrix& gram) {
   return sum;
 }
 
-rigor::LowerTriangle<kSmall> constant_part(const GramMatrix& gram) {
-  rigor::LowerTriangle<kSmall> constants;
-  for (std::size_t i = 0; i < kSmall; ++i) {
+rigor::LowerTriangle<kDimensions> constant_part(const GramMatrix& gram) {
+  rigor::LowerTriangle<kDimensions> constants;
+  for (std::size_t i = 0; i < kDimensions; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       constants[i][j] = Interval(gram[i][j].constant());
     }
@@ -92,14 +92,14 @@ rigor::LowerTriangle<kSmall> constant_part(const GramMatrix& gram) {
 }
 
 /// A verified upper bound of the largest eigenvalue.
-double largest_eigenvalue(const rigor::LowerTriangle<kSmall>& matrix, double guess) {
+double largest_eigenvalue(const rigor::LowerTriangle<kDimensions>& matrix, double guess) {
   for (const double factor : {1.0 + 1e-9, 1.0 + 1e-6, 1.0 + 1e-3}) {
     const double bound = guess * factor;
     if (!(bound > 0.0) || !std::isfinite(bound)) {
       break;
     }
-    rigor::LowerTriangle<kSmall> rest = matrix;
-    for (std::size_t i = 0; i < kSmall; ++i) {
+    rigor::LowerTriangle<kDimensions> rest = matrix;
+    for (std::size_t i = 0; i < kDimensions; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         rest[i][j] = i == j ? Interval(bound) - matrix[i][j] : -matrix[i][j];
       }
@@ -108,8 +108,8 @@ double largest_eigenvalue(const rigor::LowerTriangle<kSmall>& matrix, double gue
       return bound;
     }
   }
-  rigor::LowerTriangle<kSmall> sizes = matrix;
-  for (std::size_t i = 0; i < kSmall; ++i) {
+  rigor::LowerTriangle<kDimensions> sizes = matrix;
+  for (std::size_t i = 0; i < kDimensions; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       sizes[i][j] = abs(matrix[i][j]);
     }
@@ -132,7 +132,7 @@ SplitGuess split_guess(const SmallDoubles& a, double radius, const SmallDoubles&
     const SmallDoubles alone = radius > 0.0 ? of_a : of_b;
     guess.t = radius > 0.0 ? 1.0 : 0.0;
     guess.eigenvalue = Eigen::SelfAdjointEigenSolver<SmallDoubles>(alone, Eigen::EigenvaluesOnly)
-                           .eigenvalues()[static_cast<Eigen::Index>(kSmall) - 1];
+                           .eigenvalues()[static_cast<Eigen::Index>(kDimensions) - 1];
     return guess;
   }
   guess.eigenvalue = std::numeric_limits<double>::infinity();
@@ -140,12 +140,12 @@ SplitGuess split_guess(const SmallDoubles& a, double radius, const SmallDoubles&
   constexpr int kRounds = 6;
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::SelfAdjointEigenSolver<SmallDoubles> solver(of_a / t + of_b / (1.0 - t));
-    const double eigenvalue = solver.eigenvalues()[static_cast<Eigen::Index>(kSmall) - 1];
+    const double eigenvalue = solver.eigenvalues()[static_cast<Eigen::Index>(kDimensions) - 1];
     if (eigenvalue < guess.eigenvalue) {
       guess = {eigenvalue, t};
     }
     // For a fixed direction p the best t is |A'p|/(|A'p| + |B'p|).
-    const auto p = solver.eigenvectors().col(static_cast<Eigen::Index>(kSmall) - 1);
+    const auto p = solver.eigenvectors().col(static_cast<Eigen::Index>(kDimensions) - 1);
     const double along_a = std::sqrt(std::max(p.dot(of_a * p), 0.0));
     const double along_b = std::sqrt(std::max(p.dot(of_b * p), 0.0));
     const double best = along_a / (along_a + along_b);

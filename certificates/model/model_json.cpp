@@ -64,6 +64,22 @@ Json hexadecimals(const std::vector<double>& numbers) {
   return list;
 }
 
+Json set_json(const model::TubeSet& set) {
+  Json json{{"name", set.name},
+            {"slew", rigor::to_hexadecimal(set.slew)},
+            {"noise", rigor::to_hexadecimal(set.noise)},
+            {"cells", Json::array()}};
+  if (set.slew > 0.0) {
+    json["crossing"] = hexadecimals(set.crossing);
+  }
+  for (const model::ProvedTube& proved : set.tubes) {
+    json["cells"].push_back(tube_json(proved));
+  }
+  return json;
+}
+
+}  // namespace
+
 Json tube_json(const model::ProvedTube& proved) {
   const model::Tube& tube = proved.tube;
   Json json{{"frequency", rigor::to_hexadecimal(tube.frequency)},
@@ -83,22 +99,6 @@ Json tube_json(const model::ProvedTube& proved) {
   }
   return json;
 }
-
-Json set_json(const model::TubeSet& set) {
-  Json json{{"name", set.name},
-            {"slew", rigor::to_hexadecimal(set.slew)},
-            {"noise", rigor::to_hexadecimal(set.noise)},
-            {"cells", Json::array()}};
-  if (set.slew > 0.0) {
-    json["crossing"] = hexadecimals(set.crossing);
-  }
-  for (const model::ProvedTube& proved : set.tubes) {
-    json["cells"].push_back(tube_json(proved));
-  }
-  return json;
-}
-
-}  // namespace
 
 Json model_design_json(const Design& design) {
   const auto& [model, assume, require] = model_tables(design);

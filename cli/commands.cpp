@@ -12,6 +12,7 @@
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/design/input_error.hpp"
+#include "certificates/design/request_error.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/coq_document.hpp"
 #include "certificates/document/markdown.hpp"
@@ -197,16 +198,23 @@ ExitStatus run_map(const MapOptions& options) {
       by_name ? default_folder("maps-out", options.design) : std::filesystem::path(options.directory);
   const reports::MapResult result = [&] {
     const ProgressLine line(options.quiet);
-    return reports::write_map(design, options.request, directory, std::cref(line));
+    try {
+      return reports::write_map(design, options.request, directory, std::cref(line));
+    } catch (const certificates::RequestError& error) {
+      const auto position = design.positions.find(error.key());
+      throw certificates::InputError(
+          options.design, position != design.positions.end() ? position->second : certificates::Position{},
+          error.what());
+    }
   }();
-  if (!result.picture) {
+  if (!result.file) {
     fmt::print("{}: undecided: {}\n", options.design, result.sentence);
     return not_proved;
   }
   if (by_name) {
     mark_folder(directory, options.design);
   }
-  fmt::print("{}: {}\n", result.picture->string(), result.sentence);
+  fmt::print("{}: {}\n", result.file->string(), result.sentence);
   return all_proved;
 }
 

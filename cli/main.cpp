@@ -85,20 +85,34 @@ int run(int argc, char** argv) {
   check->add_flag("--strict", check_options.strict, "a design that requires nothing is 1, not 0");
 
   MapOptions map_options;
-  CLI::App* map =
-      app.add_subcommand("map", "draw the proved region of attraction over start frequency and phase error");
-  map->add_option("DESIGN", map_options.design, "design file (TOML), without leak")->required();
+  CLI::App* map = app.add_subcommand("map", "draw the proved region of attraction: which starts lock");
+  map->add_option(
+         "DESIGN", map_options.design,
+         "design file (TOML), tracker quadrature-ekf without leak, or model with at most four states")
+      ->required();
   map->add_option("--out", map_options.directory,
                   "folder for the map (default: maps-out/<name of the design file>)");
   map->add_option("--frequency", map_options.request.frequency_error,
-                  "largest start frequency error, rad/sample")
-      ->check(CLI::Range(1e-6, 4.0))
-      ->capture_default_str();
-  map->add_option("--phase", map_options.request.phase_error, "largest start phase error, rad")
-      ->check(CLI::Range(1e-6, 3.1))
-      ->capture_default_str();
+                  "quadrature-ekf: largest start frequency error, rad/sample (default 1)")
+      ->check(CLI::Range(1e-6, 4.0));
+  map->add_option("--phase", map_options.request.phase_error,
+                  "quadrature-ekf: largest start phase error, rad (default 1.5)")
+      ->check(CLI::Range(1e-6, 3.1));
+  map->add_option("--at", map_options.request.at,
+                  "model: frequency of the signal, rad/sample (default: the middle of the assumed band)");
+  map->add_option("--x", map_options.request.x,
+                  "model: a state that deviates at the start (default: an angle, or the first one)");
+  map->add_option("--y", map_options.request.y,
+                  "model: another one (default: the state that the frequency is read from)");
+  map->add_option("--x-range", map_options.request.x_range,
+                  "model: by how much at most (default: ten times what the certified set allows)")
+      ->check(CLI::Range(1e-300, 1e300));
+  map->add_option("--y-range", map_options.request.y_range, "model: likewise")
+      ->check(CLI::Range(1e-300, 1e300));
+  map->add_option("--cells", map_options.request.cells, "model: cells in each direction (default 21)")
+      ->check(CLI::Range(1, 200));
   map->add_flag("--noise", map_options.request.with_noise,
-                "with the noise and slew of [assume]; otherwise without any");
+                "with the noise of [assume], for quadrature-ekf with its slew, too; otherwise without any");
 
   ShowOptions show_options;
   CLI::App* show = app.add_subcommand(

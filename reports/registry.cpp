@@ -6,6 +6,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "certificates/design/request_error.hpp"
 #include "reports/kkl_observer/kkl_observer_reports.hpp"
 #include "reports/model/model_reports.hpp"
 #include "reports/quadrature/quadrature_reports.hpp"
@@ -22,6 +23,25 @@ const TrackerReports* reports_of(std::string_view tracker) {
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const TrackerReports* each) { return each->tracker == tracker; });
   return found != all.end() ? *found : nullptr;
+}
+
+/// The options that are given, as the command line calls them.
+std::vector<std::string_view> given_options(const MapRequest& request) {
+  std::vector<std::string_view> given;
+  const auto add = [&](bool is_given, std::string_view option) {
+    if (is_given) {
+      given.push_back(option);
+    }
+  };
+  add(request.frequency_error.has_value(), "--frequency");
+  add(request.phase_error.has_value(), "--phase");
+  add(request.at.has_value(), "--at");
+  add(request.x.has_value(), "--x");
+  add(request.y.has_value(), "--y");
+  add(request.x_range.has_value(), "--x-range");
+  add(request.y_range.has_value(), "--y-range");
+  add(request.cells.has_value(), "--cells");
+  return given;
 }
 
 }  // namespace
@@ -58,7 +78,17 @@ MapResult write_map(const certificates::Design& design, const MapRequest& reques
   if (!has_map(design)) {
     throw std::logic_error("a design of the tracker " + design.tracker + " has no map");
   }
-  return reports_of(design.tracker)->map(design, request, directory, progress);
+  const TrackerReports& reports = *reports_of(design.tracker);
+  for (const std::string_view option : given_options(request)) {
+    const auto& able = reports.map_options;
+    if (std::find(able.begin(), able.end(), option) == able.end()) {
+      throw certificates::RequestError(
+          fmt::format("{} cannot be used with the tracker {}; allowed: {}, --noise", option, design.tracker,
+                      fmt::join(able, ", ")),
+          "tracker");
+    }
+  }
+  return reports.map(design, request, directory, progress);
 }
 
 }  // namespace veritrack::reports

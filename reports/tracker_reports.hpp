@@ -13,17 +13,21 @@
 
 namespace veritrack::reports {
 
-/// The rectangle of starts that a map shows, around the exact start.
+/// What a map shows, around the exact start; what is not given is the kind's to choose.
 struct MapRequest {
-  double frequency_error = 1.0;  ///< up to, rad/sample
-  double phase_error = 1.5;      ///< up to, rad
-  bool with_noise = false;       ///< with the noise and slew of [assume]; without, the signal is free of both
+  std::optional<double> frequency_error;   ///< up to, rad/sample
+  std::optional<double> phase_error;       ///< up to, rad
+  std::optional<std::string> at;           ///< frequency of the signal, rad/sample: a decimal
+  std::optional<std::string> x, y;         ///< states that deviate at the start
+  std::optional<double> x_range, y_range;  ///< by how much at most
+  std::optional<int> cells;                ///< in each direction
+  bool with_noise = false;                 ///< with the noise (and slew) of [assume]; otherwise without
 };
 
 /// The files of a map, or why there are none.
 struct MapResult {
-  std::optional<std::filesystem::path> picture;
-  std::string sentence;  ///< what was found, or why nothing could be
+  std::optional<std::filesystem::path> file;  ///< the one to look at first
+  std::string sentence;                       ///< what was found, or why nothing could be
 };
 
 struct TrackerReports {
@@ -35,6 +39,8 @@ struct TrackerReports {
   MapResult (*map)(const certificates::Design& design, const MapRequest& request,
                    const std::filesystem::path& directory,
                    const certificates::CertifyProgress& progress) = nullptr;
+  /// Which options of the command the map understands, beside --noise.
+  std::vector<std::string_view> map_options = {};
 };
 
 /// All records (reports/registry.cpp).
@@ -46,6 +52,7 @@ struct TrackerReports {
 [[nodiscard]] bool has_map(const certificates::Design& design);
 
 /// The map of a design that has one, written into `directory`. Throws std::logic_error for another design,
+/// certificates::RequestError for an option that this kind of map does not have or a value that does not fit,
 /// certificates::OutputError, FigureError.
 [[nodiscard]] MapResult write_map(const certificates::Design& design, const MapRequest& request,
                                   const std::filesystem::path& directory,

@@ -64,28 +64,6 @@ Json hexadecimals(const std::vector<double>& numbers) {
   return list;
 }
 
-Json tube_json(const model::ProvedTube& proved) {
-  const model::Tube& tube = proved.tube;
-  Json json{{"frequency", rigor::to_hexadecimal(tube.frequency)},
-            {"half_width", rigor::to_hexadecimal(tube.half_width)},
-            {"levels", hexadecimals(proved.levels)},
-            {"turns", tube.turns},
-            {"curve", Json::array()},
-            {"shape", Json::array()},
-            {"phases", proved.grid.phases},
-            {"frequencies", proved.grid.frequencies}};
-  if (!proved.shrinking.empty()) {
-    json["shrinking"] = hexadecimals(proved.shrinking);
-  }
-  for (const model::PhaseSeries& series : tube.curve) {
-    json["curve"].push_back(series_json(series));
-  }
-  for (const model::PhaseSeries& series : tube.shape) {
-    json["shape"].push_back(series_json(series));
-  }
-  return json;
-}
-
 Json set_json(const model::TubeSet& set) {
   Json json{{"name", set.name}, {"cells", Json::array()}};
   if (set.gaussian) {
@@ -109,6 +87,28 @@ Json set_json(const model::TubeSet& set) {
 }
 
 }  // namespace
+
+Json tube_json(const model::ProvedTube& proved) {
+  const model::Tube& tube = proved.tube;
+  Json json{{"frequency", rigor::to_hexadecimal(tube.frequency)},
+            {"half_width", rigor::to_hexadecimal(tube.half_width)},
+            {"levels", hexadecimals(proved.levels)},
+            {"turns", tube.turns},
+            {"curve", Json::array()},
+            {"shape", Json::array()},
+            {"phases", proved.grid.phases},
+            {"frequencies", proved.grid.frequencies}};
+  if (!proved.shrinking.empty()) {
+    json["shrinking"] = hexadecimals(proved.shrinking);
+  }
+  for (const model::PhaseSeries& series : tube.curve) {
+    json["curve"].push_back(series_json(series));
+  }
+  for (const model::PhaseSeries& series : tube.shape) {
+    json["shape"].push_back(series_json(series));
+  }
+  return json;
+}
 
 Json model_design_json(const Design& design) {
   const auto& [model, assume, require] = model_tables(design);

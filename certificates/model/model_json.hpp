@@ -1,6 +1,7 @@
 // A model in certificate.json.
 #pragma once
 
+#include "analysis/model/tube_set.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/number_json.hpp"
 
@@ -8,6 +9,9 @@ namespace veritrack::certificates {
 
 /// The tables of the design.
 [[nodiscard]] Json model_design_json(const Design& design);
+
+/// A tube with its levels, all numbers as hexadecimal floats.
+[[nodiscard]] Json tube_json(const model::ProvedTube& proved);
 
 /// The member "tubes": the sets that cover the band (docs/certificate-format.md).
 [[nodiscard]] Json model_evidence_json(const Certificate& certificate);

@@ -41,7 +41,8 @@ MapResult write_quadrature_map(const certificates::Design& design, const MapRequ
                                const std::filesystem::path& directory,
                                const certificates::CertifyProgress& progress) {
   const certificates::RegionResult result = certificates::prove_region_of_attraction(
-      design, {request.frequency_error, request.phase_error, request.with_noise}, progress);
+      design, {request.frequency_error.value_or(1.0), request.phase_error.value_or(1.5), request.with_noise},
+      progress);
   if (!result.found) {
     return {std::nullopt, result.reason};
   }

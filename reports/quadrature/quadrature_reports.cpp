@@ -6,7 +6,8 @@
 namespace veritrack::reports {
 
 const TrackerReports& quadrature_reports() {
-  static const TrackerReports reports{"quadrature-ekf", draw_quadrature_figures, write_quadrature_map};
+  static const TrackerReports reports{
+      "quadrature-ekf", draw_quadrature_figures, write_quadrature_map, {"--frequency", "--phase"}};
   return reports;
 }
 

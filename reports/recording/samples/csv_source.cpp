@@ -24,12 +24,12 @@ bool is_missing(std::string_view text) {
 
 /// The number that the text is; none when it is none.
 std::optional<double> parsed(std::string_view text) {
-  if (text.starts_with('+')) {
+  if (text.starts_with('+') && !text.starts_with("+-")) {
     text.remove_prefix(1);
   }
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_whole = error == std::errc() && end == text.data() + text.size() && !text.starts_with('+');
+  const bool is_whole = error == std::errc() && end == text.data() + text.size();
   return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 
 #include "certificates/design/design_reader.hpp"
 #include "certificates/design/input_error.hpp"
+#include "certificates/document/output_target.hpp"
 #include "certificates/document/tracker_kind.hpp"
 #include "cli/commands.hpp"
 #include "cli/default_folder.hpp"
@@ -64,6 +66,19 @@ reports::RecordingRequest request_of(const TrackOptions& options) {
   }
   request.sound.quadrature = options.quadrature;
   return request;
+}
+
+/// Throws certificates::OutputError when the output is an input.
+void refuse_inputs(const std::string& output, const std::vector<fs::path>& inputs) {
+  if (output == "-") {
+    return;
+  }
+  const certificates::OutputTarget target = certificates::resolve_output(output);
+  for (const fs::path& input : inputs) {
+    if (certificates::is_file(target, input)) {
+      throw certificates::OutputError(output, "it is an input of this command");
+    }
+  }
 }
 
 /// How far it is, on standard error, if that is a terminal.
@@ -152,7 +167,13 @@ ExitStatus run_track(const TrackOptions& options) {
   }
   const fs::path directory = by_name ? default_folder("tracks-out", recording) : fs::path(options.directory);
 
-  certificates::TrackerOnSamples tracker = kind.track(design);
+  certificates::TrackerOnSamples tracker = [&] {
+    try {
+      return kind.track(design);
+    } catch (const certificates::NotTrackable& error) {
+      throw certificates::InputError(options.design, {}, error.what());
+    }
+  }();
   reports::FittingSource source = reports::fit_channels(reports::open_recording(request_of(options)),
                                                         tracker.tracker->channels(), tracker.assume);
   reports::TrackReport report;
@@ -162,8 +183,13 @@ ExitStatus run_track(const TrackOptions& options) {
   report.sample_rate = sample_rate_of(options, *source.samples, tracker.assume, report.notes);
   const reports::TrackSettings settings = settings_of(options, report.sample_rate);
 
+  std::vector<fs::path> inputs{options.design};
+  if (!is_stream) {
+    inputs.push_back(recording);
+  }
   std::optional<reports::SampleTable> table;
   if (!options.each.empty()) {
+    refuse_inputs(options.each, inputs);
     table.emplace(options.each, tracker.tracker->channels(), report.sample_rate);
   }
   {
@@ -185,10 +211,6 @@ ExitStatus run_track(const TrackOptions& options) {
   }
   for (std::string& note : source.samples->notes()) {
     report.notes.push_back(std::move(note));
-  }
-  std::vector<fs::path> inputs{options.design};
-  if (!is_stream) {
-    inputs.push_back(recording);
   }
   const reports::TrackFiles files = reports::write_track_files(report, directory, inputs);
   if (by_name) {

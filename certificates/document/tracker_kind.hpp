@@ -42,7 +42,8 @@ struct TrackerKind {
   TuningResult (*tune)(const Design& design) = nullptr;
   /// The step as text. Opens its own rounding scopes.
   std::string (*show)(const Design& design, CodeLanguage language) = nullptr;
-  /// The tracker in double precision, and what is assumed of its signal. Opens its own rounding scopes.
+  /// The tracker in double precision, and what is assumed of its signal. Throws NotTrackable. Opens its own
+  /// rounding scopes.
   TrackerOnSamples (*track)(const Design& design) = nullptr;
 };
 

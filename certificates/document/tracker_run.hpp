@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 
 namespace veritrack::certificates {
 
@@ -51,12 +52,18 @@ class TrackerRun {
 
 /// What a design assumes of its signal, in doubles: for a comparison with a recording.
 struct SignalAssumptions {
-  double amplitude = 1.0;                 ///< signal units
+  std::array<double, 2> amplitude{1, 1};  ///< [least, largest], constant, signal units
   std::array<double, 2> frequency{0, 0};  ///< [lowest, highest], rad/sample
   std::optional<double> noise;            ///< |v(k)| at most, signal units
   std::optional<double> noise_deviation;  ///< of each channel, signal units; where the noise is Gaussian
   std::optional<double> slew;             ///< rad/sample per sample, at most; none with a `frequency_walk`
   std::optional<double> sample_rate;      ///< Hz; where the design says it
+};
+
+/// Thrown for a design whose tracker cannot be run on samples: what() says what is missing.
+class NotTrackable : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// A tracker and what its design assumes.

@@ -18,12 +18,11 @@ trackers::StraightLineProgram without_results(const trackers::StraightLineProgra
 }
 
 int register_called(const language::CompiledProgram& compiled, const std::string& name) {
-  const auto found = std::find_if(compiled.names.begin(), compiled.names.end(),
-                                  [&](const auto& entry) { return entry.second == name; });
-  if (found == compiled.names.end()) {
+  const auto found = compiled.places.find(name);
+  if (found == compiled.places.end()) {
     throw std::logic_error("the step of a filter has no " + name);
   }
-  return found->first;
+  return found->second;
 }
 
 }  // namespace
@@ -40,16 +39,25 @@ FilterBelief::FilterBelief(const Model& model, std::size_t states)
   for (std::size_t i = 0; i < channels_; ++i) {
     innovation_.add_result(register_called(model.step, "S." + model.samples[i] + "." + model.samples[i]));
   }
+  const auto frequency = static_cast<std::size_t>(frequency_.results().front());
+  if (frequency >= constants_ && frequency < constants_ + states_) {
+    frequency_state_ = variance_of(frequency - constants_);
+  }
   results_.resize(2 * channels_);
   if (channels_ == 2) {
-    // An S without correlation is named by no register where 0 is left out.
+    // Without correlation, S has no such entry.
     const std::string name = "S." + model.samples[0] + "." + model.samples[1];
-    const auto& names = model.step.names;
-    if (std::any_of(names.begin(), names.end(), [&](const auto& entry) { return entry.second == name; })) {
+    if (model.step.places.contains(name)) {
       innovation_.add_result(register_called(model.step, name));
       results_.push_back(0.0);
     }
   }
+}
+
+/// Where the variance of a state stands among the inputs.
+std::size_t FilterBelief::variance_of(std::size_t state) const {
+  // The upper triangle, row by row: the rows above have states, states - 1, ... entries.
+  return constants_ + states_ + state * states_ - state * (state - 1) / 2;
 }
 
 FilterBelief::Innovation FilterBelief::innovation(std::span<const double> inputs) {
@@ -66,6 +74,9 @@ FilterBelief::Innovation FilterBelief::innovation(std::span<const double> inputs
 }
 
 double FilterBelief::frequency_deviation(std::span<const double> inputs) {
+  if (frequency_state_) {
+    return std::sqrt(inputs[*frequency_state_]);
+  }
   constexpr double kStep = 1e-6;  // relative: what is lost in rounding and in the remainder is about equal
   shifted_.assign(inputs.begin(), inputs.end());
   gradient_.resize(states_);

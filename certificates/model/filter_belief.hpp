@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,11 +30,14 @@ class FilterBelief {
   [[nodiscard]] double frequency_deviation(std::span<const double> inputs);
 
  private:
+  [[nodiscard]] std::size_t variance_of(std::size_t state) const;
+
   trackers::StraightLineProgram innovation_;
   trackers::StraightLineProgram frequency_;
   std::size_t constants_;
   std::size_t states_;
   std::size_t channels_;
+  std::optional<std::size_t> frequency_state_;  ///< the place of its variance, where the frequency is a state
   std::vector<double> registers_;
   std::vector<double> results_;
   std::vector<double> shifted_;

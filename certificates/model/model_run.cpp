@@ -147,7 +147,7 @@ TrackerOnSamples model_on_samples(const Design& design) {
     assume.slew = slew_of(tables.assume).upper();
   }
   const rigor::NearestRounding nearest;
-  assume.amplitude = tables.assume.amplitude.nearest;
+  assume.amplitude = {tables.assume.amplitude.nearest, tables.assume.amplitude.nearest};
   assume.noise = tables.assume.noise.nearest;
   if (tables.assume.sample_rate) {
     assume.sample_rate = tables.assume.sample_rate->nearest;

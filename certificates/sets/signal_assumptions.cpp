@@ -6,10 +6,11 @@ namespace veritrack::certificates {
 
 SignalAssumptions signal_assumptions(const Assumptions& assume) {
   SignalAssumptions signal;
-  signal.amplitude = assume.amplitude.nearest;
+  const double amplitude = assume.amplitude.nearest;
+  signal.amplitude = {amplitude, amplitude};
   signal.frequency = {assume.frequency[0].nearest, assume.frequency[1].nearest};
   if (assume.gaussian) {
-    signal.noise_deviation = nearest_deviation(assume) * signal.amplitude;
+    signal.noise_deviation = nearest_deviation(assume) * amplitude;
   } else {
     signal.noise = assume.noise.nearest;
   }

@@ -9,13 +9,13 @@ namespace veritrack::reports {
 
 namespace {
 
-constexpr double kSure = 4.0;  // deviations of an estimate
+constexpr double kSure = 5.0;  // deviations of an estimate
 
 }  // namespace
 
 AssumptionCheck::AssumptionCheck(const certificates::SignalAssumptions& assume, std::size_t length,
-                                 int channels)
-    : assume_(assume), length_(length), channels_(channels), fit_(length, channels) {
+                                 int channels, bool is_derived)
+    : assume_(assume), length_(length), channels_(channels), fit_(length, channels, is_derived) {
   const auto bridge = static_cast<std::int64_t>(length);
   findings_.noise_exceeded = findings_.slew_exceeded = findings_.frequency_exceeded = SampleRanges(bridge);
   samples_.reserve(length);
@@ -69,7 +69,8 @@ void AssumptionCheck::judge_noise(std::int64_t first) {
     const std::complex<double> seen(sample.in_phase, sample.quadrature);
     const std::complex<double> fitted = fit_.tone(k);
     const double size = std::abs(fitted);
-    const std::complex<double> assumed = size > 0.0 ? assume_.amplitude / size * fitted : 0.0;
+    const double amplitude = std::clamp(size, assume_.amplitude[0], assume_.amplitude[1]);
+    const std::complex<double> assumed = size > 0.0 ? amplitude / size * fitted : 0.0;
     const double residual = channels_ > 1 ? std::abs(seen - fitted) : std::fabs(seen.real() - fitted.real());
     const double distance =
         channels_ > 1 ? std::abs(seen - assumed) : std::fabs(seen.real() - assumed.real());

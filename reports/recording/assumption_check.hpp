@@ -39,7 +39,7 @@ struct AssumptionFindings {
   double slew_deviation = 0.0;      ///< how uncertain that one is, for white noise
   double slew_root_mean_square = 0.0;
   SampleRanges noise_exceeded;      ///< beyond the bound, or more than the assumed deviation allows
-  SampleRanges slew_exceeded;       ///< by more than four deviations of the estimate
+  SampleRanges slew_exceeded;       ///< by more than five deviations of the estimate
   SampleRanges frequency_exceeded;  ///< outside of the band, likewise
 
   [[nodiscard]] bool keeps() const {
@@ -49,8 +49,10 @@ struct AssumptionFindings {
 
 class AssumptionCheck {
  public:
-  /// `length` of a stretch, samples; at least 16.
-  AssumptionCheck(const certificates::SignalAssumptions& assume, std::size_t length, int channels);
+  /// `length` of a stretch, samples; at least 16. `is_derived`: the quadrature channel is computed from the
+  /// in-phase one.
+  AssumptionCheck(const certificates::SignalAssumptions& assume, std::size_t length, int channels,
+                  bool is_derived);
 
   /// The sample `index` in lock, in the units of the design, and the frequency that the tracker estimates
   /// with it, rad/sample.

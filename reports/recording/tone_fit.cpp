@@ -5,8 +5,12 @@
 
 namespace veritrack::reports {
 
-ToneFit::ToneFit(std::size_t length, int channels)
-    : channels_(channels), basis_(static_cast<Eigen::Index>(length), 3), turns_(length), values_(length) {
+ToneFit::ToneFit(std::size_t length, int channels, bool is_derived)
+    : channels_(channels),
+      is_derived_(is_derived),
+      basis_(static_cast<Eigen::Index>(length), 3),
+      turns_(length),
+      values_(length) {
   const double middle = 0.5 * static_cast<double>(length - 1);
   for (Eigen::Index k = 0; k < basis_.rows(); ++k) {
     const double t = static_cast<double>(k) - middle;
@@ -69,8 +73,8 @@ const FittedTone& ToneFit::fit(std::span<const RecordedSample> samples, double f
   fitted_.amplitude = std::abs(value);
   fitted_.frequency = frequency + (derivative / value).imag();
   // Half of a real sample's information is in each of its two turning parts.
-  fitted_.frequency_deviation =
-      (channels_ > 1 ? 1.0 : std::sqrt(2.0)) * fitted_.noise_deviation * slope_ / fitted_.amplitude;
+  fitted_.frequency_deviation = (channels_ > 1 && !is_derived_ ? 1.0 : std::sqrt(2.0)) *
+                                fitted_.noise_deviation * slope_ / fitted_.amplitude;
   return fitted_;
 }
 

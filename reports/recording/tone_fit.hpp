@@ -24,7 +24,8 @@ struct FittedTone {
 /// drifts. With one channel, the real part is fitted.
 class ToneFit {
  public:
-  ToneFit(std::size_t length, int channels);
+  /// `is_derived`: the second channel is computed from the first, and brings no information of its own.
+  ToneFit(std::size_t length, int channels, bool is_derived);
 
   /// `samples` of the length, none missing; `frequency` in rad/sample.
   [[nodiscard]] const FittedTone& fit(std::span<const RecordedSample> samples, double frequency);
@@ -37,6 +38,7 @@ class ToneFit {
   [[nodiscard]] Coefficients closest(std::span<const RecordedSample> samples) const;
 
   int channels_;
+  bool is_derived_;
   Eigen::Matrix<double, Eigen::Dynamic, 3> basis_;  ///< orthonormal polynomials, sample by sample
   double slope_ = 0.0;                              ///< of the second one, per sample
   double bend_ = 0.0;                               ///< the third one in the middle

@@ -50,7 +50,7 @@ std::vector<std::string> noise_row(const TrackReport& report) {
           ? fmt::format("deviation of each channel {:.4g}", *report.assume.noise_deviation)
           : fmt::format("at most {:.4g}{}", report.assume.noise.value_or(NAN),
                         report.result.channels > 1 ? ", both channels together" : "");
-  return {fmt::format("noise: distance from a tone of amplitude {:.6g}", report.assume.amplitude), assumed,
+  return {"noise: distance from a tone of amplitude " + amplitude_words(report.assume), assumed,
           fmt::format("largest {:.4g}; root mean square of each channel {:.4g}", found.largest_distance,
                       found.distance_deviation),
           listed(found.noise_exceeded, kRanges)};
@@ -69,7 +69,7 @@ std::string assumptions_section(const TrackReport& report, const RecordingUnits&
                       {frequency_row(report, units),
                        slew_row(report, units),
                        noise_row(report),
-                       {"amplitude", fmt::format("{:.6g}, constant", report.assume.amplitude),
+                       {"amplitude", amplitude_words(report.assume) + ", constant",
                         fmt::format("from {:.4g} to {:.4g}", found.amplitude.least, found.amplitude.largest),
                         "counts as noise"},
                        {"noise around the fitted tone", "",
@@ -79,7 +79,7 @@ std::string assumptions_section(const TrackReport& report, const RecordingUnits&
   text += fmt::format(
       "\nAll of these are estimates. A tone is fitted to each stretch of {} samples in lock, with an "
       "amplitude and a frequency that may drift in it; {} of {} samples lie in such stretches. Slew and "
-      "frequency count as exceeded when they are by more than four deviations of the estimate in white "
+      "frequency count as exceeded when they are by more than five deviations of the estimate in white "
       "noise.\n\n",
       report.result.window, found.judged, report.result.samples);
   return text;
@@ -96,8 +96,8 @@ std::string nis_section(const TrackReport& report) {
     const double freedom = static_cast<double>(result.window) * result.channels;
     text += fmt::format(
         "Stretches of {} samples whose mean NIS is above {:.4g}, which happens to a right belief with a "
-        "probability of 0.0005: {}. The largest NIS of a sample is {:.4g}.\n\n",
-        result.window, result.channels * mean_square_quantile(freedom, kNormal9995),
+        "probability of 3e-7: {}. The largest NIS of a sample is {:.4g}.\n\n",
+        result.window, result.channels * mean_square_quantile(freedom, kNormalFive),
         listed(result.nis.too_large, kRanges), result.nis.largest);
   }
   return text;
@@ -125,7 +125,7 @@ std::string run_section(const TrackReport& report, const RecordingUnits& units) 
   if (result.start_count > result.starts.size()) {
     sentences.push_back(fmt::format("It was started {} times in all.", result.start_count));
   }
-  sentences.push_back(fmt::format("Gaps: {}.", listed(result.gaps, kRanges)));
+  sentences.push_back(fmt::format("Missing samples: {}.", listed(result.gaps, kRanges)));
   sentences.push_back(fmt::format("Samples without a tracker: {}.", listed(result.untracked, kRanges)));
   return "## The run\n\n" + bullets(sentences) + "\n";
 }

@@ -22,7 +22,8 @@ std::string data_block(const std::vector<TrackRow>& rows, const RecordingUnits& 
   std::string text = "$run << END\n";
   for (const TrackRow& row : rows) {
     const double mean = row.frequency.mean();
-    const double deviation = row.deviation.mean();
+    // In a gap the deviation grows beyond what the picture is about.
+    const double deviation = row.worst == TrackState::gap ? NAN : row.deviation.mean();
     text += fmt::format("{:.9g}", units.drawn_time(row.first + (row.last - row.first) / 2));
     text += cell(units.drawn(mean));
     text += cell(row.frequency.count > 0 ? units.drawn(row.frequency.least) : NAN);

@@ -23,13 +23,13 @@ constexpr TrackerOutput kNoOutput{NAN, NAN, {NAN, NAN}, NAN};
 /// The run, sample by sample.
 class Run {
  public:
-  Run(certificates::TrackerOnSamples& tracker, const TrackSettings& settings)
+  Run(certificates::TrackerOnSamples& tracker, const TrackSettings& settings, bool is_derived)
       : tracker_(tracker.tracker.get()),
         assume_(tracker.assume),
         settings_(settings),
         window_(lock_window(assume_.frequency[0], tracker_->channels())),
         lock_(window_, tracker_->channels()),
-        check_(assume_, window_, tracker_->channels()) {
+        check_(assume_, window_, tracker_->channels(), is_derived) {
     const auto bridge = static_cast<std::int64_t>(window_);
     result_.channels = tracker_->channels();
     result_.has_innovation = tracker_->has_innovation();
@@ -75,7 +75,7 @@ class Run {
     certificates::ToneAtSample tone =
         find_tone(ahead, result_.channels, assume_.frequency, settings_.start_frequency);
     if (result_.start_count == 0 && !settings_.scale && tone.amplitude > 0.0) {
-      result_.scale = assume_.amplitude / tone.amplitude;
+      result_.scale = 0.5 * (assume_.amplitude[0] + assume_.amplitude[1]) / tone.amplitude;
     }
     tone.amplitude *= result_.scale;
     if (!(tone.amplitude > 0.0)) {
@@ -130,6 +130,7 @@ class Run {
         tracked.state == TrackState::no_lock || (tracked.state == TrackState::untracked && result_.no_number);
     if (tracked.state == TrackState::gap) {
       result_.gaps.add(index, index);
+      is_behind_gap_ = result_.first_lock.has_value();
     } else if (tracked.state == TrackState::untracked) {
       result_.untracked.add(index, index);
     } else if (tracked.state == TrackState::no_lock) {
@@ -147,6 +148,7 @@ class Run {
       return;
     }
     ++result_.in_lock;
+    result_.has_gap_between = result_.has_gap_between || is_behind_gap_;
     if (!result_.first_lock) {
       result_.first_lock = index;
     }
@@ -167,7 +169,7 @@ class Run {
     if (nis_in_stretch_.count == static_cast<std::int64_t>(window_)) {
       const double channels = result_.channels;
       const double freedom = channels * static_cast<double>(window_);
-      if (nis_in_stretch_.mean() > channels * mean_square_quantile(freedom, kNormal9995)) {
+      if (nis_in_stretch_.mean() > channels * mean_square_quantile(freedom, kNormalFive)) {
         result_.nis.too_large.add(tracked.index - nis_in_stretch_.count + 1, tracked.index);
       }
       nis_in_stretch_ = {};
@@ -183,6 +185,7 @@ class Run {
   std::int64_t next_try_ = 0;  ///< the sample from which a start is tried
   bool is_running_ = false;
   bool is_stopped_ = false;  ///< until the next gap
+  bool is_behind_gap_ = false;
   Spread nis_in_stretch_;
   TrackResult result_;
 };
@@ -219,7 +222,7 @@ TrackResult track_recording(SampleSource& source, certificates::TrackerOnSamples
   constexpr std::int64_t kProgress = 1 << 16;
   const rigor::NearestRounding nearest;
   SampleStream stream(source, settings.from, settings.to);
-  Run run(tracker, settings);
+  Run run(tracker, settings, source.quadrature_is_derived());
   for (std::int64_t count = 1; stream.has_next(); ++count) {
     const TrackedSample sample = run.next(stream);
     if (each) {

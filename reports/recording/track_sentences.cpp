@@ -32,6 +32,11 @@ std::vector<std::string> exceeded(const AssumptionFindings& found) {
 
 }  // namespace
 
+std::string amplitude_words(const certificates::SignalAssumptions& assume) {
+  const auto& [least, largest] = assume.amplitude;
+  return least == largest ? fmt::format("{:.6g}", least) : fmt::format("{:.6g} to {:.6g}", least, largest);
+}
+
 std::string lock_sentence(const TrackResult& result, const RecordingUnits& units) {
   if (result.samples == 0) {
     return "The recording has no samples.";
@@ -40,7 +45,7 @@ std::string lock_sentence(const TrackResult& result, const RecordingUnits& units
     return result.start_count == 0 ? "The tracker was never started." : "The tracker was never in lock.";
   }
   if (!result.lost_lock) {
-    return result.gaps.count() == 0 ? "Kept lock." : "Kept lock, apart from gaps.";
+    return result.has_gap_between ? "Kept lock, apart from gaps." : "Kept lock.";
   }
   return fmt::format("Lost lock at {}{}.", units.sample(*result.lost_lock),
                      result.ends_in_lock ? ", and found it again" : "");
@@ -128,17 +133,16 @@ std::vector<std::string> report_sentences(const TrackReport& report, const Recor
         "assumes, and of those after them. The table below has them.");
   }
   constexpr double kFar = 2.0;
-  const double assumed = report.assume.amplitude;
   Extent amplitude = found.amplitude;
   if (amplitude.is_empty && !result.starts.empty()) {
     amplitude.add(result.starts.front().tone.amplitude);
   }
-  if (!amplitude.is_empty && (amplitude.largest * kFar < assumed || amplitude.least > kFar * assumed)) {
+  if (!amplitude.is_empty && (amplitude.largest * kFar < report.assume.amplitude[0] ||
+                              amplitude.least > kFar * report.assume.amplitude[1])) {
     sentences.push_back(
-        fmt::format("The tone has an amplitude from {:.3g} to {:.3g}, and the design assumes {:.3g}: use "
-                    "--scale auto, or "
-                    "a factor.",
-                    amplitude.least, amplitude.largest, assumed));
+        fmt::format("The tone has an amplitude from {:.3g} to {:.3g}, and the design assumes {}: use --scale "
+                    "auto, or a factor.",
+                    amplitude.least, amplitude.largest, amplitude_words(report.assume)));
   }
   return sentences;
 }

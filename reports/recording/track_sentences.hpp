@@ -17,6 +17,8 @@ namespace veritrack::reports {
 [[nodiscard]] std::string short_nis_sentence(const TrackResult& result);
 /// Whether the recording keeps to what the certificate assumes.
 [[nodiscard]] std::string assumptions_sentence(const TrackResult& result);
+/// "1", or "0.5 to 2".
+[[nodiscard]] std::string amplitude_words(const certificates::SignalAssumptions& assume);
 /// What else has to be said at once.
 [[nodiscard]] std::vector<std::string> report_sentences(const TrackReport& report,
                                                         const RecordingUnits& units);

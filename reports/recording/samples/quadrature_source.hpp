@@ -18,6 +18,7 @@ class QuadratureSource : public SampleSource {
       : recording_(std::move(recording)), filter_(half_length) {}
 
   [[nodiscard]] int channels() const override { return 2; }
+  [[nodiscard]] bool quadrature_is_derived() const override { return true; }
   [[nodiscard]] std::optional<double> sample_rate() const override { return recording_->sample_rate(); }
   std::size_t read(std::span<RecordedSample> block) override;
   [[nodiscard]] std::optional<double> progress() const override { return recording_->progress(); }

@@ -26,6 +26,8 @@ class SampleSource {
 
   /// 1, or 2: in phase and quadrature.
   [[nodiscard]] virtual int channels() const = 0;
+  /// Whether the quadrature channel is computed from the in-phase one.
+  [[nodiscard]] virtual bool quadrature_is_derived() const { return false; }
   /// Hz; none when nothing says it.
   [[nodiscard]] virtual std::optional<double> sample_rate() const = 0;
   /// Fills the block from its front and returns how many samples there were: fewer than it has room for only

@@ -100,4 +100,4 @@ bench:
 	for program in build/release/bench/*_bench; do $$program; done
 
 clean:
-	rm -rf build certificates-out
+	rm -rf build certificates-out tracks-out

@@ -118,6 +118,7 @@ class Track(CliTestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("Kept lock.", result.stdout)
         self.assertIn("Hilbert filter of 383 coefficients", self.document("tracks-out/mono"))
+        self.assertIn("a sound file has no columns", self.track(DESIGN, "mono.wav", "--columns", "1").stderr)
         unscaled = self.track(DESIGN, "mono.wav", "--out", "unscaled")
         self.assertIn("use --scale auto", self.document("unscaled"))
         self.assertEqual(unscaled.returncode, 0)
@@ -166,6 +167,7 @@ class Track(CliTestCase):
         for options, message in ((("--scale", "big"), "--scale big; allowed: auto, or a number above 0"),
                                  (("--columns", "i,x"), "no column x; nearest: i; allowed: time, i, q"),
                                  (("--start-hz", "5", "--time", "none", "--columns", "i,q"), "needs a sample rate"),
+                                 (("--channel", "1"), "tone.csv: no sound file; allowed: --columns"),
                                  (("--format", "mp3"), "--format")):
             result = self.track(DESIGN, "tone.csv", *options)
             self.assertEqual(result.returncode, 2, options)

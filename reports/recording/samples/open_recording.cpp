@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "certificates/design/input_error.hpp"
 #include "reports/recording/samples/csv_source.hpp"
 
 namespace veritrack::reports {
@@ -33,6 +34,15 @@ bool is_sound(const std::string& path) {
 std::unique_ptr<SampleSource> open_recording(const RecordingRequest& request) {
   const bool sound = request.format == RecordingFormat::sound ||
                      (request.format == RecordingFormat::by_content && is_sound(request.path));
+  const auto refuse = [&](const char* message) {
+    throw certificates::InputError(request.path == "-" ? "standard input" : request.path, {}, message);
+  };
+  if (sound && (!request.columns.channels.empty() || !request.columns.time.empty())) {
+    refuse("a sound file has no columns; allowed: --channel or --quadrature");
+  }
+  if (!sound && (request.sound.channel || request.sound.quadrature)) {
+    refuse("no sound file; allowed: --columns and --time, or --format sound");
+  }
   if (sound) {
     return std::make_unique<SoundSource>(request.path, request.sound);
   }

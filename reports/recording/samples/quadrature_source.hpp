@@ -1,8 +1,11 @@
 // A recording with one channel as in-phase and quadrature samples.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "reports/recording/samples/sample_source.hpp"
 #include "trackers/signals/hilbert_filter.hpp"

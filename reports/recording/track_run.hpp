@@ -44,10 +44,10 @@ struct TrackResult {
   bool has_innovation = false;
   std::size_t window = 0;  ///< of the lock indicator, and the length of a stretch
   double scale = 1.0;
-  std::int64_t first = 0;    ///< the first sample that was used
-  std::int64_t samples = 0;  ///< from then on, missing ones included
-  SampleRanges gaps;                ///< missing samples
-  bool has_gap_between = false;     ///< one between samples in lock
+  std::int64_t first = 0;        ///< the first sample that was used
+  std::int64_t samples = 0;      ///< from then on, missing ones included
+  SampleRanges gaps;             ///< missing samples
+  bool has_gap_between = false;  ///< one between samples in lock
   SampleRanges untracked;
   std::vector<TrackStart> starts;  ///< the first kStarts
   std::size_t start_count = 0;

@@ -132,7 +132,7 @@ std::vector<std::string> report_sentences(const TrackReport& report, const Recor
         "A certificate of this design says nothing of the samples in which the recording exceeds what it "
         "assumes, and of those after them. The table below has them.");
   }
-  constexpr double kFar = 2.0;
+  constexpr double kFar = 1.2;
   Extent amplitude = found.amplitude;
   if (amplitude.is_empty && !result.starts.empty()) {
     amplitude.add(result.starts.front().tone.amplitude);

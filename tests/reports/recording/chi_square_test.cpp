@@ -19,7 +19,8 @@ TEST_CASE("quantiles are those of Boost.Math") {
               ? boost::math::quantile(complement(distribution, cdf(complement(normal, deviate)))) / freedom
               : boost::math::quantile(distribution, cdf(normal, deviate)) / freedom;
       INFO("freedom ", freedom, ", deviate ", deviate);
-      CHECK(mean_square_quantile(freedom, deviate) == doctest::Approx(exact).epsilon(std::fabs(deviate) < 2.0 ? 2e-3 : 1e-2));
+      CHECK(mean_square_quantile(freedom, deviate) ==
+            doctest::Approx(exact).epsilon(std::fabs(deviate) < 2.0 ? 2e-3 : 1e-2));
     }
   }
   CHECK(boost::math::cdf(normal, kNormal975) == doctest::Approx(0.975).epsilon(1e-6));

@@ -7,7 +7,7 @@ MAKEFLAGS += --no-print-directory
 
 BUILD_PACKAGES := g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev coinor-libipopt-dev libnlopt-cxx-dev \
   libmpfr-dev nettle-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox \
-  libflint-arb-dev libflint-dev tao-pegtl-dev
+  libflint-arb-dev libflint-dev tao-pegtl-dev libsndfile1-dev
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
 TEST_PACKAGES  := doctest-dev python3-jsonschema clang git
 LINT_PACKAGES  := clang clang-format clang-tidy git
@@ -100,4 +100,4 @@ bench:
 	for program in build/release/bench/*_bench; do $$program; done
 
 clean:
-	rm -rf build certificates-out
+	rm -rf build certificates-out tracks-out

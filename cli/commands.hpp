@@ -2,6 +2,7 @@
 // returns the exit status; errors are thrown.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,26 @@ struct TuneOptions {
   std::string output;
 };
 
+struct TrackOptions {
+  std::string design;
+  std::string recording;  ///< "-": standard input
+  std::string directory;
+  std::string each;  ///< a file with a row for every sample; empty: none
+  std::string format = "auto";
+  std::vector<std::string> columns;
+  std::string time;
+  double sample_rate = 0.0;  ///< Hz; 0: not given
+  int channel = 0;           ///< 0: not given
+  bool quadrature = false;
+  std::string scale = "1";
+  std::int64_t from = 0;
+  std::int64_t to = -1;          ///< -1: to the end
+  double start_frequency = 0.0;  ///< rad/sample; 0: from the recording
+  double start_hertz = 0.0;      ///< 0: likewise
+  bool strict = false;           ///< a lost lock, or an assumption that is exceeded, is not_proved
+  bool quiet = false;            ///< no progress on standard error
+};
+
 struct ReproduceOptions {
   std::string report = kExampleReport;
   std::string directory;
@@ -59,6 +80,7 @@ struct ReproduceOptions {
 [[nodiscard]] ExitStatus run_map(const MapOptions& options);
 [[nodiscard]] ExitStatus run_show(const ShowOptions& options);
 [[nodiscard]] ExitStatus run_tune(const TuneOptions& options);
+[[nodiscard]] ExitStatus run_track(const TrackOptions& options);
 [[nodiscard]] ExitStatus run_reproduce(const ReproduceOptions& options);
 
 }  // namespace veritrack::cli

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <span>
@@ -130,6 +131,49 @@ int run(int argc, char** argv) {
   tune->add_option("--out", tune_options.output,
                    "design file to write (default: <name of the design file>-tuned.toml)");
 
+  TrackOptions track_options;
+  CLI::App* track = app.add_subcommand("track", "run the tracker of a design over a recording");
+  track->add_option("DESIGN", track_options.design, "design file (TOML)")->required();
+  track->add_option("RECORDING", track_options.recording, "CSV or sound file; - is standard input")
+      ->required();
+  track->add_option("--out", track_options.directory,
+                    "folder for track.md, track.csv and track.svg (default: tracks-out/<name of the "
+                    "recording>)");
+  track->add_option("--each", track_options.each,
+                    "also write a row of CSV for every sample to this file; - is standard output");
+  track
+      ->add_option("--format", track_options.format,
+                   "what the recording is: csv, sound, or auto (by content; standard input is CSV)")
+      ->check(CLI::IsMember({"auto", "csv", "sound"}))
+      ->capture_default_str();
+  track
+      ->add_option("--columns", track_options.columns,
+                   "of CSV: the channel, or in phase and quadrature with a comma, by name or number")
+      ->delimiter(',')
+      ->expected(1, 2);
+  track->add_option("--time", track_options.time, "of CSV: the column with seconds, or none");
+  track->add_option("--sample-rate", track_options.sample_rate, "Hz, in place of what the recording says")
+      ->check(CLI::Range(1e-9, 1e15));
+  track->add_option("--channel", track_options.channel, "of a sound file: the channel to use, from 1")
+      ->check(CLI::Range(1, 64));
+  track->add_flag("--quadrature", track_options.quadrature,
+                  "of a sound file: channels 1 and 2 are in phase and quadrature");
+  track
+      ->add_option("--scale", track_options.scale,
+                   "what samples are multiplied by; auto: so that the tone has the assumed amplitude")
+      ->capture_default_str();
+  track->add_option("--from", track_options.from, "the first sample to use, from 0")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 60));
+  track->add_option("--to", track_options.to, "the sample to stop before")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 60));
+  track
+      ->add_option("--start-frequency", track_options.start_frequency,
+                   "where the tracker starts, rad/sample (default: the tone that is found)")
+      ->check(CLI::Range(1e-9, 3.15));
+  track->add_option("--start-hz", track_options.start_hertz, "the same in Hz")->check(CLI::Range(1e-9, 1e15));
+  track->add_flag("--strict", track_options.strict,
+                  "1 when lock is lost or the recording exceeds what the certificate assumes");
+
   ReproduceOptions reproduce_options;
   CLI::App* reproduce =
       app.add_subcommand("reproduce",
@@ -153,7 +197,7 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? all_proved : bad_input;
   }
 
-  certify_options.quiet = check_options.quiet = map_options.quiet = quiet;
+  certify_options.quiet = check_options.quiet = map_options.quiet = track_options.quiet = quiet;
 
   const rigor::SelfTestReport self_test = rigor::run_self_test();
   if (!self_test.passed()) {
@@ -173,6 +217,9 @@ int run(int argc, char** argv) {
   }
   if (tune->parsed()) {
     return run_tune(tune_options);
+  }
+  if (track->parsed()) {
+    return run_track(track_options);
   }
   if (reproduce->parsed()) {
     return run_reproduce(reproduce_options);

@@ -12,6 +12,7 @@
 #include "certificates/document/formal_proof.hpp"
 #include "certificates/document/markdown.hpp"
 #include "certificates/document/number_json.hpp"
+#include "certificates/document/tracker_run.hpp"
 #include "certificates/document/tuning.hpp"
 
 namespace veritrack::certificates {
@@ -43,6 +44,9 @@ struct TrackerKind {
   TuningResult (*tune)(const Design& design) = nullptr;
   /// The step as text. Opens its own rounding scopes.
   std::string (*show)(const Design& design, CodeLanguage language) = nullptr;
+  /// The tracker in double precision, and what is assumed of its signal. Throws NotTrackable. Opens its own
+  /// rounding scopes.
+  TrackerOnSamples (*track)(const Design& design) = nullptr;
 };
 
 /// All kinds, in the order of certificates/trackers.def.

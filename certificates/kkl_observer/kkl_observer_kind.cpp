@@ -5,6 +5,7 @@
 #include "certificates/kkl_observer/coq_kkl_observer.hpp"
 #include "certificates/kkl_observer/kkl_observer.hpp"
 #include "certificates/kkl_observer/kkl_observer_json.hpp"
+#include "certificates/kkl_observer/kkl_observer_run.hpp"
 #include "certificates/kkl_observer/markdown_kkl_observer.hpp"
 
 namespace veritrack::certificates {
@@ -16,7 +17,8 @@ const TrackerKind& kkl_observer_kind() {
                                 .summary = kkl_observer_summary,
                                 .sections = kkl_observer_sections,
                                 .formal_proofs = coq::kkl_observer_proofs,
-                                .tune = tune_kkl_observer};
+                                .tune = tune_kkl_observer,
+                                .track = kkl_observer_on_samples};
   return kind;
 }
 

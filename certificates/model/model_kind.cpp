@@ -9,6 +9,7 @@
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_claims.hpp"
 #include "certificates/model/model_json.hpp"
+#include "certificates/model/model_run.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/model/recursion_text.hpp"
 
@@ -42,7 +43,8 @@ const TrackerKind& model_kind() {
                                 .sections = model_sections,
                                 .limited_in_time = true,
                                 .evidence_json = model_evidence_json,
-                                .show = show};
+                                .show = show,
+                                .track = model_on_samples};
   return kind;
 }
 

@@ -18,6 +18,7 @@
 #include "certificates/quadrature/quadrature_certificate.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_json.hpp"
+#include "certificates/quadrature/quadrature_run.hpp"
 #include "certificates/quadrature/theorem_claims.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/markdown_assumptions.hpp"
@@ -98,7 +99,8 @@ const TrackerKind& quadrature_kind() {
                                 .sections = sections,
                                 .evidence_json = quadrature_evidence_json,
                                 .report_json = quadrature_report_json,
-                                .formal_proofs = coq::theorem_2_9_proofs};
+                                .formal_proofs = coq::theorem_2_9_proofs,
+                                .track = quadrature_on_samples};
   return kind;
 }
 

@@ -23,15 +23,6 @@ TrackerDesign tracker_design(const Design& design) {
   return {chosen.q1.nearest, chosen.q2.nearest, chosen.r.nearest, chosen.epsilon.nearest};
 }
 
-/// diag(Rot(angle), 1) P diag(Rot(angle), 1)'.
-Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double angle) {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn(0, 0) = turn(1, 1) = std::cos(angle);
-  turn(1, 0) = std::sin(angle);
-  turn(0, 1) = -turn(1, 0);
-  return turn * covariance * turn.transpose();
-}
-
 Eigen::Matrix3d covariance_of(const RotatingFrameState<double>& state) {
   Eigen::Matrix3d covariance;
   covariance << state(trackers::kP11), state(trackers::kP12), state(trackers::kP13),  //
@@ -95,6 +86,29 @@ SteadyState find_steady_state(const Design& design, double frequency) {
   return state;
 }
 
+Eigen::Matrix3d turned_covariance(const Eigen::Matrix3d& covariance, double angle) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn(0, 0) = turn(1, 1) = std::cos(angle);
+  turn(1, 0) = std::sin(angle);
+  turn(0, 1) = -turn(1, 0);
+  return turn * covariance * turn.transpose();
+}
+
+SteadyState run_start_covariance(const Design& design, double frequency) {
+  const Assumptions& assume = quadrature_tables(design).assume;
+  if (assume.initial_covariance) {
+    return {given_covariance(*assume.initial_covariance), true};
+  }
+  if (assume.covariance_range) {
+    return {given_covariance((*assume.covariance_range)[1]), true};
+  }
+  SteadyState steady = find_steady_state(design, frequency);
+  if (assume.covariance_multiples) {
+    steady.covariance *= (*assume.covariance_multiples)[1].nearest;
+  }
+  return steady;
+}
+
 Simulation simulate_quadrature(const Design& design) {
   const rigor::NearestRounding nearest;
   const Assumptions& assume = quadrature_tables(design).assume;
@@ -102,21 +116,12 @@ Simulation simulate_quadrature(const Design& design) {
   const std::vector<trackers::Sample> samples = simulated_signal(assume, settings);
   Simulation simulation;
   const trackers::Sample& first = samples.front();
-  Eigen::Matrix3d start_covariance;
-  if (assume.initial_covariance) {
-    start_covariance = given_covariance(*assume.initial_covariance);
-  } else if (assume.covariance_range) {
-    start_covariance = given_covariance((*assume.covariance_range)[1]);
-  } else {
-    const SteadyState steady = find_steady_state(design, first.frequency);
-    start_covariance =
-        (assume.covariance_multiples ? (*assume.covariance_multiples)[1].nearest : 1.0) * steady.covariance;
-    if (!steady.settled) {
-      simulation.notes.push_back(fmt::format(
-          "Iteration found no steady state of the tracker at the frequency of the start, {:.6g} rad/sample: "
-          "the run starts from the covariance that the recursion reaches after 20000 samples without error.",
-          first.frequency));
-    }
+  const SteadyState start = run_start_covariance(design, first.frequency);
+  if (!start.settled) {
+    simulation.notes.push_back(fmt::format(
+        "Iteration found no steady state of the tracker at the frequency of the start, {:.6g} rad/sample: "
+        "the run starts from the covariance that the recursion reaches after 20000 samples without error.",
+        first.frequency));
   }
   if (!trackers::find_signal(settings.signal).honours_bounds) {
     simulation.notes.push_back(
@@ -130,9 +135,10 @@ Simulation simulate_quadrature(const Design& design) {
   const double amplitude = assume.amplitude.nearest + assume.initial_amplitude_error.nearest;
   const TrackerDesign tracker = tracker_design(design);
   trackers::QuadratureEkf<double> ekf(
-      tracker, {amplitude * std::cos(phase), amplitude * std::sin(phase),
-                first.frequency + assume.initial_frequency_error.nearest,
-                trackers::FactoredCovariance<double>::from_matrix(turned(start_covariance, phase))});
+      tracker,
+      {amplitude * std::cos(phase), amplitude * std::sin(phase),
+       first.frequency + assume.initial_frequency_error.nearest,
+       trackers::FactoredCovariance<double>::from_matrix(turned_covariance(start.covariance, phase))});
   simulation.trajectory.reserve(samples.size());
   for (const trackers::Sample& sample : samples) {
     if (!simulation.trajectory.empty()) {

@@ -24,4 +24,11 @@ struct SteadyState {
 /// last step of the iteration with the estimation error held at zero.
 [[nodiscard]] SteadyState find_steady_state(const Design& design, double frequency);
 
+/// P(0|0) of a run that starts at that frequency (rad/sample), in the frame of the estimated phase: as the
+/// design gives it (of a range, its end), or the filter's steady state. Needs round-to-nearest.
+[[nodiscard]] SteadyState run_start_covariance(const Design& design, double frequency);
+
+/// The covariance in a frame that is turned by the angle, rad.
+[[nodiscard]] Eigen::Matrix3d turned_covariance(const Eigen::Matrix3d& covariance, double angle);
+
 }  // namespace veritrack::certificates

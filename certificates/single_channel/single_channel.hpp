@@ -1,8 +1,11 @@
 // What can be said of a design of the single-channel tracker.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "analysis/rigor/interval.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/document/tracker_run.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
 #include "trackers/tone_model.hpp"
 
@@ -33,5 +36,14 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& pro
 /// which the tracker sees the in-phase channel. Throws trackers::ZeroInnovationVariance. Holds
 /// round-to-nearest.
 [[nodiscard]] Simulation simulate_single_channel(const SingleChannelEkfTables& tables);
+
+/// P(0|0) of a run that starts at that frequency (rad/sample) and phase (rad), in the frame of the estimated
+/// phase: as given, or where the covariance settles on a noise-free tone that reaches that phase. Needs
+/// round-to-nearest.
+[[nodiscard]] Eigen::Matrix3d run_start_covariance(const SingleChannelEkfTables& tables, double frequency,
+                                                   double phase);
+
+/// The tracker of a design, to be run on samples.
+[[nodiscard]] TrackerOnSamples single_channel_on_samples(const Design& design);
 
 }  // namespace veritrack::certificates

@@ -38,7 +38,8 @@ const TrackerKind& single_channel_kind() {
                                 .summary = summary,
                                 .sections = sections,
                                 .report_json = single_channel_report_json,
-                                .formal_proofs = coq::proposition_1_proofs};
+                                .formal_proofs = coq::proposition_1_proofs,
+                                .track = single_channel_on_samples};
   return kind;
 }
 

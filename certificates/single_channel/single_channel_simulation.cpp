@@ -17,9 +17,9 @@ namespace {
 using trackers::SingleChannelEkf;
 using trackers::SingleChannelEstimate;
 
-/// P(0|0) in the frame of the estimated phase: as given, or where the covariance settles on a noise-free tone
-/// that reaches that phase.
-Eigen::Matrix3d start_covariance(const SingleChannelEkfTables& tables, double frequency, double phase) {
+}  // namespace
+
+Eigen::Matrix3d run_start_covariance(const SingleChannelEkfTables& tables, double frequency, double phase) {
   if (tables.assume.initial_covariance) {
     Eigen::Matrix3d covariance;
     for (Eigen::Index row = 0; row < 3; ++row) {
@@ -44,8 +44,6 @@ Eigen::Matrix3d start_covariance(const SingleChannelEkfTables& tables, double fr
   return turned(tracker.filtered().covariance, std::sin(-phase), std::cos(-phase)).matrix();
 }
 
-}  // namespace
-
 Simulation simulate_single_channel(const SingleChannelEkfTables& tables) {
   const rigor::NearestRounding nearest;
   const Assumptions& assume = tables.assume;
@@ -61,7 +59,7 @@ Simulation simulate_single_channel(const SingleChannelEkfTables& tables) {
       std::atan2(first.clean_quadrature, first.clean_in_phase) + assume.initial_phase_error.nearest;
   const double amplitude = assume.amplitude.nearest + assume.initial_amplitude_error.nearest;
   const auto covariance =
-      trackers::FactoredCovariance<double>::from_matrix(start_covariance(tables, first.frequency, phase));
+      trackers::FactoredCovariance<double>::from_matrix(run_start_covariance(tables, first.frequency, phase));
   SingleChannelEkf<double> tracker(trackers::single_channel_design(nearest_values(tables.design)),
                                    {amplitude * std::cos(phase), amplitude * std::sin(phase),
                                     first.frequency + assume.initial_frequency_error.nearest,

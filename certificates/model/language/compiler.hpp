@@ -17,6 +17,8 @@ struct CompiledProgram {
   trackers::StraightLineProgram program{0};
   std::vector<Position> positions;   ///< one for each instruction
   std::map<int, std::string> names;  ///< of registers that a definition has given a name to
+  /// The registers of names, also of those that came second: one register may have several.
+  std::map<std::string, int> places;
 };
 
 /// The program for these formulas, whose results are their values in that order. Inputs: the constants, then

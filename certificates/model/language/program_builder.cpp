@@ -189,6 +189,7 @@ std::vector<Differentiated> ProgramBuilder::run(const CompiledProgram& compiled,
 void ProgramBuilder::name(Term term, const std::string& name) {
   if (!term.is_zero() && !term.is_one()) {
     result_.names.try_emplace(term.place(), name);
+    result_.places.try_emplace(name, term.place());
   }
 }
 

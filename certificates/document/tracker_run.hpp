@@ -1,0 +1,75 @@
+// A design's tracker at work on samples, one after the other, in double precision: what `veritrack track`
+// drives, and what it compares a recording with. Nothing here is proved.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+
+namespace veritrack::certificates {
+
+/// A tone at one sample.
+struct ToneAtSample {
+  double amplitude = 1.0;  ///< signal units
+  double phase = 0.0;      ///< rad; the in-phase part is amplitude cos(phase)
+  double frequency = 0.0;  ///< rad/sample
+};
+
+/// What a tracker says after a sample. NaN where it does not say it.
+struct TrackerOutput {
+  double frequency;                  ///< the estimate with this sample, rad/sample
+  double frequency_deviation;        ///< of the estimate, as the tracker believes, rad/sample
+  std::array<double, 2> innovation;  ///< sample less prediction for each channel, signal units
+  /// The normalised innovation squared, v' S^-1 v with the innovation v and its covariance S as the tracker
+  /// believes: chi-squared with as many degrees of freedom as channels when the belief is right.
+  double nis;
+};
+
+class TrackerRun {
+ public:
+  TrackerRun() = default;
+  virtual ~TrackerRun() = default;
+  TrackerRun(const TrackerRun&) = delete;
+  TrackerRun& operator=(const TrackerRun&) = delete;
+  TrackerRun(TrackerRun&&) = delete;
+  TrackerRun& operator=(TrackerRun&&) = delete;
+
+  /// 1, or 2: in phase and quadrature.
+  [[nodiscard]] virtual int channels() const = 0;
+  /// Whether innovation and NIS are numbers.
+  [[nodiscard]] virtual bool has_innovation() const = 0;
+  /// Starts anew, in the state that the tracker has when it has followed this tone; `first` is the tone at
+  /// the sample that comes next. Nearest rounding.
+  virtual void start(const ToneAtSample& first) = 0;
+  /// One sample, `channels()` values in signal units. Nearest rounding.
+  [[nodiscard]] virtual TrackerOutput step(std::span<const double> sample) = 0;
+  /// One sample that is missing: the prediction, or nothing when this tracker cannot go on without the
+  /// sample. Nearest rounding.
+  [[nodiscard]] virtual std::optional<TrackerOutput> predict() = 0;
+};
+
+/// What a design assumes of its signal, in doubles: for a comparison with a recording.
+struct SignalAssumptions {
+  std::array<double, 2> amplitude{1, 1};  ///< [least, largest], constant, signal units
+  std::array<double, 2> frequency{0, 0};  ///< [lowest, highest], rad/sample
+  std::optional<double> noise;            ///< |v(k)| at most, signal units
+  std::optional<double> noise_deviation;  ///< of each channel, signal units; where the noise is Gaussian
+  std::optional<double> slew;             ///< rad/sample per sample, at most; none with a `frequency_walk`
+  std::optional<double> sample_rate;      ///< Hz; where the design says it
+};
+
+/// Thrown for a design whose tracker cannot be run on samples: what() says what is missing.
+class NotTrackable : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A tracker and what its design assumes.
+struct TrackerOnSamples {
+  std::unique_ptr<TrackerRun> tracker;
+  SignalAssumptions assume;
+};
+
+}  // namespace veritrack::certificates

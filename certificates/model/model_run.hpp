@@ -1,0 +1,11 @@
+// A tracker that a user has written down, at work on samples.
+#pragma once
+
+#include "certificates/design/design.hpp"
+#include "certificates/document/tracker_run.hpp"
+
+namespace veritrack::certificates {
+
+[[nodiscard]] TrackerOnSamples model_on_samples(const Design& design);
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,175 @@
+#include "reports/recording/track_document.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "certificates/document/markdown_text.hpp"
+#include "reports/recording/chi_square.hpp"
+#include "reports/recording/track_sentences.hpp"
+
+namespace veritrack::reports {
+
+namespace {
+
+namespace markdown = certificates::markdown;
+
+constexpr std::size_t kRanges = 20;
+
+std::string bullets(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) {
+    text += "- " + sentence + "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> frequency_row(const TrackReport& report, const RecordingUnits& units) {
+  const AssumptionFindings& found = report.result.assumptions;
+  return {"frequency",
+          fmt::format("from {} to {}", units.frequency(report.assume.frequency[0]),
+                      units.frequency(report.assume.frequency[1])),
+          fmt::format("from {} to {}", units.frequency(found.frequency.least),
+                      units.frequency(found.frequency.largest)),
+          listed(found.frequency_exceeded, kRanges)};
+}
+
+std::vector<std::string> slew_row(const TrackReport& report, const RecordingUnits& units) {
+  const AssumptionFindings& found = report.result.assumptions;
+  return {"slew",
+          report.assume.slew ? "at most " + units.slew(*report.assume.slew) : "a random walk: not compared",
+          fmt::format("largest {} ± {:.1g}; root mean square {:.2g}", units.slew(found.largest_slew),
+                      found.slew_deviation, found.slew_root_mean_square),
+          listed(found.slew_exceeded, kRanges)};
+}
+
+std::vector<std::string> noise_row(const TrackReport& report) {
+  const AssumptionFindings& found = report.result.assumptions;
+  const std::string assumed =
+      report.assume.noise_deviation
+          ? fmt::format("deviation of each channel {:.4g}", *report.assume.noise_deviation)
+          : fmt::format("at most {:.4g}{}", report.assume.noise.value_or(NAN),
+                        report.result.channels > 1 ? ", both channels together" : "");
+  return {"noise: distance from a tone of amplitude " + amplitude_words(report.assume), assumed,
+          fmt::format("largest {:.4g}; root mean square of each channel {:.4g}", found.largest_distance,
+                      found.distance_deviation),
+          listed(found.noise_exceeded, kRanges)};
+}
+
+std::string assumptions_section(const TrackReport& report, const RecordingUnits& units) {
+  const AssumptionFindings& found = report.result.assumptions;
+  std::string text = "## What the certificate assumes, and the recording\n\n";
+  if (found.judged == 0) {
+    return text +
+           "No stretch of the recording could be judged: none was in lock and without gaps for long "
+           "enough.\n\n";
+  }
+  text +=
+      markdown::table({"", "assumed", "estimated in the recording", "exceeded in"},
+                      {frequency_row(report, units),
+                       slew_row(report, units),
+                       noise_row(report),
+                       {"amplitude", amplitude_words(report.assume) + ", constant",
+                        fmt::format("from {:.4g} to {:.4g}", found.amplitude.least, found.amplitude.largest),
+                        "counts as noise"},
+                       {"noise around the fitted tone", "",
+                        fmt::format("largest {:.4g}; root mean square of each channel {:.4g}",
+                                    found.largest_residual, found.noise_deviation),
+                        ""}});
+  text += fmt::format(
+      "\nAll of these are estimates. A tone is fitted to each stretch of {} samples in lock, with an "
+      "amplitude and a frequency that may drift in it; {} of {} samples lie in such stretches. Slew and "
+      "frequency count as exceeded when they are by more than five deviations of the estimate in white "
+      "noise.\n\n",
+      report.result.window, found.judged, report.result.samples);
+  return text;
+}
+
+std::string nis_section(const TrackReport& report) {
+  const TrackResult& result = report.result;
+  if (!result.has_innovation) {
+    return "## Innovations\n\nThis tracker is given by its recursion: it has no covariance, so there are no "
+           "innovations to normalise.\n\n";
+  }
+  std::string text = "## Innovations\n\n" + nis_sentence(result) + "\n\n";
+  if (result.nis.count > 0) {
+    const double freedom = static_cast<double>(result.window) * result.channels;
+    text += fmt::format(
+        "Stretches of {} samples whose mean NIS is above {:.4g}, which happens to a right belief with a "
+        "probability of 3e-7: {}. The largest NIS of a sample is {:.4g}.\n\n",
+        result.window, result.channels * mean_square_quantile(freedom, kNormalFive),
+        listed(result.nis.too_large, kRanges), result.nis.largest);
+  }
+  return text;
+}
+
+std::string run_section(const TrackReport& report, const RecordingUnits& units) {
+  const TrackResult& result = report.result;
+  std::vector<std::string> sentences;
+  sentences.push_back(fmt::format(
+      "The recording is {}; {} samples from {} on were used{}.", markdown::escaped(report.recording),
+      result.samples, units.sample(result.first),
+      report.sample_rate ? fmt::format(", at {:.8g} samples per second", *report.sample_rate) : ""));
+  for (const std::string& note : report.notes) {
+    sentences.push_back(note);
+  }
+  if (result.scale != 1.0) {
+    sentences.push_back(fmt::format("Samples were multiplied by {:.6g}.", result.scale));
+  }
+  for (const TrackStart& start : result.starts) {
+    sentences.push_back(fmt::format(
+        "The tracker was started at {} in the state in which it has followed a tone of amplitude {:.4g} and "
+        "frequency {} for long; amplitude and phase are those of the samples from there on.",
+        units.sample(start.sample), start.tone.amplitude, units.frequency(start.tone.frequency)));
+  }
+  if (result.start_count > result.starts.size()) {
+    sentences.push_back(fmt::format("It was started {} times in all.", result.start_count));
+  }
+  sentences.push_back(fmt::format("Missing samples: {}.", listed(result.gaps, kRanges)));
+  sentences.push_back(fmt::format("Samples without a tracker: {}.", listed(result.untracked, kRanges)));
+  return "## The run\n\n" + bullets(sentences) + "\n";
+}
+
+std::string lock_section(const TrackReport& report) {
+  const TrackResult& result = report.result;
+  return fmt::format(
+      "## Lock\n\nThe lock indicator is the share of the power of the last {} samples that is in a tone "
+      "which "
+      "turns with the estimated frequency: 1 for a tone without noise, SNR/(1 + SNR) in white noise. Below "
+      "{} the tracker is out of lock. Out of lock: {}.\n\n",
+      result.window, kLockShare, listed(result.no_lock, kRanges));
+}
+
+}  // namespace
+
+std::string headline(const TrackReport& report) {
+  const RecordingUnits units(report.sample_rate);
+  return lock_sentence(report.result, units) + " " + short_nis_sentence(report.result) +
+         assumptions_sentence(report.result);
+}
+
+std::string to_markdown(const TrackReport& report, const std::string& figure) {
+  const RecordingUnits units(report.sample_rate);
+  const TrackResult& result = report.result;
+  std::string text = "# " + headline(report) + "\n\n";
+  text += fmt::format("{}, tracker {}, on {}. Nothing on this page is proved.\n\n",
+                      markdown::escaped(report.design->name), markdown::escaped(report.design->tracker),
+                      markdown::escaped(report.recording));
+  text += bullets(report_sentences(report, units)) + "\n";
+  if (!figure.empty()) {
+    text += fmt::format("![Estimated frequency, normalised innovations and lock over the recording]({})\n\n",
+                        figure);
+  }
+  text += run_section(report, units) + lock_section(report) + nis_section(report) +
+          assumptions_section(report, units);
+  text += fmt::format(
+      "## Files\n\n`track.csv` has {} rows, each for {}. `veritrack track --each FILE` writes a row for "
+      "every "
+      "sample. The columns are\nexplained in docs/recordings.md.\n",
+      result.series.rows().size(),
+      result.series.samples_per_row() == 1 ? "one sample"
+                                           : fmt::format("{} samples", result.series.samples_per_row()));
+  return text;
+}
+
+}  // namespace veritrack::reports

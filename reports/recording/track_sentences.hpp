@@ -1,0 +1,26 @@
+// The sentences that answer what a run over a recording is asked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/recording/recording_units.hpp"
+#include "reports/recording/track_document.hpp"
+
+namespace veritrack::reports {
+
+/// "Lost lock at sample 12." and the like.
+[[nodiscard]] std::string lock_sentence(const TrackResult& result, const RecordingUnits& units);
+/// Whether the mean NIS is within its band, with all numbers.
+[[nodiscard]] std::string nis_sentence(const TrackResult& result);
+/// The same in a few words with a blank behind it; empty when there is nothing to say.
+[[nodiscard]] std::string short_nis_sentence(const TrackResult& result);
+/// Whether the recording keeps to what the certificate assumes.
+[[nodiscard]] std::string assumptions_sentence(const TrackResult& result);
+/// "1", or "0.5 to 2".
+[[nodiscard]] std::string amplitude_words(const certificates::SignalAssumptions& assume);
+/// What else has to be said at once.
+[[nodiscard]] std::vector<std::string> report_sentences(const TrackReport& report,
+                                                        const RecordingUnits& units);
+
+}  // namespace veritrack::reports

@@ -185,7 +185,9 @@ std::size_t ModelMap::proved() const {
 std::size_t ModelMap::simulated_only() const {
   std::size_t count = 0;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    count += !cells[cell].is_proved && simulated.locks(cell) ? 1U : 0U;
+    if (!cells[cell].is_proved && simulated.locks(cell)) {
+      ++count;
+    }
   }
   return count;
 }

@@ -157,8 +157,8 @@ std::string to_markdown(const TrackReport& report, const std::string& figure) {
                       markdown::escaped(report.recording));
   text += bullets(report_sentences(report, units)) + "\n";
   if (!figure.empty()) {
-    text += fmt::format("![Estimated frequency, normalised innovations and lock over the recording]({})\n\n",
-                        figure);
+    text += fmt::format("![Estimated frequency{}lock over the recording]({})\n\n",
+                        result.has_innovation ? ", normalised innovations and " : " and ", figure);
   }
   text += run_section(report, units) + lock_section(report) + nis_section(report) +
           assumptions_section(report, units);

@@ -173,6 +173,12 @@ class Track(CliTestCase):
             self.assertEqual(result.returncode, 2, options)
             self.assertIn(message, result.stderr)
 
+    def test_an_observer_with_a_sampling_interval(self):
+        self.write("t,y\n" + "".join(f"{k / 1000:.3f},{2 * math.cos(0.003 * k):.8f}\n" for k in range(20000)), "tone.csv")
+        result = self.track(ROOT / "tests/certificates/kkl-sampled.toml", "tone.csv", "--strict")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("Kept lock. As far as estimates can tell, the recording keeps", result.stdout)
+
     def test_an_observer_in_continuous_time_needs_a_sampling_interval(self):
         self.write(as_csv(tone(100)), "tone.csv")
         result = self.track(ROOT / "designs/praly-section-v.toml", "tone.csv", "--columns", "i")

@@ -155,7 +155,7 @@ void CsvSource::find_interval() {
 
 std::int64_t CsvSource::missing_before(const Row& row) {
   constexpr double kTolerance = 0.25;
-  constexpr double kLongestGap = 1e12;
+  constexpr double kLongestGap = 1e8;
   if (!places_.time || !last_time_) {
     last_time_ = row.time;
     return 0;
@@ -166,7 +166,7 @@ std::int64_t CsvSource::missing_before(const Row& row) {
   if (!(whole >= 1.0 && whole < kLongestGap && deviation <= kTolerance)) {
     records_.refuse(row.time_position,
                     fmt::format("the time advances by {:.6g} s; allowed: {:.6g} s, the interval of this "
-                                "recording, or whole multiples of it where samples are missing",
+                                "recording, or whole multiples of it (up to 1e8) where samples are missing",
                                 row.time - *last_time_, interval_));
   }
   largest_deviation_ = std::max(largest_deviation_, deviation);

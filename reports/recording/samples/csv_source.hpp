@@ -14,7 +14,7 @@
 namespace veritrack::reports {
 
 /// Empty cells and NaN are missing samples. So are instants that the times leave out: times advance by a
-/// steady interval, or by whole multiples of it (to a quarter of the interval).
+/// steady interval, or by whole multiples of it, up to 1e8 (to a quarter of the interval).
 class CsvSource : public SampleSource {
  public:
   /// Reads the header and the first samples. "-" is standard input. Throws certificates::InputError.

@@ -214,7 +214,7 @@ class BandSearch {
     const double share = std::sqrt(
         std::log(std::max(2.0, kShareOfStarts * task_->samples * terms_.constant)) / terms_.exponent);
     const double start = 1.01 * search.start_level() / share;
-    for (double radius = std::max(start, 0.35 * search.guess()); radius < 1.6 * search.guess();
+    for (double radius = std::max(start, 0.2 * search.guess()); radius < 1.6 * search.guess();
          radius *= 1.08) {
       if (search.may_hold(radius, terms_)) {
         return search.proves(1.04 * radius, terms_) || search.proves(1.1 * radius, terms_);

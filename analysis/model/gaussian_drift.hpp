@@ -23,6 +23,8 @@ struct DriftQuestion {
   double exponent = 0.0;    ///< L: W is exp(L) at the rim
   double factor = 1.0;      ///< kappa
   double constant = 0.0;    ///< c0
+  /// At least 1: what is not linear counts that many times, so that another program need not be as sharp.
+  double room = 1.0;
 };
 
 struct DriftResult {

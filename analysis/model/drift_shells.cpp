@@ -45,7 +45,7 @@ class ShellCheck {
     gain_ = std::isfinite(noise) ? Interval::from_bounds(0.0, noise) : Interval::empty();
     of_x_ = at_middle(parts.of_x) * scale_.upper();
     of_v_ = at_middle(parts.of_v) * scale_.upper();
-    root_of_scale_ = sqrt(scale_);
+    unit_ = sqrt(scale_) * Interval(question.room);
   }
 
   /// For all levels from low to high, relative to R.
@@ -89,7 +89,7 @@ class ShellCheck {
     for (std::size_t degree = 0; degree < VectorParts::kDegrees; ++degree) {
       sum = sum + parts_->norms.at(degree)[0] * pow(Interval(level), static_cast<int>(degree));
     }
-    return sum * root_of_scale_;
+    return sum * unit_;
   }
   /// A bound of what is not linear and depends on the noise, over |u|, u = v/V, at levels up to this one.
   [[nodiscard]] Interval with_noise(double level) const {
@@ -99,7 +99,7 @@ class ShellCheck {
         sum = sum + parts_->norms.at(degree).at(order) * pow(Interval(level), static_cast<int>(degree));
       }
     }
-    return sum * root_of_scale_;
+    return sum * unit_;
   }
 
   /// What the linear part has to meet; nothing when no linear part would do.
@@ -162,7 +162,7 @@ class ShellCheck {
 
   const VectorParts* parts_;
   Interval scale_;  ///< 1/R^2
-  Interval root_of_scale_;
+  Interval unit_;   ///< 1/R, times the room
   Interval exponent_, factor_, constant_;
   int channels_;
   Interval twice_variance_;  ///< of u = v/V

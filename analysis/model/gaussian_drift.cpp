@@ -43,7 +43,8 @@ DriftResult verify_drift(const TrackerModel& model, const Tube& tube, const Drif
   }
   if (!is_positive(question.radius) || !is_positive(question.deviation) ||
       !is_positive(question.most_noise) || !is_positive(question.exponent) || !is_positive(question.factor) ||
-      question.factor > 1.0 || !is_positive(question.constant) || !is_grid(budget)) {
+      question.factor > 1.0 || !is_positive(question.constant) || !(question.room >= 1.0) ||
+      !is_positive(question.room) || !is_grid(budget)) {
     result.reason = "no radius, noise, weight or budget that could be verified";
     return result;
   }

@@ -135,8 +135,14 @@ class RadiusSearch {
   static DriftQuestion question_of(double radius, const GaussianTerms& terms) {
     constexpr double kMoreNoise = 1.004;
     constexpr double kLessConstant = 0.85;
-    return {radius,       kMoreNoise * terms.deviation,  terms.most_noise, terms.exponent,
-            terms.factor, kLessConstant * terms.constant};
+    constexpr double kRoom = 1.1;
+    return {radius,
+            kMoreNoise * terms.deviation,
+            terms.most_noise,
+            terms.exponent,
+            terms.factor,
+            kLessConstant * terms.constant,
+            kRoom};
   }
 
   const TrackerModel* model_;

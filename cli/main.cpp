@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/self_test.hpp"
 #include "certificates/design/input_error.hpp"
@@ -65,7 +66,12 @@ int run(int argc, char** argv) {
   certify->add_flag("--coq", certify_options.coq,
                     "also write certificate.v, proofs that the proof assistant Coq can check (make proofs)");
 
-  const CLI::Range seconds(1e-3, 1e8);
+  // Not CLI::Range, which lets pass what is not a number.
+  const auto seconds = [](const std::string& text) {
+    const double value = rigor::nearest_double(text);
+    return value >= 1e-3 && value <= 1e8 ? std::string()
+                                         : std::string("allowed: a number of seconds from 0.001 to 1e8");
+  };
   certify
       ->add_option("--timeout", certify_options.seconds,
                    "end the search of a design with tracker model after so many seconds, and write what is "

@@ -59,6 +59,7 @@ void keep_widest_part(TubeSet& set, double low, double high) {
     set.tubes.clear();
     return;
   }
+  set.parts.reserve(runs.size());
   for (const TubeRun& run : runs) {
     set.parts.push_back(run.range);
   }

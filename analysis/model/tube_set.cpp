@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
+#include "analysis/model/level_search.hpp"
 #include "analysis/model/set_parts.hpp"
 #include "analysis/model/set_search.hpp"
 #include "analysis/rigor/elementary.hpp"
@@ -16,170 +16,8 @@ namespace veritrack::model {
 
 namespace {
 
+using detail::LevelSearch;
 using rigor::Interval;
-using rigor::Verdict;
-
-/// The search for the levels of one tube.
-class LevelSearch {
- public:
-  LevelSearch(const TrackerModel& model, const TubeProposal& proposal, const SetTask& task)
-      : model_(&model), proposal_(&proposal), task_(&task) {
-    // Slow trackers have little room, so that cells are small.
-    const double room = 1.0 - proposal.worth.rate;
-    constexpr double kLittleRoom = 0.02;
-    proved_.grid.phases = room < kLittleRoom ? 64 : 32;
-    proved_.tube = *proposal.tube;
-    proved_.grid.deadline = task.deadline;
-    slow_ = 1.0 - 0.05 * room;
-    fast_ = 1.0 - 0.5 * room;
-  }
-
-  /// The largest radius about the proposal for this noise, with levels below; nothing when none is proved.
-  [[nodiscard]] std::optional<ProvedTube> with_noise(double noise) {
-    double radius = largest_radius(level(), [&](double tried) { return may_hold(tried, noise); });
-    for (int i = 0; i < 60 && radius > 0.0 && !is_locked(*model_, proved_.tube, radius); ++i) {
-      radius *= 0.93;
-    }
-    std::optional<ProvedTube> largest;
-    int tries = 0;
-    for (const double factor : kFactors) {
-      if (radius > 0.0 && proves(factor * radius, noise)) {
-        descend(noise);
-        // Near the largest radius nothing may shrink; a little below it there are levels.
-        if (proved_.levels.size() > 1) {
-          return proved_;
-        }
-        largest = largest ? largest : proved_;
-        constexpr int kMostTries = 3;
-        if (++tries == kMostTries) {
-          break;
-        }
-      }
-    }
-    return largest;
-  }
-
-  /// The largest noise up to `most`, and the noise.
-  [[nodiscard]] std::optional<std::pair<ProvedTube, double>> with_largest_noise(double most) {
-    double best_noise = 0.0;
-    double best_radius = 0.0;
-    // From `noise` up, as much as points allow.
-    const auto improve = [&](double radius, double noise) {
-      if (!(noise > 0.0) || !may_hold(radius, noise) || !is_locked(*model_, proved_.tube, radius)) {
-        return;
-      }
-      for (double step = 1.6; step > 1.01; step = std::sqrt(step)) {
-        while (noise * step <= most && may_hold(radius, noise * step)) {
-          noise *= step;
-        }
-      }
-      best_noise = noise;
-      best_radius = radius;
-    };
-    for (const double factor : {1.0, 0.8, 0.65, 0.5, 1.25}) {
-      // As a share of the guess: to be larger than the best so far.
-      improve(factor * level(), std::min(most, std::max(best_noise * 1.02, 0.05 * proposal_->worth.noise)));
-    }
-    // Where the guess was far too large.
-    const double guess = proposal_->worth.noise * level() / proposal_->worth.level;
-    for (double factor = 0.35; factor > 0.02 && !(best_noise > 0.0); factor *= 0.7) {
-      improve(factor * level(), std::min(most, 0.05 * factor * guess));
-    }
-    for (const double factor : kFactors) {
-      if (best_noise > 0.0 && proves(best_radius, factor * best_noise)) {
-        return std::pair(proved_, factor * best_noise);
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  /// What is tried, as shares of what points allow.
-  static constexpr std::array<double, 8> kFactors{0.985, 0.96, 0.93, 0.89, 0.84, 0.77, 0.68, 0.55};
-
-  /// The guess, unless errors were larger than the frequency: of a step that is nearly linear.
-  [[nodiscard]] double level() const {
-    const ShapeWorth& worth = proposal_->worth;
-    return worth.reach > proposal_->frequency ? worth.level * proposal_->frequency / worth.reach
-                                              : worth.level;
-  }
-
-  [[nodiscard]] bool may_hold(double radius, double noise) const {
-    constexpr int kPhases = 24;
-    return !task_->deadline.is_over() &&
-           sampled_growth(*model_, proved_.tube, {radius, noise}, kPhases) <= slow_;
-  }
-
-  bool proves(double radius, double noise) {
-    if (!is_locked(*model_, proved_.tube, radius) || !holds({radius, noise, 1.0, slow_})) {
-      return false;
-    }
-    proved_.levels = {radius};
-    proved_.shrinking = {slow_};
-    return true;
-  }
-
-  bool holds(LevelQuestion question) {
-    question.shrinking = with_room(question.shrinking);
-    const LevelResult result = verify_level(*model_, proved_.tube, question, proved_.grid);
-    const bool is_proved = result.verdict == Verdict::proved;
-    last_cells_ = is_proved ? result.cells : last_cells_;
-    proved_.cells += is_proved ? result.cells : 0;
-    return is_proved;
-  }
-
-  /// Adds lower levels, while they are proved.
-  void descend(double noise) {
-    const double least = task_->with_curve ? 1e-6 * proved_.levels.front() : 0.02 * proved_.levels.front();
-    constexpr std::size_t kMostLevels = 24;
-    // Where cells become many, the curve itself is what the models cannot resolve.
-    const std::size_t most_cells = 3 * last_cells_ + 1000;
-    proved_.grid.most_cells = std::min(proved_.grid.most_cells, 2 * most_cells);
-    while (proved_.levels.back() > least && proved_.levels.size() < kMostLevels && last_cells_ < most_cells &&
-           step_down(noise)) {
-    }
-  }
-
-  bool step_down(double noise) {
-    struct Step {
-      double factor, shrinking;
-    };
-    const bool is_first = proved_.levels.size() == 1;
-    // Near the largest radius levels hardly shrink.
-    const std::array<Step, 5> far{{{0.125, fast_}, {0.25, fast_}, {0.5, fast_}, {0.7, slow_}, {0.9, slow_}}};
-    const std::array<Step, 3> near{{{0.5, slow_}, {0.7, slow_}, {0.9, slow_}}};
-    const auto take = [&](const Step& step) {
-      const double radius = proved_.levels.back();
-      const double next = step.factor * radius;
-      // Points are cheap, and where they fail nothing is verified.
-      constexpr int kPhases = 16;
-      if (task_->deadline.is_over() ||
-          !(sampled_growth(*model_, proved_.tube, {next, noise}, kPhases) <= with_room(step.shrinking))) {
-        return false;
-      }
-      // What is verified is from this number up.
-      const double scale = next / radius;
-      if (!holds({radius, noise, scale * (1.0 - 1e-12), step.shrinking})) {
-        return false;
-      }
-      if (is_first) {
-        proved_.shrinking.clear();
-      }
-      proved_.levels.push_back(next);
-      proved_.shrinking.push_back(step.shrinking);
-      return true;
-    };
-    return is_first ? std::any_of(near.begin(), near.end(), take) : std::any_of(far.begin(), far.end(), take);
-  }
-
-  const TrackerModel* model_;
-  const TubeProposal* proposal_;
-  const SetTask* task_;
-  ProvedTube proved_;
-  std::size_t last_cells_ = 0;  ///< of the last verification that succeeded
-  double slow_ = 1.0;
-  double fast_ = 1.0;
-};
 
 }  // namespace
 

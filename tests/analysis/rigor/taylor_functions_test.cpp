@@ -79,7 +79,7 @@ void check_functions() {
               static_cast<long double>(result.remainder()) + 1e-17L);
       }
       // Not merely wide: of the order of the first power that is left out.
-      CHECK(result.remainder() <= 1e-13 + 60.0 * std::pow(width, std::min(Degree + 1, 5)));
+      CHECK(result.remainder() <= 1e-12 + 300.0 * std::pow(width, std::min(Degree + 1, 5)));
     }
   }
 }

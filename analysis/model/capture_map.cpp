@@ -68,10 +68,11 @@ CaptureGrid capture_grid(std::size_t x_state, double x_range, std::size_t y_stat
   if (!is_grid) {
     throw std::invalid_argument("a grid of deviations needs two states, ranges and a number of cells");
   }
+  // The ends on both sides of 0 are the same numbers up to the sign.
+  const rigor::NearestRounding nearest;
   CaptureGrid grid{x_state, y_state, {}, {}};
   const auto cells = static_cast<std::size_t>(count);
   for (std::size_t i = 0; i <= cells; ++i) {
-    // The ends on both sides of 0 are the same numbers up to the sign.
     const double place = (2.0 * static_cast<double>(i) - count) / count;
     grid.x.push_back(place * x_range);
     grid.y.push_back(place * y_range);

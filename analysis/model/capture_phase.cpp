@@ -132,7 +132,10 @@ class PhaseRun {
         company.set = std::move(next.set);
         continue;
       }
-      if (is_accurate) {
+      // What grows suddenly, or is not known at all, comes from a box that is too large.
+      constexpr double kSmallShare = 0.25;
+      const bool is_sudden = company.set.radius <= kSmallShare * problem_->level;
+      if (is_accurate && !is_sudden) {
         fail(company, CaptureOutcome::too_coarse);
       } else {
         divide(company);

@@ -135,8 +135,12 @@ std::string unit_of(const ModelTable& table, const std::string& state, bool is_a
 /// Larger than the certified set by this factor, where no range is given.
 constexpr double kTimesCertified = 10.0;
 
-double range_of(const MappedState& state, const std::optional<double>& given, bool is_angle) {
+double range_of(const MappedState& state, const std::optional<double>& given, bool is_angle,
+                const char* option) {
   if (given) {
+    if (!(*given > 0.0) || !std::isfinite(*given)) {
+      throw RequestError(fmt::format("{} {}: no range; allowed: a number above 0", option, *given));
+    }
     return *given;
   }
   const double range = kTimesCertified * state.certified;
@@ -147,12 +151,12 @@ double range_of(const MappedState& state, const std::optional<double>& given, bo
 std::optional<model::ProvedTube> tube_about(const Interval& frequency, const model::TrackedTone& tone,
                                             const model::TrackerModel& tracker, double noise,
                                             std::string& reason) {
-  const model::SetTask task{.name = "starts",
-                            .objective = noise > 0.0 ? model::ShapeObjective::largest_noise
-                                                     : model::ShapeObjective::largest_starts,
-                            .noise = noise,
-                            .with_curve = true,
-                            .deviations = {}};
+  const model::SetTask task{
+      .name = "starts",
+      .objective = noise > 0.0 ? model::ShapeObjective::largest_noise : model::ShapeObjective::largest_starts,
+      .noise = noise,
+      .with_curve = true,
+      .deviations = {}};
   constexpr double kShare = 1e-4;  // of the frequency: narrow
   const double middle = rigor::midpoint(frequency);
   const double half = std::min(kShare * middle, 0.25 * (std::numbers::pi - middle));
@@ -242,8 +246,8 @@ ModelMapResult map_model(const Design& design, const ModelMapRequest& request,
   const auto axes = model::edge_of_section(problem, states[0], 1.0, states[1], 1.0, 4);
   map.x.certified = std::fabs(axes[0][0]);
   map.y.certified = std::fabs(axes[1][1]);
-  const double x_range = range_of(map.x, request.x_range, model.recursion.is_angle[states[0]]);
-  const double y_range = range_of(map.y, request.y_range, model.recursion.is_angle[states[1]]);
+  const double x_range = range_of(map.x, request.x_range, model.recursion.is_angle[states[0]], "--x-range");
+  const double y_range = range_of(map.y, request.y_range, model.recursion.is_angle[states[1]], "--y-range");
   constexpr int kEdgePoints = 180;
   map.edge =
       model::edge_of_section(problem, states[0], map.x.certified, states[1], map.y.certified, kEdgePoints);

@@ -39,6 +39,12 @@ std::string map_cells(std::string_view name, const ModelMap& map, const Choice& 
   return block + (is_any ? "" : "NaN NaN NaN NaN NaN NaN\n") + "END\n";
 }
 
+/// "deviation of theta at the start, rad".
+std::string axis_of(const MappedState& state) {
+  return fmt::format("deviation of {} at the start{}{}", state.name, state.unit.empty() ? "" : ", ",
+                     state.unit);
+}
+
 std::string caption_of(const ModelMap& map) {
   return fmt::format(
       "Which starts lock, over their deviation from the steady state in {} and in {}, at every phase of the "
@@ -63,7 +69,7 @@ std::vector<std::size_t> capture_steps(const ModelMap& map) {
   const double exact = static_cast<double>(most) / static_cast<double>(kShades.size());
   const double unit = std::pow(10.0, std::floor(std::log10(exact)));
   double width = 10.0 * unit;
-  for (const double factor : {5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.2, 1.0}) {
+  for (const double factor : {8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.2, 1.0}) {
     width = factor * unit >= exact ? factor * unit : width;
   }
   const auto step = static_cast<std::size_t>(std::ceil(std::max(width, 1.0)));
@@ -75,14 +81,12 @@ std::vector<std::size_t> capture_steps(const ModelMap& map) {
 }
 
 Figure draw_model_map(const ModelMap& map) {
-  std::string script =
-      gnuplot_style(600) +
-      fmt::format(
-          "set tics out\nunset grid\nset key maxrows 3 width -2\n"
-          "set xlabel 'deviation of {} at the start'\nset ylabel 'deviation of {} at the start'\n"
-          "set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n",
-          labelled(map.x), labelled(map.y), map.grid.x.front(), map.grid.x.back(), map.grid.y.front(),
-          map.grid.y.back());
+  std::string script = gnuplot_style(600) + fmt::format(
+                                                "set tics out\nunset grid\nset key maxrows 3 width -2\n"
+                                                "set xlabel '{}'\nset ylabel '{}'\n"
+                                                "set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n",
+                                                axis_of(map.x), axis_of(map.y), map.grid.x.front(),
+                                                map.grid.x.back(), map.grid.y.front(), map.grid.y.back());
   const std::vector<std::size_t> steps = capture_steps(map);
   std::string plot = "plot ";
   for (std::size_t i = 0; i < steps.size(); ++i) {

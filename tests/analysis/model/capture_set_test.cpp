@@ -17,7 +17,7 @@ using rigor::Interval;
 
 constexpr long double kTurn = 2.0L * std::numbers::pi_v<long double>;
 
-long double value_at(const CaptureModel& model, double s, double x, double y) {
+long double followed_value(const CaptureModel& model, double s, double x, double y) {
   long double sum = 0.0L;
   for (std::size_t i = 0; i < CaptureModel::kTerms; ++i) {
     const auto& exponents = CaptureModel::Monomials::kExponents[i];
@@ -70,10 +70,11 @@ void check_following(const test::CaptureExample& example, const StartBox& box, c
     }
     const double here =
         static_cast<double>(std::remainder(phase + static_cast<long double>(samples) * 0.35, kTurn));
-    const long double theta = value_at(set.middle[1], s, place_x, place_y);
+    const long double theta = followed_value(set.middle[1], s, place_x, place_y);
     const long double turns = std::round((state.theta - theta) / kTurn);
-    const Eigen::Vector2d off(static_cast<double>(state.w - value_at(set.middle[0], s, place_x, place_y)),
-                              static_cast<double>(state.theta - turns * kTurn - theta));
+    const Eigen::Vector2d off(
+        static_cast<double>(state.w - followed_value(set.middle[0], s, place_x, place_y)),
+        static_cast<double>(state.theta - turns * kTurn - theta));
     const double length = tube.shape(here, 0.35).triangularView<Eigen::Lower>().solve(off).norm();
     CHECK(length <= set.radius * (1.0 + 1e-9) + 1e-12);
     largest_share = std::max(largest_share, length / set.radius);
@@ -116,8 +117,9 @@ TEST_CASE("parts of a box are the same set") {
   CHECK(part.sample == whole.sample);
   for (const double place : {-1.0, 0.3, 1.0}) {
     // x = 0.35 + 0.05 place of the inner box is 0.4 + 0.2 (-0.25 + 0.25 place) of the outer one.
-    const long double inside = value_at(part.middle[1], 0.5, place, -place);
-    const long double outside = value_at(whole.middle[1], 0.5, -0.25 + 0.25 * place, 0.75 - 0.25 * place);
+    const long double inside = followed_value(part.middle[1], 0.5, place, -place);
+    const long double outside =
+        followed_value(whole.middle[1], 0.5, -0.25 + 0.25 * place, 0.75 - 0.25 * place);
     CHECK(std::fabs(inside - outside) < 1e-12L);
   }
   const CaptureModel level = follower.squared_level(track, whole);

@@ -217,6 +217,12 @@ ModelMapResult map_model(const Design& design, const ModelMapRequest& request,
   }
   ModelMap map;
   choose_frequency(map, assume, request);
+  if (request.with_noise && assume.gaussian) {
+    throw RequestError(
+        "--noise: Gaussian noise has no bound; allowed: a map without noise, or a design whose noise has a "
+        "bound",
+        "assume.noise");
+  }
   map.noise = request.with_noise ? assume.noise.value.upper() : 0.0;
   const std::array<std::size_t, 2> states = mapped_states(model, request);
   const model::TrackerModel tracker = proved_model(model, assume);

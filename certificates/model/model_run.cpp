@@ -11,6 +11,7 @@
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_design.hpp"
 #include "certificates/model/model_sets.hpp"
+#include "certificates/sets/gaussian_noise.hpp"
 
 namespace veritrack::certificates {
 
@@ -148,7 +149,12 @@ TrackerOnSamples model_on_samples(const Design& design) {
   }
   const rigor::NearestRounding nearest;
   assume.amplitude = {tables.assume.amplitude.nearest, tables.assume.amplitude.nearest};
-  assume.noise = tables.assume.noise.nearest;
+  if (tables.assume.gaussian) {
+    assume.noise_deviation =
+        nearest_deviation(*tables.assume.gaussian, tables.assume.amplitude) * assume.amplitude[0];
+  } else {
+    assume.noise = tables.assume.noise.nearest;
+  }
   if (tables.assume.sample_rate) {
     assume.sample_rate = tables.assume.sample_rate->nearest;
   }

@@ -32,10 +32,13 @@ Interval deviation_at_unit_amplitude(const Assumptions& assume) {
   return deviation_at_unit_amplitude(assume.gaussian.value(), assume.amplitude);
 }
 
-double nearest_deviation(const Assumptions& assume) {
-  const GaussianNoise& noise = assume.gaussian.value();
-  return noise.deviation ? noise.deviation->nearest / assume.amplitude.nearest
+double nearest_deviation(const GaussianNoise& noise, const Number& amplitude) {
+  return noise.deviation ? noise.deviation->nearest / amplitude.nearest
                          : std::sqrt(0.5) * std::pow(10.0, -noise.snr_db->nearest / 20.0);
+}
+
+double nearest_deviation(const Assumptions& assume) {
+  return nearest_deviation(assume.gaussian.value(), assume.amplitude);
 }
 
 bool frequency_walks(const Assumptions& assume) {

@@ -13,6 +13,7 @@ namespace veritrack::certificates {
                                                           const Number& amplitude);
 [[nodiscard]] rigor::Interval deviation_at_unit_amplitude(const Assumptions& assume);
 /// The double nearest to it: for simulations. Needs round-to-nearest.
+[[nodiscard]] double nearest_deviation(const GaussianNoise& noise, const Number& amplitude);
 [[nodiscard]] double nearest_deviation(const Assumptions& assume);
 
 /// Whether `frequency_walk` is more than nothing.

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "analysis/model/gaussian_set.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/analysis/model/tube_examples.hpp"
+#include "tests/support/binomial.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::model {
@@ -78,6 +80,48 @@ TEST_CASE("a phase-locked loop: the drift that is proved is above the integral o
   }
   const rigor::UpwardRounding upward;
   CHECK(leaving_probability(terms, 1, rigor::Interval(1e6), 0.0) < 1e-6);
+}
+
+TEST_CASE("runs in as much noise as was proved leave the tube no more often than is said") {
+  const Example loop(test::phase_locked_loop());
+  GaussianTask task = task_of(0.0);
+  task.samples = 1000.0;
+  task.probability = 0.05;
+  const TubeSet set = prove_gaussian_set(test::tone_of(loop.tracker), loop.model, 0.29, 0.31, task);
+  REQUIRE(set.is_complete);
+  const GaussianTerms& terms = *set.gaussian;
+  test::Random random(31);
+  const auto normal = [&] {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+    return radius * std::cos(2.0 * M_PI * random.uniform());
+  };
+  const std::int64_t runs = test::effort(200);
+  std::int64_t losses = 0;
+  double largest = 0.0;
+  for (std::int64_t run = 0; run < runs; ++run) {
+    const ProvedTube& proved = set.tubes[static_cast<std::size_t>(random.below(set.tubes.size()))];
+    const test::PointTube tube(proved.tube);
+    const double omega = random.uniform(tube.low(), tube.high());
+    double phase = random.uniform(0.0, 2.0 * M_PI);
+    Eigen::VectorXd xi(2);
+    xi << random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0);
+    const double start = task.start_share * proved.levels.front();
+    Eigen::VectorXd state = tube.curve(phase, omega) + start * tube.shape(phase, omega) * xi.normalized();
+    bool is_in_lock = true;
+    for (int k = 0; k < 1000 && is_in_lock; ++k) {
+      phase += omega;
+      state = test::next_state(loop.tracker, state, std::cos(phase) + terms.deviation * normal());
+      const double share = tube.level(state, phase, omega) / proved.levels.front();
+      largest = std::max(largest, share);
+      is_in_lock = share <= 1.0;
+    }
+    losses += is_in_lock ? 0 : 1;
+  }
+  const rigor::UpwardRounding upward;
+  const double bound = leaving_probability(terms, 1, rigor::Interval(1000.0), task.start_share);
+  CHECK(bound < 0.051);
+  CHECK(test::clopper_pearson(losses, runs, 1e-6).lower <= bound);
+  CHECK(largest > 0.4);  // the noise is felt
 }
 
 TEST_CASE("nothing is concluded from questions that are none") {

@@ -102,7 +102,11 @@ void choose_frequency(ModelMap& map, const ModelAssumptions& assume, const Model
   if (request.frequency) {
     map.frequency_text = *request.frequency;
   } else {
-    map.frequency_text = fmt::format("{}", rigor::midpoint(band));
+    // With few digits, unless the band is narrower than that.
+    map.frequency_text = fmt::format("{:.6g}", rigor::midpoint(band));
+    if (!rigor::is_subset(rigor::parse_decimal(map.frequency_text), band)) {
+      map.frequency_text = fmt::format("{}", rigor::midpoint(band));
+    }
   }
   try {
     map.frequency = rigor::parse_decimal(map.frequency_text);

@@ -147,7 +147,8 @@ class PhaseRun {
   /// Whether the ball grows much in a step, and counts: among starts that differ less it would not.
   [[nodiscard]] bool is_spreading(const FollowedStep& next, double radius) const {
     constexpr double kGrowth = 1.04;
-    return radius > options_->tolerance * problem_->level && next.set.radius > kGrowth * radius + next.added;
+    constexpr double kShare = 0.01;
+    return radius > kShare * problem_->level && next.set.radius > kGrowth * radius + next.added;
   }
 
   [[nodiscard]] bool may_divide(const Company& company) const {

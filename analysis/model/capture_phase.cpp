@@ -126,22 +126,33 @@ class PhaseRun {
       }
       FollowedStep next = follower_.step(track_, company.set);
       // Comparisons with what is not known are false.
+      const double radius = company.set.radius;
       const bool is_accurate = next.added <= options_->tolerance * problem_->level;
       const bool is_small = next.set.radius <= problem_->level;
-      if (is_accurate && is_small) {
+      if (is_accurate && is_small && !(is_spreading(next, radius) && may_divide(company))) {
         company.set = std::move(next.set);
         continue;
       }
-      // What grows suddenly, or is not known at all, comes from a box that is too large.
+      // What is not known at all, or grows suddenly, comes from a box that is too large, too.
       constexpr double kSmallShare = 0.25;
-      const bool is_sudden = company.set.radius <= kSmallShare * problem_->level;
-      if (is_accurate && !is_sudden) {
+      if (is_accurate && !(radius <= kSmallShare * problem_->level)) {
         fail(company, CaptureOutcome::too_coarse);
       } else {
         divide(company);
       }
       return;
     }
+  }
+
+  /// Whether the ball grows much in a step, and counts: among starts that differ less it would not.
+  [[nodiscard]] bool is_spreading(const FollowedStep& next, double radius) const {
+    constexpr double kGrowth = 1.04;
+    constexpr double kShare = 0.01;
+    return radius > kShare * problem_->level && next.set.radius > kGrowth * radius + next.added;
+  }
+
+  [[nodiscard]] bool may_divide(const Company& company) const {
+    return company.is_open.size() > 1 || company.x_halvings + company.y_halvings < options_->cell_halvings;
   }
 
   /// Divides the starts where they differ most; fails when that is not allowed or does not help.

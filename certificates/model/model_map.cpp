@@ -102,7 +102,11 @@ void choose_frequency(ModelMap& map, const ModelAssumptions& assume, const Model
   if (request.frequency) {
     map.frequency_text = *request.frequency;
   } else {
-    map.frequency_text = fmt::format("{}", rigor::midpoint(band));
+    // With few digits, unless the band is narrower than that.
+    map.frequency_text = fmt::format("{:.6g}", rigor::midpoint(band));
+    if (!rigor::is_subset(rigor::parse_decimal(map.frequency_text), band)) {
+      map.frequency_text = fmt::format("{}", rigor::midpoint(band));
+    }
   }
   try {
     map.frequency = rigor::parse_decimal(map.frequency_text);
@@ -269,7 +273,7 @@ ModelMapResult map_model(const Design& design, const ModelMapRequest& request,
   }
   model::CaptureOptions options;
   options.most_samples = std::min<std::size_t>(2 * map.simulated.longest + 64, 6'000);
-  options.most_steps = 60'000;
+  options.most_steps = 100'000;
   constexpr double kTolerance = 0.05;
   options.tolerance = kTolerance * (1.0 - map.tube.shrinking.back());
   const auto tell = [&](double share) {

@@ -51,7 +51,7 @@ CaptureOptions options_for(const test::CaptureExample& example, const SimulatedS
   CaptureOptions options;
   options.phases = 16;
   options.most_samples = 2 * simulated.longest + 64;
-  options.most_steps = 4'000;
+  options.most_steps = 40'000;
   options.tolerance = 0.05 * (1.0 - example.proved.shrinking.back());
   return options;
 }

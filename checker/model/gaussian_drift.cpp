@@ -13,8 +13,9 @@ namespace veritrack::checker {
 namespace {
 
 /// Levels over R between which the inequality is shown.
-constexpr std::array<double, 14> kLevels{0.0,  0.1875, 0.3125,   0.4375,  0.53125, 0.625,   0.6875,
-                                         0.75, 0.8125, 0.859375, 0.90625, 0.9375,  0.96875, 1.0};
+constexpr std::array<double, 18> kLevels{0.0,     0.125, 0.1875, 0.25,  0.28125, 0.3125,
+                                         0.34375, 0.375, 0.4375, 0.5,   0.5625,  0.625,
+                                         0.6875,  0.75,  0.8125, 0.875, 0.9375,  1.0};
 
 /// The inequality over a part of a tube. Everything is relative to R.
 ///

@@ -45,8 +45,7 @@ class PhaseRun {
     }
     begin();
     while (!waiting_.empty()) {
-      Company company = std::move(waiting_.back());
-      waiting_.pop_back();
+      Company company = take_next();
       if (is_any_open(company)) {
         follow(company);
       }
@@ -73,6 +72,19 @@ class PhaseRun {
       all.is_open.assign(cells.columns() * cells.rows(), 1);
       waiting_.push_back(std::move(all));
     }
+  }
+
+  /// Those that were halved least come first: hard cells must not use up what easy ones need.
+  [[nodiscard]] Company take_next() {
+    const auto halvings = [](const Company& company) { return company.x_halvings + company.y_halvings; };
+    // Of equal ones the last, so that few wait.
+    auto best = waiting_.begin();
+    for (auto each = waiting_.begin(); each != waiting_.end(); ++each) {
+      best = halvings(*each) <= halvings(*best) ? each : best;
+    }
+    Company company = std::move(*best);
+    waiting_.erase(best);
+    return company;
   }
 
   [[nodiscard]] StartBox box_of(const CellRange& cells) const {
@@ -129,7 +141,7 @@ class PhaseRun {
       const double radius = company.set.radius;
       const bool is_accurate = next.added <= options_->tolerance * problem_->level;
       const bool is_small = next.set.radius <= problem_->level;
-      if (is_accurate && is_small && !(is_spreading(next, radius) && may_divide(company))) {
+      if (is_accurate && is_small && !(company.is_open.size() > 1 && is_spreading(next, radius))) {
         company.set = std::move(next.set);
         continue;
       }
@@ -149,10 +161,6 @@ class PhaseRun {
     constexpr double kGrowth = 1.04;
     constexpr double kShare = 0.01;
     return radius > kShare * problem_->level && next.set.radius > kGrowth * radius + next.added;
-  }
-
-  [[nodiscard]] bool may_divide(const Company& company) const {
-    return company.is_open.size() > 1 || company.x_halvings + company.y_halvings < options_->cell_halvings;
   }
 
   /// Divides the starts where they differ most; fails when that is not allowed or does not help.

@@ -273,7 +273,7 @@ ModelMapResult map_model(const Design& design, const ModelMapRequest& request,
   }
   model::CaptureOptions options;
   options.most_samples = std::min<std::size_t>(2 * map.simulated.longest + 64, 6'000);
-  options.most_steps = 100'000;
+  options.most_steps = 40'000;
   constexpr double kTolerance = 0.05;
   options.tolerance = kTolerance * (1.0 - map.tube.shrinking.back());
   const auto tell = [&](double share) {

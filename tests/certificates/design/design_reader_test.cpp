@@ -20,6 +20,7 @@
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/design_format.hpp"
 #include "certificates/kkl_observer/kkl_observer_design.hpp"
+#include "certificates/model/model_design.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
@@ -83,7 +84,26 @@ std::string file_refusal(const fs::path& path) {
   return "accepted";
 }
 
+std::vector<Number> numbers_of_model(const ModelTables& tables) {
+  const ModelAssumptions& assume = tables.assume;
+  std::vector<Number> numbers{assume.amplitude, assume.frequency[0], assume.frequency[1], assume.slew};
+  if (!assume.gaussian) {
+    numbers.push_back(assume.noise);
+  }
+  for (const auto& number : {assume.gaussian ? assume.gaussian->snr_db : std::nullopt,
+                             assume.gaussian ? assume.gaussian->deviation : std::nullopt, assume.samples,
+                             assume.sample_rate, tables.require.sets.probability_of_losing_lock_below}) {
+    if (number) {
+      numbers.push_back(*number);
+    }
+  }
+  return numbers;
+}
+
 std::vector<Number> numbers_of(const Design& design) {
+  if (design.tracker == "model") {
+    return numbers_of_model(model_tables(design));
+  }
   const Assumptions& assume = quadrature_tables(design).assume;
   std::vector<Number> numbers{quadrature_tables(design).design.q1,
                               quadrature_tables(design).design.q2,

@@ -33,13 +33,17 @@ TEST_CASE("a proved loop has three figures, with captions that carry units and s
 TEST_CASE("only what is proved is drawn") {
   certificates::Certificate certificate = test::loop_certificate();
   certificates::ModelSets sets = model_sets(certificate);
-  sets.assumed->tubes.is_complete = false;
+  sets.assumed->tubes.is_complete = false;  // tubes of a part of the band are drawn
+  certificate.particulars = sets;
+  CHECK(draw_model_figures(certificate)[0].svg.find("assumed noise") != std::string::npos);
+  sets.assumed->tubes.tubes.clear();
   certificate.particulars = sets;
   std::vector<Figure> figures = draw_model_figures(certificate);
   REQUIRE(figures.size() == 3);
   CHECK(figures[1].caption.find("without noise") != std::string::npos);
   CHECK(figures[0].svg.find("assumed noise") == std::string::npos);
   sets.starts.tubes.is_complete = false;
+  sets.starts.tubes.tubes.clear();
   sets.cells.clear();
   certificate.particulars = sets;
   CHECK(draw_model_figures(certificate).empty());

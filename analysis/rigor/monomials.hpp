@@ -83,6 +83,7 @@ struct Monomials {
   /// The number of the product of two monomials, where that is of degree at most Degree (else 0, which must
   /// not be used).
   static constexpr std::array<std::array<std::uint16_t, kTerms>, kTerms> kProducts = [] {
+    constexpr auto kVariables = static_cast<std::size_t>(Variables);
     std::array<std::array<std::uint16_t, kTerms>, kTerms> products{};
     for (std::size_t i = 0; i < kTerms; ++i) {
       for (std::size_t j = 0; j < kTerms; ++j) {
@@ -92,13 +93,15 @@ struct Monomials {
         }
         const std::size_t begin = degree == 0 ? 0 : count_up_to(static_cast<int>(degree) - 1);
         const std::size_t end = count_up_to(static_cast<int>(degree));
+        // Few steps: compilers limit how many a constant expression may take.
         for (std::size_t k = begin; k < end; ++k) {
-          bool equal = true;
-          for (std::size_t v = 0; v < static_cast<std::size_t>(Variables); ++v) {
-            equal = equal && kExponents[k][v] == kExponents[i][v] + kExponents[j][v];
+          std::size_t v = 0;
+          while (v < kVariables && kExponents[k][v] == kExponents[i][v] + kExponents[j][v]) {
+            ++v;
           }
-          if (equal) {
+          if (v == kVariables) {
             products[i][j] = static_cast<std::uint16_t>(k);
+            break;
           }
         }
       }

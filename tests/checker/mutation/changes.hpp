@@ -41,12 +41,12 @@ struct Subject {
   std::int64_t places;
 };
 inline constexpr std::array kSubjects{
-    Subject{"theorem-2.9", 60}, Subject{"one-set", 12},        Subject{"given-covariance", 6},
-    Subject{"settling", 4},     Subject{"capture", 4},         Subject{"contraction", 1},
-    Subject{"published", 40},   Subject{"repaired", 40},       Subject{"kkl-observer", 8},
-    Subject{"kkl-paper", 12},   Subject{"frozen-filter", 100}, Subject{"phases", 4},
-    Subject{"steady-state", 1}, Subject{"steady-set", 3},      Subject{"lock", 3},
-    Subject{"mean-square", 2},  Subject{"model-observer", 3},  Subject{"model-moving", 3},
+    Subject{"theorem-2.9", 60},  Subject{"one-set", 12},        Subject{"given-covariance", 6},
+    Subject{"settling", 4},      Subject{"capture", 4},         Subject{"contraction", 1},
+    Subject{"published", 40},    Subject{"repaired", 40},       Subject{"kkl-observer", 8},
+    Subject{"kkl-paper", 12},    Subject{"frozen-filter", 100}, Subject{"phases", 4},
+    Subject{"steady-state", 1},  Subject{"steady-set", 3},      Subject{"lock", 3},
+    Subject{"mean-square", 2},   Subject{"model-observer", 3},  Subject{"model-moving", 3},
     Subject{"model-gaussian", 3}};
 
 /// All values with the keys and indices on the way to them, outermost first.

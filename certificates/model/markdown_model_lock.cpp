@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/model/gaussian_set.hpp"
@@ -19,12 +21,13 @@ using rigor::Direction;
 using rigor::Interval;
 using rigor::to_decimal;
 
-std::vector<std::string> row_of(const char* purpose, const ModelLock& lock, const ModelUnits& units) {
+std::vector<std::string> row_of(const char* purpose, const ModelLock& lock, const std::string& snr_db,
+                                const ModelUnits& units) {
   if (!lock.is_proved()) {
     return {purpose, "not proved", "—", "—", "—", "—"};
   }
   return {purpose,
-          lock.snr_db + " dB",
+          snr_db + " dB",
           to_decimal(lock.tubes.gaussian->deviation, 4, Direction::down),
           fmt::format("{}", lock.tubes.tubes.size()),
           units.at_most(lock.frequency_error),
@@ -62,9 +65,11 @@ std::string model_lock_section(const Certificate& certificate) {
       "from "
       "sample to sample; from that follows how probable it is that the tube is left. The same is true of all "
       "noise that is sub-Gaussian with this deviation: bounded noise of mean zero, for example.\n\n";
-  std::vector<std::vector<std::string>> rows{row_of("the assumed noise", *sets.gaussian, units)};
+  const std::optional<Number>& assumed = tables.assume.gaussian->snr_db;
+  std::vector<std::vector<std::string>> rows{
+      row_of("the assumed noise", *sets.gaussian, assumed ? assumed->text : sets.gaussian->snr_db, units)};
   if (sets.lowest_snr) {
-    rows.push_back(row_of("as much noise as was proved", *sets.lowest_snr, units));
+    rows.push_back(row_of("as much noise as was proved", *sets.lowest_snr, sets.lowest_snr->snr_db, units));
   }
   text += markdown::table({"For", "SNR, at least", "Deviation in each channel, at most, signal units",
                            "Cells of frequencies", "Frequency error in lock, at most",

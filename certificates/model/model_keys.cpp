@@ -13,7 +13,7 @@
 #include "certificates/design/nearest_key.hpp"
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_design.hpp"
-#include "certificates/model/noise_objection.hpp"
+#include "certificates/model/model_noise_keys.hpp"
 #include "certificates/sets/set_keys.hpp"
 
 namespace veritrack::certificates {

@@ -1,4 +1,4 @@
-#include "certificates/model/noise_objection.hpp"
+#include "certificates/model/model_noise_keys.hpp"
 
 namespace veritrack::certificates {
 

@@ -128,11 +128,17 @@ void check(const SingleChannelEkfTables& tables) {
 
 void check(const ModelTables& tables) {
   const ModelAssumptions& assume = tables.assume;
-  for (const Number& number :
-       {assume.amplitude, assume.frequency[0], assume.frequency[1], assume.noise, assume.slew}) {
+  for (const Number& number : {assume.amplitude, assume.frequency[0], assume.frequency[1], assume.slew}) {
     check(number);
     require(number.value.lower() >= 0.0, "a negative number");
   }
+  require(assume.gaussian.has_value() == assume.samples.has_value(),
+          "Gaussian noise and samples go together");
+  const Number& noise = !assume.gaussian             ? assume.noise
+                        : assume.gaussian->deviation ? *assume.gaussian->deviation
+                                                     : assume.gaussian->snr_db.value();
+  check(noise);
+  require((assume.gaussian && assume.gaussian->snr_db) || noise.value.lower() >= 0.0, "negative noise");
   require(assume.amplitude.value.lower() > 0.0, "an amplitude that may be zero");
   require(assume.frequency[0].value.lower() <= assume.frequency[1].value.upper(),
           "a reversed frequency band");

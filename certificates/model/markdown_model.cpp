@@ -132,24 +132,28 @@ std::string recursion_section(const Certificate& certificate, const Model& model
 
 std::string coverage_section(const ModelTables& tables) {
   const bool moves = tables.assume.slew.value.upper() > 0.0;
+  const bool is_gaussian = tables.assume.gaussian.has_value();
   return fmt::format(
       "## What this certificate covers, and what it does not\n\n"
-      "- Covered: the recursion above in exact arithmetic, for every noise within the assumed bound, every "
-      "phase and every frequency of the band.\n"
+      "- Covered: the recursion above in exact arithmetic, for {}, every "
+      "phase and every frequency that a statement names.\n"
       "- Not covered: the rounding of the program that runs, quantised samples, and whatever the formulas do "
       "not say, such as resets, lock detectors and limits that act.\n"
       "- The amplitude is exactly the assumed one, and the signal has no other components than those of the "
-      "signal formula. What else is in the samples must fit into the noise.\n"
+      "signal formula. What else is in the samples must {}.\n"
       "- The frequency {}. A mean is the mean over the phase of the signal.\n"
       "- The certified sets are the tubes in `certificate.json`. \"Started in the set\" refers to them by "
-      "name: `starts`, for large starts without noise, or `assumed`, for the assumed noise and slew. How "
+      "name: `starts`, for large starts without noise, or `assumed`, for the assumed noise and slew{}. How "
       "the tracker gets there from another start is not covered.\n"
       "- UNDECIDED refutes nothing: another set may exist.\n"
       "- The proof is in `docs/model-proof.md` of the program's sources. Every bound was computed with "
       "outward rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
+      is_gaussian ? "the noise that a statement names" : "every noise within the assumed bound",
+      is_gaussian ? "be noise of that kind" : "fit into the noise",
       moves
           ? "stays in the band and changes by no more than assumed, or is constant where a statement says so"
-          : "is constant");
+          : "is constant",
+      is_gaussian ? "; `gaussian` and `lowest-snr`, for Gaussian noise" : "");
 }
 
 }  // namespace

@@ -25,8 +25,10 @@ const std::string kMeanSquare = "ekf/rms-frequency-error";
 const std::string kLowestSnr = "ekf/lowest-snr";
 const std::string kPerSample = " rad/sample";
 
+/// Of any unit.
 bool is_zero(const Tree& number) {
-  return certainly_equal(from_decimal(text_of(number)), zero);
+  const std::string& text = text_of(number);
+  return certainly_equal(from_decimal(text.substr(0, text.find(' '))), zero);
 }
 
 Ball of(const std::optional<Ball>& value) {

@@ -16,7 +16,8 @@ inline constexpr std::string_view kPositiveFrequency =
 inline constexpr std::string_view kNotNegativeFrequency =
     "a number, 0 or more, in rad/sample, or { hz = a number } with sample_rate in [assume]";
 inline constexpr std::string_view kPositiveSlew =
-    "a number above 0, in rad/sample per sample, or { hz_per_second = a number } with sample_rate in [assume]";
+    "a number above 0, in rad/sample per sample, or { hz_per_second = a number } with sample_rate in "
+    "[assume]";
 inline constexpr std::string_view kNotNegativeSlew =
     "a number, 0 or more, in rad/sample per sample, or { hz_per_second = a number } with sample_rate in "
     "[assume]";

@@ -13,7 +13,8 @@ using rigor::Interval;
 
 /// rad/sample in the unit of the band.
 Interval in_band_unit(const ModelAssumptions& assume, double radians) {
-  return assume.frequency_in_hertz ? FrequencyUnits(assume.sample_rate).in_hertz(Interval(radians)) : Interval(radians);
+  return assume.frequency_in_hertz ? FrequencyUnits(assume.sample_rate).in_hertz(Interval(radians))
+                                   : Interval(radians);
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ class ModelWords {
       : assume_(&tables.assume), part_(std::move(part)) {}
 
   [[nodiscard]] std::string unit() const {
-    return assume_->frequency_in_hertz
-               ? fmt::format("Hz at {} samples per second", assume_->sample_rate.value().text)
-               : "rad/sample";
+    return (assume_->frequency_in_hertz ? "Hz" : "rad/sample") +
+           (assume_->sample_rate ? fmt::format(" at {} samples per second", assume_->sample_rate->text)
+                                 : std::string());
   }
   [[nodiscard]] std::string tone_with(const std::string& frequency) const {
     return fmt::format("{}, on {} of amplitude {} with {}", kExactArithmetic,

@@ -69,7 +69,8 @@ std::string initial_error_term(const Assumptions& assume) {
   const std::string frequency =
       !frequency_error.in_hertz
           ? decimal(frequency_error.text)
-          : fmt::format("(2 * PI * {} / {})", decimal(frequency_error.text.substr(0, frequency_error.text.find(' '))),
+          : fmt::format("(2 * PI * {} / {})",
+                        decimal(frequency_error.text.substr(0, frequency_error.text.find(' '))),
                         decimal(assume.sample_rate.value().text));
   return fmt::format("sqrt ({0} ^ 2 + 4 * (1 + {0}) * sin ({1} / 2) ^ 2 + {2} ^ 2)", amplitude_error,
                      decimal(assume.initial_phase_error.text), frequency);

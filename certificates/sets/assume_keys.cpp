@@ -186,10 +186,11 @@ constexpr std::array kAssumeKeys{
     Key<Assume>{"slew", kNotNegativeSlew, slew<&Assume::slew, not_negative>, defaults_to("0")},
     Key<Assume>{"initial_frequency_error", kNotNegativeFrequency,
                 in_radians<&Assume::initial_frequency_error, not_negative>, kRequired},
-    Key<Assume>{"initial_phase_error",
-                "a number from 0 to pi, rad (beyond half a turn an error of the phase is a smaller one on the "
-                "other side)",
-                real<&Assume::initial_phase_error, at_most_half_a_turn>, kRequired},
+    Key<Assume>{
+        "initial_phase_error",
+        "a number from 0 to pi, rad (beyond half a turn an error of the phase is a smaller one on the "
+        "other side)",
+        real<&Assume::initial_phase_error, at_most_half_a_turn>, kRequired},
     Key<Assume>{"initial_amplitude_error", kNotNegative, real<&Assume::initial_amplitude_error, not_negative>,
                 kRequired},
     Key<Assume>{

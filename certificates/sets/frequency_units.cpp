@@ -7,12 +7,20 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::certificates {
 
 using rigor::Interval;
 
+namespace {
+
+constexpr int kDigitsOfDecimals = 3;
+
+}  // namespace
+
 Interval FrequencyUnits::in_hertz(const Interval& radians) const {
+  const rigor::UpwardRounding upward;
   return radians * sample_rate_->value().value / (Interval(2.0) * rigor::pi());
 }
 
@@ -43,6 +51,7 @@ std::string FrequencyUnits::at_least(const Interval& radians, int digits) const 
 std::string FrequencyUnits::slew(const Interval& radians, int digits) const {
   std::string text = rigor::lower_decimal(radians, digits) + " rad/sample per sample";
   if (has_hertz()) {
+    const rigor::UpwardRounding upward;
     const Interval per_second = in_hertz(Interval(radians.lower())) * sample_rate_->value().value;
     text += fmt::format(" ({} Hz per second)", rigor::lower_decimal(per_second, digits));
   }
@@ -57,6 +66,30 @@ std::string FrequencyUnits::at_least(double radians, int digits) const {
 }
 std::string FrequencyUnits::slew(double radians, int digits) const {
   return slew(Interval(radians), digits);
+}
+
+std::string FrequencyUnits::at_most(const std::string& decimal) const {
+  return decimal + " rad/sample" +
+         (has_hertz() ? fmt::format(" ({} Hz)", rigor::upper_decimal(in_hertz(rigor::parse_decimal(decimal)),
+                                                                     kDigitsOfDecimals))
+                      : "");
+}
+
+std::string FrequencyUnits::at_least(const std::string& decimal) const {
+  return decimal + " rad/sample" +
+         (has_hertz() ? fmt::format(" ({} Hz)", rigor::lower_decimal(in_hertz(rigor::parse_decimal(decimal)),
+                                                                     kDigitsOfDecimals))
+                      : "");
+}
+
+std::string FrequencyUnits::between(const std::string& low, const std::string& high) const {
+  const std::string text = fmt::format("{} and {} rad/sample", low, high);
+  if (!has_hertz()) {
+    return text;
+  }
+  return fmt::format("{} ({} and {} Hz)", text,
+                     rigor::lower_decimal(in_hertz(rigor::parse_decimal(low)), kDigitsOfDecimals),
+                     rigor::upper_decimal(in_hertz(rigor::parse_decimal(high)), kDigitsOfDecimals));
 }
 
 std::string FrequencyUnits::sampled() const {

@@ -63,9 +63,8 @@ std::string assumed_disturbance(const GuaranteeTerms& terms) {
   if (assume.gaussian) {
     return gaussian_disturbance(assume);
   }
-  std::string text = is_zero(assume.slew)
-                         ? " and is constant"
-                         : " and changes by at most " + slew_words(assume.slew);
+  std::string text =
+      is_zero(assume.slew) ? " and is constant" : " and changes by at most " + slew_words(assume.slew);
   if (is_zero(assume.noise)) {
     return text + ", without measurement noise";
   }
@@ -107,7 +106,8 @@ std::string hypotheses(const GuaranteeTerms& terms, const std::string& disturban
       "{}{}, started within {} of the true frequency, {} rad of the phase and {} of the "
       "amplitude{}{}, ",
       tone(terms, false), disturbance, frequency_words(assume.initial_frequency_error),
-      assume.initial_phase_error.text, assume.initial_amplitude_error.text, terms.covariance.empty() ? "" : " ", terms.covariance);
+      assume.initial_phase_error.text, assume.initial_amplitude_error.text,
+      terms.covariance.empty() ? "" : " ", terms.covariance);
 }
 
 Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& terms) {

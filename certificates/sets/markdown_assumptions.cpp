@@ -99,8 +99,7 @@ std::string assumptions_section(const Assumptions& assume) {
   }
   for (auto& start : std::vector<std::vector<std::string>>{
            row("error of frequency at the start", "|\\hat x_3(0) - \\omega(0)| \\le",
-               code(assume.initial_frequency_error),
-               in_both_units({assume.initial_frequency_error}, units)),
+               code(assume.initial_frequency_error), in_both_units({assume.initial_frequency_error}, units)),
            row("error of phase at the start", "\\le", code(assume.initial_phase_error), "rad"),
            row("error of amplitude at the start", "\\le", code(assume.initial_amplitude_error),
                "signal units"),

@@ -41,9 +41,10 @@ Claim frequency_error_claim(const sets::StartResult& starts, const GuaranteeTerm
   const std::optional<Interval> bound = starts.proved_bound();
   const std::optional<theorems::Quantity>& wrong_lock = starts.wrong_lock_frequency_error;
   const FrequencyUnits units(assume.sample_rate);
-  Claim claim = claim_of("ekf/frequency-error-bound",
-                         fmt::format("the frequency error stays below {} for ever", frequency_words(required)),
-                         hypotheses(terms), required);
+  Claim claim =
+      claim_of("ekf/frequency-error-bound",
+               fmt::format("the frequency error stays below {} for ever", frequency_words(required)),
+               hypotheses(terms), required);
   if (bound && rigor::certainly_less(*bound, required.value)) {
     claim.verdict = Verdict::proved;
     claim.reason = fmt::format("By contraction it stays at or below {}.", units.at_most(*bound));
@@ -52,7 +53,8 @@ Claim frequency_error_claim(const sets::StartResult& starts, const GuaranteeTerm
              rigor::certainly_less_equal(required.value, assume.initial_frequency_error.value)) {
     claim.verdict = Verdict::refuted;
     claim.reason = fmt::format(
-        "Witness: [assume] (initial_frequency_error) allows a start with a frequency error of {}, which is not "
+        "Witness: [assume] (initial_frequency_error) allows a start with a frequency error of {}, which is "
+        "not "
         "below the bound at the first sample.",
         frequency_words(assume.initial_frequency_error));
   } else if (wrong_lock && wrong_lock->applies() &&
@@ -83,10 +85,10 @@ Claim settling_claim(const sets::StartResult& starts, const GuaranteeTerms& term
     const bool settles = rigor::certainly_less_equal(samples.value, within.value) &&
                          rigor::certainly_less(error.value, below.value);
     claim.verdict = settles ? Verdict::proved : Verdict::undecided;
-    claim.reason = fmt::format("By contraction it stays at or below {} from sample {} on{}.",
-                               FrequencyUnits(terms.assume.sample_rate).at_most(error.value),
-                               rigor::upper_decimal(samples.value),
-                               settles ? "" : ", which is not what is required");
+    claim.reason =
+        fmt::format("By contraction it stays at or below {} from sample {} on{}.",
+                    FrequencyUnits(terms.assume.sample_rate).at_most(error.value),
+                    rigor::upper_decimal(samples.value), settles ? "" : ", which is not what is required");
     claim.evidence = {samples, error};
   } else if (covered) {
     claim.reason = samples.not_applicable.value_or("No settling time is certified.");
@@ -111,11 +113,10 @@ struct LeastSize {
 
 Claim least_size_claim(const LeastSize& size, const GuaranteeTerms& terms, const Number& required) {
   const std::string tone_text = tone(terms, size.under_assumptions) + ", ";
-  Claim claim =
-      claim_of(size.claim,
-               fmt::format(fmt::runtime(size.statement),
-                           size.words == nullptr ? required.text : size.words(required)),
-               tone_text, required);
+  Claim claim = claim_of(
+      size.claim,
+      fmt::format(fmt::runtime(size.statement), size.words == nullptr ? required.text : size.words(required)),
+      tone_text, required);
   claim.statement.insert(claim.statement.size() - 1, size.addition);
   if (!size.certified.applies()) {
     claim.reason = fmt::format("No {} could be certified.", size.largest);
@@ -165,7 +166,8 @@ void add_required_claims(Certificate& certificate, const GuaranteeTerms& terms) 
       {"ekf/frequency-error-radius", found.frequency_error_radius,
        "under the assumed noise and slew, a certified invariant set contains frequency errors up to {}",
        "frequency error in an invariant set", Interval(1.0), true,
-       found.about_steady_state ? ", measured from the steady state, which the leak biases" : "", frequency_words});
+       found.about_steady_state ? ", measured from the steady state, which the leak biases" : "",
+       frequency_words});
   conclude_requirements(certificate);
 }
 

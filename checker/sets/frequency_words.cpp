@@ -26,6 +26,23 @@ std::string FrequencyWords::at_least(const Ball& radians) const {
   return sample_rate_ ? text + " (" + lower_decimal(in_hertz(radians)) + " Hz)" : text;
 }
 
+std::string FrequencyWords::at_most(const std::string& decimal) const {
+  const std::string text = decimal + " rad/sample";
+  return sample_rate_ ? text + " (" + upper_decimal(in_hertz(from_decimal(decimal))) + " Hz)" : text;
+}
+
+std::string FrequencyWords::at_least(const std::string& decimal) const {
+  const std::string text = decimal + " rad/sample";
+  return sample_rate_ ? text + " (" + lower_decimal(in_hertz(from_decimal(decimal))) + " Hz)" : text;
+}
+
+std::string FrequencyWords::between(const std::string& low, const std::string& high) const {
+  const std::string text = low + " and " + high + " rad/sample";
+  return sample_rate_ ? text + " (" + lower_decimal(in_hertz(from_decimal(low))) + " and " +
+                            upper_decimal(in_hertz(from_decimal(high))) + " Hz)"
+                      : text;
+}
+
 std::string FrequencyWords::slew(const Ball& radians) const {
   std::string text = lower_decimal(radians) + " rad/sample per sample";
   return sample_rate_ ? text + " (" + lower_decimal(in_hertz(radians) * *sample_rate_) + " Hz per second)"

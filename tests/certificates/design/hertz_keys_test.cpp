@@ -44,8 +44,7 @@ TEST_CASE("a frequency in Hz is 2 pi f/fs rad/sample") {
   check_is(tables.assume.frequency[1], "0.942477796076937971538793014983850864", "1200 Hz");
   check_is(tables.assume.slew, "0.0000196349540849362077403915211454968930", "200 Hz per second");
   check_is(tables.assume.initial_frequency_error, "0.00392699081698724154807830422909937861", "5 Hz");
-  check_is(tables.require.frequency_error_below.value(), "0.0392699081698724154807830422909937861",
-           "50 Hz");
+  check_is(tables.require.frequency_error_below.value(), "0.0392699081698724154807830422909937861", "50 Hz");
   check_is(tables.require.largest_slew_at_least.value(), "0.00000981747704246810387019576057274844",
            "1e2 Hz per second");
   CHECK(tables.assume.slew.in_hertz);
@@ -60,9 +59,9 @@ TEST_CASE("with a sample rate numbers without a unit are in rad/sample as ever")
 }
 
 TEST_CASE("the same digits in two units are two numbers") {
-  const QuadratureEkfTables tables = tables_with(
-      "sample_rate = 8000\nfrequency = [0.25, 0.5]\ninitial_frequency_error = { hz = 0.125 }",
-      "frequency_error_below = 0.125");
+  const QuadratureEkfTables tables =
+      tables_with("sample_rate = 8000\nfrequency = [0.25, 0.5]\ninitial_frequency_error = { hz = 0.125 }",
+                  "frequency_error_below = 0.125");
   CHECK_FALSE(
       same_number(tables.assume.initial_frequency_error, tables.require.frequency_error_below.value()));
 }

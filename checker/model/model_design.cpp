@@ -109,8 +109,9 @@ void read_requirements(const Tree& require, const Tree& assume, ModelDesign& des
       objections.push_back("[require] has no key " + name);
       continue;
     }
+    const std::size_t before = objections.size();
     *key->second = required_number(name, member.second, assume, objections);
-    if (!certainly_positive((*key->second)->value)) {
+    if (objections.size() == before && !certainly_positive((*key->second)->value)) {
       objections.push_back(name + " must be positive");
     }
   }

@@ -101,8 +101,9 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
       objections.push_back("[require] has no key " + name);
       continue;
     }
+    const std::size_t before = objections.size();
     const Number number = required_number(name, value, design.at("assume"), objections);
-    if (!certainly_positive(number.value)) {
+    if (objections.size() == before && !certainly_positive(number.value)) {
       objections.push_back(name + " must be positive");
     }
     *key->second = number;
@@ -227,9 +228,9 @@ std::string Guarantee::hypotheses(const std::string& disturbance, const std::str
   const Tree& assume = design_.at("assume");
   const auto words = [&](const char* name) { return text_of(assume.at(name)); };
   return tone(false) + disturbance + ", started within " +
-         words_of(assume.at("initial_frequency_error"), kPerSample) + " of the true frequency, " + words("initial_phase_error") + " rad of the phase and " +
-         words("initial_amplitude_error") + " of the amplitude" +
-         (covariance.empty() ? "" : " " + covariance) + ", ";
+         words_of(assume.at("initial_frequency_error"), kPerSample) + " of the true frequency, " +
+         words("initial_phase_error") + " rad of the phase and " + words("initial_amplitude_error") +
+         " of the amplitude" + (covariance.empty() ? "" : " " + covariance) + ", ";
 }
 
 /// What [require] asks.
@@ -341,7 +342,8 @@ Claim Guarantee::limits(const Tree& claim, const Promises& promises) const {
   found.statement = tone(false) + ", at a constant frequency the tracker tolerates noise up to " +
                     lower_decimal(low_of(evidence.at("largest_noise"))) +
                     " of the amplitude, and without noise a slew up to " +
-                    words_.slew(low_of(evidence.at("largest_slew"))) + ": a certified invariant set exists for each.";
+                    words_.slew(low_of(evidence.at("largest_slew"))) +
+                    ": a certified invariant set exists for each.";
   return found;
 }
 
@@ -407,11 +409,10 @@ Claim Guarantee::lock_sentence(const Tree& claim, const Promises& promises) cons
   found.verdict = proved_if(promises.losing_lock.has_value() && promises.lock_reach.has_value());
   found.evidence = {{"probability_of_losing_lock", of(promises.losing_lock), Sense::bounds_above},
                     {"lock_frequency_error", of(promises.lock_reach), Sense::bounds_above}};
-  found.statement = hypotheses(promises) + "the probability that the tracker loses its lock " +
-                    stretch_of_samples() + ", its frequency error exceeding " +
-                    words_.at_most(high_of(evidence.at("lock_frequency_error"))) +
-                    " at one of them, is at most " +
-                    upper_decimal(high_of(evidence.at("probability_of_losing_lock")));
+  found.statement =
+      hypotheses(promises) + "the probability that the tracker loses its lock " + stretch_of_samples() +
+      ", its frequency error exceeding " + words_.at_most(high_of(evidence.at("lock_frequency_error"))) +
+      " at one of them, is at most " + upper_decimal(high_of(evidence.at("probability_of_losing_lock")));
   if (const Tree* rms = evidence.find("rms_frequency_error")) {
     found.statement +=
         "; while it is in lock, the root mean square of its frequency error over them is at most " +

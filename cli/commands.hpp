@@ -24,11 +24,14 @@ struct CertifyOptions {
 };
 
 struct CheckOptions {
-  std::vector<std::string> designs;
+  std::vector<std::string> designs;  ///< files, and folders of them
+  std::string json;
   std::string junit;
   std::string sarif;
   bool strict = false;   ///< a design that requires nothing is not_proved
-  double seconds = 0.0;  ///< for each design, after which its search ends; 0: never
+  double seconds = 0.0;  ///< for each design, after which it is stopped; 0: never
+  int jobs = 0;          ///< designs at a time; 0: as many as there are cores
+  bool cache = true;     ///< verdicts of an earlier run of this program are used
   bool quiet = false;    ///< no progress on standard error
 };
 

@@ -81,13 +81,18 @@ int run(int argc, char** argv) {
   CheckOptions check_options;
   CLI::App* check =
       app.add_subcommand("check", "the same verdicts without the documents, one line per requirement");
-  check->add_option("DESIGN", check_options.designs, "design files (TOML)")->required();
+  check->add_option("DESIGN", check_options.designs, "design files (TOML), or folders of them")->required();
+  check->add_option("--jobs", check_options.jobs, "designs at a time (default: one for each core)")
+      ->check(CLI::Range(1, 1024));
+  check->add_flag("!--no-cache", check_options.cache,
+                  "check again what this program has checked before (docs/ci.md)");
+  check->add_option("--json", check_options.json, "also write the verdicts as JSON");
   check->add_option("--junit", check_options.junit, "also write the verdicts as JUnit XML");
   check->add_option("--sarif", check_options.sarif, "also write what is not PROVED as SARIF 2.1.0");
 
   check
       ->add_option("--timeout", check_options.seconds,
-                   "end the search of each design with tracker model after so many seconds")
+                   "stop each design after so many seconds: what is not decided by then is UNDECIDED")
       ->check(seconds);
   check->add_flag("--strict", check_options.strict, "a design that requires nothing is 1, not 0");
 

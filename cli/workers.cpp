@@ -82,12 +82,12 @@ void write_all(const FileDescriptor& output, const std::string& text) {
   ::_exit(status);
 }
 
-Worker begin(const WorkPlan& plan, std::size_t piece) {
+void begin(const WorkPlan& plan, std::size_t piece, std::list<Worker>& workers) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     fail("a pipe for a worker");
   }
-  Worker worker;
+  Worker& worker = workers.emplace_back();
   worker.piece = piece;
   worker.output.reset(ends[0]);
   const FileDescriptor input(ends[1]);
@@ -102,7 +102,6 @@ Worker begin(const WorkPlan& plan, std::size_t piece) {
   if (worker.process == 0) {
     work_and_exit(plan, piece, input, parent);
   }
-  return worker;
 }
 
 WorkerResult end_of(Worker& worker) {
@@ -161,8 +160,10 @@ class Crew {
   Crew() = default;
   ~Crew() {
     for (Worker& worker : workers) {
-      ::kill(worker.process, SIGKILL);
-      end_of(worker);
+      if (worker.process > 0) {  // kill(-1) would be everybody
+        ::kill(worker.process, SIGKILL);
+        end_of(worker);
+      }
     }
   }
   Crew(const Crew&) = delete;
@@ -181,7 +182,7 @@ void run_workers(const WorkPlan& plan) {
   std::size_t next = 0;
   while (next < plan.pieces || !workers.empty()) {
     while (next < plan.pieces && workers.size() < std::max<std::size_t>(plan.at_once, 1)) {
-      workers.push_back(begin(plan, next++));
+      begin(plan, next++, workers);
     }
     std::vector<pollfd> waiting;
     waiting.reserve(workers.size());

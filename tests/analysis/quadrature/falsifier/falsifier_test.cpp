@@ -162,8 +162,7 @@ TEST_CASE("nothing that is PROVED breaks, at random designs") {
                  << zero.text() << ", |T e| / R " << level.text());
 }
 
-TEST_CASE("what is false breaks, for most designs" *
-          doctest::test_suite("nightly")) {
+TEST_CASE("what is false breaks, for most designs" * doctest::test_suite("nightly")) {
   struct Falsehood {
     const char* name;
     void (*tell)(CertifiedSet&);

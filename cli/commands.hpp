@@ -35,6 +35,13 @@ struct CheckOptions {
   bool quiet = false;    ///< no progress on standard error
 };
 
+struct DiffOptions {
+  std::string before;  ///< a design file, a certificate.json, or its folder
+  std::string after;
+  std::string tolerance = "0.001";  ///< relative changes up to it count as none
+  bool quiet = false;               ///< no progress on standard error
+};
+
 struct MapOptions {
   std::string design;
   std::string directory;
@@ -80,6 +87,7 @@ struct ReproduceOptions {
 
 [[nodiscard]] ExitStatus run_certify(const CertifyOptions& options);
 [[nodiscard]] ExitStatus run_check(const CheckOptions& options);
+[[nodiscard]] ExitStatus run_diff(const DiffOptions& options);
 [[nodiscard]] ExitStatus run_map(const MapOptions& options);
 [[nodiscard]] ExitStatus run_show(const ShowOptions& options);
 [[nodiscard]] ExitStatus run_tune(const TuneOptions& options);

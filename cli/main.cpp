@@ -96,6 +96,18 @@ int run(int argc, char** argv) {
       ->check(seconds);
   check->add_flag("--strict", check_options.strict, "a design that requires nothing is 1, not 0");
 
+  DiffOptions diff_options;
+  CLI::App* diff = app.add_subcommand("diff", "what is better or worse in one certificate than in another");
+  diff->add_option("OLD", diff_options.before, "design file (TOML), certificate.json, or its folder")
+      ->required();
+  diff->add_option("NEW", diff_options.after, "likewise")->required();
+  diff->add_option("--tolerance", diff_options.tolerance, "relative changes up to this count as none")
+      ->check([](const std::string& text) {
+        const double value = rigor::nearest_double(text);
+        return value >= 0.0 && value < 1.0 ? std::string() : std::string("allowed: a number from 0, below 1");
+      })
+      ->capture_default_str();
+
   MapOptions map_options;
   CLI::App* map = app.add_subcommand("map", "draw the proved region of attraction: which starts lock");
   map->add_option(
@@ -208,7 +220,8 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? all_proved : bad_input;
   }
 
-  certify_options.quiet = check_options.quiet = map_options.quiet = track_options.quiet = quiet;
+  certify_options.quiet = check_options.quiet = map_options.quiet = track_options.quiet = diff_options.quiet =
+      quiet;
 
   const rigor::SelfTestReport self_test = rigor::run_self_test();
   if (!self_test.passed()) {
@@ -219,6 +232,9 @@ int run(int argc, char** argv) {
         stderr,
         "veritrack: this machine or this build cannot be trusted with a certificate; nothing was computed\n");
     return bad_arithmetic;
+  }
+  if (diff->parsed()) {
+    return run_diff(diff_options);
   }
   if (map->parsed()) {
     return run_map(map_options);

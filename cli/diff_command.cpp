@@ -22,7 +22,7 @@ namespace veritrack::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Kind = reports::CertificateChange::Kind;
+using ChangeKind = reports::CertificateChange::Kind;
 
 /// certificate.json: that of a folder, of a file, or of a design, which is certified.
 std::string certificate_of(const std::string& path, bool quiet) {
@@ -53,12 +53,12 @@ ExitStatus run_diff(const DiffOptions& options) {
   int better = 0;
   int worse = 0;
   for (const auto& [kind, text] : changes) {
-    better += kind == Kind::better ? 1 : 0;
-    worse += kind == Kind::worse ? 1 : 0;
+    better += kind == ChangeKind::better ? 1 : 0;
+    worse += kind == ChangeKind::worse ? 1 : 0;
     fmt::print("{:<8}{}\n",
-               kind == Kind::better  ? "better"
-               : kind == Kind::worse ? "worse"
-                                     : "changed",
+               kind == ChangeKind::better  ? "better"
+               : kind == ChangeKind::worse ? "worse"
+                                           : "changed",
                text);
   }
   fmt::print("{} better, {} worse\n", better, worse);

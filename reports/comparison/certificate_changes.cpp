@@ -171,11 +171,12 @@ class Changes {
   explicit Changes(double tolerance) : tolerance_(tolerance) {}
 
   void of_designs(const Contents& before, const Contents& after) {
-    compare(before.design, after.design, [&](const auto& path, const auto* from, const auto* to) {
-      if (from == nullptr || to == nullptr || *from != *to) {
-        add(Kind::other, path, from != nullptr ? *from : "not given", to != nullptr ? *to : "not given");
-      }
-    });
+    compare(
+        before.design, after.design, [&](const auto& path, const std::string* from, const std::string* to) {
+          if (from == nullptr || to == nullptr || *from != *to) {
+            add(Kind::other, path, from != nullptr ? *from : "not given", to != nullptr ? *to : "not given");
+          }
+        });
   }
   void of_verdicts(const Contents& before, const Contents& after) {
     if (before.verdict != after.verdict) {
@@ -188,7 +189,7 @@ class Changes {
     }
   }
   void of_claims(const Contents& before, const Contents& after) {
-    compare(before.claims, after.claims, [&](const auto& id, const auto* from, const auto* to) {
+    compare(before.claims, after.claims, [&](const auto& id, const std::string* from, const std::string* to) {
       const std::string old_verdict = from != nullptr ? *from : "not said";
       const std::string new_verdict = to != nullptr ? *to : "not said";
       if (old_verdict != new_verdict) {

@@ -1,0 +1,62 @@
+#include "reports/check/check_reports.hpp"
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using namespace veritrack;
+using namespace veritrack::reports;
+
+std::vector<CheckedDesign> examples() {
+  return {{"a b.toml",
+           {{"x/proved", "this", "because", rigor::Verdict::proved, {3, 1}},
+            {"x/refuted", "that", "a < b, & c: 50 %", rigor::Verdict::refuted, {4, 2}}},
+           std::nullopt,
+           0.5},
+          {"c.toml", {}, std::nullopt},
+          {"d.toml", {}, CheckObjection{CheckObjection::Kind::time_limit, "stopped", {}}}};
+}
+
+TEST_CASE("a path is a reference with its special characters encoded") {
+  CHECK(uri_of("designs/x-1_2~.toml") == "designs/x-1_2~.toml");
+  CHECK(uri_of("a:b c%\xC3\xA9") == "a%3Ab%20c%25%C3%A9");
+}
+
+TEST_CASE("an annotation for what is not proved, with the characters that end it encoded") {
+  CHECK(to_annotations(examples()[0]) ==
+        "::error file=a b.toml,line=4,col=2,title=refuted::that. a < b, & c: 50 %25\n");
+  CHECK(to_annotations(examples()[1]).empty());
+  CHECK(to_annotations(examples()[2]) == "::error file=d.toml,title=time-limit::stopped\n");
+}
+
+TEST_CASE("JUnit counts failures and errors, and escapes") {
+  const std::string text = to_junit(examples());
+  CHECK(text.find("<testsuite name=\"a b.toml\" tests=\"2\" failures=\"1\" errors=\"0\" time=\"0.500\">") !=
+        std::string::npos);
+  CHECK(text.find("<failure type=\"refuted\" message=\"a &lt; b, &amp; c: 50 %\"/>") != std::string::npos);
+  CHECK(text.find("<error type=\"time-limit\" message=\"stopped\"/>") != std::string::npos);
+}
+
+TEST_CASE("SARIF has an error for each that is not proved") {
+  const auto report = nlohmann::json::parse(to_sarif(examples()));
+  const auto& results = report.at("runs").at(0).at("results");
+  REQUIRE(results.size() == 2);
+  CHECK(results.at(0).at("ruleId") == "x/refuted");
+  CHECK(results.at(0).at("level") == "error");
+  CHECK(results.at(1).at("ruleId") == "time-limit");
+  CHECK_FALSE(results.at(1).at("locations").at(0).at("physicalLocation").contains("region"));
+}
+
+TEST_CASE("JSON has the designs in their order; nothing required is no verdict") {
+  const auto report = nlohmann::json::parse(to_check_json(examples()));
+  const auto& designs = report.at("designs");
+  REQUIRE(designs.size() == 3);
+  CHECK(designs.at(0).at("verdict") == "refuted");
+  CHECK(designs.at(1).at("verdict") == "nothing-required");
+  CHECK_FALSE(designs.at(2).contains("verdict"));
+  CHECK(designs.at(2).at("error").at("kind") == "time-limit");
+}
+
+}  // namespace

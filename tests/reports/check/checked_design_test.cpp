@@ -1,0 +1,72 @@
+#include "reports/check/checked_design.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/support/random.hpp"
+
+namespace {
+
+using namespace veritrack;
+using namespace veritrack::reports;
+
+CheckedDesign example() {
+  return {
+      "designs/x.toml",
+      {{"ekf/frequency-error-bound", "the error is \"small\"\n", "reason", rigor::Verdict::proved, {3, 4}},
+       {"ekf/settling-time", "it settles", "not shown", rigor::Verdict::undecided, {5, 6}}},
+      std::nullopt,
+      1.25};
+}
+
+TEST_CASE("what is told comes back, but for the path") {
+  const auto back = checked_from_text(to_text(example()));
+  REQUIRE(back);
+  REQUIRE(back->requirements.size() == 2);
+  CHECK(back->requirements[0].claim == "ekf/frequency-error-bound");
+  CHECK(back->requirements[0].requirement == "the error is \"small\"\n");
+  CHECK(back->requirements[0].verdict == rigor::Verdict::proved);
+  CHECK(back->requirements[1].verdict == rigor::Verdict::undecided);
+  CHECK(back->requirements[1].reason == "not shown");
+  CHECK(back->requirements[1].position.column == 6);
+  CHECK(back->seconds == 1.25);
+  CHECK_FALSE(back->objection);
+  CHECK(back->path.empty());
+}
+
+TEST_CASE("an objection comes back with its kind and place") {
+  for (const auto kind :
+       {CheckObjection::Kind::bad_input, CheckObjection::Kind::failure, CheckObjection::Kind::time_limit}) {
+    const auto back = checked_from_text(to_text({"x", {}, CheckObjection{kind, "why", {7, 8}}}));
+    REQUIRE(back);
+    REQUIRE(back->objection);
+    CHECK(back->objection->kind == kind);
+    CHECK(back->objection->message == "why");
+    CHECK(back->objection->position.line == 7);
+  }
+}
+
+TEST_CASE("half a text, or a changed word, is nothing") {
+  const std::string text = to_text(example());
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    CHECK_FALSE(checked_from_text(text.substr(0, length)));
+  }
+  for (const char* word : {"proved", "undecided", "seconds", "requirements", "position", "line"}) {
+    std::string changed = text;
+    changed.replace(changed.find(word), 1, "X");
+    CHECK_FALSE(checked_from_text(changed));
+  }
+}
+
+TEST_CASE("random texts are nothing") {
+  test::Random random;
+  for (std::int64_t i = 0; i < test::effort(200); ++i) {
+    std::string text = to_text(example());
+    text[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(text.size()) - 1))] =
+        static_cast<char>(random.integer(1, 126));
+    const auto back = checked_from_text(text);
+    // A digit or a letter of a sentence may be another; a verdict may not.
+    CHECK((!back || back->requirements.empty() || back->requirements[0].verdict == rigor::Verdict::proved));
+  }
+}
+
+}  // namespace

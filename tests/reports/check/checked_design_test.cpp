@@ -61,8 +61,7 @@ TEST_CASE("random texts are nothing") {
   test::Random random;
   for (std::int64_t i = 0; i < test::effort(200); ++i) {
     std::string text = to_text(example());
-    text[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(text.size()) - 1))] =
-        static_cast<char>(random.integer(1, 126));
+    text[random.below(text.size())] = static_cast<char>(1 + random.below(126));
     const auto back = checked_from_text(text);
     // A digit or a letter of a sentence may be another; a verdict may not.
     CHECK((!back || back->requirements.empty() || back->requirements[0].verdict == rigor::Verdict::proved));

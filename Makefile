@@ -9,7 +9,7 @@ BUILD_PACKAGES := g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev co
   libmpfr-dev nettle-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox \
   libflint-arb-dev libflint-dev tao-pegtl-dev libsndfile1-dev
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
-TEST_PACKAGES  := doctest-dev python3-jsonschema clang git
+TEST_PACKAGES  := doctest-dev python3-jsonschema python3-yaml clang git
 LINT_PACKAGES  := clang clang-format clang-tidy git
 FUZZ_PACKAGES  := clang libclang-rt-14-dev doctest-dev
 PROOF_PACKAGES := coq libcoq-interval libcoq-coquelicot

@@ -70,6 +70,14 @@ void check(const QuadratureEkfTables& tables) {
                                theorem.sigma, theorem.gamma_fraction}) {
     require(number.value.lower() > 0.0, "a number that may be zero");
   }
+  if (assume.sample_rate) {
+    check(*assume.sample_rate);
+    require(assume.sample_rate->value.lower() > 0.0, "a sample rate that may be zero");
+  }
+  const bool is_in_hertz =
+      assume.frequency[0].in_hertz || assume.slew.in_hertz || assume.initial_frequency_error.in_hertz ||
+      (tables.require.frequency_error_below && tables.require.frequency_error_below->in_hertz);
+  require(!is_in_hertz || assume.sample_rate.has_value(), "hertz without a sample rate");
   require(tables.design.epsilon.value.upper() < 1.0, "epsilon reaches 1");
   require(theorem.gamma_fraction.value.upper() < 1.0, "gamma_fraction reaches 1");
   require(assume.frequency[0].value.lower() <= assume.frequency[1].value.upper(),

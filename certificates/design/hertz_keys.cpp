@@ -60,11 +60,15 @@ Number read(const TomlValue& value, const std::optional<OtherUnit>& unit, RealPr
   }
   Number number = value.real(keys::any_number);
   number.tight = number.tight * unit->factor;
+  if (!rigor::is_finite(number.tight)) {
+    value.refuse(printable(number.text, 60) + ", which is out of the range of double precision in " +
+                 std::string(unit->words));
+  }
   number.value = number.tight;
   number.nearest = rigor::midpoint(number.tight);
   number.text += unit->name;
   number.in_hertz = true;
-  if (!rigor::is_finite(number.value) || !is_allowed(number.value)) {
+  if (!is_allowed(number.value)) {
     value.refuse(fmt::format("{}, which is {} {}", printable(number.text, 80),
                              rigor::to_decimal(number.nearest, 6, rigor::Direction::up), unit->words));
   }

@@ -125,11 +125,16 @@ ExitStatus run_show(const ShowOptions& options) {
 }
 
 ExitStatus run_tune(const TuneOptions& options) {
-  const certificates::Design design = certificates::read_design_file(options.design);
+  const std::string text = certificates::read_design_text(options.design);
+  const certificates::Design design = certificates::read_design(text, options.design);
   if (!certificates::can_be_tuned(design)) {
     refuse_tracker(options.design, design, "tune", certificates::trackers_with_tuning());
   }
-  const certificates::TuningResult result = certificates::tune(design);
+  const certificates::TuningResult result = [&] {
+    const ProgressLine line(options.quiet);
+    return certificates::tune(design,
+                              {text, options.objective, [&](int done, int most) { line(done, most); }});
+  }();
   if (!result.design_text) {
     fmt::print("{}: undecided: {}\n", options.design, result.reason);
     return not_proved;
@@ -142,9 +147,12 @@ ExitStatus run_tune(const TuneOptions& options) {
   files.stage(output, *result.design_text);
   files.commit();
   // From the text, because the output need not be a file that can be read again.
-  const certificates::Certificate certificate =
-      certificates::certify(certificates::read_design(*result.design_text, output.string()),
-                            output.filename().string(), *result.design_text);
+  const certificates::Certificate certificate = certificates::certify(
+      certificates::read_design(*result.design_text, output.string()), output.filename().string(),
+      *result.design_text, {}, certificates::Extent::requirements);
+  for (const std::string& note : result.notes) {
+    fmt::print("{}\n", note);
+  }
   fmt::print("{}: {}\n", output.string(), certificates::headline(certificate));
   return status_of(certificate);
 }

@@ -57,6 +57,8 @@ struct ShowOptions {
 struct TuneOptions {
   std::string design;
   std::string output;
+  std::string objective;  ///< empty: the first of those of the tracker
+  bool quiet = false;     ///< no progress on standard error
 };
 
 struct TrackOptions {

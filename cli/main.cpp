@@ -147,10 +147,14 @@ int run(int argc, char** argv) {
       ->capture_default_str();
 
   TuneOptions tune_options;
-  CLI::App* tune = app.add_subcommand(
-      "tune",
-      "choose the filter rates of a KKL observer for a small frequency error, and certify the result");
-  tune->add_option("DESIGN", tune_options.design, "design file (TOML), tracker kkl-observer")->required();
+  CLI::App* tune =
+      app.add_subcommand("tune", "choose design values for the best guarantee, and certify the result");
+  tune->add_option("DESIGN", tune_options.design,
+                   "design file (TOML), tracker quadrature-ekf or kkl-observer")
+      ->required();
+  tune->add_option(
+      "--objective", tune_options.objective,
+      "quadrature-ekf: long-run (default), for-ever, radius, noise or slew; kkl-observer: frequency-error");
   tune->add_option("--out", tune_options.output,
                    "design file to write (default: <name of the design file>-tuned.toml)");
 
@@ -221,7 +225,7 @@ int run(int argc, char** argv) {
   }
 
   certify_options.quiet = check_options.quiet = map_options.quiet = track_options.quiet = diff_options.quiet =
-      quiet;
+      tune_options.quiet = quiet;
 
   const rigor::SelfTestReport self_test = rigor::run_self_test();
   if (!self_test.passed()) {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstddef>
+#include <concepts>
 #include <cstdio>
 
 #include "certificates/document/certificate.hpp"
@@ -32,9 +32,10 @@ class ProgressLine {
     }
   }
   /// Of several pieces of work.
-  void operator()(std::size_t done, std::size_t all) const {
+  template <std::integral Count>
+  void operator()(Count done, Count most) const {
     if (shown_) {
-      fmt::print(stderr, "\r{} of {} designs checked", done, all);
+      fmt::print(stderr, "\r{} of {} designs certified", done, most);
     }
   }
   /// Makes room for a line of results.

@@ -41,7 +41,9 @@ struct TrackerKind {
   /// Needs the upward mode.
   FormalProofs (*formal_proofs)(const Certificate& certificate) = nullptr;
   /// Opens its own rounding scopes.
-  TuningResult (*tune)(const Design& design) = nullptr;
+  TuningResult (*tune)(const Design& design, const TuningRequest& request) = nullptr;
+  /// What `tune` can make best; the first is what it makes best unless asked.
+  std::span<const std::string_view> tuning_objectives = {};
   /// The step as text. Opens its own rounding scopes.
   std::string (*show)(const Design& design, CodeLanguage language) = nullptr;
   /// The tracker in double precision, and what is assumed of its signal. Throws NotTrackable. Opens its own

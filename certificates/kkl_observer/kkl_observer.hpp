@@ -16,7 +16,7 @@ void certify_kkl_observer(Certificate& certificate, const CertifyProgress& progr
 /// Chooses the rates of an observer with four filters for a small frequency error under the assumed
 /// disturbance and a settling time of at most settles_within (without it: that of the given rates). The ell
 /// is left to the certificate. Opens its own rounding scopes.
-[[nodiscard]] TuningResult tune_kkl_observer(const Design& design);
+[[nodiscard]] TuningResult tune_kkl_observer(const Design& design, const TuningRequest& request);
 
 /// The range of the signal, for four filters. Needs the upward mode.
 [[nodiscard]] kkl_observer::KklRange kkl_range(const KklObserverTables& tables);

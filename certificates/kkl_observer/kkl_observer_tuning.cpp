@@ -60,7 +60,7 @@ std::string design_text(const Design& design, const Eigen::Vector4d& lambda) {
 
 }  // namespace
 
-TuningResult tune_kkl_observer(const Design& design) {
+TuningResult tune_kkl_observer(const Design& design, const TuningRequest& /*request*/) {
   const KklObserverTables& tables = kkl_observer_tables(design);
   if (tables.design.lambda.size() != 4) {
     return {std::nullopt, "Tuning needs the tracker kkl-observer with four filters."};

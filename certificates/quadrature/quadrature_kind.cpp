@@ -19,6 +19,7 @@
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_json.hpp"
 #include "certificates/quadrature/quadrature_run.hpp"
+#include "certificates/quadrature/quadrature_tuning.hpp"
 #include "certificates/quadrature/theorem_claims.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/markdown_assumptions.hpp"
@@ -100,6 +101,8 @@ const TrackerKind& quadrature_kind() {
                                 .evidence_json = quadrature_evidence_json,
                                 .report_json = quadrature_report_json,
                                 .formal_proofs = coq::theorem_2_9_proofs,
+                                .tune = tune_quadrature,
+                                .tuning_objectives = quadrature_tuning_objectives(),
                                 .track = quadrature_on_samples};
   return kind;
 }

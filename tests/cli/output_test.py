@@ -151,7 +151,7 @@ class Output(CliTestCase):
                 self.assertNotIn("(figures/", (self.folder / "out/certificate.md").read_text())
 
     def test_the_wrong_tracker_is_bad_input(self):
-        result = self.run_here("tune", "design.toml")
+        result = self.run_here("show", "design.toml")
         self.assertEqual((result.returncode, result.stdout), (2, ""))
         self.assertRegex(result.stderr, r"^design\.toml:2:\d+: .*kkl-observer\n$")
 

@@ -153,7 +153,7 @@ class Output(CliTestCase):
     def test_the_wrong_tracker_is_bad_input(self):
         result = self.run_here("show", "design.toml")
         self.assertEqual((result.returncode, result.stdout), (2, ""))
-        self.assertRegex(result.stderr, r"^design\.toml:2:\d+: .*kkl-observer\n$")
+        self.assertRegex(result.stderr, r"^design\.toml:2:\d+: .*allowed: model\n$")
 
     def test_a_wrong_command_names_the_nearest(self):
         for wrong, right in (("certfy", "certify"), ("chekc", "check"), ("tuen", "tune"), ("reproduction", "reproduce")):

@@ -10,7 +10,6 @@ POOR = (DESIGN.replace("q1 = 0.0023", "q1 = 0.1   # too much").replace("q2 = 0.0
         .replace("noise = 0.001", "noise = 0.02"))
 
 
-
 class Tune(CliTestCase):
     def tune(self, text, *options, status=0):
         self.write(text)

@@ -75,6 +75,15 @@ struct ReproduceOptions {
   int seeds = 0;  ///< 0: the number used for the report in docs/reports
 };
 
+struct ExplainOptions {
+  std::vector<std::string> words;  ///< none: everything that is explained is listed
+};
+
+struct NewOptions {
+  std::string tracker;
+  std::string output;  ///< empty: standard output
+};
+
 [[nodiscard]] ExitStatus run_certify(const CertifyOptions& options);
 [[nodiscard]] ExitStatus run_check(const CheckOptions& options);
 [[nodiscard]] ExitStatus run_map(const MapOptions& options);
@@ -82,5 +91,7 @@ struct ReproduceOptions {
 [[nodiscard]] ExitStatus run_tune(const TuneOptions& options);
 [[nodiscard]] ExitStatus run_track(const TrackOptions& options);
 [[nodiscard]] ExitStatus run_reproduce(const ReproduceOptions& options);
+[[nodiscard]] ExitStatus run_explain(const ExplainOptions& options);
+[[nodiscard]] ExitStatus run_new(const NewOptions& options);
 
 }  // namespace veritrack::cli

@@ -18,6 +18,7 @@
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/nearest_key.hpp"
 #include "certificates/document/code_language.hpp"
+#include "certificates/help/design_template.hpp"
 #include "cli/commands.hpp"
 #include "cli/standard_output.hpp"
 
@@ -193,6 +194,21 @@ int run(int argc, char** argv) {
   reproduce->add_option("--seeds", reproduce_options.seeds, "noise seeds (default: those of docs/reports)")
       ->check(CLI::Range(1, 100000));
 
+  ExplainOptions explain_options;
+  CLI::App* explain = app.add_subcommand(
+      "explain", "what a claim of a certificate or a key of a design file means; alone, a list of them");
+  explain->add_option("WORD", explain_options.words,
+                      "the id of a claim, a key with its table (design.q1) or without (q1), or a table");
+
+  NewOptions new_options;
+  CLI::App* make_new =
+      app.add_subcommand("new", "write a commented design file to begin with, which is PROVED as it is");
+  make_new->add_option("TRACKER", new_options.tracker, "the kind of tracker")
+      ->required()
+      ->check(CLI::IsMember(veritrack::certificates::templates_for()));
+  make_new->add_option("FILE", new_options.output,
+                       "the file to write, which must not exist (default: standard output)");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -204,6 +220,13 @@ int run(int argc, char** argv) {
   }
 
   certify_options.quiet = check_options.quiet = map_options.quiet = track_options.quiet = quiet;
+
+  if (explain->parsed()) {
+    return run_explain(explain_options);
+  }
+  if (make_new->parsed()) {
+    return run_new(new_options);
+  }
 
   const rigor::SelfTestReport self_test = rigor::run_self_test();
   if (!self_test.passed()) {

@@ -15,7 +15,7 @@ FUZZ_PACKAGES  := clang libclang-rt-14-dev doctest-dev
 PROOF_PACKAGES := coq libcoq-interval libcoq-coquelicot
 BENCH_PACKAGES := libbenchmark-dev libmpfi-dev
 
-DESIGN       ?= designs/la-scala-1994-figure-3.5.toml
+DESIGN       ?= designs/la-scala-1994-figure-3.5-without-leak.toml
 JOBS         ?= $(shell nproc)
 FUZZ_SECONDS ?= 30
 # nightly: with the tests that take long and rarely fail

@@ -1,4 +1,9 @@
 // veritrack-verify: reads a certificate and says VERIFIED or NOT VERIFIED.
+#include <arb.h>
+#include <flint/flint.h>
+#include <mpfr.h>
+#include <nettle/version.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -39,7 +44,11 @@ constexpr const char* kUsage =
     "NOT\n"
     "                    VERIFIED\n"
     "  --precision BITS  of the arithmetic, 64 to 4096 (default 128)\n"
-    "  --version         print the version and the format it reads\n"
+    "  --help            print this\n"
+    "  --version         print the version, the format it reads and the versions of the libraries\n"
+    "Examples:\n"
+    "  veritrack-verify certificates-out/my-design/certificate.json\n"
+    "  veritrack-verify certificate.json --design my-design.toml --markdown certificate.md\n"
     "Exit status: 0 VERIFIED, and everything required is PROVED. 1 VERIFIED, but not all that is required is "
     "PROVED,\n"
     "or nothing is required. 2 malformed, or the answer could not be written. 3 NOT VERIFIED.\n";
@@ -120,11 +129,25 @@ int run(const Options& options) {
   return !found.verified() ? kNotVerified : found.requirements_proved ? kEverythingProved : kVerified;
 }
 
+/// "  Arb 2.23.0": what runs, and what the program was compiled with unless that is the same.
+std::string library(const std::string& name, const std::string& runs, const std::string& compiled) {
+  return "  " + name + " " + runs + (runs == compiled ? "" : " (compiled with " + compiled + ")") + "\n";
+}
+
+std::string version_text() {
+  const auto dotted = [](int major, int minor) {
+    return std::to_string(major) + "." + std::to_string(minor);
+  };
+  return std::string("veritrack-verify " VERITRACK_VERSION ", reads ") + kFormat + "\n" +
+         library("Arb", arb_version, ARB_VERSION) + library("FLINT", flint_version, FLINT_VERSION) +
+         library("MPFR", mpfr_get_version(), MPFR_VERSION_STRING) +
+         library("Nettle", dotted(nettle_version_major(), nettle_version_minor()),
+                 dotted(NETTLE_VERSION_MAJOR, NETTLE_VERSION_MINOR));
+}
+
 int answer(const std::vector<std::string>& arguments) {
   if (arguments.size() == 1 && (arguments[0] == "--version" || arguments[0] == "--help")) {
-    const std::string version =
-        std::string("veritrack-verify " VERITRACK_VERSION ", reads ") + kFormat + "\n";
-    std::fputs(arguments[0] == "--help" ? kUsage : version.c_str(), stdout);
+    std::fputs(arguments[0] == "--help" ? kUsage : version_text().c_str(), stdout);
     return kEverythingProved;
   }
   const std::optional<Options> options = read_options(arguments);

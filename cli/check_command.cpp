@@ -186,7 +186,7 @@ ExitStatus run_check(const CheckOptions& options) {
     stage_reports(options, designs, files, {});
   }
   std::optional<reports::CheckCache> cache;
-  const fs::path cache_folder = options.cache ? reports::default_cache_folder() : fs::path();
+  const fs::path cache_folder = options.no_cache ? fs::path() : reports::default_cache_folder();
   if (const std::string program = cache_folder.empty() ? "" : reports::program_identity(); !program.empty()) {
     cache.emplace(cache_folder, program);
   }

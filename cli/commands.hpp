@@ -28,11 +28,11 @@ struct CheckOptions {
   std::string json;
   std::string junit;
   std::string sarif;
-  bool strict = false;   ///< a design that requires nothing is not_proved
-  double seconds = 0.0;  ///< for each design, after which it is stopped; 0: never
-  int jobs = 0;          ///< designs at a time; 0: as many as there are cores
-  bool cache = true;     ///< verdicts of an earlier run of this program are used
-  bool quiet = false;    ///< no progress on standard error
+  bool strict = false;    ///< a design that requires nothing is not_proved
+  double seconds = 0.0;   ///< for each design, after which it is stopped; 0: never
+  int jobs = 0;           ///< designs at a time; 0: as many as there are cores
+  bool no_cache = false;  ///< verdicts of an earlier run of this program are not used
+  bool quiet = false;     ///< no progress on standard error
 };
 
 struct DiffOptions {
@@ -87,6 +87,15 @@ struct ReproduceOptions {
   int seeds = 0;  ///< 0: the number used for the report in docs/reports
 };
 
+struct ExplainOptions {
+  std::vector<std::string> words;  ///< none: everything that is explained is listed
+};
+
+struct NewOptions {
+  std::string tracker;
+  std::string output;  ///< empty: standard output
+};
+
 [[nodiscard]] ExitStatus run_certify(const CertifyOptions& options);
 [[nodiscard]] ExitStatus run_check(const CheckOptions& options);
 [[nodiscard]] ExitStatus run_diff(const DiffOptions& options);
@@ -95,5 +104,7 @@ struct ReproduceOptions {
 [[nodiscard]] ExitStatus run_tune(const TuneOptions& options);
 [[nodiscard]] ExitStatus run_track(const TrackOptions& options);
 [[nodiscard]] ExitStatus run_reproduce(const ReproduceOptions& options);
+[[nodiscard]] ExitStatus run_explain(const ExplainOptions& options);
+[[nodiscard]] ExitStatus run_new(const NewOptions& options);
 
 }  // namespace veritrack::cli

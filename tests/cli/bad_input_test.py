@@ -1,11 +1,12 @@
 """Bad input: one helpful line, exit status 2, no partial output."""
 
+import re
 import resource
 import signal
 import subprocess
 import unittest
 
-from support import DESIGN, CliTestCase
+from support import DESIGN, ROOT, CliTestCase
 
 DIGITS = "1" * 400
 
@@ -121,7 +122,25 @@ class BadInput(CliTestCase):
             result = self.run_here(option)
             self.assertEqual(result.returncode, 0)
             self.assertIn("veritrack", result.stdout)
-        self.assertRegex(self.run_here("--version").stdout, r"^veritrack \d+\.\d+\.\d+\n$")
+
+    def test_the_version_is_that_of_the_project_and_names_the_libraries(self):
+        project = re.search(r"project\(veritrack VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+        lines = self.run_here("--version").stdout.splitlines()
+        self.assertEqual(lines[0], f"veritrack {project}")
+        for library in ("MPFR", "Eigen", "NLopt", "Ipopt", "oneTBB", "toml++", "CLI11"):
+            self.assertTrue(any(re.fullmatch(rf"  {re.escape(library)} \d+\.\d+.*", line) for line in lines), library)
+
+    def test_the_help_of_each_command_has_examples_that_begin_with_it(self):
+        commands = re.findall(r"^  ([a-z]+) ", self.run_here("--help").stdout.split("Subcommands:")[1], re.MULTILINE)
+        self.assertGreaterEqual(len(commands), 9)
+        for command in commands:
+            text = self.run_here(command, "--help").stdout
+            self.assertRegex(text, rf"Examples:\n  (.* \| )?veritrack {command}\b", command)
+
+    def test_a_mistyped_command_is_told_the_nearest(self):
+        result = self.run_here("certfy", "design.toml")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("nearest command: certify", result.stderr)
 
 
 if __name__ == "__main__":

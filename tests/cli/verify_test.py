@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import unittest
 
@@ -110,7 +111,11 @@ class Verify(CliTestCase):
         for arguments in ([malformed], ["no-such-file.json"], [], ["--precision", "3", accepted], [accepted, accepted],
                           ["--budget", "0", accepted], ["--design", "no-such-file.toml", accepted]):
             self.assertEqual(verify(*arguments).returncode, 2, arguments)
-        self.assertEqual(verify("--version").returncode, 0)
+        version = verify("--version")
+        self.assertEqual(version.returncode, 0)
+        project = re.search(r"project\(veritrack VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+        self.assertRegex(version.stdout, rf"^veritrack-verify {re.escape(project)}, reads veritrack/certificate/\d+\n"
+                                         r"  Arb \d.*\n  FLINT \d.*\n  MPFR \d.*\n  Nettle \d.*\n$")
         with open("/dev/full", "w", encoding="utf-8") as full:
             self.assertEqual(subprocess.run([CHECKER, accepted], stdout=full, check=False).returncode, 2)
 

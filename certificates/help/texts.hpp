@@ -1,0 +1,19 @@
+// Texts for people that stand in the program: files of the columns, made a part of it by CMake.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace veritrack::certificates {
+
+/// A file: its path from the root of the sources, and what is in it.
+struct EmbeddedText {
+  std::string_view name, text;
+};
+
+/// certificates/*/*explanations.toml: what keys and claims mean.
+[[nodiscard]] const std::vector<EmbeddedText>& explanation_texts();
+/// certificates/*/new.toml: a design file to begin with for each tracker.
+[[nodiscard]] const std::vector<EmbeddedText>& design_templates();
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,232 @@
+#include "cli/arguments.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/document/code_language.hpp"
+#include "certificates/help/design_template.hpp"
+#include "cli/shell_words.hpp"
+
+namespace veritrack::cli {
+
+namespace {
+
+namespace rigor = veritrack::rigor;
+
+constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
+    {"certify",
+     "  veritrack certify my-design.toml\n"
+     "  veritrack certify my-design.toml --out results/run-7 --coq"},
+    {"check",
+     "  veritrack check my-design.toml\n"
+     "  veritrack check designs/ --strict --junit verdicts.xml\n"
+     "  veritrack check designs/ --jobs 4 --timeout 600 --no-cache"},
+    {"diff",
+     "  veritrack diff old/certificate.json new/certificate.json\n"
+     "  veritrack diff old.toml new.toml"},
+    {"map",
+     "  veritrack map my-design.toml\n"
+     "  veritrack map my-design.toml --frequency 0.5 --phase 1 --noise"},
+    {"show",
+     "  veritrack show my-loop.toml\n"
+     "  veritrack show my-loop.toml --language c > tracker.c"},
+    {"tune",
+     "  veritrack tune my-design.toml --objective noise\n"
+     "  veritrack tune my-observer.toml --out tuned.toml"},
+    {"track",
+     "  veritrack track my-design.toml scope.csv --columns CH1,CH2\n"
+     "  veritrack track my-design.toml tone.wav --scale auto\n"
+     "  producer | veritrack track my-design.toml - --each track.csv"},
+    {"reproduce",
+     "  veritrack reproduce bittanti-savaresi-2000\n"
+     "  veritrack reproduce tracking-limits --seeds 10"},
+    {"explain",
+     "  veritrack explain                       everything that is explained\n"
+     "  veritrack explain q1 assume.slew        keys\n"
+     "  veritrack explain ekf/guarantee         a claim"},
+    {"new",
+     "  veritrack new quadrature-ekf my-design.toml\n"
+     "  veritrack new model > my-loop.toml"},
+    {"completions", "  veritrack completions bash > ~/.local/share/bash-completion/completions/veritrack"},
+    {"manual", "  veritrack manual | man -l -"},
+}};
+
+void add_examples(CLI::App& app) {
+  for (const auto& [command, examples] : kExamples) {
+    app.get_subcommand(command)->footer(std::string("Examples:\n") + examples);
+  }
+}
+
+}  // namespace
+
+void add_commands(CLI::App& app, Arguments& into) {
+  CLI::App* certify =
+      app.add_subcommand("certify", "write certificate.md, certificate.json and figures for a design");
+  certify->add_option("DESIGN", into.certify.design, "design file (TOML)")->required();
+  certify->add_option("--out", into.certify.directory,
+                      "folder for the certificate (default: certificates-out/<name of the design file>)");
+  certify->add_flag("--coq", into.certify.coq,
+                    "also write certificate.v, proofs that the proof assistant Coq can check (make proofs)");
+
+  // Not CLI::Range, which lets pass what is not a number.
+  const auto seconds = [](const std::string& text) {
+    const double value = rigor::nearest_double(text);
+    return value >= 1e-3 && value <= 1e8 ? std::string()
+                                         : std::string("allowed: a number of seconds from 0.001 to 1e8");
+  };
+  certify
+      ->add_option("--timeout", into.certify.seconds,
+                   "end the search of a design with tracker model after so many seconds, and write what is "
+                   "proved by then")
+      ->check(seconds);
+
+  CLI::App* check =
+      app.add_subcommand("check", "the same verdicts without the documents, one line per requirement");
+  check->add_option("DESIGN", into.check.designs, "design files (TOML), or folders of them")->required();
+  check->add_option("--jobs", into.check.jobs, "designs at a time (default: one for each core)")
+      ->check(CLI::Range(1, 1024));
+  check->add_flag("--no-cache", into.check.no_cache,
+                  "check again what this program has checked before (docs/ci.md)");
+  check->add_option("--json", into.check.json, "also write the verdicts as JSON");
+  check->add_option("--junit", into.check.junit, "also write the verdicts as JUnit XML");
+  check->add_option("--sarif", into.check.sarif, "also write what is not PROVED as SARIF 2.1.0");
+
+  check
+      ->add_option("--timeout", into.check.seconds,
+                   "stop each design after so many seconds: what is not decided by then is UNDECIDED")
+      ->check(seconds);
+  check->add_flag("--strict", into.check.strict, "a design that requires nothing is 1, not 0");
+
+  CLI::App* diff = app.add_subcommand("diff", "what is better or worse in one certificate than in another");
+  diff->add_option("OLD", into.diff.before, "design file (TOML), certificate.json, or its folder")
+      ->required();
+  diff->add_option("NEW", into.diff.after, "likewise")->required();
+  diff->add_option("--tolerance", into.diff.tolerance, "relative changes up to this count as none")
+      ->check([](const std::string& text) {
+        const double value = rigor::nearest_double(text);
+        return value >= 0.0 && value < 1.0 ? std::string() : std::string("allowed: a number from 0, below 1");
+      })
+      ->capture_default_str();
+
+  CLI::App* map = app.add_subcommand("map", "draw the proved region of attraction: which starts lock");
+  map->add_option(
+         "DESIGN", into.map.design,
+         "design file (TOML), tracker quadrature-ekf without leak, or model with at most four states")
+      ->required();
+  map->add_option("--out", into.map.directory,
+                  "folder for the map (default: maps-out/<name of the design file>)");
+  map->add_option("--frequency", into.map.request.frequency_error,
+                  "quadrature-ekf: largest start frequency error, rad/sample (default 1)")
+      ->check(CLI::Range(1e-6, 4.0));
+  map->add_option("--phase", into.map.request.phase_error,
+                  "quadrature-ekf: largest start phase error, rad (default 1.5)")
+      ->check(CLI::Range(1e-6, 3.1));
+  map->add_option("--at", into.map.request.at,
+                  "model: frequency of the signal, rad/sample (default: the middle of the assumed band)");
+  map->add_option("--x", into.map.request.x,
+                  "model: a state that deviates at the start (default: an angle, or the first one)");
+  map->add_option("--y", into.map.request.y,
+                  "model: another one (default: the state that the frequency is read from)");
+  map->add_option("--x-range", into.map.request.x_range,
+                  "model: by how much at most (default: ten times what the certified set allows)")
+      ->check(CLI::Range(1e-300, 1e300));
+  map->add_option("--y-range", into.map.request.y_range, "model: likewise")->check(CLI::Range(1e-300, 1e300));
+  map->add_option("--cells", into.map.request.cells, "model: cells in each direction (default 21)")
+      ->check(CLI::Range(1, 200));
+  map->add_flag("--noise", into.map.request.with_noise,
+                "with the noise of [assume], for quadrature-ekf with its slew, too; otherwise without any");
+
+  CLI::App* show = app.add_subcommand(
+      "show", "print the recursion of a tracker that is given as a model, or code that computes the same");
+  show->add_option("DESIGN", into.show.design, "design file (TOML), tracker model")->required();
+  show->add_option("--language", into.show.language, "in which language")
+      ->check(CLI::IsMember(veritrack::certificates::code_language_names()))
+      ->capture_default_str();
+
+  CLI::App* tune =
+      app.add_subcommand("tune", "choose design values for the best guarantee, and certify the result");
+  tune->add_option("DESIGN", into.tune.design, "design file (TOML), tracker quadrature-ekf or kkl-observer")
+      ->required();
+  tune->add_option(
+      "--objective", into.tune.objective,
+      "quadrature-ekf: long-run (default), for-ever, radius, noise or slew; kkl-observer: frequency-error");
+  tune->add_option("--out", into.tune.output,
+                   "design file to write (default: <name of the design file>-tuned.toml)");
+
+  CLI::App* track = app.add_subcommand("track", "run the tracker of a design over a recording");
+  track->add_option("DESIGN", into.track.design, "design file (TOML)")->required();
+  track->add_option("RECORDING", into.track.recording, "CSV or sound file; - is standard input")->required();
+  track->add_option("--out", into.track.directory,
+                    "folder for track.md, track.csv and track.svg (default: tracks-out/<name of the "
+                    "recording>)");
+  track->add_option("--each", into.track.each,
+                    "also write a row of CSV for every sample to this file; - is standard output");
+  track
+      ->add_option("--format", into.track.format,
+                   "what the recording is: csv, sound, or auto (by content; standard input is CSV)")
+      ->check(CLI::IsMember({"auto", "csv", "sound"}))
+      ->capture_default_str();
+  track
+      ->add_option("--columns", into.track.columns,
+                   "of CSV: the channel, or in phase and quadrature with a comma, by name or number")
+      ->delimiter(',')
+      ->expected(1, 2);
+  track->add_option("--time", into.track.time, "of CSV: the column with seconds, or none");
+  track->add_option("--sample-rate", into.track.sample_rate, "Hz, in place of what the recording says")
+      ->check(CLI::Range(1e-9, 1e15));
+  track->add_option("--channel", into.track.channel, "of a sound file: the channel to use, from 1")
+      ->check(CLI::Range(1, 64));
+  track->add_flag("--quadrature", into.track.quadrature,
+                  "of a sound file: channels 1 and 2 are in phase and quadrature");
+  track
+      ->add_option("--scale", into.track.scale,
+                   "what samples are multiplied by; auto: so that the tone has the assumed amplitude")
+      ->capture_default_str();
+  track->add_option("--from", into.track.from, "the first sample to use, from 0")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 60));
+  track->add_option("--to", into.track.to, "the sample to stop before")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 60));
+  track
+      ->add_option("--start-frequency", into.track.start_frequency,
+                   "where the tracker starts, rad/sample (default: the tone that is found)")
+      ->check(CLI::Range(1e-9, 3.15));
+  track->add_option("--start-hz", into.track.start_hertz, "the same in Hz")->check(CLI::Range(1e-9, 1e15));
+  track->add_flag("--strict", into.track.strict,
+                  "1 when lock is lost or the recording exceeds what the certificate assumes");
+
+  CLI::App* reproduce =
+      app.add_subcommand("reproduce",
+                         "regenerate a report of docs/reports: the published examples of the single-channel "
+                         "tracker, or the comparison of the trackers with the Cramer-Rao bounds");
+  reproduce->add_option("REPORT", into.reproduce.report, "which report")
+      ->check(CLI::IsMember({kExampleReport, kLimitReport}))
+      ->capture_default_str();
+  reproduce->add_option("--out", into.reproduce.directory,
+                        "folder for the report (default: reports-out/<name of the report>)");
+  reproduce->add_option("--seeds", into.reproduce.seeds, "noise seeds (default: those of docs/reports)")
+      ->check(CLI::Range(1, 100000));
+
+  CLI::App* explain = app.add_subcommand(
+      "explain", "what a claim of a certificate or a key of a design file means; alone, a list of them");
+  explain->add_option("WORD", into.explain.words,
+                      "the id of a claim, a key with its table (design.q1) or without (q1), or a table");
+
+  CLI::App* make_new =
+      app.add_subcommand("new", "write a commented design file to begin with, which is PROVED as it is");
+  make_new->add_option("TRACKER", into.new_design.tracker, "the kind of tracker")
+      ->required()
+      ->check(CLI::IsMember(veritrack::certificates::templates_for()));
+  make_new->add_option("FILE", into.new_design.output,
+                       "the file to write, which must not exist (default: standard output)");
+
+  CLI::App* completions =
+      app.add_subcommand("completions", "print a script that completes commands in a shell");
+  completions->add_option("SHELL", into.shell, "the shell")->required()->check(CLI::IsMember(shell_names()));
+  app.add_subcommand("manual", "print the manual page, for man");
+  add_examples(app);
+}
+
+}  // namespace veritrack::cli

@@ -16,13 +16,16 @@ namespace {
 
 namespace rigor = veritrack::rigor;
 
-constexpr std::array<std::pair<const char*, const char*>, 11> kExamples{{
+constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
     {"certify",
      "  veritrack certify my-design.toml\n"
      "  veritrack certify my-design.toml --out results/run-7 --coq"},
     {"check",
      "  veritrack check my-design.toml\n"
-     "  veritrack check designs/*.toml --strict --junit verdicts.xml"},
+     "  veritrack check designs/ --strict --junit verdicts.xml"},
+    {"diff",
+     "  veritrack diff old.toml new.toml\n"
+     "  veritrack diff certificates-out/my-design my-design.toml --tolerance 0.01"},
     {"map",
      "  veritrack map my-design.toml\n"
      "  veritrack map my-design.toml --frequency 0.5 --phase 1 --noise"},
@@ -79,15 +82,31 @@ void add_commands(CLI::App& app, Arguments& into) {
 
   CLI::App* check =
       app.add_subcommand("check", "the same verdicts without the documents, one line per requirement");
-  check->add_option("DESIGN", into.check.designs, "design files (TOML)")->required();
+  check->add_option("DESIGN", into.check.designs, "design files (TOML), or folders of them")->required();
+  check->add_option("--jobs", into.check.jobs, "designs at a time (default: one for each core)")
+      ->check(CLI::Range(1, 1024));
+  check->add_flag("!--no-cache", into.check.cache,
+                  "check again what this program has checked before (docs/ci.md)");
+  check->add_option("--json", into.check.json, "also write the verdicts as JSON");
   check->add_option("--junit", into.check.junit, "also write the verdicts as JUnit XML");
   check->add_option("--sarif", into.check.sarif, "also write what is not PROVED as SARIF 2.1.0");
 
   check
       ->add_option("--timeout", into.check.seconds,
-                   "end the search of each design with tracker model after so many seconds")
+                   "stop each design after so many seconds: what is not decided by then is UNDECIDED")
       ->check(seconds);
   check->add_flag("--strict", into.check.strict, "a design that requires nothing is 1, not 0");
+
+  CLI::App* diff = app.add_subcommand("diff", "what is better or worse in one certificate than in another");
+  diff->add_option("OLD", into.diff.before, "design file (TOML), certificate.json, or its folder")
+      ->required();
+  diff->add_option("NEW", into.diff.after, "likewise")->required();
+  diff->add_option("--tolerance", into.diff.tolerance, "relative changes up to this count as none")
+      ->check([](const std::string& text) {
+        const double value = rigor::nearest_double(text);
+        return value >= 0.0 && value < 1.0 ? std::string() : std::string("allowed: a number from 0, below 1");
+      })
+      ->capture_default_str();
 
   CLI::App* map = app.add_subcommand("map", "draw the proved region of attraction: which starts lock");
   map->add_option(

@@ -12,6 +12,7 @@ namespace veritrack::cli {
 struct Arguments {
   CertifyOptions certify;
   CheckOptions check;
+  DiffOptions diff;
   MapOptions map;
   ShowOptions show;
   TuneOptions tune;

@@ -70,7 +70,8 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? all_proved : bad_input;
   }
 
-  arguments.certify.quiet = arguments.check.quiet = arguments.map.quiet = arguments.track.quiet = quiet;
+  arguments.certify.quiet = arguments.check.quiet = arguments.diff.quiet = quiet;
+  arguments.map.quiet = arguments.track.quiet = quiet;
 
   if (app.got_subcommand("explain")) {
     return run_explain(arguments.explain);
@@ -96,6 +97,9 @@ int run(int argc, char** argv) {
         stderr,
         "veritrack: this machine or this build cannot be trusted with a certificate; nothing was computed\n");
     return bad_arithmetic;
+  }
+  if (app.got_subcommand("diff")) {
+    return run_diff(arguments.diff);
   }
   if (app.got_subcommand("map")) {
     return run_map(arguments.map);

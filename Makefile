@@ -14,6 +14,8 @@ LINT_PACKAGES  := clang clang-format clang-tidy git
 FUZZ_PACKAGES  := clang libclang-rt-14-dev doctest-dev
 PROOF_PACKAGES := coq libcoq-interval libcoq-coquelicot
 BENCH_PACKAGES := libbenchmark-dev libmpfi-dev
+# dpkg-shlibdeps, which finds what the package needs
+DEB_PACKAGES   := dpkg-dev file
 
 DESIGN       ?= designs/la-scala-1994-figure-3.5-without-leak.toml
 JOBS         ?= $(shell nproc)
@@ -29,7 +31,7 @@ VERIFY_DESIGNS ?= $(shell scripts/one-of-each-kind) $(addprefix designs/models/,
 PROOF_DESIGNS  ?= designs/praly-section-v-proved-ell.toml designs/la-scala-1994-figure-3.5.toml \
   designs/bittanti-savaresi-2000-example-1.toml
 
-.PHONY: certificate verify proofs test lint format sanitize fuzz mutation bench clean
+.PHONY: certificate verify proofs test lint format sanitize fuzz mutation bench deb clean
 
 certificate:
 	@scripts/install-packages $(BUILD_PACKAGES)
@@ -100,6 +102,14 @@ bench:
 	cmake --preset release -DVERITRACK_BUILD_BENCH=ON
 	cmake --build --preset release --parallel $(JOBS)
 	for program in build/release/bench/*_bench; do $$program; done
+
+# The programs as a Debian package, in build/release/packages. scripts/try-deb installs it into an empty Debian.
+deb:
+	@scripts/install-packages $(BUILD_PACKAGES) $(DEB_PACKAGES)
+	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify veritrack_manual_files >&2
+	@cpack --config build/release/CPackConfig.cmake >&2
+	@ls build/release/packages/*.deb
 
 clean:
 	rm -rf build certificates-out tracks-out

@@ -33,7 +33,7 @@ CommandWords words_of(const CLI::App& app) {
     words.name = option->get_lnames().empty() ? option->get_name() : "--" + option->get_lnames().front();
     words.description = option->get_description();
     words.choices = choices_in(option->get_type_name());
-    words.takes_value = option->get_type_size() != 0;
+    words.takes_value = option->get_items_expected_min() > 0;  // a flag expects none
     command.options.push_back(std::move(words));
   }
   return command;

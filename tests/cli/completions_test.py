@@ -22,7 +22,8 @@ class Completions(CliTestCase):
     def complete(self, *words):
         """What bash offers for the last word."""
         script = self.write(run("completions", "bash").stdout, "completions.bash")
-        ask = f'source {script}; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _veritrack; printf "%s\\n" "${{COMPREPLY[@]}}"'
+        ask = (f'source {script}; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _veritrack; '
+               'printf "%s\\n" "${COMPREPLY[@]}"')
         result = subprocess.run(["bash", "-euc", ask, "bash", "veritrack", *words], capture_output=True, text=True,
                                 check=False)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
@@ -34,13 +35,16 @@ class Completions(CliTestCase):
         self.assertEqual(self.complete("--quiet", "ce"), {"certify"})
         self.assertEqual(self.complete("show", "--language", "p"), {"python"})
         self.assertEqual(self.complete("new", "mo"), {"model"})
-        self.assertEqual(self.complete("check", "--j"), {"--junit"})
+        self.assertEqual(self.complete("check", "--j"), {"--jobs", "--json", "--junit"})
+        self.assertEqual(self.complete("check", "--strict", "--j"), {"--jobs", "--json", "--junit"})
+        self.assertEqual(self.complete("check", "--jobs", "--j"), set())
         self.assertEqual(self.complete("certify", ""), set())  # bash then offers files
         self.assertEqual(self.complete("certify", "--out", ""), set())
 
     def test_bash_knows_every_option(self):
         for command in commands():
-            self.assertLessEqual({f"--{option}" for option in options_of(command)}, self.complete(command, "--"), command)
+            options = {f"--{option}" for option in options_of(command)}
+            self.assertLessEqual(options, self.complete(command, "--"), command)
 
     def test_every_shell_knows_every_option(self):
         for shell in SHELLS:
@@ -60,13 +64,15 @@ class Completions(CliTestCase):
         for option in options:
             self.assertRegex(plain, rf"(?m)^\.B --{option}( |$)")
         if shutil.which("groff"):
-            shown = subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z"], input=text, capture_output=True, text=True,
-                                   check=True)
+            shown = subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z"], input=text, capture_output=True,
+                                   text=True, check=True)
             self.assertEqual(shown.stderr, "")
 
     def test_the_manual_pages_name_every_option_and_are_clean(self):
         page = run("manual").stdout
         self.check_page(page, {option for command in commands() for option in options_of(command)})
+        self.assertIn(".B \\-\\-out \\fIVALUE\\fR\n", page)
+        self.assertIn(".B \\-\\-coq\n", page)
         for command in commands():
             self.assertIn(f".SS {command}\n.B veritrack {command}\n", page)
         program = ROOT / "checker/main.cpp"

@@ -50,7 +50,8 @@ class Explain(unittest.TestCase):
         self.assertIn("\n  Unit: signal units squared\n  Allowed: a number, 0 or more\n", text)
 
     def test_a_finding_in_print_is_told(self):
-        self.assertIn("In print: false as stated (thesis, section 3.5", run("explain", "theorem-2.9/b_1/printed").stdout)
+        text = run("explain", "theorem-2.9/b_1/printed").stdout
+        self.assertIn("In print: false as stated (thesis, section 3.5", text)
 
     def test_without_a_word_all_are_listed_and_each_of_them_is_explained(self):
         names = [line.split(" (")[0] for line in run("explain").stdout.splitlines()[2:]]

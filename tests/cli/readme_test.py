@@ -26,6 +26,20 @@ class Readme(CliTestCase):
         for line in excerpt:
             self.assertIn(line, document)
 
+    def test_the_certificate_that_is_shown_is_that_of_make_certificate_and_the_words_stand_before_it(self):
+        design = re.search(r"^DESIGN +\?= (\S+)", (ROOT / "Makefile").read_text(), re.MULTILINE).group(1)
+        before = README[:README.index("> # PROVED")]
+        self.assertIn(f"({design})", before)
+        for word in ("*Lock*: ", "*Leak* (", "*in phase*", "*in quadrature*", "Hilbert filter"):
+            self.assertIn(word, before)
+        self.assertNotIn("Theorem", before)
+
+    def test_every_command_that_is_named_exists(self):
+        commands = set(re.findall(r"veritrack ([a-z]+)\b", README))
+        self.assertGreaterEqual(len(commands), 7)
+        for command in commands:
+            self.assertEqual(self.run_here(command, "--help").returncode, 0, command)
+
     def test_the_embedding_example_compiles_and_tracks(self):
         source = (ROOT / "docs/example/track.cpp").read_text()
         shown = block("A tracker in your own program", "cpp")

@@ -1,10 +1,7 @@
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -20,8 +17,8 @@
 #include "certificates/document/tracker_kind.hpp"
 #include "certificates/document/tuning.hpp"
 #include "cli/default_folder.hpp"
+#include "cli/progress_line.hpp"
 #include "reports/certificate_files.hpp"
-#include "reports/check_reports.hpp"
 #include "reports/example_report.hpp"
 #include "reports/limit_report.hpp"
 #include "reports/tracker_reports.hpp"
@@ -35,31 +32,6 @@ ExitStatus status_of(const certificates::Certificate& certificate) {
   const bool fine = !certificate.verdict || *certificate.verdict == rigor::Verdict::proved;
   return fine ? all_proved : not_proved;
 }
-
-/// A progress line on standard error for long work, if standard error is a terminal and --quiet is not given.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
-  ~ProgressLine() {
-    if (shown_) {
-      fmt::print(stderr, "\r\033[K");
-    }
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  ProgressLine(ProgressLine&&) = delete;
-  ProgressLine& operator=(ProgressLine&&) = delete;
-
-  void operator()(const certificates::Progress& progress) const {
-    if (shown_) {
-      fmt::print(stderr, "\rproved {:5.1f} %, refuted {:5.1f} % ({} propagations)",
-                 100.0 * progress.proved_share, 100.0 * progress.refuted_share, progress.propagations);
-    }
-  }
-
- private:
-  bool shown_;
-};
 
 /// `seconds`: after which the search ends; 0: never.
 certificates::Certificate certify_with_progress(const std::string& design_path, bool quiet,
@@ -87,67 +59,6 @@ certificates::Certificate certify_with_progress(const std::string& design_path, 
                   able));
 }
 
-/// One design file; what is wrong with it is told and noted, and the others are still checked.
-reports::CheckedDesign check_one(const std::string& path, const CheckOptions& options) {
-  try {
-    return {path,
-            certify_with_progress(path, options.quiet, certificates::Extent::requirements, options.seconds),
-            {},
-            {}};
-  } catch (const certificates::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return {path, std::nullopt, error.message(), {error.line(), error.column()}};
-  } catch (const rigor::RoundingModeError&) {
-    throw;  // nothing can be trusted any more, the other designs included
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", path, error.what());
-    return {path, std::nullopt, error.what(), {}};
-  }
-}
-
-ExitStatus print_verdicts(const std::string& path, const certificates::Certificate& certificate,
-                          bool strict) {
-  if (!certificate.verdict) {
-    fmt::print("{}: nothing required\n", path);
-    return strict ? not_proved : all_proved;
-  }
-  for (const certificates::Claim& claim : certificate.claims) {
-    if (claim.required) {
-      fmt::print("{}:{}: {}: {} ({})\n", path, claim.position.line, rigor::to_string(claim.verdict),
-                 claim.requirement, claim.reason);
-    }
-  }
-  return status_of(certificate);
-}
-
-/// Stages the reports that are asked for, as `junit` and `sarif` make them.
-template <typename Junit, typename Sarif>
-void stage_reports(const CheckOptions& options, certificates::OutputFiles& files, Junit junit, Sarif sarif) {
-  for (const std::string& path : options.designs) {
-    files.keep(path);
-  }
-  if (!options.junit.empty()) {
-    files.stage(options.junit, junit());
-  }
-  if (!options.sarif.empty()) {
-    files.stage(options.sarif, sarif());
-  }
-}
-
-/// What cannot be written is better known before minutes of work.
-void rehearse_reports(const CheckOptions& options) {
-  certificates::OutputFiles files;
-  const auto nothing = [] { return std::string(); };
-  stage_reports(options, files, nothing, nothing);
-}
-
-void write_reports(const CheckOptions& options, const std::vector<reports::CheckedDesign>& checked) {
-  certificates::OutputFiles files;
-  stage_reports(
-      options, files, [&] { return reports::to_junit(checked); }, [&] { return reports::to_sarif(checked); });
-  files.commit();
-}
-
 }  // namespace
 
 ExitStatus run_certify(const CertifyOptions& options) {
@@ -170,22 +81,6 @@ ExitStatus run_certify(const CertifyOptions& options) {
   }
   fmt::print("{}: {}\n", files.document.string(), certificates::headline(certificate));
   return status_of(certificate);
-}
-
-ExitStatus run_check(const CheckOptions& options) {
-  rehearse_reports(options);
-  std::vector<reports::CheckedDesign> checked;
-  for (const std::string& path : options.designs) {
-    checked.push_back(check_one(path, options));
-  }
-  write_reports(options, checked);
-  ExitStatus status = all_proved;
-  for (const auto& design : checked) {
-    status =
-        std::max(status, design.certificate ? print_verdicts(design.path, *design.certificate, options.strict)
-                                            : bad_input);
-  }
-  return status;
 }
 
 ExitStatus run_map(const MapOptions& options) {

@@ -24,12 +24,22 @@ struct CertifyOptions {
 };
 
 struct CheckOptions {
-  std::vector<std::string> designs;
+  std::vector<std::string> designs;  ///< files, and folders of them
+  std::string json;
   std::string junit;
   std::string sarif;
   bool strict = false;   ///< a design that requires nothing is not_proved
-  double seconds = 0.0;  ///< for each design, after which its search ends; 0: never
+  double seconds = 0.0;  ///< for each design, after which it is stopped; 0: never
+  int jobs = 0;          ///< designs at a time; 0: as many as there are cores
+  bool cache = true;     ///< verdicts of an earlier run of this program are used
   bool quiet = false;    ///< no progress on standard error
+};
+
+struct DiffOptions {
+  std::string before;  ///< a design file, a certificate.json, or its folder
+  std::string after;
+  std::string tolerance = "0.001";  ///< relative changes up to it count as none
+  bool quiet = false;               ///< no progress on standard error
 };
 
 struct MapOptions {
@@ -77,6 +87,7 @@ struct ReproduceOptions {
 
 [[nodiscard]] ExitStatus run_certify(const CertifyOptions& options);
 [[nodiscard]] ExitStatus run_check(const CheckOptions& options);
+[[nodiscard]] ExitStatus run_diff(const DiffOptions& options);
 [[nodiscard]] ExitStatus run_map(const MapOptions& options);
 [[nodiscard]] ExitStatus run_show(const ShowOptions& options);
 [[nodiscard]] ExitStatus run_tune(const TuneOptions& options);

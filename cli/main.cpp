@@ -81,15 +81,32 @@ int run(int argc, char** argv) {
   CheckOptions check_options;
   CLI::App* check =
       app.add_subcommand("check", "the same verdicts without the documents, one line per requirement");
-  check->add_option("DESIGN", check_options.designs, "design files (TOML)")->required();
+  check->add_option("DESIGN", check_options.designs, "design files (TOML), or folders of them")->required();
+  check->add_option("--jobs", check_options.jobs, "designs at a time (default: one for each core)")
+      ->check(CLI::Range(1, 1024));
+  check->add_flag("!--no-cache", check_options.cache,
+                  "check again what this program has checked before (docs/ci.md)");
+  check->add_option("--json", check_options.json, "also write the verdicts as JSON");
   check->add_option("--junit", check_options.junit, "also write the verdicts as JUnit XML");
   check->add_option("--sarif", check_options.sarif, "also write what is not PROVED as SARIF 2.1.0");
 
   check
       ->add_option("--timeout", check_options.seconds,
-                   "end the search of each design with tracker model after so many seconds")
+                   "stop each design after so many seconds: what is not decided by then is UNDECIDED")
       ->check(seconds);
   check->add_flag("--strict", check_options.strict, "a design that requires nothing is 1, not 0");
+
+  DiffOptions diff_options;
+  CLI::App* diff = app.add_subcommand("diff", "what is better or worse in one certificate than in another");
+  diff->add_option("OLD", diff_options.before, "design file (TOML), certificate.json, or its folder")
+      ->required();
+  diff->add_option("NEW", diff_options.after, "likewise")->required();
+  diff->add_option("--tolerance", diff_options.tolerance, "relative changes up to this count as none")
+      ->check([](const std::string& text) {
+        const double value = rigor::nearest_double(text);
+        return value >= 0.0 && value < 1.0 ? std::string() : std::string("allowed: a number from 0, below 1");
+      })
+      ->capture_default_str();
 
   MapOptions map_options;
   CLI::App* map = app.add_subcommand("map", "draw the proved region of attraction: which starts lock");
@@ -203,7 +220,8 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? all_proved : bad_input;
   }
 
-  certify_options.quiet = check_options.quiet = map_options.quiet = track_options.quiet = quiet;
+  certify_options.quiet = check_options.quiet = map_options.quiet = track_options.quiet = diff_options.quiet =
+      quiet;
 
   const rigor::SelfTestReport self_test = rigor::run_self_test();
   if (!self_test.passed()) {
@@ -214,6 +232,9 @@ int run(int argc, char** argv) {
         stderr,
         "veritrack: this machine or this build cannot be trusted with a certificate; nothing was computed\n");
     return bad_arithmetic;
+  }
+  if (diff->parsed()) {
+    return run_diff(diff_options);
   }
   if (map->parsed()) {
     return run_map(map_options);

@@ -30,8 +30,11 @@ struct Number {
   rigor::Interval value;
   rigor::Interval tight;  ///< the tightest interval that holds both
   double nearest = 0.0;   ///< the double nearest to the decimal: what the filter runs with
-  std::string text;       ///< as written in the file
+  /// As written in the file; a number in another unit than that of its key with that unit, "5 Hz", so that no
+  /// sentence takes it for one in its own.
+  std::string text;
   Position position;
+  bool in_hertz = false;  ///< the text is in Hz, or Hz per second; the numbers above are not
 };
 
 /// True only when both are certainly the same real number: the same decimal, or the same double exactly.

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "certificates/design/design_format.hpp"
+#include "certificates/design/hertz_keys.hpp"
 
 namespace veritrack::certificates::keys {
 
@@ -57,6 +58,17 @@ using Owner = typename OwnerOf<decltype(member)>::type;
 template <auto member, RealPredicate is_allowed>
 void real(const TomlValue& value, Owner<member>& target) {
   target.*member = value.real(is_allowed);
+}
+
+/// A frequency in rad/sample, or in Hz with a sample rate.
+template <auto member, RealPredicate is_allowed>
+void in_radians(const TomlValue& value, Owner<member>& target) {
+  target.*member = read_frequency(value, is_allowed);
+}
+/// Its change, per sample or per second.
+template <auto member, RealPredicate is_allowed>
+void slew(const TomlValue& value, Owner<member>& target) {
+  target.*member = read_slew(value, is_allowed);
 }
 
 template <auto member, std::int64_t lowest, std::int64_t highest>

@@ -55,6 +55,10 @@ class TomlValue {
   /// Throws InputError when it is no table.
   [[nodiscard]] std::optional<std::vector<TomlValue>> fields(const std::vector<std::string_view>& keys) const;
 
+  /// The value of `table`.`key` in the same file; nothing when the file does not have it.
+  [[nodiscard]] std::optional<TomlValue> elsewhere(std::string_view table, std::string_view key,
+                                                   std::string_view allowed) const;
+
   [[nodiscard]] Position position() const;
   /// `path` is `found`; allowed: ... Throws InputError.
   [[noreturn]] void refuse(std::string_view found) const;

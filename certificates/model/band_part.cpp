@@ -2,7 +2,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/model/model_sets.hpp"
-#include "certificates/model/model_units.hpp"
+#include "certificates/sets/frequency_units.hpp"
 
 namespace veritrack::certificates {
 
@@ -13,7 +13,8 @@ using rigor::Interval;
 
 /// rad/sample in the unit of the band.
 Interval in_band_unit(const ModelAssumptions& assume, double radians) {
-  return assume.frequency_in_hertz ? ModelUnits(assume).in_hertz(Interval(radians)) : Interval(radians);
+  return assume.frequency_in_hertz ? FrequencyUnits(assume.sample_rate).in_hertz(Interval(radians))
+                                   : Interval(radians);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "certificates/model/markdown_model_lock.hpp"
 #include "certificates/model/markdown_model_sets.hpp"
 #include "certificates/model/model_sets.hpp"
-#include "certificates/model/model_units.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "certificates/model/recursion_text.hpp"
 
 namespace veritrack::certificates {
@@ -80,7 +80,7 @@ std::string design_section(const Certificate& certificate, const ModelTables& ta
   }
   rows.push_back({"estimated frequency", quoted(table.frequency.text), "rad/sample"});
   rows.push_back({"amplitude of the signal, constant", quoted(assume.amplitude.text), "signal units"});
-  const ModelUnits units(assume);
+  const FrequencyUnits units(assume.sample_rate);
   const std::string band = fmt::format("[`{}`, `{}`]", assume.frequency[0].text, assume.frequency[1].text);
   if (units.has_hertz()) {
     rows.push_back({"samples per second", quoted(assume.sample_rate.value().text), "Hz"});

@@ -9,7 +9,7 @@
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/markdown_model_sets.hpp"
 #include "certificates/model/model_sets.hpp"
-#include "certificates/model/model_units.hpp"
+#include "certificates/sets/frequency_units.hpp"
 
 namespace veritrack::certificates {
 
@@ -56,7 +56,7 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
     return "## Bias and ripple\n\nNothing is known of them: they need a set without noise in which errors "
            "shrink.\n\n";
   }
-  const ModelUnits units(model_tables(certificate.design).assume);
+  const FrequencyUnits units(model_tables(certificate.design).assume.sample_rate);
   std::string text =
       "## Bias and ripple\n\nWithout noise, at a constant frequency and in the long run, the estimate "
       "repeats "

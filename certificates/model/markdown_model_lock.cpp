@@ -11,7 +11,7 @@
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/model_sets.hpp"
-#include "certificates/model/model_units.hpp"
+#include "certificates/sets/frequency_units.hpp"
 
 namespace veritrack::certificates {
 
@@ -22,7 +22,7 @@ using rigor::Interval;
 using rigor::to_decimal;
 
 std::vector<std::string> row_of(const char* purpose, const ModelLock& lock, const std::string& snr_db,
-                                const ModelUnits& units) {
+                                const FrequencyUnits& units) {
   if (!lock.is_proved()) {
     return {purpose, "not proved", "—", "—", "—", "—"};
   }
@@ -55,7 +55,7 @@ std::string model_lock_section(const Certificate& certificate) {
   if (!tables.assume.gaussian || !sets.gaussian) {
     return "";
   }
-  const ModelUnits units(tables.assume);
+  const FrequencyUnits units(tables.assume.sample_rate);
   std::string text =
       "## Gaussian noise: the probability of losing lock\n\nGaussian noise has no bound, so nothing holds "
       "for "

@@ -12,7 +12,7 @@
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/model/band_part.hpp"
 #include "certificates/model/model_sets.hpp"
-#include "certificates/model/model_units.hpp"
+#include "certificates/sets/frequency_units.hpp"
 
 namespace veritrack::certificates {
 
@@ -86,7 +86,7 @@ std::string noise_text(const model::TubeSet& set) {
   return to_decimal(set.noise, 4, Direction::down);
 }
 
-std::vector<std::string> row_of(const NamedSet& named, const ModelUnits& units) {
+std::vector<std::string> row_of(const NamedSet& named, const FrequencyUnits& units) {
   const ModelSet& set = *named.set;
   const bool is_known = named.is_given || named.is_any();
   std::vector<std::string> row{named.purpose + named.where,
@@ -107,7 +107,7 @@ std::vector<std::string> row_of(const NamedSet& named, const ModelUnits& units) 
 
 /// "Without noise, at a constant frequency", "With noise of at most 0.02 signal units at every sample, at
 /// ...".
-std::string disturbances_of(const model::TubeSet& set, const ModelUnits& units) {
+std::string disturbances_of(const model::TubeSet& set, const FrequencyUnits& units) {
   const std::string noise =
       set.noise > 0.0 ? fmt::format("With noise of at most {} signal units at every sample", noise_text(set))
                       : std::string("Without noise");
@@ -116,7 +116,7 @@ std::string disturbances_of(const model::TubeSet& set, const ModelUnits& units) 
              : noise + ", at a constant frequency";
 }
 
-std::string sentence_of(const NamedSet& named, const ModelUnits& units) {
+std::string sentence_of(const NamedSet& named, const FrequencyUnits& units) {
   const ModelSet& set = *named.set;
   std::string text = fmt::format(
       "- *For {}{}*: {}, a start in this set stays in it for ever, with a frequency error of at most {}",
@@ -157,7 +157,7 @@ std::string objections(const NamedSet& named) {
 }
 
 /// What simulations reach of the bounds of the set that decides.
-std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker, const ModelUnits& units) {
+std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker, const FrequencyUnits& units) {
   const ModelSet& set = *named.set;
   const model::TubeAttack attack = attack_tubes(tracker, set.tubes);
   if (attack.level_share > 1.0 || attack.frequency_error > set.frequency_error) {
@@ -194,7 +194,7 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
                                const MarkdownOptions& options) {
   const ModelAssumptions& assume = model_tables(certificate.design).assume;
   const ModelSets& sets = model_sets(certificate);
-  const ModelUnits units(assume);
+  const FrequencyUnits units(assume.sample_rate);
   std::string text = "## The certified sets\n\n";
   if (!sets.objection.empty()) {
     return text + "Nothing is certified: " + markdown::escaped(sets.objection) + ".\n\n";

@@ -13,6 +13,7 @@
 #include "certificates/model/model_lock.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/model/model_words.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "certificates/sets/required_claims.hpp"
 
 namespace veritrack::certificates {
@@ -43,6 +44,7 @@ class ModelClaims {
         tables_(&model_tables(certificate.design)),
         sets_(&model_sets(certificate)),
         words_(*tables_),
+        units_(tables_->assume.sample_rate),
         deciding_(sets_->assumed ? &*sets_->assumed : &sets_->starts) {}
 
   void add_told() {
@@ -56,11 +58,12 @@ class ModelClaims {
       const std::string bound = above(deciding_->frequency_error);
       claim.values = {{"frequency_error", bound}};
       add_part(claim, scope);
-      claim.statement += fmt::format(", the frequency error stays at or below {} rad/sample for ever", bound);
+      claim.statement +=
+          fmt::format(", the frequency error stays at or below {} for ever", units_.at_most(bound));
       if (std::isfinite(deciding_->settled_error) && settles()) {
         const std::string settled = above(deciding_->settled_error);
         claim.values.emplace_back("settled_frequency_error", settled);
-        claim.statement += fmt::format(", and at or below {} rad/sample in the long run", settled);
+        claim.statement += fmt::format(", and at or below {} in the long run", units_.at_most(settled));
       }
       add(claim);
     }
@@ -74,8 +77,8 @@ class ModelClaims {
       add_part(claim, scope);
       claim.statement += fmt::format(
           ", the tracker tolerates noise up to {}, and without noise a certified invariant set contains "
-          "frequency errors up to {} rad/sample at every phase",
-          noise, reach);
+          "frequency errors up to {} at every phase",
+          noise, units_.at_least(reach));
       add(claim);
     }
     if (const Scope scope = scope_of({&starts}); scope.is_any && knows_bias()) {
@@ -88,9 +91,10 @@ class ModelClaims {
       claim.values = {{"bias_low", low}, {"bias_high", high}, {"ripple", ripple}};
       add_part(claim, scope);
       claim.statement += fmt::format(
-          ", the mean over the phase of the frequency error in the long run is between {} and {} rad/sample, "
-          "and the error varies by at most {} rad/sample over the phase",
-          low, high, ripple);
+          ", the mean over the phase of the frequency error in the long run is between {}, and the error "
+          "varies "
+          "by at most {} over the phase",
+          units_.between(low, high), units_.at_most(ripple));
       add(claim);
     }
   }
@@ -105,7 +109,7 @@ class ModelClaims {
     if (const auto& number = sets.frequency_error_below) {
       Claim claim = required("model/frequency-error-bound", *number,
                              assumed + words_.start(sets_->assumed ? "assumed" : "starts"),
-                             "the frequency error stays below {} rad/sample for ever");
+                             "the frequency error stays below {} for ever", frequency_words);
       const bool is_met =
           keeps_starts() && rigor::certainly_less(Interval(deciding_->frequency_error), number->value);
       decide(claim, guaranteed(), deciding_->frequency_error, *number, "The proved bound is {} rad/sample",
@@ -123,25 +127,25 @@ class ModelClaims {
       Claim claim =
           required("model/largest-slew", *number,
                    words_.tone_with("a frequency that stays in " + words_.band()) + ", without noise",
-                   "the tracker tolerates a slew up to {} rad/sample per sample: a certified "
-                   "invariant set exists");
+                   "the tracker tolerates a slew up to {}: a certified invariant set exists", slew_words);
       decide_size(claim, largest_slew(), *number, "The largest slew that was proved is {}");
     }
     if (const auto& number = sets.frequency_error_radius_at_least) {
       Claim claim = required("model/frequency-error-radius", *number, assumed,
-                             "a certified invariant set contains frequency errors up to {} rad/sample at "
-                             "every phase");
+                             "a certified invariant set contains frequency errors up to {} at every phase",
+                             frequency_words);
       decide_size(claim, covers_assumptions() ? deciding_->reach : 0.0, *number,
                   "The certified set reaches {} rad/sample");
     }
     const std::string settled =
         words_.constant_tone() + ", without noise, started in the set \"starts\" of the certificate";
     if (const auto& number = require.bias_below) {
-      Claim claim = required("model/bias", *number, "", "the mean frequency error is at most {} rad/sample");
+      Claim claim =
+          required("model/bias", *number, "", "the mean frequency error is at most {}", frequency_words);
       claim.statement = fmt::format(
-          "{}, the mean over the phase of the frequency error in the long run is at most {} rad/sample in "
+          "{}, the mean over the phase of the frequency error in the long run is at most {} in "
           "absolute value.",
-          settled, number->text);
+          settled, frequency_words(*number));
       const Interval& bias = sets_->starts.bias;
       const double largest = std::max(bias.upper(), -bias.lower());
       const bool is_met = knows_bias() && rigor::certainly_less_equal(Interval(largest), number->value);
@@ -150,10 +154,10 @@ class ModelClaims {
     }
     if (const auto& number = require.ripple_below) {
       Claim claim =
-          required("model/ripple", *number, "", "the frequency error varies by at most {} rad/sample");
-      claim.statement = fmt::format(
-          "{}, the frequency error in the long run varies by at most {} rad/sample over the phase.", settled,
-          number->text);
+          required("model/ripple", *number, "", "the frequency error varies by at most {}", frequency_words);
+      claim.statement =
+          fmt::format("{}, the frequency error in the long run varies by at most {} over the phase.", settled,
+                      frequency_words(*number));
       const bool is_met =
           knows_bias() && rigor::certainly_less_equal(Interval(sets_->starts.ripple), number->value);
       decide(claim, has_bias(), sets_->starts.ripple, *number, "It varies by at most {} rad/sample",
@@ -200,10 +204,11 @@ class ModelClaims {
   }
 
   static Claim required(const char* id, const Number& number, const std::string& hypotheses,
-                        std::string_view requirement) {
+                        std::string_view requirement, std::string (*words)(const Number&) = nullptr) {
     Claim claim;
     claim.id = id;
-    claim.requirement = fmt::format(fmt::runtime(requirement), number.text);
+    claim.requirement =
+        fmt::format(fmt::runtime(requirement), words == nullptr ? number.text : words(number));
     claim.statement = fmt::format("{}, {}.", hypotheses, claim.requirement);
     claim.required = true;
     claim.position = number.position;
@@ -242,8 +247,8 @@ class ModelClaims {
     const Number& target = *tables_->require.sets.settled_below;
     Claim claim = required("model/settling-time", within,
                            assumed + words_.start(sets_->assumed ? "assumed" : "starts"), "");
-    claim.requirement = fmt::format("from sample {} on, the frequency error stays below {} rad/sample",
-                                    within.text, target.text);
+    claim.requirement = fmt::format("from sample {} on, the frequency error stays below {}", within.text,
+                                    frequency_words(target));
     claim.statement = fmt::format("{}, {}.", assumed + words_.start(sets_->assumed ? "assumed" : "starts"),
                                   claim.requirement);
     const double samples = guaranteed() ? samples_below(target) : INFINITY;
@@ -352,6 +357,7 @@ class ModelClaims {
   const ModelTables* tables_;
   const ModelSets* sets_;
   ModelWords words_;
+  FrequencyUnits units_;
   const ModelSet* deciding_;
 };
 

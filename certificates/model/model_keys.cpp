@@ -206,6 +206,13 @@ template <auto member>
 void of_sets(const TomlValue& value, ModelRequire& target) {
   target.sets.*member = value.real(positive);
 }
+template <auto member>
+void error_of_sets(const TomlValue& value, ModelRequire& target) {
+  target.sets.*member = read_frequency(value, positive);
+}
+void slew_of_sets(const TomlValue& value, ModelRequire& target) {
+  target.sets.largest_slew_at_least = read_slew(value, positive);
+}
 void settles_within(const TomlValue& value, ModelRequire& target) {
   target.sets.settles_within =
       value.whole_number([](const Interval& x) { return rigor::certainly_less_equal(Interval(1.0), x); });
@@ -216,20 +223,22 @@ void probability_of_losing_lock(const TomlValue& value, ModelRequire& target) {
   });
 }
 constexpr std::array kModelRequireKeys{
-    Key<ModelRequire>{"frequency_error_below", kPositive, of_sets<&Requirements::frequency_error_below>,
-                      kOptional},
+    Key<ModelRequire>{"frequency_error_below", kPositiveFrequency,
+                      error_of_sets<&Requirements::frequency_error_below>, kOptional},
     Key<ModelRequire>{"settles_within", "a whole number of samples, 1 or more", settles_within, kOptional},
-    Key<ModelRequire>{"settled_below", kPositive, of_sets<&Requirements::settled_below>, kOptional},
+    Key<ModelRequire>{"settled_below", kPositiveFrequency, error_of_sets<&Requirements::settled_below>,
+                      kOptional},
     Key<ModelRequire>{"largest_noise_at_least", kPositive, of_sets<&Requirements::largest_noise_at_least>,
                       kOptional},
-    Key<ModelRequire>{"largest_slew_at_least", kPositive, of_sets<&Requirements::largest_slew_at_least>,
-                      kOptional},
-    Key<ModelRequire>{"frequency_error_radius_at_least", kPositive,
-                      of_sets<&Requirements::frequency_error_radius_at_least>, kOptional},
+    Key<ModelRequire>{"largest_slew_at_least", kPositiveSlew, slew_of_sets, kOptional},
+    Key<ModelRequire>{"frequency_error_radius_at_least", kPositiveFrequency,
+                      error_of_sets<&Requirements::frequency_error_radius_at_least>, kOptional},
     Key<ModelRequire>{"probability_of_losing_lock_below", "a number above 0 and below 1",
                       probability_of_losing_lock, kOptional},
-    Key<ModelRequire>{"bias_below", kPositive, real<&ModelRequire::bias_below, positive>, kOptional},
-    Key<ModelRequire>{"ripple_below", kPositive, real<&ModelRequire::ripple_below, positive>, kOptional},
+    Key<ModelRequire>{"bias_below", kPositiveFrequency, in_radians<&ModelRequire::bias_below, positive>,
+                      kOptional},
+    Key<ModelRequire>{"ripple_below", kPositiveFrequency, in_radians<&ModelRequire::ripple_below, positive>,
+                      kOptional},
 };
 
 std::vector<BoundTable> bind_model_tables(std::any& tables) {

@@ -11,6 +11,7 @@
 #include "analysis/rigor/elementary.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/model/model_words.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "certificates/sets/gaussian_noise.hpp"
 
 namespace veritrack::certificates {
@@ -53,10 +54,10 @@ Claim told_of(const char* id, const ModelLock& lock, std::string hypotheses, con
   const std::string probability = shown(lock.probability);
   claim.values = {{"frequency_error", error}, {"probability", probability}};
   claim.statement = fmt::format(
-      "{}, the probability that the tracker loses its lock {}, its frequency error exceeding {} rad/sample "
-      "at "
-      "one of them, is at most {}.",
-      std::move(hypotheses), stretch_of(assume), error, probability);
+      "{}, the probability that the tracker loses its lock {}, its frequency error exceeding {} at one of "
+      "them, is at most {}.",
+      std::move(hypotheses), stretch_of(assume), FrequencyUnits(assume.sample_rate).at_most(error),
+      probability);
   return claim;
 }
 

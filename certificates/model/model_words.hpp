@@ -20,11 +20,7 @@ class ModelWords {
   explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt)
       : assume_(&tables.assume), part_(std::move(part)) {}
 
-  [[nodiscard]] std::string unit() const {
-    return assume_->frequency_in_hertz
-               ? fmt::format("Hz at {} samples per second", assume_->sample_rate.value().text)
-               : "rad/sample";
-  }
+  [[nodiscard]] std::string unit() const { return assume_->frequency_in_hertz ? "Hz" : "rad/sample"; }
   [[nodiscard]] std::string tone_with(const std::string& frequency) const {
     return fmt::format("{}, on {} of amplitude {} with {}", kExactArithmetic,
                        assume_->signal.empty() ? "a tone" : "the signal of the design file",
@@ -32,9 +28,11 @@ class ModelWords {
   }
   [[nodiscard]] std::string band() const {
     if (part_) {
-      return fmt::format("[{}, {}] {} (a part of the assumed band)", part_->from, part_->to, unit());
+      return fmt::format("[{}, {}] {}{} (a part of the assumed band)", part_->from, part_->to, unit(),
+                         rate());
     }
-    return fmt::format("[{}, {}] {}", assume_->frequency[0].text, assume_->frequency[1].text, unit());
+    return fmt::format("[{}, {}] {}{}", assume_->frequency[0].text, assume_->frequency[1].text, unit(),
+                       rate());
   }
   [[nodiscard]] std::string constant_tone() const { return tone_with("any constant frequency in " + band()); }
   [[nodiscard]] bool moves() const { return assume_->slew.value.upper() > 0.0; }
@@ -65,6 +63,9 @@ class ModelWords {
   }
 
  private:
+  [[nodiscard]] std::string rate() const {
+    return assume_->sample_rate ? fmt::format(" at {} samples per second", assume_->sample_rate->text) : "";
+  }
   [[nodiscard]] std::string start_within(const std::string& set) const {
     std::string states;
     for (const NamedText& entry : assume_->start_within) {

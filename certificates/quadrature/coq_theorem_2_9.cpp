@@ -65,8 +65,15 @@ std::string initial_error_term(const Assumptions& assume) {
   }
   const std::string amplitude_error =
       fmt::format("({} / {})", decimal(assume.initial_amplitude_error.text), decimal(assume.amplitude.text));
+  const Number& frequency_error = assume.initial_frequency_error;
+  const std::string frequency =
+      !frequency_error.in_hertz
+          ? decimal(frequency_error.text)
+          : fmt::format("(2 * PI * {} / {})",
+                        decimal(frequency_error.text.substr(0, frequency_error.text.find(' '))),
+                        decimal(assume.sample_rate.value().text));
   return fmt::format("sqrt ({0} ^ 2 + 4 * (1 + {0}) * sin ({1} / 2) ^ 2 + {2} ^ 2)", amplitude_error,
-                     decimal(assume.initial_phase_error.text), decimal(assume.initial_frequency_error.text));
+                     decimal(assume.initial_phase_error.text), frequency);
 }
 
 void prove_constants(Proofs& proofs, const theorems::Derivation& derivation, const std::string& reading) {

@@ -14,6 +14,7 @@
 #include "certificates/quadrature/mean_square.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "certificates/sets/gaussian_noise.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
@@ -98,18 +99,17 @@ Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerm
     claim.reason = open_condition(derivation);
     return claim;
   }
+  const FrequencyUnits units(terms.assume.sample_rate);
   claim.verdict = Verdict::proved;
   claim.statement += fmt::format(
-      "the probability that the tracker loses its lock {}, its frequency error exceeding {} rad/sample at "
-      "one "
-      "of them, is at most {}",
-      stretch_of_samples(terms.assume), rigor::upper_decimal(reach->value, kShownDigits),
+      "the probability that the tracker loses its lock {}, its frequency error exceeding {} at one of "
+      "them, is at most {}",
+      stretch_of_samples(terms.assume), units.at_most(reach->value, kShownDigits),
       rigor::upper_decimal(probability->value, kShownDigits));
   if (rms != nullptr) {
     claim.statement += fmt::format(
-        "; while it is in lock, the root mean square of its frequency error over them is at most {} "
-        "rad/sample",
-        rigor::upper_decimal(rms->value, kShownDigits));
+        "; while it is in lock, the root mean square of its frequency error over them is at most {}",
+        units.at_most(rms->value, kShownDigits));
   }
   claim.statement += ".";
   claim.reason =

@@ -14,6 +14,7 @@
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "certificates/sets/gaussian_noise.hpp"
 
 namespace veritrack::certificates {
@@ -76,8 +77,8 @@ Claim mean_square_claim(const Certificate& certificate, const GuaranteeTerms& te
   Claim claim;
   claim.id = "ekf/rms-frequency-error";
   claim.requirement =
-      fmt::format("the root mean square of the frequency error in lock is below {} rad/sample {}",
-                  required.text, stretch_of_samples(terms.assume));
+      fmt::format("the root mean square of the frequency error in lock is below {} {}",
+                  frequency_words(required), stretch_of_samples(terms.assume));
   claim.statement = hypotheses(terms) + claim.requirement + ".";
   claim.required = true;
   claim.position = required.position;
@@ -97,7 +98,8 @@ Claim mean_square_claim(const Certificate& certificate, const GuaranteeTerms& te
   const bool below = rigor::certainly_less(rms->value, required.value);
   claim.verdict = below ? Verdict::proved : Verdict::undecided;
   claim.reason =
-      fmt::format("It is at most {} rad/sample{}.", rigor::upper_decimal(rms->value, kShownRmsDigits),
+      fmt::format("It is at most {}{}.",
+                  FrequencyUnits(terms.assume.sample_rate).at_most(rms->value, kShownRmsDigits),
                   below ? "" : ", which is not below what is required");
   claim.evidence = {*rms};
   return claim;

@@ -7,6 +7,7 @@
 
 #include "analysis/rigor/definiteness.hpp"
 #include "analysis/rigor/matrix.hpp"
+#include "certificates/design/hertz_keys.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/key_readers.hpp"
 #include "certificates/sets/assumptions.hpp"
@@ -25,30 +26,43 @@ bool frequency_of_a_sampled_signal(const Interval& x) {
 }
 
 void frequency(const TomlValue& value, Assumptions& assume) {
-  const std::vector<TomlValue> bounds = value.elements(2);
-  const Number lowest = bounds[0].real(frequency_of_a_sampled_signal);
-  const Number highest = bounds[1].real(frequency_of_a_sampled_signal);
-  // Two decimals within one ulp of each other pass in any order: what is certified is the hull of the two
-  // intervals.
-  const bool hull_is_ordered = lowest.value.lower() <= highest.value.upper();
-  if (!hull_is_ordered) {
-    value.refuse(fmt::format("[{}, {}]", printable(lowest.text, 40), printable(highest.text, 40)));
-  }
-  assume.frequency = {lowest, highest};
+  assume.frequency = read_band(value, frequency_of_a_sampled_signal);
 }
 
 /// One frequency, or a band.
 void one_frequency_or_band(const TomlValue& value, Assumptions& assume) {
-  if (!value.is_number()) {
+  if (!is_one_frequency(value)) {
     frequency(value, assume);
     return;
   }
-  const Number number = value.real(frequency_of_a_sampled_signal);
+  const Number number = read_frequency(value, frequency_of_a_sampled_signal);
   assume.frequency = {number, number};
+}
+
+/// A phase error beyond half a turn is a smaller one on the other side.
+bool at_most_half_a_turn(const Interval& x) {
+  constexpr double kSmallestDoubleAbovePi = 0x1.921fb54442d19p+1;
+  return not_negative(x) && rigor::certainly_less_equal(x, Interval(kSmallestDoubleAbovePi));
 }
 
 bool within_200_decibels(const Interval& x) {
   return rigor::certainly_less_equal(rigor::abs(x), Interval(200.0));
+}
+
+/// x or { bound = x }.
+Number bound_on_noise(const TomlValue& value) {
+  if (!value.is_table()) {
+    return value.real(not_negative);
+  }
+  const auto bound = value.fields({"bound"});
+  if (!bound) {
+    value.refuse("a table with other keys");
+  }
+  return bound->front().real(not_negative);
+}
+constexpr std::string_view kBoundOnNoise = "a number, 0 or more, or { bound = that number }";
+void bounded_noise(const TomlValue& value, Assumptions& assume) {
+  assume.noise = bound_on_noise(value);
 }
 
 /// A bound, or the deviation of Gaussian noise.
@@ -162,17 +176,21 @@ void initial_covariance(const TomlValue& value, Assumptions& assume) {
 using Assume = Assumptions;
 constexpr std::array kAssumeKeys{
     Key<Assume>{"amplitude", kPositive, real<&Assume::amplitude, positive>, defaults_to("1")},
+    Key<Assume>{"sample_rate", kSampleRate, real<&Assume::sample_rate, positive>, kOptional},
+    Key<Assume>{"frequency",
+                "[lowest, highest] in rad/sample, 0 <= lowest <= highest <= 3.141592653589793 (beyond pi a "
+                "sampled frequency is the same as a lower one); f Hz at fs samples per second is 2 pi f/fs "
+                "rad/sample: with sample_rate = fs write { hz = [lowest, highest] }",
+                frequency, kRequired},
+    Key<Assume>{"noise", kBoundOnNoise, bounded_noise, kRequired},
+    Key<Assume>{"slew", kNotNegativeSlew, slew<&Assume::slew, not_negative>, defaults_to("0")},
+    Key<Assume>{"initial_frequency_error", kNotNegativeFrequency,
+                in_radians<&Assume::initial_frequency_error, not_negative>, kRequired},
     Key<Assume>{
-        "frequency",
-        "[lowest, highest] in rad/sample, 0 <= lowest <= highest <= 3.141592653589793 (beyond pi a sampled "
-        "frequency is the same as a lower one)",
-        frequency, kRequired},
-    Key<Assume>{"noise", kNotNegative, real<&Assume::noise, not_negative>, kRequired},
-    Key<Assume>{"slew", kNotNegative, real<&Assume::slew, not_negative>, defaults_to("0")},
-    Key<Assume>{"initial_frequency_error", kNotNegative, real<&Assume::initial_frequency_error, not_negative>,
-                kRequired},
-    Key<Assume>{"initial_phase_error", kNotNegative, real<&Assume::initial_phase_error, not_negative>,
-                kRequired},
+        "initial_phase_error",
+        "a number from 0 to pi, rad (beyond half a turn an error of the phase is a smaller one on the "
+        "other side)",
+        real<&Assume::initial_phase_error, at_most_half_a_turn>, kRequired},
     Key<Assume>{"initial_amplitude_error", kNotNegative, real<&Assume::initial_amplitude_error, not_negative>,
                 kRequired},
     Key<Assume>{
@@ -193,8 +211,8 @@ constexpr std::array<Key<Assume>, kAssumeKeys.size() + 2> with_gaussian_noise() 
       key.read = noise;
     }
   }
-  keys[kAssumeKeys.size()] = {"frequency_walk", kNotNegative, real<&Assume::frequency_walk, not_negative>,
-                              kOptional};
+  keys[kAssumeKeys.size()] = {"frequency_walk", kNotNegativeFrequency,
+                              in_radians<&Assume::frequency_walk, not_negative>, kOptional};
   keys[kAssumeKeys.size() + 1] = {"samples", kSamplesOfProbability,
                                   real<&Assume::samples, is_number_of_samples>, kOptional};
   return keys;
@@ -208,7 +226,8 @@ constexpr std::array<Key<Assume>, kAssumeKeys.size()> with_one_frequency() {
     if (key.name == "frequency") {
       key.allowed =
           "a number or [lowest, highest] in rad/sample, 0 <= lowest <= highest <= 3.141592653589793 (beyond "
-          "pi a sampled frequency is the same as a lower one)";
+          "pi a sampled frequency is the same as a lower one); f Hz at fs samples per second is 2 pi f/fs "
+          "rad/sample: with sample_rate = fs write { hz = f } or { hz = [lowest, highest] }";
       key.read = one_frequency_or_band;
     } else if (key.name == "initial_covariance") {
       key.allowed = "\"steady-state\" or a symmetric positive definite 3x3 array of numbers";
@@ -226,8 +245,8 @@ std::span<const Key<Assumptions>> assume_keys_with_one_frequency() {
 }
 void read_noise(const TomlValue& value, Number& bound, std::optional<GaussianNoise>& gaussian) {
   gaussian.reset();
-  if (!value.is_table()) {
-    bound = value.real(not_negative);
+  if (!value.is_table() || value.fields({"bound"})) {
+    bound = bound_on_noise(value);
     return;
   }
   bound = {};

@@ -23,8 +23,9 @@ struct GaussianNoise {
 
 /// [assume].
 struct Assumptions {
-  Number amplitude;                 ///< signal units
-  std::array<Number, 2> frequency;  ///< [lowest, highest], rad/sample
+  Number amplitude;                   ///< signal units
+  std::optional<Number> sample_rate;  ///< Hz
+  std::array<Number, 2> frequency;    ///< [lowest, highest], rad/sample
   /// |v(k)| <= noise for every k, signal units. Empty where the noise is Gaussian: nothing follows from it.
   Number noise;
   std::optional<GaussianNoise> gaussian;

@@ -61,6 +61,7 @@ Json assume_json(const Assumptions& assume) {
                {"initial_phase_error", number_json(assume.initial_phase_error)},
                {"initial_amplitude_error", number_json(assume.initial_amplitude_error)},
                {"initial_covariance", initial_covariance(assume)}};
+  add_number(json, "sample_rate", assume.sample_rate);
   add_number(json, "frequency_walk", assume.frequency_walk);
   add_number(json, "samples", assume.samples);
   return json;

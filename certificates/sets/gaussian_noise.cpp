@@ -6,6 +6,7 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "certificates/sets/frequency_units.hpp"
 
 namespace veritrack::certificates {
 
@@ -68,8 +69,8 @@ std::string gaussian_disturbance(const Assumptions& assume) {
   const std::string text = frequency_walks(assume)
                                ? fmt::format(
                                      " at the start and walks in independent Gaussian steps of mean zero and "
-                                     "deviation at most {} rad/sample",
-                                     assume.frequency_walk->text)
+                                     "deviation at most {}",
+                                     frequency_words(*assume.frequency_walk))
                                : " and is constant";
   return text + gaussian_words(assume.gaussian.value(), assume.amplitude);
 }

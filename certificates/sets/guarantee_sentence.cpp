@@ -10,6 +10,7 @@
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/sets/assumptions.hpp"
 #include "certificates/sets/contraction.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "certificates/sets/gaussian_noise.hpp"
 
 namespace veritrack::certificates {
@@ -62,9 +63,8 @@ std::string assumed_disturbance(const GuaranteeTerms& terms) {
   if (assume.gaussian) {
     return gaussian_disturbance(assume);
   }
-  std::string text = is_zero(assume.slew)
-                         ? " and is constant"
-                         : fmt::format(" and changes by at most {} rad/sample per sample", assume.slew.text);
+  std::string text =
+      is_zero(assume.slew) ? " and is constant" : " and changes by at most " + slew_words(assume.slew);
   if (is_zero(assume.noise)) {
     return text + ", without measurement noise";
   }
@@ -87,10 +87,11 @@ std::string disturbance_of(const std::string& noise, const std::string& slew) {
 
 std::string tone(const GuaranteeTerms& terms, bool disturbed) {
   const Assumptions& assume = terms.assume;
-  std::string text = fmt::format("{}, for a tone of constant amplitude {} whose frequency ", terms.arithmetic,
-                                 assume.amplitude.text);
-  text += terms.in_band ? fmt::format("lies between {} and {} rad/sample", assume.frequency[0].text,
-                                      assume.frequency[1].text)
+  std::string text =
+      fmt::format("{}, for a tone of constant amplitude {}{} whose frequency ", terms.arithmetic,
+                  assume.amplitude.text, FrequencyUnits(assume.sample_rate).sampled());
+  text += terms.in_band ? fmt::format("lies between {} and {}", assume.frequency[0].text,
+                                      frequency_words(assume.frequency[1]))
                         : "is at most pi rad/sample";
   return text + (disturbed ? assumed_disturbance(terms) : "");
 }
@@ -102,15 +103,17 @@ std::string hypotheses(const GuaranteeTerms& terms) {
 std::string hypotheses(const GuaranteeTerms& terms, const std::string& disturbance) {
   const Assumptions& assume = terms.assume;
   return fmt::format(
-      "{}{}, started within {} rad/sample of the true frequency, {} rad of the phase and {} of the "
+      "{}{}, started within {} of the true frequency, {} rad of the phase and {} of the "
       "amplitude{}{}, ",
-      tone(terms, false), disturbance, assume.initial_frequency_error.text, assume.initial_phase_error.text,
-      assume.initial_amplitude_error.text, terms.covariance.empty() ? "" : " ", terms.covariance);
+      tone(terms, false), disturbance, frequency_words(assume.initial_frequency_error),
+      assume.initial_phase_error.text, assume.initial_amplitude_error.text,
+      terms.covariance.empty() ? "" : " ", terms.covariance);
 }
 
 Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& terms) {
   const sets::StartResult& starts = certificate.contraction.value().starts;
   const std::optional<Interval> bound = starts.proved_bound();
+  const FrequencyUnits units(terms.assume.sample_rate);
   const std::optional<Number>& required = terms.require.frequency_error_below;
   const Claim* requirement = find_claim(certificate, "ekf/frequency-error-bound");
   Claim claim;
@@ -119,19 +122,18 @@ Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& term
   claim.statement += required ? requirement->requirement : "the tracker keeps its lock for ever";
   if (bound && (requirement == nullptr || requirement->verdict == Verdict::proved)) {
     claim.verdict = Verdict::proved;
-    claim.statement += fmt::format(": the frequency error never exceeds {} rad/sample",
-                                   rigor::upper_decimal(*bound, kDigits));
+    claim.statement += ": the frequency error never exceeds " + units.at_most(*bound, kDigits);
     claim.evidence = {starts.frequency_error_bound};
     if (starts.settling_samples.applies() && starts.settled_frequency_error.applies()) {
-      claim.statement += fmt::format("; from sample {} on it stays at or below {} rad/sample",
+      claim.statement += fmt::format("; from sample {} on it stays at or below {}",
                                      rigor::upper_decimal(starts.settling_samples.value, kDigits),
-                                     rigor::upper_decimal(starts.settled_frequency_error.value, kDigits));
+                                     units.at_most(starts.settled_frequency_error.value, kDigits));
       claim.evidence.push_back(starts.settling_samples);
       claim.evidence.push_back(starts.settled_frequency_error);
     }
     if (starts.ultimate_frequency_error.applies()) {
-      claim.statement += fmt::format("; in the long run it is at most {} rad/sample",
-                                     rigor::upper_decimal(starts.ultimate_frequency_error.value, kDigits));
+      claim.statement +=
+          "; in the long run it is at most " + units.at_most(starts.ultimate_frequency_error.value, kDigits);
       claim.evidence.push_back(starts.ultimate_frequency_error);
     }
     claim.reason = ground(starts);
@@ -148,16 +150,17 @@ Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& term
 
 std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTerms& terms) {
   const sets::ContractionResult& found = certificate.contraction.value();
+  const FrequencyUnits units(terms.assume.sample_rate);
   std::vector<Claim> claims;
   if (found.frequency_error_radius.applies() && found.contraction_rate.applies()) {
     Claim claim;
     claim.id = "ekf/invariant-set";
     claim.verdict = Verdict::proved;
     claim.statement = fmt::format(
-        "{}, a certified invariant set contains frequency errors up to {} rad/sample{}; in it, {} by at most "
+        "{}, a certified invariant set contains frequency errors up to {}{}; in it, {} by at most "
         "{}{}, "
         "before noise and slew.",
-        tone(terms, true), rigor::lower_decimal(found.frequency_error_radius.value, kDigits),
+        tone(terms, true), units.at_least(found.frequency_error_radius.value, kDigits),
         found.about_steady_state ? ", measured from the steady state, which the leak biases" : "",
         found.rate_window == 1 ? "each sample multiplies the error" : "the error is multiplied",
         rigor::upper_decimal(found.contraction_rate.value, kDigits),
@@ -173,9 +176,9 @@ std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTer
     claim.statement = fmt::format(
         "{}, at a constant frequency the tracker tolerates noise up to {} of the amplitude, and without "
         "noise a slew "
-        "up to {} rad/sample per sample: a certified invariant set exists for each.",
+        "up to {}: a certified invariant set exists for each.",
         tone(terms, false), rigor::lower_decimal(found.largest_noise.value, kDigits),
-        rigor::lower_decimal(found.largest_slew.value, kDigits));
+        units.slew(found.largest_slew.value, kDigits));
     claim.evidence = {found.largest_noise, found.largest_slew};
     claims.push_back(std::move(claim));
   }

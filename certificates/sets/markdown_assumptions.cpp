@@ -8,8 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/sets/assumptions.hpp"
+#include "certificates/sets/frequency_units.hpp"
 
 namespace veritrack::certificates {
 
@@ -17,6 +19,28 @@ namespace {
 
 using markdown::escaped;
 using markdown::math;
+
+/// The unit of numbers as they are written, and what they are in the other one, rounded outward.
+std::string in_both_units(std::initializer_list<Number> numbers, const FrequencyUnits& units) {
+  const bool in_hertz = numbers.begin()->in_hertz;
+  if (!units.has_hertz()) {
+    return "rad/sample";
+  }
+  std::string others;
+  for (const Number& number : numbers) {
+    others += others.empty() ? "" : " to ";
+    others += rigor::to_decimal(in_hertz ? number.value : units.in_hertz(number.value), 4);
+  }
+  return in_hertz ? others + " rad/sample" : fmt::format("rad/sample, {} Hz", others);
+}
+std::string slew_in_both_units(const Number& slew, const FrequencyUnits& units) {
+  const std::string own = "rad/sample per sample";
+  if (!units.has_hertz() || slew.value == rigor::Interval(0.0)) {
+    return own;
+  }
+  return slew.in_hertz ? fmt::format("{} {}", rigor::to_decimal(slew.value, 4), own)
+                       : units.slew(slew.value).substr(units.slew(slew.value).find(own));
+}
 
 std::string rows_text(const CovarianceArray& covariance) {
   std::string text;
@@ -64,11 +88,16 @@ std::string assumptions_section(const Assumptions& assume, const std::string& co
     return std::vector<std::string>{what, relation.empty() ? value : math(relation) + " " + value, unit};
   };
   const auto code = [](const Number& number) { return "`" + number.text + "`"; };
+  const FrequencyUnits units(assume.sample_rate);
   std::string text = "## Assumptions on the signal and the start\n\n";
   std::vector<std::vector<std::string>> rows{
       row("amplitude of the signal", "A =", code(assume.amplitude), "signal units"),
       row(assume.gaussian ? "frequency at the start, within" : "frequency, always within", "",
-          fmt::format("[{}, {}]", code(assume.frequency[0]), code(assume.frequency[1])), "rad/sample")};
+          fmt::format("[{}, {}]", code(assume.frequency[0]), code(assume.frequency[1])),
+          in_both_units({assume.frequency[0], assume.frequency[1]}, units))};
+  if (assume.sample_rate) {
+    rows.insert(rows.begin() + 1, row("samples per second", "f_s =", code(*assume.sample_rate), "Hz"));
+  }
   if (const auto& gaussian = assume.gaussian) {
     rows.push_back(gaussian->snr_db
                        ? row("measurement noise, independent Gaussian: signal-to-noise ratio",
@@ -76,17 +105,18 @@ std::string assumptions_section(const Assumptions& assume, const std::string& co
                        : row("measurement noise, independent Gaussian: deviation in each channel",
                              "\\sigma =", code(*gaussian->deviation), "signal units"));
     rows.push_back(assume.frequency_walk ? row("deviation of the frequency's independent Gaussian steps",
-                                               "w =", code(*assume.frequency_walk), "rad/sample")
+                                               "w =", code(*assume.frequency_walk),
+                                               in_both_units({*assume.frequency_walk}, units))
                                          : row("frequency", "", "constant", ""));
     rows.push_back(row("for so many samples", "N =", code(assume.samples.value()), "samples"));
   } else {
     rows.push_back(row("measurement noise, every sample", "|v(k)| \\le", code(assume.noise), "signal units"));
     rows.push_back(row("change of frequency, every sample", "|\\omega(k+1) - \\omega(k)| \\le",
-                       code(assume.slew), "rad/sample per sample"));
+                       code(assume.slew), slew_in_both_units(assume.slew, units)));
   }
   for (auto& start : std::vector<std::vector<std::string>>{
            row("error of frequency at the start", "|\\hat x_3(0) - \\omega(0)| \\le",
-               code(assume.initial_frequency_error), "rad/sample"),
+               code(assume.initial_frequency_error), in_both_units({assume.initial_frequency_error}, units)),
            row("error of phase at the start", "\\le", code(assume.initial_phase_error), "rad"),
            row("error of amplitude at the start", "\\le", code(assume.initial_amplitude_error),
                "signal units"),

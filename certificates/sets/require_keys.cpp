@@ -37,21 +37,22 @@ void signal(const TomlValue& value, SimulationSettings& simulate) {
 
 using Require = Requirements;
 constexpr std::array kRequireKeys{
-    Key<Require>{"frequency_error_below", kPositive, real<&Require::frequency_error_below, positive>,
-                 kOptional},
+    Key<Require>{"frequency_error_below", kPositiveFrequency,
+                 in_radians<&Require::frequency_error_below, positive>, kOptional},
     Key<Require>{"settles_within", "a whole number of samples, 1 or more",
                  whole_number<&Require::settles_within, at_least_one>, kOptional},
-    Key<Require>{"settled_below", kPositive, real<&Require::settled_below, positive>, kOptional},
+    Key<Require>{"settled_below", kPositiveFrequency, in_radians<&Require::settled_below, positive>,
+                 kOptional},
     Key<Require>{"largest_noise_at_least", kPositive, real<&Require::largest_noise_at_least, positive>,
                  kOptional},
-    Key<Require>{"largest_slew_at_least", kPositive, real<&Require::largest_slew_at_least, positive>,
+    Key<Require>{"largest_slew_at_least", kPositiveSlew, slew<&Require::largest_slew_at_least, positive>,
                  kOptional},
-    Key<Require>{"frequency_error_radius_at_least", kPositive,
-                 real<&Require::frequency_error_radius_at_least, positive>, kOptional},
+    Key<Require>{"frequency_error_radius_at_least", kPositiveFrequency,
+                 in_radians<&Require::frequency_error_radius_at_least, positive>, kOptional},
     Key<Require>{"probability_of_losing_lock_below", "a number above 0 and below 1",
                  real<&Require::probability_of_losing_lock_below, between_zero_and_one>, kOptional},
-    Key<Require>{"rms_frequency_error_below", kPositive, real<&Require::rms_frequency_error_below, positive>,
-                 kOptional},
+    Key<Require>{"rms_frequency_error_below", kPositiveFrequency,
+                 in_radians<&Require::rms_frequency_error_below, positive>, kOptional},
 };
 
 constexpr std::size_t kKeysOfGaussianNoise = 2;  // the last ones

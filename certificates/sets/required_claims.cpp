@@ -5,6 +5,7 @@
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/sets/contraction_result.hpp"
 #include "certificates/sets/assumptions.hpp"
+#include "certificates/sets/frequency_units.hpp"
 
 namespace veritrack::certificates {
 
@@ -39,29 +40,31 @@ Claim frequency_error_claim(const sets::StartResult& starts, const GuaranteeTerm
   const Number& required = *terms.require.frequency_error_below;
   const std::optional<Interval> bound = starts.proved_bound();
   const std::optional<theorems::Quantity>& wrong_lock = starts.wrong_lock_frequency_error;
-  Claim claim = claim_of("ekf/frequency-error-bound",
-                         fmt::format("the frequency error stays below {} rad/sample for ever", required.text),
-                         hypotheses(terms), required);
+  const FrequencyUnits units(assume.sample_rate);
+  Claim claim =
+      claim_of("ekf/frequency-error-bound",
+               fmt::format("the frequency error stays below {} for ever", frequency_words(required)),
+               hypotheses(terms), required);
   if (bound && rigor::certainly_less(*bound, required.value)) {
     claim.verdict = Verdict::proved;
-    claim.reason =
-        fmt::format("By contraction it stays at or below {} rad/sample.", rigor::upper_decimal(*bound));
+    claim.reason = fmt::format("By contraction it stays at or below {}.", units.at_most(*bound));
     claim.evidence = {starts.frequency_error_bound};
   } else if (same_number(required, assume.initial_frequency_error) ||
              rigor::certainly_less_equal(required.value, assume.initial_frequency_error.value)) {
     claim.verdict = Verdict::refuted;
     claim.reason = fmt::format(
-        "Witness: [assume] (initial_frequency_error) allows a start with a frequency error of {} rad/sample, "
-        "which is not below the bound at the first sample.",
-        assume.initial_frequency_error.text);
+        "Witness: [assume] (initial_frequency_error) allows a start with a frequency error of {}, which is "
+        "not "
+        "below the bound at the first sample.",
+        frequency_words(assume.initial_frequency_error));
   } else if (wrong_lock && wrong_lock->applies() &&
              rigor::certainly_less_equal(required.value, wrong_lock->value)) {
     claim.verdict = Verdict::refuted;
     claim.reason = contraction_objection(starts);
     claim.evidence = {*wrong_lock};
   } else if (bound) {
-    claim.reason = fmt::format("The certified bound is {} rad/sample, which is not below {}.",
-                               rigor::upper_decimal(*bound), required.text);
+    claim.reason = fmt::format("The certified bound is {}, which is not below {}.", units.at_most(*bound),
+                               required.text);
   } else {
     claim.reason = contraction_objection(starts);
   }
@@ -75,16 +78,17 @@ Claim settling_claim(const sets::StartResult& starts, const GuaranteeTerms& term
   const theorems::Quantity& samples = starts.settling_samples;
   const theorems::Quantity& error = starts.settled_frequency_error;
   Claim claim = claim_of("ekf/settling-time",
-                         fmt::format("from sample {} on, the frequency error stays below {} rad/sample",
-                                     within.text, below.text),
+                         fmt::format("from sample {} on, the frequency error stays below {}", within.text,
+                                     frequency_words(below)),
                          hypotheses(terms), within);
   if (covered && samples.applies() && error.applies()) {
     const bool settles = rigor::certainly_less_equal(samples.value, within.value) &&
                          rigor::certainly_less(error.value, below.value);
     claim.verdict = settles ? Verdict::proved : Verdict::undecided;
-    claim.reason = fmt::format("By contraction it stays at or below {} rad/sample from sample {} on{}.",
-                               rigor::upper_decimal(error.value), rigor::upper_decimal(samples.value),
-                               settles ? "" : ", which is not what is required");
+    claim.reason =
+        fmt::format("By contraction it stays at or below {} from sample {} on{}.",
+                    FrequencyUnits(terms.assume.sample_rate).at_most(error.value),
+                    rigor::upper_decimal(samples.value), settles ? "" : ", which is not what is required");
     claim.evidence = {samples, error};
   } else if (covered) {
     claim.reason = samples.not_applicable.value_or("No settling time is certified.");
@@ -103,12 +107,16 @@ struct LeastSize {
   Interval scale;                  ///< from the quantity's unit to the requirement's
   bool under_assumptions = false;  ///< the assumed noise and slew are among the hypotheses
   const char* addition = "";       ///< to the sentence
+  /// The number of the key as the statement has it; null: as written.
+  std::string (*words)(const Number&) = nullptr;
 };
 
 Claim least_size_claim(const LeastSize& size, const GuaranteeTerms& terms, const Number& required) {
   const std::string tone_text = tone(terms, size.under_assumptions) + ", ";
-  Claim claim =
-      claim_of(size.claim, fmt::format(fmt::runtime(size.statement), required.text), tone_text, required);
+  Claim claim = claim_of(
+      size.claim,
+      fmt::format(fmt::runtime(size.statement), size.words == nullptr ? required.text : size.words(required)),
+      tone_text, required);
   claim.statement.insert(claim.statement.size() - 1, size.addition);
   if (!size.certified.applies()) {
     claim.reason = fmt::format("No {} could be certified.", size.largest);
@@ -116,8 +124,12 @@ Claim least_size_claim(const LeastSize& size, const GuaranteeTerms& terms, const
   }
   const Interval value = size.certified.value * size.scale;
   claim.verdict = rigor::certainly_less_equal(required.value, value) ? Verdict::proved : Verdict::undecided;
+  const FrequencyUnits units(terms.assume.sample_rate);
+  const std::string shown = !units.has_hertz() || size.words == nullptr ? rigor::lower_decimal(value)
+                            : size.words == slew_words                  ? units.slew(value)
+                                                                        : units.at_least(value);
   claim.reason = fmt::format(
-      "The largest certified {} is {}{}.", size.largest, rigor::lower_decimal(value),
+      "The largest certified {} is {}{}.", size.largest, shown,
       claim.verdict == Verdict::proved ? std::string() : fmt::format("; {} was required", required.text));
   claim.evidence = {size.certified};
   return claim;
@@ -146,16 +158,16 @@ void add_required_claims(Certificate& certificate, const GuaranteeTerms& terms) 
        "at a constant frequency, the tracker tolerates noise up to {}: a certified invariant set exists",
        "noise at a constant frequency", assume.amplitude.value});
   add_least_size(require.largest_slew_at_least, {"ekf/largest-slew", found.largest_slew,
-                                                 "without noise, the tracker tolerates a slew up to {} "
-                                                 "rad/sample per sample: a certified invariant set exists",
-                                                 "slew without noise", Interval(1.0)});
+                                                 "without noise, the tracker tolerates a slew up to {}: "
+                                                 "a certified invariant set exists",
+                                                 "slew without noise", Interval(1.0), false, "", slew_words});
   add_least_size(
       require.frequency_error_radius_at_least,
       {"ekf/frequency-error-radius", found.frequency_error_radius,
-       "under the assumed noise and slew, a certified invariant set contains frequency errors up to {} "
-       "rad/sample",
+       "under the assumed noise and slew, a certified invariant set contains frequency errors up to {}",
        "frequency error in an invariant set", Interval(1.0), true,
-       found.about_steady_state ? ", measured from the steady state, which the leak biases" : ""});
+       found.about_steady_state ? ", measured from the steady state, which the leak biases" : "",
+       frequency_words});
   conclude_requirements(certificate);
 }
 

@@ -21,7 +21,8 @@ namespace veritrack::certificates {
 
 /// What `noise` may be when it may be Gaussian, and its reader: a bound, or the noise.
 inline constexpr std::string_view kNoiseThatMayBeGaussian =
-    "a number, 0 or more (a bound), or Gaussian noise: { snr_db = a number from -200 to 200 } or { deviation "
+    "a number, 0 or more, or { bound = that number }, or Gaussian noise: { snr_db = a number from -200 to "
+    "200 } or { deviation "
     "= a number above 0 }";
 void read_noise(const TomlValue& value, Number& bound, std::optional<GaussianNoise>& gaussian);
 /// For how many samples a probability is asked: from 1 to 1e15.

@@ -14,6 +14,9 @@ SignalAssumptions signal_assumptions(const Assumptions& assume) {
   } else {
     signal.noise = assume.noise.nearest;
   }
+  if (assume.sample_rate) {
+    signal.sample_rate = assume.sample_rate->nearest;
+  }
   if (!frequency_walks(assume)) {
     signal.slew = assume.slew.nearest;
   }

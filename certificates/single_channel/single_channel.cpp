@@ -123,24 +123,33 @@ Claim stability_claim(const Interval& r) {
   return claim;
 }
 
+/// A frequency of the design file; of one in Hz the double nearest to it, in rad/sample.
+BiasFrequency bias_frequency(const Number& number) {
+  if (!number.in_hertz) {
+    return {number.text, number.value};
+  }
+  const std::string text = fmt::format("{}", number.nearest);
+  return {text, rigor::parse_decimal(text)};
+}
+
 }  // namespace
 
 std::vector<BiasFrequency> bias_frequencies(const Assumptions& assume) {
   const rigor::UpwardRounding upward;
   const auto& [low, high] = assume.frequency;
   if (rigor::identical(low.value, high.value)) {
-    return {{low.text, low.value}};
+    return {bias_frequency(low)};
   }
   constexpr int kCount = 9;  // odd: the middle is one of them
   std::vector<BiasFrequency> frequencies;
   frequencies.reserve(kCount);
-  frequencies.push_back({low.text, low.value});
+  frequencies.push_back(bias_frequency(low));
   for (int i = 1; i + 1 < kCount; ++i) {
     const double part = static_cast<double>(i) / (kCount - 1);
     const std::string text = fmt::format("{:.6f}", low.nearest + part * (high.nearest - low.nearest));
     frequencies.push_back({text.substr(0, text.find_last_not_of('0') + 1), rigor::parse_decimal(text)});
   }
-  frequencies.push_back({high.text, high.value});
+  frequencies.push_back(bias_frequency(high));
   return frequencies;
 }
 

@@ -33,6 +33,27 @@ std::string inside(const std::string& path, const std::string& name) {
   return longer.append(path.empty() ? "" : ".").append(name);
 }
 
+/// What stands in braces for a value with its unit, and the unit as the certificate writes it behind numbers.
+struct Measured {
+  const toml::node* value;
+  std::string unit;
+};
+
+Measured without_braces(const std::string& path, const toml::node* file) {
+  const toml::table* table = file != nullptr ? file->as_table() : nullptr;
+  if (table == nullptr || table->size() != 1) {
+    return {file, ""};
+  }
+  if (const toml::node* hertz = table->get("hz")) {
+    return {hertz, " Hz"};
+  }
+  if (const toml::node* slew = table->get("hz_per_second")) {
+    return {slew, " Hz per second"};
+  }
+  const toml::node* bound = path == "assume.noise" ? table->get("bound") : nullptr;
+  return {bound != nullptr ? bound : file, ""};
+}
+
 /// Walks through the certificate's design and the file together.
 class Comparison {
  public:
@@ -58,7 +79,8 @@ class Comparison {
   void node(const std::string& path, const Tree& claimed, const toml::node* file) {
     const bool is_number = claimed.kind() == Tree::Kind::object && claimed.find("text") != nullptr;
     if (is_number) {
-      same(path, text_of(claimed), file, file != nullptr && file->is_number() ? file_->literal(*file) : "");
+      const Measured inside = without_braces(path, file);
+      number(path, claimed, inside.value, inside.unit);
     } else if (claimed.kind() == Tree::Kind::text) {
       same(path, claimed.text(), file, file != nullptr && file->is_string() ? file->as_string()->get() : "");
     } else if (claimed.kind() == Tree::Kind::object) {
@@ -72,8 +94,14 @@ class Comparison {
     }
   }
 
-  void array(const std::string& path, const Tree& claimed, const toml::node* file) {
+  void number(const std::string& path, const Tree& claimed, const toml::node* file, const std::string& unit) {
+    const bool is_number = file != nullptr && file->is_number();
+    same(path, text_of(claimed), file, is_number ? file_->literal(*file) + unit : "");
+  }
+
+  void array(const std::string& path, const Tree& claimed, const toml::node* in_file) {
     const auto& elements = claimed.elements();
+    const auto [file, unit] = without_braces(path, in_file);
     const toml::array* values = file != nullptr ? file->as_array() : nullptr;
     // One frequency is a band of one frequency.
     const bool is_single = file != nullptr && file->is_number() && path == "assume.frequency";
@@ -82,7 +110,13 @@ class Comparison {
       return;
     }
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      node(path + "[" + std::to_string(i) + "]", elements[i], is_single ? file : values->get(i));
+      const toml::node* element = is_single ? file : values->get(i);
+      const std::string place = path + "[" + std::to_string(i) + "]";
+      if (unit.empty()) {
+        node(place, elements[i], element);
+      } else {
+        number(place, elements[i], element, unit);
+      }
     }
   }
 

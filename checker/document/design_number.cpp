@@ -18,6 +18,40 @@ double outward(const Ball& end, arf_rnd_t direction) {
   return arf_get_d(arb_midref(end.raw()), direction);
 }
 
+constexpr std::string_view kHertz = " Hz";
+constexpr std::string_view kHertzPerSecond = " Hz per second";
+
+/// A unit of time in its inverse powers.
+struct TimeUnit {
+  std::string_view suffix;  ///< of the text
+  int power;                ///< of the sample rate
+};
+
+Ball read_in_unit(const Tree& number, const Tree& assume, const TimeUnit& unit, const std::string& name,
+                  Objections& objections) {
+  const std::string& text = text_of(number);
+  if (!text.ends_with(unit.suffix)) {
+    return read_not_negative(number, name, objections);
+  }
+  const Ball rate = read_positive(assume.at("sample_rate"), "sample_rate", objections);
+  Ball value = two * pi() * from_decimal(text.substr(0, text.size() - unit.suffix.size())) / rate;
+  if (unit.power == 2) {
+    value = value / rate;
+  }
+  const Ball low = low_of(number);
+  const Ball high = high_of(number);
+  constexpr double kCloseness = 0x1p-44;
+  const bool is_enclosed = certainly_at_most(low, value) && certainly_at_most(value, high) &&
+                           certainly_at_most(high - low, Ball(kCloseness) * high);
+  if (!is_enclosed) {
+    objections.push_back("[lo, hi] is no close enclosure of " + text);
+  }
+  if (!certainly_not_negative(value)) {
+    objections.push_back(name + " must not be negative");
+  }
+  return value;
+}
+
 }  // namespace
 
 Ball read_number(const Tree& number, Objections& objections) {
@@ -60,12 +94,26 @@ Ball read_not_negative(const Tree& number, const std::string& name, Objections& 
   return value;
 }
 
-Band read_band(const Tree& band, Objections& objections) {
+Ball read_frequency(const Tree& number, const Tree& assume, const std::string& name, Objections& objections) {
+  return read_in_unit(number, assume, {kHertz, 1}, name, objections);
+}
+
+Ball read_slew(const Tree& number, const Tree& assume, Objections& objections) {
+  return read_in_unit(number, assume, {kHertzPerSecond, 2}, "slew", objections);
+}
+
+std::string words_of(const Tree& number, const std::string& unit) {
+  const std::string& text = text_of(number);
+  return text.ends_with(kHertz) || text.ends_with(kHertzPerSecond) ? text : text + unit;
+}
+
+Band read_band(const Tree& assume, Objections& objections) {
+  const Tree& band = assume.at("frequency");
   if (band.elements().size() != 2) {
     objections.emplace_back("a band has two ends");
   }
-  Band ends{read_not_negative(band.at(0), "frequency", objections),
-            read_not_negative(band.at(1), "frequency", objections)};
+  Band ends{read_frequency(band.at(0), assume, "frequency", objections),
+            read_frequency(band.at(1), assume, "frequency", objections)};
   const bool in_order =
       text_of(band.at(0)) == text_of(band.at(1)) || certainly_at_most(ends.lowest, ends.highest);
   if (!in_order || !certainly_less(ends.highest, pi())) {

@@ -17,12 +17,20 @@ Ball read_number(const Tree& number, Objections& objections);
 Ball read_positive(const Tree& number, const std::string& name, Objections& objections);
 Ball read_not_negative(const Tree& number, const std::string& name, Objections& objections);
 
+/// A frequency, in rad/sample as it is written, or as "x Hz", which is 2 pi x/sample_rate with [assume]
+/// sample_rate. [lo, hi] must enclose it closely.
+Ball read_frequency(const Tree& number, const Tree& assume, const std::string& name, Objections& objections);
+/// Its change, in rad/sample per sample or as "x Hz per second", 2 pi x/sample_rate^2.
+Ball read_slew(const Tree& number, const Tree& assume, Objections& objections);
+/// As sentences have it: the text, which says its unit, or with this one.
+std::string words_of(const Tree& number, const std::string& unit);
+
 /// The ends of [lowest, highest], rad/sample. Objects unless 0 <= lowest <= highest <= pi, so that a band is
 /// never empty.
 struct Band {
   Ball lowest, highest;
 };
-Band read_band(const Tree& band, Objections& objections);
+Band read_band(const Tree& assume, Objections& objections);
 
 /// The decimal as it is written.
 const std::string& text_of(const Tree& number);

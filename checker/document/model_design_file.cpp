@@ -75,7 +75,7 @@ class FileSays {
       } else if (name == "assume") {
         assume(value);
       } else if (name == "require") {
-        members(name, value);
+        requirements(value);
       } else if (name != "simulate") {
         leaf(name, value);
       }
@@ -145,6 +145,24 @@ class FileSays {
             [&](const std::string& name, const toml::node& member) { leaf(path + "." + name, member); });
   }
 
+  /// What may be in Hz is said with its unit.
+  void requirements(const toml::node& table) {
+    each_of("require", table, [&](const std::string& name, const toml::node& value) {
+      const std::string path = "require." + name;
+      const toml::table* braces = value.as_table();
+      const bool has_unit = braces != nullptr && braces->size() == 1;
+      const toml::node* hertz = has_unit ? braces->get("hz") : nullptr;
+      const toml::node* slew = has_unit ? braces->get("hz_per_second") : nullptr;
+      if (hertz != nullptr && hertz->is_number()) {
+        put(path, file_->text(*hertz) + " Hz");
+      } else if (slew != nullptr && slew->is_number()) {
+        put(path, file_->text(*slew) + " Hz per second");
+      } else {
+        leaf(path, value);
+      }
+    });
+  }
+
   void model(const toml::node& table) {
     each_of("model", table, [&](const std::string& name, const toml::node& value) {
       const std::string path = "model." + name;
@@ -182,12 +200,19 @@ class FileSays {
       } else if (name == "signal") {
         has_signal_ = true;
         list("model.signal", value);
+      } else if (const toml::node* bound = name == "noise" ? bound_of(value) : nullptr) {
+        leaf(path, *bound);
       } else if (name == "start_within" || (name == "noise" && value.is_table())) {
         members(path, value);
       } else {
         leaf(path, value);
       }
     });
+  }
+  /// The value of { bound = value }, or none.
+  static const toml::node* bound_of(const toml::node& value) {
+    const toml::table* table = value.as_table();
+    return table != nullptr && table->size() == 1 ? table->get("bound") : nullptr;
   }
   /// The value of { unit = value }, of which the certificate says that it is in that unit; else the value.
   const toml::node& in_unit(const toml::node& value, const std::string& unit, const std::string& says) {

@@ -23,7 +23,6 @@ const std::string kSteadyState = "model/steady-state";
 const std::string kLosingLock = "model/probability-of-losing-lock";
 const std::string kLock = "model/losing-lock";
 const std::string kLowestSnr = "model/lowest-snr";
-const std::string kRadPerSample = " rad/sample";
 const std::string kSettled = ", without noise, started in the set \"starts\" of the certificate";
 
 std::size_t first_level(const PhaseTube& /*tube*/) {
@@ -44,37 +43,39 @@ Ball written(const Tree& claim, const char* name) {
 
 ModelClaims::ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
                          const std::map<std::string, TubeSet>& sets, std::int64_t& cells)
-    : tree_(&tree), design_(&design), model_(&model), sets_(&sets), cells_(&cells), words_(tree) {}
+    : tree_(&tree), design_(&design), model_(&model), sets_(&sets), cells_(&cells), words_(tree) {
+  Objections said_before;  // by the design
+  units_ = FrequencyWords(tree.at("assume"), said_before);
+}
 
 std::string ModelClaims::short_text(const std::string& id) const {
   if (id == kErrorBound) {
-    return "the frequency error stays below " + design_->frequency_error_below->text + kRadPerSample +
-           " for ever";
+    return "the frequency error stays below " + design_->frequency_error_below->text + " for ever";
   }
   if (id == kSettlingTime) {
     return "from sample " + design_->settles_within->text + " on, the frequency error stays below " +
-           design_->settled_below->text + kRadPerSample;
+           design_->settled_below->text;
   }
   if (id == kLargestNoise) {
     return "the tracker tolerates noise up to " + design_->largest_noise->text +
            ": a certified invariant set exists";
   }
   if (id == kLargestSlew) {
-    return "the tracker tolerates a slew up to " + design_->largest_slew->text + kRadPerSample +
-           " per sample: a certified invariant set exists";
+    return "the tracker tolerates a slew up to " + design_->largest_slew->text +
+           ": a certified invariant set exists";
   }
   if (id == kRadius) {
     return "a certified invariant set contains frequency errors up to " + design_->radius->text +
-           kRadPerSample + " at every phase";
+           " at every phase";
   }
   if (id == kLosingLock) {
     return "the probability of losing lock is below " + design_->losing_lock->text + " " +
            words_.stretch_of_samples();
   }
   if (id == kBias) {
-    return "the mean frequency error is at most " + design_->bias->text + kRadPerSample;
+    return "the mean frequency error is at most " + design_->bias->text;
   }
-  return "the frequency error varies by at most " + design_->ripple->text + kRadPerSample;
+  return "the frequency error varies by at most " + design_->ripple->text;
 }
 
 std::vector<Requirement> ModelClaims::required() const {
@@ -215,12 +216,12 @@ Claim ModelClaims::long_run(const std::string& id) const {
     const Ball& most = design_->bias->value;
     found.statement = words_.constant_tone() + kSettled +
                       ", the mean over the phase of the frequency error in the long run is at most " +
-                      design_->bias->text + kRadPerSample + " in absolute value.";
+                      design_->bias->text + " in absolute value.";
     found.verdict = proved_if(set != nullptr && of(*set).mean_error_is_between(-most, most));
   } else {
     found.statement = words_.constant_tone() + kSettled +
                       ", the frequency error in the long run varies by at most " + design_->ripple->text +
-                      kRadPerSample + " over the phase.";
+                      " over the phase.";
     found.verdict = proved_if(set != nullptr && of(*set).error_varies_by_at_most(design_->ripple->value));
   }
   return found;
@@ -278,7 +279,7 @@ Claim ModelClaims::told_lock(const Tree& claim) const {
       is_lowest ? deviation_at(written(claim, "snr_db")) * design_->amplitude : *design_->deviation;
   found.statement = words_.constant_tone() + words_.gaussian_noise(decibels) + words_.start_inside(name) +
                     ", the probability that the tracker loses its lock " + words_.stretch_of_samples() +
-                    ", its frequency error exceeding " + claim.at("frequency_error").text() + kRadPerSample +
+                    ", its frequency error exceeding " + units_.at_most(claim.at("frequency_error").text()) +
                     " at one of them, is at most " + claim.at("probability").text() + ".";
   found.verdict = proved_if(is_seldom_left(set, deviation, written(claim, "probability"), false) &&
                             of(*set).error_is_at_most(first_level, written(claim, "frequency_error")));
@@ -293,11 +294,11 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   found.is_summary = true;
   found.statement = words.assumed_tone(design_->moves()) + words.assumed_noise(design_->is_noisy()) +
                     words.assumed_start(deciding_name()) + ", the frequency error stays at or below " +
-                    claim.at("frequency_error").text() + kRadPerSample + " for ever";
+                    units_.at_most(claim.at("frequency_error").text()) + " for ever";
   bool certain =
       set != nullptr && contains_assumed_starts(*set) && of(*set).error_is_at_most(first_level, bound);
   if (const Tree* settled = claim.find("settled_frequency_error")) {
-    found.statement += ", and at or below " + settled->text() + kRadPerSample + " in the long run";
+    found.statement += ", and at or below " + units_.at_most(settled->text()) + " in the long run";
     certain = certain && settles(*set) &&
               of(*set).error_is_at_most(last_level, written(claim, "settled_frequency_error"));
   }
@@ -315,7 +316,7 @@ Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
   found.statement = words.constant_tone() + ", the tracker tolerates noise up to " +
                     claim.at("noise").text() +
                     ", and without noise a certified invariant set contains frequency errors up to " +
-                    claim.at("reach").text() + kRadPerSample + " at every phase.";
+                    units_.at_least(claim.at("reach").text()) + " at every phase.";
   const Ball reach = written(claim, "reach");
   found.verdict = proved_if(noise != nullptr && starts != nullptr && certainly_positive(reach) &&
                             certainly_at_most(written(claim, "noise"), Ball(noise->noise)) &&
@@ -330,8 +331,8 @@ Claim ModelClaims::steady_state(const Tree& claim, const Part& part) const {
   found.is_summary = true;
   found.statement = words.constant_tone() + kSettled +
                     ", the mean over the phase of the frequency error in the long run is between " +
-                    claim.at("bias_low").text() + " and " + claim.at("bias_high").text() + kRadPerSample +
-                    ", and the error varies by at most " + claim.at("ripple").text() + kRadPerSample +
+                    units_.between(claim.at("bias_low").text(), claim.at("bias_high").text()) +
+                    ", and the error varies by at most " + units_.at_most(claim.at("ripple").text()) +
                     " over the phase.";
   found.verdict =
       proved_if(set != nullptr &&

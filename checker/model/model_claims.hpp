@@ -10,6 +10,7 @@
 #include "checker/document/parts.hpp"
 #include "checker/model/model_design.hpp"
 #include "checker/model/tube_check.hpp"
+#include "checker/sets/frequency_words.hpp"
 
 namespace veritrack::checker {
 
@@ -64,6 +65,7 @@ class ModelClaims {
   const std::map<std::string, TubeSet>* sets_;
   std::int64_t* cells_;
   ModelWords words_;
+  FrequencyWords units_;
 };
 
 }  // namespace veritrack::checker

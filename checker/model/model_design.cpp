@@ -77,7 +77,20 @@ void read_noise(const Tree& assume, ModelDesign& design, Objections& objections)
   }
 }
 
-void read_requirements(const Tree& require, ModelDesign& design, Objections& objections) {
+/// What is required of a frequency may be in Hz.
+RequiredNumber required_number(const std::string& name, const Tree& number, const Tree& assume,
+                               Objections& objections) {
+  if (name == "largest_slew_at_least") {
+    return {words_of(number, " rad/sample per sample"), read_slew(number, assume, objections)};
+  }
+  const bool is_frequency = name.find("frequency_error") != std::string::npos || name == "settled_below" ||
+                            name == "bias_below" || name == "ripple_below";
+  return is_frequency ? RequiredNumber{words_of(number, " rad/sample"),
+                                       read_frequency(number, assume, name, objections)}
+                      : RequiredNumber{text_of(number), read_number(number, objections)};
+}
+
+void read_requirements(const Tree& require, const Tree& assume, ModelDesign& design, Objections& objections) {
   const std::array<std::pair<std::string, std::optional<RequiredNumber>*>, 9> keys{
       {{"frequency_error_below", &design.frequency_error_below},
        {"settles_within", &design.settles_within},
@@ -96,7 +109,11 @@ void read_requirements(const Tree& require, ModelDesign& design, Objections& obj
       objections.push_back("[require] has no key " + name);
       continue;
     }
-    *key->second = RequiredNumber{text_of(member.second), read_positive(member.second, name, objections)};
+    const std::size_t before = objections.size();
+    *key->second = required_number(name, member.second, assume, objections);
+    if (objections.size() == before && !certainly_positive((*key->second)->value)) {
+      objections.push_back(name + " must be positive");
+    }
   }
   if (design.settles_within.has_value() != design.settled_below.has_value()) {
     objections.emplace_back("settles_within and settled_below need each other");
@@ -128,7 +145,7 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
   if (const Tree* start = assume.find("start_within")) {
     read_start(*start, recursion, design, objections);
   }
-  read_requirements(tree.at("require"), design, objections);
+  read_requirements(tree.at("require"), assume, design, objections);
   if (design.losing_lock && !design.deviation) {
     objections.emplace_back("a probability of losing lock is asked for Gaussian noise only");
   }
@@ -153,9 +170,10 @@ std::string ModelWords::tone(const std::string& frequency) const {
 
 std::string ModelWords::band() const {
   const Tree& ends = assume().at("frequency");
-  const std::string unit = assume().at("frequency_in_hertz").truth()
-                               ? "Hz at " + text_of(assume().at("sample_rate")) + " samples per second"
-                               : std::string("rad/sample");
+  std::string unit = assume().at("frequency_in_hertz").truth() ? "Hz" : "rad/sample";
+  if (const Tree* rate = assume().find("sample_rate")) {
+    unit += " at " + text_of(*rate) + " samples per second";
+  }
   if (part_) {
     return "[" + part_->from + ", " + part_->to + "] " + unit + " (a part of the assumed band)";
   }

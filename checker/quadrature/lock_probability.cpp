@@ -32,12 +32,12 @@ GaussianNoise read_gaussian_noise(const Tree& assume, const Ball& amplitude, Obj
     objections.emplace_back("the deviation of the noise is not a positive number");
   }
   const Tree* walk = assume.find("frequency_walk");
-  result.walk = walk == nullptr ? zero : read_not_negative(*walk, "frequency_walk", objections);
+  result.walk = walk == nullptr ? zero : read_frequency(*walk, assume, "frequency_walk", objections);
   result.samples = read_positive(assume.at("samples"), "samples", objections);
   if (!certainly_at_most(one, result.samples)) {
     objections.emplace_back("samples must be at least 1");
   }
-  if (!certainly_equal(read_not_negative(assume.at("slew"), "slew", objections), zero)) {
+  if (!certainly_equal(read_slew(assume.at("slew"), assume, objections), zero)) {
     objections.emplace_back("with Gaussian noise the frequency walks, and slew is 0");
   }
   return result;

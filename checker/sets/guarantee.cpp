@@ -25,8 +25,10 @@ const std::string kMeanSquare = "ekf/rms-frequency-error";
 const std::string kLowestSnr = "ekf/lowest-snr";
 const std::string kPerSample = " rad/sample";
 
+/// Of any unit.
 bool is_zero(const Tree& number) {
-  return certainly_equal(from_decimal(text_of(number)), zero);
+  const std::string& text = text_of(number);
+  return certainly_equal(from_decimal(text.substr(0, text.find(' '))), zero);
 }
 
 Ball of(const std::optional<Ball>& value) {
@@ -46,6 +48,17 @@ std::vector<Quantity> settling_evidence(const Promises& promises) {
 }
 
 }  // namespace
+
+Guarantee::Number Guarantee::required_number(const std::string& name, const Tree& value, const Tree& assume,
+                                             Objections& objections) {
+  if (name == "largest_slew_at_least") {
+    return {words_of(value, kPerSample + " per sample"), read_slew(value, assume, objections)};
+  }
+  if (name.find("frequency_error") != std::string::npos || name == "settled_below") {
+    return {words_of(value, kPerSample), read_frequency(value, assume, name, objections)};
+  }
+  return {text_of(value), read_number(value, objections)};
+}
 
 void add_bounds(const Promises& promises, Derivation& found) {
   const auto add = [&](const char* name, const std::optional<Ball>& value, Sense sense) {
@@ -88,8 +101,9 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
       objections.push_back("[require] has no key " + name);
       continue;
     }
-    const Number number{text_of(value), read_number(value, objections)};
-    if (!certainly_positive(number.value)) {
+    const std::size_t before = objections.size();
+    const Number number = required_number(name, value, design.at("assume"), objections);
+    if (objections.size() == before && !certainly_positive(number.value)) {
       objections.push_back(name + " must be positive");
     }
     *key->second = number;
@@ -121,7 +135,9 @@ Guarantee::Guarantee(const Tree& design, Wording wording, Objections& objections
   const Tree& assume = design.at("assume");
   amplitude_ = read_number(assume.at("amplitude"), objections);
   assumed_noise_ = wording_.deviation ? Ball::everything() : read_number(assume.at("noise"), objections);
-  start_error_ = read_number(assume.at("initial_frequency_error"), objections);
+  start_error_ =
+      read_frequency(assume.at("initial_frequency_error"), assume, "initial_frequency_error", objections);
+  words_ = FrequencyWords(assume, objections);
 }
 
 bool Guarantee::is_guarantee(const std::string& id) {
@@ -137,7 +153,7 @@ std::string Guarantee::assumed_disturbance() const {
   const Tree& assume = design_.at("assume");
   const Tree& slew = assume.at("slew");
   std::string text = is_zero(slew) ? " and is constant"
-                                   : " and changes by at most " + text_of(slew) + kPerSample + " per sample";
+                                   : " and changes by at most " + words_of(slew, kPerSample + " per sample");
   if (is_zero(assume.at("noise"))) {
     return text + ", without measurement noise";
   }
@@ -165,7 +181,7 @@ std::string Guarantee::gaussian_disturbance() const {
   std::string text = " and is constant";
   if (frequency_walks()) {
     text = " at the start and walks in independent Gaussian steps of mean zero and deviation at most " +
-           text_of(assume.at("frequency_walk")) + kPerSample;
+           words_of(assume.at("frequency_walk"), kPerSample);
   }
   text +=
       ", with Gaussian measurement noise of mean zero, independent from sample to sample and from channel to "
@@ -194,10 +210,10 @@ std::string Guarantee::disturbance_of(const Ball& noise, const Ball& slew) {
 std::string Guarantee::tone(bool disturbed) const {
   const Tree& assume = design_.at("assume");
   std::string text = std::string(wording_.arithmetic) + ", for a tone of constant amplitude " +
-                     text_of(assume.at("amplitude")) + " whose frequency ";
+                     text_of(assume.at("amplitude")) + words_.sampled() + " whose frequency ";
   if (wording_.in_band) {
     const Tree& band = assume.at("frequency");
-    text += "lies between " + text_of(band.at(0)) + " and " + text_of(band.at(1)) + kPerSample;
+    text += "lies between " + text_of(band.at(0)) + " and " + words_of(band.at(1), kPerSample);
   } else {
     text += "is at most pi" + kPerSample;
   }
@@ -211,45 +227,45 @@ std::string Guarantee::hypotheses(const Promises& promises) const {
 std::string Guarantee::hypotheses(const std::string& disturbance, const std::string& covariance) const {
   const Tree& assume = design_.at("assume");
   const auto words = [&](const char* name) { return text_of(assume.at(name)); };
-  return tone(false) + disturbance + ", started within " + words("initial_frequency_error") + kPerSample +
-         " of the true frequency, " + words("initial_phase_error") + " rad of the phase and " +
-         words("initial_amplitude_error") + " of the amplitude" +
-         (covariance.empty() ? "" : " " + covariance) + ", ";
+  return tone(false) + disturbance + ", started within " +
+         words_of(assume.at("initial_frequency_error"), kPerSample) + " of the true frequency, " +
+         words("initial_phase_error") + " rad of the phase and " + words("initial_amplitude_error") +
+         " of the amplitude" + (covariance.empty() ? "" : " " + covariance) + ", ";
 }
 
 /// What [require] asks.
 std::string Guarantee::short_text(const std::string& id) const {
   if (id == kBound) {
-    return "the frequency error stays below " + frequency_error_below_->text + kPerSample + " for ever";
+    return "the frequency error stays below " + frequency_error_below_->text + " for ever";
   }
   if (id == kSettling) {
     return "from sample " + settles_within_->text + " on, the frequency error stays below " +
-           settled_below_->text + kPerSample;
+           settled_below_->text;
   }
   if (id == kNoise) {
     return "at a constant frequency, the tracker tolerates noise up to " + noise_->text +
            ": a certified invariant set exists";
   }
   if (id == kSlew) {
-    return "without noise, the tracker tolerates a slew up to " + slew_->text + kPerSample +
-           " per sample: a certified invariant set exists";
+    return "without noise, the tracker tolerates a slew up to " + slew_->text +
+           ": a certified invariant set exists";
   }
   if (id == kLosingLock) {
     return "the probability of losing lock is below " + losing_lock_->text + " " + stretch_of_samples();
   }
   if (id == kMeanSquare) {
-    return "the root mean square of the frequency error in lock is below " + rms_->text + kPerSample + " " +
+    return "the root mean square of the frequency error in lock is below " + rms_->text + " " +
            stretch_of_samples();
   }
   return "under the assumed noise and slew, a certified invariant set contains frequency errors up to " +
-         reach_->text + kPerSample;
+         reach_->text;
 }
 
 /// That the error stays below the limit. A start with that much error is allowed, and is not below.
 Claim Guarantee::frequency_error(const Promises& promises) const {
   const Ball& limit = frequency_error_below_->value;
-  const bool same =
-      frequency_error_below_->text == text_of(design_.at("assume").at("initial_frequency_error"));
+  const bool same = frequency_error_below_->text ==
+                    words_of(design_.at("assume").at("initial_frequency_error"), kPerSample);
   const bool exceeded = same || certainly_at_most(limit, start_error_) ||
                         (promises.wrong_lock && certainly_at_most(limit, *promises.wrong_lock));
   Claim found;
@@ -303,8 +319,7 @@ Claim Guarantee::invariant_set(const Tree& claim, const Promises& promises) cons
                     {"contraction_rate", of(promises.rate), Sense::bounds_above}};
   found.verdict = proved_if(promises.reach && promises.rate && certainly_positive(reach));
   found.statement =
-      tone(true) + ", a certified invariant set contains frequency errors up to " + lower_decimal(reach) +
-      kPerSample +
+      tone(true) + ", a certified invariant set contains frequency errors up to " + words_.at_least(reach) +
       (promises.about_steady_state ? ", measured from the steady state, which the leak biases" : "") +
       "; in it, " +
       (promises.rate_window == 1 ? "each sample multiplies the error" : "the error is multiplied") +
@@ -327,8 +342,8 @@ Claim Guarantee::limits(const Tree& claim, const Promises& promises) const {
   found.statement = tone(false) + ", at a constant frequency the tracker tolerates noise up to " +
                     lower_decimal(low_of(evidence.at("largest_noise"))) +
                     " of the amplitude, and without noise a slew up to " +
-                    lower_decimal(low_of(evidence.at("largest_slew"))) + kPerSample +
-                    " per sample: a certified invariant set exists for each.";
+                    words_.slew(low_of(evidence.at("largest_slew"))) +
+                    ": a certified invariant set exists for each.";
   return found;
 }
 
@@ -357,14 +372,14 @@ Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
   // What the evidence says is checked beside this.
   const Tree& evidence = claim.at("evidence");
   if (const Tree* bound = evidence.find("frequency_error_bound")) {
-    found.statement += ": the frequency error never exceeds " + upper_decimal(high_of(*bound)) + kPerSample;
+    found.statement += ": the frequency error never exceeds " + words_.at_most(high_of(*bound));
   }
   if (const auto settled = settling_claim(evidence)) {
     found.statement += "; from sample " + upper_decimal(settled->samples) + " on it stays at or below " +
-                       upper_decimal(settled->frequency_error) + kPerSample;
+                       words_.at_most(settled->frequency_error);
   }
   if (const Tree* ultimate = evidence.find("ultimate_frequency_error")) {
-    found.statement += "; in the long run it is at most " + upper_decimal(high_of(*ultimate)) + kPerSample;
+    found.statement += "; in the long run it is at most " + words_.at_most(high_of(*ultimate));
   }
   found.statement += ".";
   return found;
@@ -394,15 +409,14 @@ Claim Guarantee::lock_sentence(const Tree& claim, const Promises& promises) cons
   found.verdict = proved_if(promises.losing_lock.has_value() && promises.lock_reach.has_value());
   found.evidence = {{"probability_of_losing_lock", of(promises.losing_lock), Sense::bounds_above},
                     {"lock_frequency_error", of(promises.lock_reach), Sense::bounds_above}};
-  found.statement = hypotheses(promises) + "the probability that the tracker loses its lock " +
-                    stretch_of_samples() + ", its frequency error exceeding " +
-                    upper_decimal(high_of(evidence.at("lock_frequency_error"))) + kPerSample +
-                    " at one of them, is at most " +
-                    upper_decimal(high_of(evidence.at("probability_of_losing_lock")));
+  found.statement =
+      hypotheses(promises) + "the probability that the tracker loses its lock " + stretch_of_samples() +
+      ", its frequency error exceeding " + words_.at_most(high_of(evidence.at("lock_frequency_error"))) +
+      " at one of them, is at most " + upper_decimal(high_of(evidence.at("probability_of_losing_lock")));
   if (const Tree* rms = evidence.find("rms_frequency_error")) {
     found.statement +=
         "; while it is in lock, the root mean square of its frequency error over them is at most " +
-        upper_decimal(high_of(*rms)) + kPerSample;
+        words_.at_most(high_of(*rms));
     found.evidence.push_back({"rms_frequency_error", of(promises.rms), Sense::bounds_above});
     if (!promises.rms) {
       found.verdict = Verdict::undecided;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "checker/document/parts.hpp"
+#include "checker/sets/frequency_words.hpp"
 
 namespace veritrack::checker {
 
@@ -83,9 +84,11 @@ class Guarantee {
 
  private:
   struct Number {
-    std::string text;
+    std::string text;  ///< with its unit
     Ball value;
   };
+  static Number required_number(const std::string& name, const Tree& value, const Tree& assume,
+                                Objections& objections);
   [[nodiscard]] std::string tone(bool disturbed) const;
   [[nodiscard]] std::string hypotheses(const Promises& promises) const;
   [[nodiscard]] std::string short_text(const std::string& id) const;
@@ -109,6 +112,7 @@ class Guarantee {
   std::optional<Number> frequency_error_below_, settles_within_, settled_below_, noise_, slew_, reach_,
       losing_lock_, rms_;
   Ball amplitude_, assumed_noise_, start_error_;
+  FrequencyWords words_;
   std::string other_snr_;  ///< dB, that sentences are about in place of the assumed noise; or empty
 };
 

@@ -44,14 +44,15 @@ SingleChannelDesign read_single_channel_design(const Tree& tree, Objections& obj
   design.epsilon = not_negative(chosen, "epsilon");
   design.q1 = design.q1 / square(design.amplitude);
   design.r = design.r / square(design.amplitude);
-  const Band band = read_band(assume.at("frequency"), objections);
+  const Band band = read_band(assume, objections);
   design.lowest = band.lowest;
   design.highest = band.highest;
   design.noise = not_negative(assume, "noise") / design.amplitude;
-  design.slew = not_negative(assume, "slew");
+  design.slew = read_slew(assume.at("slew"), assume, objections);
   design.amplitude_error = not_negative(assume, "initial_amplitude_error") / design.amplitude;
   design.phase_error = not_negative(assume, "initial_phase_error");
-  design.frequency_error = not_negative(assume, "initial_frequency_error");
+  design.frequency_error =
+      read_frequency(assume.at("initial_frequency_error"), assume, "initial_frequency_error", objections);
   if (!certainly_less(design.epsilon, one)) {
     objections.emplace_back("epsilon must be below 1");
   }

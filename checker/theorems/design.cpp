@@ -79,17 +79,18 @@ Design read_design(const Tree& tree, Objections& objections) {
   design.epsilon = not_negative(chosen, "epsilon");
   design.q1_equals_q2 =
       certainly_equal(amplitude, one) && text_of(chosen.at("q1")) == text_of(chosen.at("q2"));
-  const Band band = read_band(assume.at("frequency"), objections);
+  const Band band = read_band(assume, objections);
   design.lowest_frequency = band.lowest;
   design.highest_frequency = band.highest;
   design.largest_frequency = band.highest;
   // Gaussian noise has no bound: nothing that needs one is true of it.
   design.noise = assume.at("noise").find("text") == nullptr ? Ball::everything()
                                                             : not_negative(assume, "noise") / amplitude;
-  design.slew = not_negative(assume, "slew");
+  design.slew = read_slew(assume.at("slew"), assume, objections);
   design.amplitude_error = not_negative(assume, "initial_amplitude_error") / amplitude;
   design.phase_error = not_negative(assume, "initial_phase_error");
-  design.frequency_error = not_negative(assume, "initial_frequency_error");
+  design.frequency_error =
+      read_frequency(assume.at("initial_frequency_error"), assume, "initial_frequency_error", objections);
   const Tree& covariance = assume.at("initial_covariance");
   if (covariance.kind() == Tree::Kind::array) {
     design.covariance = read_covariance(covariance, amplitude, objections);

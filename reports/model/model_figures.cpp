@@ -12,7 +12,7 @@
 #include "analysis/model/point_tube.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/model_sets.hpp"
-#include "certificates/model/model_units.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "reports/gnuplot.hpp"
 #include "reports/model/tube_figure.hpp"
 
@@ -22,12 +22,12 @@ namespace {
 
 using certificates::ModelCell;
 using certificates::ModelSet;
-using certificates::ModelUnits;
+using certificates::FrequencyUnits;
 using model::ProvedTube;
 
 /// A value over each cell of frequencies, as a data block: two lines a cell.
 template <typename Values>
-std::string block_of_cells(const char* name, const std::vector<ModelCell>& cells, const ModelUnits& units,
+std::string block_of_cells(const char* name, const std::vector<ModelCell>& cells, const FrequencyUnits& units,
                            const Values& values) {
   std::string text = fmt::format("${} << END\n", name);
   for (const ModelCell& cell : cells) {
@@ -41,7 +41,7 @@ std::string block_of_cells(const char* name, const std::vector<ModelCell>& cells
 /// The mean and the range of the frequency error on the curve of a tube, in floating point, over its
 /// frequencies: "frequency mean range" a line.
 std::string block_on_curve(const model::TrackerModel& tracker, const std::vector<ProvedTube>& tubes,
-                           const ModelUnits& units) {
+                           const FrequencyUnits& units) {
   constexpr int kPhases = 256;
   constexpr std::size_t kPlaces = 60;
   const std::size_t each = std::max<std::size_t>(2, kPlaces / tubes.size());
@@ -71,7 +71,7 @@ std::string block_on_curve(const model::TrackerModel& tracker, const std::vector
 }
 
 Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::TrackerModel& tracker,
-                              const ModelUnits& units) {
+                              const FrequencyUnits& units) {
   const rigor::NearestRounding nearest;
   const std::string unit = units.drawn_unit();
   std::string script = gnuplot_style(520);
@@ -109,7 +109,7 @@ Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::
 
 /// How far each tube of a set reaches, proved as for the whole set.
 std::string block_of_reach(const std::string& name, const ModelSet& set, const model::TrackerModel& tracker,
-                           const ModelUnits& units) {
+                           const FrequencyUnits& units) {
   std::string text = fmt::format("${} << END\n", name);
   for (const ProvedTube& proved : set.tubes.tubes) {
     const double reach = 0.999 * bound_reach(tracker, proved.tube, proved.levels.front(), {});
@@ -122,7 +122,7 @@ std::string block_of_reach(const std::string& name, const ModelSet& set, const m
 }
 
 Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& sets,
-                    const model::TrackerModel& tracker, const ModelUnits& units) {
+                    const model::TrackerModel& tracker, const FrequencyUnits& units) {
   constexpr std::array<std::string_view, 4> kStyles{
       "lw 2 dt 1 lc rgb '#000000'", "lw 2 dt 2 lc rgb '#000000'", "lw 2 dt 3 lc rgb '#000000'",
       "lw 2 dt 4 lc rgb '#666666'"};
@@ -162,7 +162,7 @@ std::vector<Figure> draw_model_figures(const certificates::Certificate& certific
   const certificates::ModelSets& sets = model_sets(certificate);
   const certificates::Model model = make_model(tables.model, tables.assume.signal);
   const model::TrackerModel tracker = proved_model(model, tables.assume);
-  const ModelUnits units(tables.assume);
+  const FrequencyUnits units(tables.assume.sample_rate);
   std::vector<std::pair<std::string, const ModelSet*>> proved;
   const auto add = [&](const char* name, const ModelSet& set) {
     if (set.is_proved() || set.has_part()) {

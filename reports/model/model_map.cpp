@@ -11,7 +11,7 @@
 #include "certificates/document/output_files.hpp"
 #include "certificates/model/model_design.hpp"
 #include "certificates/model/model_json.hpp"
-#include "certificates/model/model_units.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "reports/model/map_figure.hpp"
 
 namespace veritrack::reports {
@@ -20,7 +20,7 @@ namespace {
 
 using certificates::MappedState;
 using certificates::ModelMap;
-using certificates::ModelUnits;
+using certificates::FrequencyUnits;
 namespace markdown = certificates::markdown;
 
 /// "26.8 %": never 0 or 100 unless it is none or all.
@@ -33,7 +33,7 @@ std::string share_of(std::size_t part, std::size_t all) {
 }
 
 /// "0.35 rad/sample (50 Hz)".
-std::string frequency_of(const ModelMap& map, const ModelUnits& units) {
+std::string frequency_of(const ModelMap& map, const FrequencyUnits& units) {
   std::string text = map.frequency_text + " rad/sample";
   if (units.has_hertz()) {
     text += fmt::format(" (≈ {:.6g} Hz)", units.drawn(rigor::midpoint(map.frequency)));
@@ -46,7 +46,7 @@ std::string amount(double value, const MappedState& state) {
   return fmt::format("{:.4g}{}{}", value, state.unit.empty() ? "" : " ", markdown::escaped(state.unit));
 }
 
-std::string statement(const certificates::ModelTables& tables, const ModelMap& map, const ModelUnits& units) {
+std::string statement(const certificates::ModelTables& tables, const ModelMap& map, const FrequencyUnits& units) {
   const std::string noise =
       map.noise > 0.0 ? fmt::format("with noise of at most {} at every sample", tables.assume.noise.text)
                       : std::string("without noise");
@@ -125,7 +125,7 @@ std::string model_map_document(const certificates::Design& design, const ModelMa
                                const Figure& figure) {
   const rigor::UpwardRounding upward;
   const certificates::ModelTables& tables = certificates::model_tables(design);
-  const ModelUnits units(tables.assume);
+  const FrequencyUnits units(tables.assume.sample_rate);
   std::string title = fmt::format("# {} of the starts are PROVED to lock ({} of {} cells)\n\n",
                                   share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size());
   title += fmt::format("Which starts of {} lock at {}.\n\n", markdown::escaped(design.name),

@@ -15,7 +15,7 @@ namespace veritrack::reports {
 
 namespace {
 
-using certificates::ModelUnits;
+using certificates::FrequencyUnits;
 using model::ProvedTube;
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
@@ -61,7 +61,7 @@ class TubeSection {
 };
 
 /// "phase lower upper of R_0 lower upper of R_m" a line, phases in turns.
-std::string envelope_block(TubeSection& section, const ProvedTube& proved, const ModelUnits& units) {
+std::string envelope_block(TubeSection& section, const ProvedTube& proved, const FrequencyUnits& units) {
   constexpr int kPhases = 120;
   std::string text = "$envelope << END\n";
   for (int j = 0; j <= kPhases; ++j) {
@@ -78,7 +78,7 @@ std::string envelope_block(TubeSection& section, const ProvedTube& proved, const
 }
 
 /// "for noise of at most 0.02 signal units".
-std::string tube_disturbances(const model::TubeSet& set, const ModelUnits& units) {
+std::string tube_disturbances(const model::TubeSet& set, const FrequencyUnits& units) {
   const rigor::UpwardRounding upward;
   std::string text = set.noise > 0.0 ? fmt::format("for noise of at most {} signal units",
                                                    rigor::to_decimal(set.noise, 4, rigor::Direction::down))
@@ -90,7 +90,7 @@ std::string tube_disturbances(const model::TubeSet& set, const ModelUnits& units
 }
 
 /// "phase error" a line, phases in turns; a turn is a line of the picture, from edge to edge.
-std::string lines_of(const std::vector<model::AttackedSample>& run, const ModelUnits& units) {
+std::string lines_of(const std::vector<model::AttackedSample>& run, const FrequencyUnits& units) {
   std::string text;
   double last_place = 0.0;
   double last_error = 0.0;
@@ -111,7 +111,7 @@ std::string lines_of(const std::vector<model::AttackedSample>& run, const ModelU
 
 }  // namespace
 
-Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, const ModelUnits& units) {
+Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, const FrequencyUnits& units) {
   const rigor::NearestRounding nearest;
   const model::Tube& first = set.tubes.front().tube;
   const model::Tube& last = set.tubes.back().tube;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/model/tube_set.hpp"
-#include "certificates/model/model_units.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "reports/figures.hpp"
 
 namespace veritrack::reports {
@@ -10,6 +10,6 @@ namespace veritrack::reports {
 /// At the middle of the band: what frequency errors the tube and its lowest level reach over the phase, and
 /// simulated errors from the rim under the set's noise. For a set that is complete. Throws FigureError.
 [[nodiscard]] Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set,
-                               const certificates::ModelUnits& units);
+                               const certificates::FrequencyUnits& units);
 
 }  // namespace veritrack::reports

@@ -14,6 +14,8 @@ given-covariance  one-set with a P(0|0) that the design gives
 covariance-range  one-set with every P(0|0) from one matrix of the design to another
 covariance-multiples  one-set with every P(0|0) from one multiple of the printed matrix to another
 capture           farther starts, followed into the set of one-set: one box, of which little is said
+From designs/motor-tone-8-khz.toml:
+hertz             as settling, of a design in Hz
 From tests/certificates/kkl-observer.toml, a KKL observer at one frequency with a sinusoidal disturbance:
 kkl-observer      its bounds, with an easier one on the amplitude error
 kkl-paper         its ell and the paper's claims
@@ -111,6 +113,11 @@ def settling(certificate):
     derivation["quantities"] = certificate["claims"][2]["evidence"]
     derivation["conditions"] = derivation["conditions"][:2]
     del derivation["verdict"]
+
+
+def hertz(certificate):
+    settling(certificate)
+    drop_requirements(certificate, "largest_slew_at_least", "frequency_error_radius_at_least")
 
 
 def one_set(certificate):
@@ -303,6 +310,7 @@ KINDS = {
     "repaired": without_sets(lambda name: name == "theorem-2.9/repaired"),
     "contraction": contraction,
     "settling": settling,
+    "hertz": hertz,
     "one-set": one_set,
     "given-covariance": given_covariance,
     "covariance-range": covariance_range,

@@ -1,7 +1,9 @@
 """veritrack check: the same verdicts, a line per requirement."""
 
 import json
+import os
 import unittest
+import urllib.parse
 import xml.etree.ElementTree
 
 from support import DESIGN, CliTestCase
@@ -61,7 +63,7 @@ class Check(CliTestCase):
         report = json.loads((self.folder / "report.sarif").read_text())
         self.assertEqual(report["version"], "2.1.0")
         results = report["runs"][0]["results"]
-        self.assertEqual([entry["level"] for entry in results], ["error", "warning"])
+        self.assertEqual([entry["level"] for entry in results], ["error", "error"])
         regions = [entry["locations"][0]["physicalLocation"]["region"]["startLine"] for entry in results]
         self.assertEqual(regions, HARD_LINES)
         rules = {rule["id"] for rule in report["runs"][0]["tool"]["driver"]["rules"]}
@@ -86,10 +88,135 @@ class Check(CliTestCase):
         self.assertIn("q3", suites[1][0].find("error").get("message"))
         results = json.loads((self.folder / "report.sarif").read_text())["runs"][0]["results"]
         self.assertEqual([entry["ruleId"] for entry in results][:2], ["bad-input"] * 2)
-        self.assertEqual([entry["level"] for entry in results], ["error", "error", "error", "warning"])
+        self.assertEqual([entry["level"] for entry in results], ["error"] * 4)
         places = [entry["locations"][0]["physicalLocation"] for entry in results]
         self.assertNotIn("region", places[0])
         self.assertEqual(places[1]["region"]["startLine"], 5)
+
+    def test_paths_in_sarif_are_percent_encoded_relative_references(self):
+        self.write(HARD, "a folder: 50 %.toml")
+        self.run_here("check", "a folder: 50 %.toml", "--sarif", "report.sarif")
+        result = json.loads((self.folder / "report.sarif").read_text())["runs"][0]["results"][0]
+        place = result["locations"][0]["physicalLocation"]["artifactLocation"]
+        self.assertEqual(place["uri"], "a%20folder%3A%2050%20%25.toml")
+        self.assertEqual(urllib.parse.unquote(place["uri"]), "a folder: 50 %.toml")
+
+    def test_json_has_all_that_was_found(self):
+        self.write(HARD)
+        self.write(DESIGN, "fine.toml")
+        result = self.run_here("check", "design.toml", "fine.toml", "nowhere.toml", "--json", "report.json")
+        self.assertEqual(result.returncode, 2)
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual(report["schema"], "veritrack/check/1")
+        self.assertEqual([design["path"] for design in report["designs"]], ["design.toml", "fine.toml", "nowhere.toml"])
+        hard, fine, nowhere = report["designs"]
+        self.assertEqual([each["verdict"] for each in hard["requirements"]], ["refuted", "undecided"])
+        self.assertEqual([each["line"] for each in hard["requirements"]], HARD_LINES)
+        self.assertEqual((hard["verdict"], fine["verdict"]), ("refuted", "nothing-required"))
+        self.assertEqual(nowhere["error"]["kind"], "bad-input")
+        self.assertNotIn("verdict", nowhere)
+
+    def test_a_folder_is_its_design_files_in_order(self):
+        for name in ("b", "a", "c"):
+            (self.folder / name).mkdir()
+            self.write(DESIGN, f"{name}/design.toml")
+        self.write("not a design", "a/readme.txt")
+        result = self.run_here("check", ".")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.splitlines(), [f"./{name}/design.toml: nothing required" for name in "abc"])
+
+    def test_a_folder_without_designs_is_bad_input(self):
+        (self.folder / "empty").mkdir()
+        result = self.run_here("check", "empty")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("allowed: a folder with files *.toml", result.stderr)
+
+    def test_the_number_of_jobs_changes_nothing(self):
+        for number in range(3):
+            self.write(HARD.replace("0.001\n", f"0.00{number + 1}\n"), f"{number}.toml")
+        outputs = []
+        for jobs in ("1", "3"):
+            result = self.run_here("check", ".", "--jobs", jobs, "--no-cache", "--json", "out.json")
+            outputs.append((result.returncode, result.stdout, result.stderr, (self.folder / "out.json").read_text()))
+        self.assertEqual(outputs[0], outputs[1])
+        self.assertIn("2.toml", outputs[0][1])
+
+    def test_a_limit_stops_any_tracker(self):
+        self.write(HARD.replace("noise = 0.001", "noise = { snr_db = 17 }\nsamples = 1e6").split("[require]")[0]
+                   + "[require]\nprobability_of_losing_lock_below = 1e-6\n")
+        result = self.run_here("check", "design.toml", "--timeout", "0.3", "--junit", "report.xml")
+        self.assertEqual((result.returncode, result.stderr), (1, ""))
+        self.assertEqual(result.stdout, "design.toml: undecided: stopped after 0.3 s (--timeout)\n")
+        suite = xml.etree.ElementTree.parse(self.folder / "report.xml").getroot()[0]
+        self.assertEqual(suite[0].find("error").get("type"), "time-limit")
+
+
+class Cache(CliTestCase):
+    def setUp(self):
+        super().setUp()
+        self.cache = self.folder / "cache"
+        self.cache.mkdir()
+        self.write(HARD)
+
+    def check(self, *options):
+        return self.run_here("check", "design.toml", *options, env={**os.environ, "XDG_CACHE_HOME": str(self.cache)})
+
+    def kept(self):
+        return [path for path in self.cache.rglob("*") if path.is_file()]
+
+    def test_what_was_checked_before_is_the_same(self):
+        first = self.check()
+        self.assertEqual(len(self.kept()), 1)
+        again = self.check()
+        self.assertEqual((first.returncode, first.stdout), (again.returncode, again.stdout))
+
+    def test_it_is_used(self):
+        self.check()
+        path = self.kept()[0]
+        path.write_text(path.read_text().replace("refuted", "proved").replace("undecided", "proved"))
+        self.assertEqual(self.check().returncode, 0)
+        self.assertEqual(self.check("--no-cache").returncode, 1)
+
+    def test_another_design_is_checked(self):
+        self.check()
+        self.write(HARD + "# changed\n")
+        self.check()
+        self.assertEqual(len(self.kept()), 2)
+
+    def test_what_others_can_write_to_is_not_read(self):
+        self.check()
+        path = self.kept()[0]
+        path.write_text(path.read_text().replace("refuted", "proved").replace("undecided", "proved"))
+        path.chmod(0o666)
+        self.assertEqual(self.check().returncode, 1)
+
+    def test_what_makes_no_sense_is_not_read(self):
+        self.check()
+        path = self.kept()[0]
+        heading = path.read_text().splitlines()[0]
+        for text in ("", "\n", heading, heading + "\n{}", heading + '\n{"seconds": 0, "requirements": 3}', "x" * 100):
+            with self.subTest(text=text[-20:]):
+                path.write_text(text)
+                path.chmod(0o600)
+                self.assertEqual(self.check().returncode, 1)
+
+    def test_without_a_folder_to_write_to_it_is_checked(self):
+        self.cache.rmdir()
+        self.cache.write_text("a file")
+        self.assertEqual(self.check().returncode, 1)
+
+
+class Annotations(CliTestCase):
+    def test_github_is_told_where(self):
+        self.write(HARD)
+        self.write(DESIGN.replace("q1 =", "q3 ="), "bad: 50 %.toml")
+        result = self.run_here("check", "design.toml", "bad: 50 %.toml", env={**os.environ, "GITHUB_ACTIONS": "true"})
+        told = [line for line in result.stdout.splitlines() if line.startswith("::error ")]
+        self.assertEqual(len(told), 3, result.stdout)
+        self.assertTrue(told[0].startswith(f"::error file=design.toml,line={HARD_LINES[0]},col="), told[0])
+        self.assertIn(",title=refuted::", told[0])
+        self.assertTrue(told[2].startswith("::error file=bad%3A 50 %25.toml,line=5,col=1,title=bad-input::"), told[2])
+        self.assertEqual(result.returncode, 2)
 
 
 if __name__ == "__main__":

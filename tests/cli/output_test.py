@@ -56,8 +56,8 @@ class Output(CliTestCase):
                     file.seek(0)
                     text = file.read() if redirected else result.stdout
                 self.assertEqual(result.returncode, 0, result.stderr)
-                self.assertTrue(text.startswith("<?xml"), text)
-                self.assertTrue(text.endswith("design.toml: nothing required\n"), text)
+                self.assertTrue(text.startswith("design.toml: nothing required\n<?xml"), text)
+                self.assertTrue(text.endswith("</testsuites>\n"), text)
 
     def test_an_output_that_is_an_input_is_refused(self):
         self.write(DESIGN, "other.toml")

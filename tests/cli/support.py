@@ -1,13 +1,20 @@
 """Runs the program as a user would."""
 
+import atexit
 import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ["VERITRACK"]
+
+# Verdicts that a test finds are not those of an earlier run, nor kept for a later one.
+os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()
+atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
+os.environ.pop("GITHUB_ACTIONS", None)
 
 DESIGN = """\
 name    = "a design"

@@ -46,7 +46,7 @@ class Timeout(CliTestCase):
 
     def test_other_trackers_take_the_time_they_need(self):
         self.write(DESIGN)
-        result = self.run_here("check", "design.toml", "--timeout", "0.001")
+        result = self.run_here("certify", "design.toml", "--timeout", "0.001")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("--timeout has no effect on the tracker quadrature-ekf; it can stop: model", result.stderr)
 

@@ -88,7 +88,7 @@ TEST_CASE("when the time is over, what is proved is kept") {
   CHECK(prove_moving_set(tone, loop.model, 0.2, 0.4, moving).tubes.empty());
 }
 
-TEST_CASE("a band that goes on to where nothing is proved has a part") {
+TEST_CASE("a band that goes on to where nothing is proved has a part" * doctest::test_suite("nightly")) {
   // Toward 0 the ripple of the loop grows beyond its tube.
   const test::Example loop(test::phase_locked_loop());
   const TrackedTone tone = test::tone_of(loop.tracker);

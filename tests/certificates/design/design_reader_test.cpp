@@ -161,6 +161,9 @@ std::vector<Number> numbers_of(const Design& design) {
 /// The oracle for a number is the C library's strtod on the text without underscores.
 void check_number(const Number& number) {
   CAPTURE(number.text);
+  if (number.in_hertz) {
+    return;  // see hertz_keys_test
+  }
   std::string digits = number.text;
   digits.erase(std::remove(digits.begin(), digits.end(), '_'), digits.end());
   const double expected = std::strtod(digits.c_str(), nullptr);
@@ -195,13 +198,14 @@ void check_position(const Number& number, const std::string& text) {
   if (number.position.line == 0) {
     return;
   }
+  const std::string written = number.text.substr(0, number.text.find(' '));
   std::size_t start = 0;
   for (int line = 1; line < number.position.line; ++line) {
     start = text.find('\n', start) + 1;
     REQUIRE(start != 0);
   }
-  CHECK(text.compare(start + static_cast<std::size_t>(number.position.column) - 1, number.text.size(),
-                     number.text) == 0);
+  CHECK(text.compare(start + static_cast<std::size_t>(number.position.column) - 1, written.size(),
+                     written) == 0);
 }
 
 std::string minimal() {

@@ -74,7 +74,8 @@ TEST_CASE("what contraction does not cover is undecided, with the reason") {
   }
 }
 
-TEST_CASE("the sizes of certified sets can be required, with the largest certified one in the answer") {
+TEST_CASE("the sizes of certified sets can be required, with the largest certified one in the answer" *
+          doctest::test_suite("nightly")) {
   struct Case {
     const char* claim;
     const char* key;

@@ -9,7 +9,7 @@
 #include "analysis/model/set_parts.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/model_sets.hpp"
-#include "certificates/model/model_units.hpp"
+#include "certificates/sets/frequency_units.hpp"
 #include "tests/certificates/model/model_certificates.hpp"
 #include "tests/support/golden.hpp"
 
@@ -161,7 +161,7 @@ TEST_CASE("the entries of a covariance are counted, not listed") {
 TEST_CASE("units") {
   const rigor::UpwardRounding upward;
   const Design design = test::loop_design();
-  const ModelUnits units(model_tables(design).assume);
+  const FrequencyUnits units(model_tables(design).assume.sample_rate);
   CHECK(units.at_most(0.1) == "0.1001 rad/sample (15.92 Hz)");
   CHECK(units.at_least(0.1) == "0.1 rad/sample (15.91 Hz)");
   CHECK(units.at_most(INFINITY) == "unknown");

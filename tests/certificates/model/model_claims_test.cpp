@@ -92,9 +92,8 @@ TEST_CASE("every claim is decided by its set") {
   CHECK(find(certificate, "model/guarantee")
             ->statement.find(", with noise below 0.02, started within {w: 0.001} of the curve of the set "
                              "\"assumed\" of the certificate, the other states on it, the frequency "
-                             "error stays at or below 0.01563 rad/sample for ever, and at or below 0.007813 "
-                             "rad/sample in the long "
-                             "run.") != std::string::npos);
+                             "error stays at or below 0.01563 rad/sample (2.49 Hz) for ever, and at or below "
+                             "0.007813 rad/sample (1.25 Hz) in the long run.") != std::string::npos);
   const Claim* slew = find(certificate, "model/largest-slew");
   REQUIRE(slew != nullptr);
   CHECK(slew->verdict == Verdict::undecided);
@@ -165,8 +164,8 @@ TEST_CASE("a part of the band has claims of its own, and what is required stays 
   CHECK_FALSE(guarantee->required);
   CHECK(
       guarantee->statement.starts_with("In exact arithmetic, on a tone of amplitude 1 with any constant "
-                                       "frequency in [0.3, 0.3125] rad/sample (a part "
-                                       "of the assumed band), with noise below 0.02, started"));
+                                       "frequency in [0.3, 0.3125] rad/sample at 1000 samples per second (a "
+                                       "part of the assumed band), with noise below 0.02, started"));
   const auto value = [](const Claim* claim, const std::string& name) {
     REQUIRE(claim != nullptr);
     const auto found = std::find_if(claim->values.begin(), claim->values.end(),
@@ -185,7 +184,8 @@ TEST_CASE("a part of the band has claims of its own, and what is required stays 
     const Claim* claim = find(certificate, id);
     REQUIRE(claim != nullptr);
     CHECK(claim->verdict == Verdict::undecided);
-    CHECK(claim->statement.find("in [0.3, 0.32] rad/sample, ") != std::string::npos);
+    CHECK(claim->statement.find("in [0.3, 0.32] rad/sample at 1000 samples per second, ") !=
+          std::string::npos);
     CHECK(claim->reason.find(" rad/sample only: no radius was proved between 0.3125 and 0.32 rad/sample.") !=
           std::string::npos);
   }

@@ -23,7 +23,7 @@ bool accepted(const std::string& text, const std::string& low, const std::string
 
 bool band_is_accepted(const std::string& low, const std::string& high) {
   Objections objections;
-  read_band(read_json("[" + low + "," + high + "]"), objections);
+  read_band(read_json("{\"frequency\":[" + low + "," + high + "]}"), objections);
   return objections.empty();
 }
 

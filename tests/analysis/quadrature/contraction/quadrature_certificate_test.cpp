@@ -85,7 +85,8 @@ TEST_CASE("a trace of slew costs nothing that the noise leaves") {
   }
 }
 
-TEST_CASE("what is certified under more noise and slew is, up to a tenth, under less") {
+TEST_CASE("what is certified under more noise and slew is, up to a tenth, under less" *
+          doctest::test_suite("nightly")) {
   constexpr std::array<double, 3> kNoises{0.002, 0.02, 0.05};
   constexpr std::array<double, 3> kSlews{0.0, 1e-9, 1e-3};
   constexpr double kTolerance = 1.1;

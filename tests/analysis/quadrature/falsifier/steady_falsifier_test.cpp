@@ -54,7 +54,8 @@ const Certified& an_example() {
 
 }  // namespace
 
-TEST_CASE("with a leak: the falsifier does not break a PROVED set, and comes near its bounds") {
+TEST_CASE("with a leak: the falsifier does not break a PROVED set, and comes near its bounds" *
+          doctest::test_suite("nightly")) {
   test::Random random(51);
   const auto count = test::effort(5);
   int proved = 0;

@@ -30,7 +30,8 @@ LockBand prove(const LockRequest& request) {
 
 }  // namespace
 
-TEST_CASE("the sets of a band adjoin and cover it, and each is proved for its frequencies") {
+TEST_CASE("the sets of a band adjoin and cover it, and each is proved for its frequencies" *
+          doctest::test_suite("nightly")) {
   const LockRequest request = band_request(28.0, -0.5, 3.0);
   const LockBand found = prove(request);
   CAPTURE(found.reason);

@@ -1,0 +1,39 @@
+// Verdicts of design files that were checked before, kept in a folder of the user's.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "reports/check/checked_design.hpp"
+
+namespace veritrack::reports {
+
+/// Kept under the SHA-256 of the design's text and of the program: another text or another program knows
+/// nothing of it. Whoever can write in the folder can write verdicts; files of other users, or that others
+/// can write to, are not read.
+class CheckCache {
+ public:
+  /// `program` says which program this is, in whatever form; the folder is made when it is needed.
+  CheckCache(std::filesystem::path folder, std::string program);
+
+  /// What was kept of a design with this text. What cannot be read, or is no such thing, is nothing.
+  [[nodiscard]] std::optional<CheckedDesign> find(const std::string& design_text) const;
+  /// Keeps it, unless it has an objection. What cannot be written is not kept, and nothing is said of it.
+  void keep(const std::string& design_text, const CheckedDesign& design) const;
+
+ private:
+  [[nodiscard]] std::filesystem::path file_of(const std::string& design_text) const;
+
+  std::filesystem::path folder_;
+  std::string program_;
+};
+
+/// veritrack/check in the cache folder of the user, by the environment (XDG Base Directory Specification);
+/// empty when there is none.
+[[nodiscard]] std::filesystem::path default_cache_folder();
+
+/// Which program this is: the SHA-256 of the file that runs, with the version; empty when it cannot be told.
+[[nodiscard]] std::string program_identity();
+
+}  // namespace veritrack::reports

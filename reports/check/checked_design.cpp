@@ -1,0 +1,95 @@
+#include "reports/check/checked_design.hpp"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace veritrack::reports {
+
+namespace {
+
+using certificates::Position;
+using rigor::Verdict;
+using Json = nlohmann::ordered_json;
+using Kind = CheckObjection::Kind;
+
+constexpr std::array kKinds{Kind::bad_input, Kind::failure, Kind::time_limit};
+constexpr std::array kVerdicts{Verdict::proved, Verdict::refuted, Verdict::undecided};
+
+Json position_json(const Position& position) {
+  return {{"line", position.line}, {"column", position.column}};
+}
+
+Position position_from(const Json& json) {
+  return {json.at("line").get<int>(), json.at("column").get<int>()};
+}
+
+/// The one of this name. Throws std::out_of_range.
+template <typename Values>
+auto named(const Values& values, const std::string& name) {
+  for (const auto value : values) {
+    if (to_string(value) == name) {
+      return value;
+    }
+  }
+  throw std::out_of_range(name);
+}
+
+}  // namespace
+
+std::vector<CheckedRequirement> requirements_of(const certificates::Certificate& certificate) {
+  std::vector<CheckedRequirement> requirements;
+  for (const certificates::Claim& claim : certificate.claims) {
+    if (claim.required) {
+      requirements.push_back({claim.id, claim.requirement, claim.reason, claim.verdict, claim.position});
+    }
+  }
+  return requirements;
+}
+
+std::string to_string(CheckObjection::Kind kind) {
+  return kind == Kind::bad_input ? "bad-input" : kind == Kind::failure ? "failure" : "time-limit";
+}
+
+std::string to_text(const CheckedDesign& design) {
+  Json json{{"requirements", Json::array()}, {"seconds", design.seconds}};
+  for (const CheckedRequirement& requirement : design.requirements) {
+    json["requirements"].push_back({{"claim", requirement.claim},
+                                    {"requirement", requirement.requirement},
+                                    {"reason", requirement.reason},
+                                    {"verdict", rigor::to_string(requirement.verdict)},
+                                    {"position", position_json(requirement.position)}});
+  }
+  if (design.objection) {
+    json["objection"] = {{"kind", to_string(design.objection->kind)},
+                         {"message", design.objection->message},
+                         {"position", position_json(design.objection->position)}};
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::optional<CheckedDesign> checked_from_text(const std::string& text) {
+  try {
+    const Json json = Json::parse(text);
+    CheckedDesign design;
+    design.seconds = json.at("seconds").get<double>();
+    for (const Json& each : json.at("requirements")) {
+      design.requirements.push_back(
+          {each.at("claim").get<std::string>(), each.at("requirement").get<std::string>(),
+           each.at("reason").get<std::string>(), named(kVerdicts, each.at("verdict").get<std::string>()),
+           position_from(each.at("position"))});
+    }
+    if (json.contains("objection")) {
+      const Json& objection = json.at("objection");
+      design.objection =
+          CheckObjection{named(kKinds, objection.at("kind").get<std::string>()),
+                         objection.at("message").get<std::string>(), position_from(objection.at("position"))};
+    }
+    return design;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  } catch (const std::out_of_range&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace veritrack::reports

@@ -1,0 +1,51 @@
+// What `veritrack check` found of a design file, small enough to be handed from process to process and kept.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certificates/document/certificate.hpp"
+
+namespace veritrack::reports {
+
+/// A requirement of a design file, decided.
+struct CheckedRequirement {
+  std::string claim;        ///< id
+  std::string requirement;  ///< in short
+  std::string reason;       ///< one sentence
+  rigor::Verdict verdict = rigor::Verdict::undecided;
+  certificates::Position position;
+};
+
+/// Why there are no verdicts.
+struct CheckObjection {
+  enum class Kind {
+    bad_input,  ///< the file cannot be used
+    failure,    ///< the program could not go on with it
+    time_limit  ///< it was stopped; everything that is required is UNDECIDED
+  };
+  Kind kind = Kind::bad_input;
+  std::string message;              ///< one line
+  certificates::Position position;  ///< in the file; line 0 without one
+};
+
+/// What came of a design file, with its path as the user gave it.
+struct CheckedDesign {
+  std::string path;
+  std::vector<CheckedRequirement> requirements;  ///< none: nothing is required
+  std::optional<CheckObjection> objection;       ///< then there are no requirements
+  double seconds = 0.0;  ///< that it took, or took when it was done; not in every report
+};
+
+/// The requirements with their verdicts.
+[[nodiscard]] std::vector<CheckedRequirement> requirements_of(const certificates::Certificate& certificate);
+
+/// "bad-input", "failure" or "time-limit".
+[[nodiscard]] std::string to_string(CheckObjection::Kind kind);
+
+/// All but the path as one line of JSON, and back; nothing when the text is not what `to_text` writes.
+[[nodiscard]] std::string to_text(const CheckedDesign& design);
+[[nodiscard]] std::optional<CheckedDesign> checked_from_text(const std::string& text);
+
+}  // namespace veritrack::reports

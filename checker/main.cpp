@@ -35,7 +35,10 @@ constexpr const char* kUsage =
     "Verifies every claim of the certificate from its evidence, and prints the sentences that it "
     "establishes.\n"
     "  --design FILE     also that the certificate is about this design file\n"
-    "  --markdown FILE   also that this certificate.md says what was verified\n"
+    "  --markdown FILE   also that this certificate.md or published-theorems.md says what was verified; may "
+    "be "
+    "given\n"
+    "                    twice\n"
     "  --full            follow all boxes of starts: with more than 200 only a sample is checked, and the "
     "part is\n"
     "                    NOT VERIFIED\n"
@@ -54,7 +57,8 @@ constexpr const char* kUsage =
     "or nothing is required. 2 malformed, or the answer could not be written. 3 NOT VERIFIED.\n";
 
 struct Options {
-  std::string certificate, design, markdown;
+  std::string certificate, design;
+  std::vector<std::string> documents;
   bool all_boxes = false;
   bool as_json = false;
 };
@@ -97,7 +101,7 @@ std::optional<Options> read_options(const std::vector<std::string>& arguments) {
     } else if (argument == "--design" && has_value) {
       options.design = arguments[++i];
     } else if (argument == "--markdown" && has_value) {
-      options.markdown = arguments[++i];
+      options.documents.push_back(arguments[++i]);
     } else if (argument == "--full") {
       options.all_boxes = true;
     } else if (argument == "--json") {
@@ -120,10 +124,10 @@ int run(const Options& options) {
     compare_with_design_file(certificate, read_file(options.design), objections);
     found.parts.push_back({"the design file", objections});
   }
-  if (!options.markdown.empty()) {
+  for (const std::string& document : options.documents) {
     Objections objections;
-    compare_with_markdown(found, sha256(text), read_file(options.markdown), objections);
-    found.parts.push_back({"the document", objections});
+    compare_with_markdown(found, sha256(text), read_file(document), objections);
+    found.parts.push_back({"the document " + document, objections});
   }
   std::fputs((options.as_json ? to_json(found) : to_text(found)).c_str(), stdout);
   return !found.verified() ? kNotVerified : found.requirements_proved ? kEverythingProved : kVerified;

@@ -46,12 +46,16 @@ CertificateFiles write_certificate_files(const certificates::Certificate& certif
   for (const Figure& figure : drawing.figures) {
     const std::string path = "figures/" + figure.file;
     files.stage(directory / path, figure.svg);
-    options.figures.push_back({path, figure.caption});
+    options.figures.push_back({path, figure.title, figure.caption});
   }
   options.drawn_with = drawing.drawn_with;
   const std::string json = certificates::to_json(certificate);
   options.certificate_sha256 = certificates::sha256(json);
   files.stage(written.document, certificates::to_markdown(certificate, options));
+  if (const std::string published = certificates::to_published_markdown(certificate, options);
+      !published.empty()) {
+    files.stage(directory / "published-theorems.md", published);
+  }
   files.stage(directory / "certificate.json", json);
   files.stage(directory / "report.json", certificates::to_report_json(certificate));
   if (certificate.formal_proofs) {

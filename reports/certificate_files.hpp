@@ -14,10 +14,10 @@ struct CertificateFiles {
   std::string missing_figures;     ///< one line: why there are no figures; empty when nothing is missing
 };
 
-/// Writes certificate.md, certificate.json, figures/*.svg and, if it has formal proofs, certificate.v into
-/// `directory` (made when missing). Every file appears whole or not at all; without gnuplot all but the
-/// figures do. No output may be `design`, the file that the certificate was made from. Throws
-/// certificates::OutputError.
+/// Writes certificate.md, published-theorems.md where the tracker has such, certificate.json, report.json,
+/// figures/*.svg and, if it has formal proofs, certificate.v into `directory` (made when missing). Every file
+/// appears whole or not at all; without gnuplot all but the figures do. No output may be `design`, the file
+/// that the certificate was made from. Throws certificates::OutputError.
 [[nodiscard]] CertificateFiles write_certificate_files(const certificates::Certificate& certificate,
                                                        const std::filesystem::path& directory,
                                                        const std::filesystem::path& design);

@@ -12,7 +12,12 @@ struct Figure {
   std::string file;     ///< name of the file, e.g. "error.svg"
   std::string caption;  ///< what is seen, with units
   std::string svg;
+  std::string title =
+      {};  ///< what it shows, in a few words: the title of the SVG, and the text instead of it
 };
+
+/// The figure with its title inside the SVG, in place of gnuplot's own name.
+[[nodiscard]] Figure with_title(Figure figure);
 
 /// The figures that certificates of this kind of tracker have; none when it has none. Throws FigureError.
 [[nodiscard]] std::vector<Figure> draw_figures(const certificates::Certificate& certificate);

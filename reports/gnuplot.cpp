@@ -122,7 +122,7 @@ std::string gnuplot_style(std::size_t height) {
          "set border 3 lw 1 lc rgb '#444444'\n"
          "set tics nomirror\n"
          "set grid ytics lw 0.5 lc rgb '#cccccc'\n"
-         "set key outside top center horizontal samplen 4\n";
+         "set key outside below center horizontal Left reverse samplen 4\n";
 }
 
 std::string gnuplot_version() {

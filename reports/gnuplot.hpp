@@ -18,7 +18,7 @@ class FigureError : public std::runtime_error {
 [[nodiscard]] std::string run_gnuplot(const std::string& script);
 
 /// How every figure begins: an SVG 820 pixels wide and `height` high in the house style (grey axes without
-/// mirror, a key above), before labels and data.
+/// mirror, a key below), before labels and data.
 [[nodiscard]] std::string gnuplot_style(std::size_t height);
 
 /// "gnuplot 5.4 patchlevel 4", or the like. Throws FigureError.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "certificates/design/request_error.hpp"
 #include "reports/kkl_observer/kkl_observer_reports.hpp"
@@ -52,10 +53,25 @@ std::span<const TrackerReports* const> tracker_reports() {
   return all;
 }
 
+Figure with_title(Figure figure) {
+  const std::string begin = "<title>";
+  const std::size_t at = figure.svg.find(begin);
+  const std::size_t end = figure.svg.find("</title>");
+  if (at != std::string::npos && end != std::string::npos) {
+    figure.svg.replace(at + begin.size(), end - at - begin.size(), figure.title);
+  }
+  return figure;
+}
+
 std::vector<Figure> draw_figures(const certificates::Certificate& certificate) {
   const TrackerReports* reports = reports_of(certificate.design.tracker);
-  return reports != nullptr && reports->figures != nullptr ? reports->figures(certificate)
-                                                           : std::vector<Figure>{};
+  std::vector<Figure> figures = reports != nullptr && reports->figures != nullptr
+                                    ? reports->figures(certificate)
+                                    : std::vector<Figure>{};
+  for (Figure& figure : figures) {
+    figure = with_title(std::move(figure));
+  }
+  return figures;
 }
 
 std::string trackers_with_map() {

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "reports/gnuplot.hpp"
+#include "reports/line_styles.hpp"
 
 namespace veritrack::reports {
 
@@ -33,13 +34,14 @@ Figure frequency_figure(const certificates::Certificate& certificate) {
   script +=
       "set ylabel 'frequency, rad/sample'\n"
       "set offsets 0, 0, graph 0.08, graph 0.08\n"
-      "plot $run using 1:2 with lines lw 3 lc rgb '#aaaaaa' title 'signal', "
-      "'' using 1:3 with lines lw 1.4 dt 1 lc rgb '#000000' title 'tracker'\n";
+      "plot $run using 1:2 with lines " +
+      std::string(line::kSignal) + " title 'signal', '' using 1:3 with lines " + line::kSimulated +
+      " title 'tracker, simulated'\n";
   return {"frequency.svg",
-          "Frequency of the signal (broad grey) and of the tracker (thin black), rad/sample, along the "
+          "Frequency of the signal (broad, light) and of the tracker (thin), rad/sample, along the "
           "simulated run." +
               stride_remark(certificate),
-          run_gnuplot(script)};
+          run_gnuplot(script), "Frequency of signal and tracker along the simulated run"};
 }
 
 }  // namespace veritrack::reports

@@ -140,7 +140,8 @@ theorems::Derivation derive_kkl_claims(const KklClaimsQuestion& question) {
   derivation.verdict = Verdict::undecided;
   theorems::cite_findings(derivation);
   derivation.notes.emplace_back(
-      "A claim that is REFUTED here is refuted as the paper prints it, as far as the scan shows that. These "
+      "A claim that is not satisfied here is refuted as the paper prints it, as far as the scan shows that. "
+      "These "
       "verdicts concern the paper, not "
       "this design.");
   return derivation;

@@ -40,23 +40,47 @@ std::string requirement_section(const Certificate& certificate) {
   return text + markdown::table({"Requirement", "Verdict", "Ground"}, rows) + "\n";
 }
 
-/// Every sentence of certificate.json as the checker composes it anew.
-std::string checker_section(const Certificate& certificate, const MarkdownOptions& options) {
-  std::string text = fmt::format(
-      "## What the checker verifies\n\n`veritrack-verify certificate.json --markdown certificate.md` "
-      "verifies the "
-      "sentences below from the evidence in `certificate.json` (SHA-256 `{}`), and that this section, the "
-      "verdicts at "
-      "the top and what was required say just that. All else in this document is told: sampled values, "
-      "simulations, "
-      "comparisons and undecided statements prove nothing.\n\n",
-      options.certificate_sha256);
+/// Whether the claim is about a publication, not about the tracker: published-theorems.md has it. The checker
+/// has the same rule (checker/document/markdown_file.cpp).
+bool concerns_publication(const Claim& claim) {
+  return claim.id.starts_with("theorem-") || claim.id.starts_with("proposition-") ||
+         claim.id.ends_with("/conditions");
+}
+
+/// The decided sentences of that kind as the checker composes them anew, without those at the top.
+std::string sentences(const Certificate& certificate, bool on_publications) {
+  const std::string top = on_publications ? "" : kind_of(certificate.design).summary(certificate);
+  std::string text;
   for (const Claim& claim : certificate.claims) {
-    if (claim.verdict != Verdict::undecided) {
+    if (claim.verdict != Verdict::undecided && concerns_publication(claim) == on_publications &&
+        top.find(fmt::format("{}: {}\n", markdown::verdict(claim.verdict), claim.statement)) ==
+            std::string::npos) {
       text += fmt::format("- {} `{}`: {}\n", markdown::verdict(claim.verdict), claim.id, claim.statement);
     }
   }
-  return text + "\n";
+  return text + (text.empty() ? "" : "\n");
+}
+
+bool has_published(const Certificate& certificate) {
+  const TrackerKind& kind = kind_of(certificate.design);
+  return kind.published != nullptr && !kind.published(certificate).empty();
+}
+
+std::string checker_section(const Certificate& certificate, const MarkdownOptions& options) {
+  return fmt::format(
+             "## What the checker verifies\n\n`veritrack-verify certificate.json --markdown "
+             "certificate.md{}` "
+             "verifies the sentences at the top and those below from the evidence in `certificate.json` "
+             "(SHA-256 `{}`), and that "
+             "this document gives no verdict in capitals but those it verified: in the first line, at the "
+             "top, in what was required, and here. All else is told, and proves nothing: sampled values, "
+             "simulations, comparisons, undecided statements.{}\n\n",
+             has_published(certificate) ? " --markdown published-theorems.md" : "",
+             options.certificate_sha256,
+             has_published(certificate) ? " The sentences on published theorems are in "
+                                          "[published-theorems.md](published-theorems.md)."
+                                        : "") +
+         sentences(certificate, false);
 }
 
 std::string reproduction_section(const Certificate& certificate, const MarkdownOptions& options) {
@@ -99,10 +123,35 @@ std::string headline(const Certificate& certificate) {
   return (*certificate.verdict == Verdict::proved ? "" : "NOT PROVED. ") + text;
 }
 
+std::string picture(const FigureReference& figure) {
+  return fmt::format("![{}]({})\n\n*{}*\n\n", escaped(figure.title), figure.path, figure.caption);
+}
+
+std::string to_published_markdown(const Certificate& certificate, const MarkdownOptions& options) {
+  if (!has_published(certificate)) {
+    return "";
+  }
+  return fmt::format(
+             "# What published theorems say of this design\n\nBeside [certificate.md](certificate.md), for "
+             "the "
+             "design {}. No requirement and no guarantee of that certificate depends on anything here.\n\n",
+             escaped(certificate.design.name)) +
+         kind_of(certificate.design).published(certificate) +
+         fmt::format(
+             "## What the checker verifies\n\n`veritrack-verify certificate.json --markdown "
+             "published-theorems.md` verifies these sentences from `certificate.json` (SHA-256 `{}`), and "
+             "that "
+             "this document gives no other verdict in capitals. All else is told. A sentence on conditions "
+             "that is refuted means that the theorem does not apply to this design, not that the tracker "
+             "fails.\n\n",
+             options.certificate_sha256) +
+         sentences(certificate, true);
+}
+
 std::string to_markdown(const Certificate& certificate, const MarkdownOptions& options) {
   const TrackerKind& kind = kind_of(certificate.design);
   const std::string stopped = certificate.deadline.has_struck()
-                                  ? "*Stopped by the time limit.* What is PROVED is proved; what was not "
+                                  ? "*Stopped by the time limit.* What is proved is proved; what was not "
                                     "reached in time is UNDECIDED, "
                                     "and another run may reach more or less.\n\n"
                                   : "";

@@ -1,4 +1,4 @@
-// certificate.md: the certificate for people. The answer first, then the ground for it.
+// certificate.md and published-theorems.md: the certificate for people, and what papers say of its design.
 #pragma once
 
 #include <string>
@@ -12,18 +12,26 @@ namespace veritrack::certificates {
 /// it).
 struct FigureReference {
   std::string path;     ///< relative to the document, e.g. "figures/error.svg"
+  std::string title;    ///< what it shows, in a few words
   std::string caption;  ///< what is seen, with units
 };
 
 struct MarkdownOptions {
   std::vector<FigureReference> figures;
-  std::string certificate_sha256;  ///< of certificate.json beside it
+  std::string certificate_sha256;  ///< of certificate.json beside the document
   std::string
       drawn_with;  ///< name and version of the program that drew the figures; empty when there are none
 };
 
 /// The whole document. Same certificate and options, same bytes: no times, hosts or paths.
 [[nodiscard]] std::string to_markdown(const Certificate& certificate, const MarkdownOptions& options);
+
+/// published-theorems.md, the sentences on publications among it; empty when the kind of tracker has none.
+[[nodiscard]] std::string to_published_markdown(const Certificate& certificate,
+                                                const MarkdownOptions& options);
+
+/// The figure in a document: the picture, and its caption below.
+[[nodiscard]] std::string picture(const FigureReference& figure);
 
 /// The document's first line, without mark-up: what was required, and the verdict on it.
 [[nodiscard]] std::string headline(const Certificate& certificate);

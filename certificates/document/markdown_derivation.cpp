@@ -29,9 +29,9 @@ std::string conditions_table(const theorems::Derivation& derivation) {
   for (const theorems::Condition& condition : conditions) {
     rows.push_back({condition_name(condition.id), math(condition.statement),
                     rigor::is_empty(condition.lhs) ? "—" : enclosure(condition.lhs),
-                    verdict(condition.verdict), condition.reason});
+                    answer(condition.verdict), condition.reason});
   }
-  return table({"Condition", "Statement", "Left side", "Verdict", "Ground"}, rows);
+  return table({"Condition", "Statement", "Left side", "Satisfied", "Ground"}, rows);
 }
 
 std::string value_text(const theorems::Quantity& quantity, int enclosure_digits) {
@@ -63,6 +63,16 @@ std::string quantities_table(const theorems::Derivation& derivation, int enclosu
                     value_text(quantity, enclosure_digits)});
   }
   return table({"Quantity", "Symbol", "Formula", "Value"}, rows);
+}
+
+std::string values_table(const theorems::Derivation& derivation) {
+  std::vector<std::vector<std::string>> rows;
+  rows.reserve(derivation.quantities.size());
+  for (const theorems::Quantity& quantity : derivation.quantities) {
+    rows.push_back(
+        {quantity.words.empty() ? "`" + quantity.name + "`" : quantity.words, value_text(quantity)});
+  }
+  return table({"Quantity", "Value"}, rows);
 }
 
 std::string notes_list(const theorems::Derivation& derivation) {

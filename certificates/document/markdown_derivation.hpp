@@ -16,6 +16,9 @@ namespace veritrack::certificates::markdown {
 /// The quantities: what they are, symbol, formula, value.
 [[nodiscard]] std::string quantities_table(const theorems::Derivation& derivation, int enclosure_digits = 4);
 
+/// The same without symbols and formulas.
+[[nodiscard]] std::string values_table(const theorems::Derivation& derivation);
+
 /// The notes as a list; empty when there are none.
 [[nodiscard]] std::string notes_list(const theorems::Derivation& derivation);
 

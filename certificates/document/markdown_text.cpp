@@ -48,6 +48,16 @@ std::string verdict(rigor::Verdict value) {
   return "**" + word + "**";
 }
 
+std::string answer(rigor::Verdict value) {
+  return value == rigor::Verdict::proved ? "yes" : value == rigor::Verdict::refuted ? "no" : "undecided";
+}
+
+std::string satisfied(rigor::Verdict value) {
+  return value == rigor::Verdict::proved    ? "satisfied"
+         : value == rigor::Verdict::refuted ? "not satisfied"
+                                            : "undecided";
+}
+
 std::string escaped(std::string_view text) {
   static constexpr std::string_view kSpecial = "\\`*_{}[]()<>#+-!|$~&";
   std::string result;

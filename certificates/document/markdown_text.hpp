@@ -27,6 +27,13 @@ namespace veritrack::certificates::markdown {
 /// PROVED, REFUTED or UNDECIDED, in bold.
 [[nodiscard]] std::string verdict(rigor::Verdict value);
 
+/// "yes", "no" or "undecided": for what is told beside the compared verdicts. Only those are written in
+/// capitals, so that the checker can object to every other.
+[[nodiscard]] std::string answer(rigor::Verdict value);
+
+/// "satisfied", "not satisfied" or "undecided", of conditions.
+[[nodiscard]] std::string satisfied(rigor::Verdict value);
+
 /// Text from the user, with everything escaped that Markdown would interpret.
 [[nodiscard]] std::string escaped(std::string_view text);
 

@@ -32,6 +32,8 @@ struct TrackerKind {
 
   // What not every kind has: null where it has none.
 
+  /// The sections of published-theorems.md: what the papers say of the design. Empty when that is nothing.
+  std::string (*published)(const Certificate& certificate) = nullptr;
   /// Its search ends when the deadline of the certificate is over.
   bool limited_in_time = false;
   /// Members of certificate.json beside derivations and claims, from which something is verified.

@@ -1,4 +1,4 @@
-// certificate.md of a KKL observer.
+// The documents of a KKL observer.
 #pragma once
 
 #include <string>
@@ -11,8 +11,11 @@ namespace veritrack::certificates {
 /// The sentences of [require] that are decided, a line each.
 [[nodiscard]] std::string kkl_observer_summary(const Certificate& certificate);
 
-/// Design, assumptions, what is certified of them, the paper's claims, figures and coverage.
+/// Design, assumptions, what is certified of them, figures and coverage.
 [[nodiscard]] std::string kkl_observer_sections(const Certificate& certificate,
                                                 const MarkdownOptions& options);
+
+/// The paper's claims and its simulations.
+[[nodiscard]] std::string kkl_observer_published(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

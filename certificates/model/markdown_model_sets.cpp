@@ -184,8 +184,7 @@ std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker,
 std::string model_picture(const MarkdownOptions& options, std::string_view file) {
   for (const FigureReference& figure : options.figures) {
     if (figure.path.ends_with(file)) {
-      return fmt::format("![{}]({})\n\n*{}*\n\n", markdown::escaped(figure.caption), figure.path,
-                         figure.caption);
+      return picture(figure);
     }
   }
   return "";

@@ -68,23 +68,36 @@ void add_comparison(Certificate& certificate) {
                              Interval(limits.noise), Interval(limits.rate), true});
 }
 
-std::string comparison_section(const Certificate& certificate) {
+std::string comparison_section(const Certificate& certificate, ComparedResults which) {
   if (quadrature_particulars(certificate).comparison.empty()) {
     return "";
   }
   std::vector<std::vector<std::string>> rows;
   rows.reserve(quadrature_particulars(certificate).comparison.size());
   for (const ComparedResult& row : quadrature_particulars(certificate).comparison) {
+    const bool belongs =
+        row.simulated || row.result == "contraction" || row.result.starts_with("theorem-2.9/");
+    if (which == ComparedResults::of_the_theorem && !belongs) {
+      continue;
+    }
     rows.push_back({row.simulated ? "*simulation, no proof*" : "`" + row.result + "`",
                     bound_text(row, row.frequency_error, Direction::down),
                     bound_text(row, row.noise, Direction::down), bound_text(row, row.rate, Direction::up),
-                    row.verdict ? markdown::verdict(*row.verdict) : "—"});
+                    row.verdict ? markdown::satisfied(*row.verdict) : "—"});
   }
-  std::string text = "## What each result certifies, side by side\n\n";
+  std::string text = which == ComparedResults::all ? "## What each result certifies, side by side\n\n"
+                                                   : "## How it compares\n\n";
   text += markdown::table({"Result", "Largest start error of the frequency, rad/sample",
                            "Largest noise, relative to the amplitude", "Rate per sample",
                            "Conditions for the assumed start and noise"},
                           rows);
+  if (which == ComparedResults::of_the_theorem) {
+    return text +
+           "\n*contraction* is this certificate. The simulation is for one frequency, exact phase and "
+           "amplitude, and a few noise patterns. Theorem 2.9 is the published theorem for this filter: "
+           "[published-theorems.md](published-theorems.md) has its constants and all other results, and says "
+           "what the columns mean.\n\n";
+  }
   return text +
          "\nThe table gives the largest certified start error and the largest certified noise; \"none\" "
          "means that the result certifies none for this design. Where a result has both, start errors assume "

@@ -12,7 +12,12 @@ namespace veritrack::certificates {
 /// there.
 void add_comparison(Certificate& certificate);
 
+enum class ComparedResults {
+  of_the_theorem,  ///< the readings of Theorem 2.9, contraction, and the simulation
+  all
+};
+
 /// The table. Empty when there is nothing to compare.
-[[nodiscard]] std::string comparison_section(const Certificate& certificate);
+[[nodiscard]] std::string comparison_section(const Certificate& certificate, ComparedResults which);
 
 }  // namespace veritrack::certificates

@@ -167,8 +167,8 @@ void add_lock(Certificate& certificate) {
 std::string lock_section(const Certificate& certificate) {
   std::string text;
   for (const theorems::Derivation& derivation : derivations_of(certificate, "lock")) {
-    text += fmt::format("## What is certified for it: the probability of losing lock, {}\n\n",
-                        markdown::verdict(derivation.verdict));
+    text += fmt::format("## What is certified for it: the probability of losing lock, conditions {}\n\n",
+                        markdown::satisfied(derivation.verdict));
     text += fmt::format("{}. The proof is in `{}` of the program's sources.\n\n", derivation.title,
                         derivation.quantities.front().source);
     text += markdown::conditions_table(derivation) + "\n" + markdown::quantities_table(derivation) + "\n" +

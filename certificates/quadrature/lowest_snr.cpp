@@ -143,9 +143,10 @@ std::string lowest_snr_section(const Certificate& certificate) {
     return {};
   }
   return fmt::format(
-             "## The lowest signal-to-noise ratio, {}\n\n{}. The simulated ratio and that of the union "
+             "## The lowest signal-to-noise ratio, conditions {}\n\n{}. The simulated ratio and that of the "
+             "union "
              "bound are for comparison, and prove nothing.\n\n",
-             markdown::verdict(derivation->verdict), derivation->title) +
+             markdown::satisfied(derivation->verdict), derivation->title) +
          markdown::conditions_table(*derivation) + "\n" + markdown::quantities_table(*derivation) + "\n";
 }
 

@@ -39,7 +39,7 @@ std::string other_results_section(const Certificate& certificate) {
       "for this design at amplitude 1. Where a result was printed with an error, the reading that can be "
       "proved is also given. No requirement depends on them.\n\n";
   for (const theorems::Derivation& derivation : results) {
-    text += fmt::format("### {}: {}\n\n", derivation.title, markdown::verdict(derivation.verdict));
+    text += fmt::format("### {}: {}\n\n", derivation.title, markdown::satisfied(derivation.verdict));
     text += markdown::conditions_table(derivation) + "\n";
     const std::string notes = markdown::notes_list(derivation);
     text += notes.empty() ? "" : notes + "\n";

@@ -1,4 +1,4 @@
-// The parts of certificate.md about the results beside Theorem 2.9.
+// The parts of published-theorems.md about the results beside Theorem 2.9.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The part of certificate.md that shows a published theorem, in its several readings side by side.
+// The part of published-theorems.md that shows a published theorem, in its several readings side by side.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace veritrack::certificates {
 
-/// The theorem and the simulated run in a few lines of numbers.
-[[nodiscard]] std::string summary_section(const Certificate& certificate);
+/// The theorem in a few lines of numbers.
+[[nodiscard]] std::string theorem_summary(const Certificate& certificate);
 
 /// Conditions with verdicts, reading by reading, and their notes.
 [[nodiscard]] std::string conditions_section(const Certificate& certificate);

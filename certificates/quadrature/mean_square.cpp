@@ -110,8 +110,8 @@ std::string mean_square_section(const Certificate& certificate) {
   if (derivation == nullptr) {
     return {};
   }
-  return fmt::format("## The mean square of the frequency error in lock, {}\n\n{}.\n\n",
-                     markdown::verdict(derivation->verdict), derivation->title) +
+  return fmt::format("## The mean square of the frequency error in lock, conditions {}\n\n{}.\n\n",
+                     markdown::satisfied(derivation->verdict), derivation->title) +
          markdown::conditions_table(*derivation) + "\n" + markdown::quantities_table(*derivation) + "\n" +
          (derivation->notes.empty() ? "" : markdown::notes_list(*derivation) + "\n");
 }

@@ -79,7 +79,7 @@ Claim applicability_claim(const theorems::Derivation& derivation) {
   claim.statement =
       fmt::format("The design and the assumed start satisfy all conditions of {}.", derivation.title);
   claim.verdict = derivation.verdict;
-  claim.reason = "All conditions are PROVED.";
+  claim.reason = "All conditions are satisfied.";
   for (const theorems::Condition& condition : derivation.conditions) {
     if (condition.verdict != Verdict::proved && (claim.verdict == condition.verdict)) {
       claim.reason = fmt::format("({}): {}", condition.id, condition.reason);

@@ -10,6 +10,7 @@
 #include "certificates/document/tracker_kind.hpp"
 #include "certificates/quadrature/comparison_table.hpp"
 #include "certificates/quadrature/coq_theorem_2_9.hpp"
+#include "certificates/quadrature/guarantee.hpp"
 #include "certificates/quadrature/lock.hpp"
 #include "certificates/quadrature/lowest_snr.hpp"
 #include "certificates/quadrature/markdown_other_results.hpp"
@@ -52,28 +53,34 @@ std::string design_section(const Certificate& certificate) {
 }
 
 std::string coverage_section() {
-  return "## What this certificate covers, and what it does not\n\n- Covered: every enclosure here was "
-         "computed with outward-rounded interval arithmetic from the design values; the true value lies in "
-         "it. A verdict PROVED or REFUTED follows from the enclosures; UNDECIDED means that neither could be "
-         "shown.\n- The contraction certificate is valid for every signal and every start that satisfy the "
-         "assumptions: any noise and any change of frequency within the bounds, with any statistics. It "
-         "covers a signal of constant amplitude.\n- The tracker is covered as it runs in double precision: "
-         "IEEE 754, rounding to nearest, sine and cosine of the C library within 1 ulp, without -ffast-math. "
-         "What rounding adds to a step is bounded and added to noise and slew (docs/rounding.md). The "
-         "theorems "
-         "of other authors are about exact arithmetic.\n- Theorem 2.9 is evaluated, not endorsed: the "
-         "readings *printed* and *errata* follow the thesis literally. Conditions that are PROVED in them "
-         "are no guarantee by themselves, and no PROVED requirement depends on them. A REFUTED condition "
-         "means that the theorem does not apply to this design, not that the tracker fails.\n- The audit and "
-         "the figures are one simulated run in double precision; its numbers are marked ≈ and prove nothing. "
-         "A bound that the run violates is not a bound for that run.\n\n";
+  return "## What this certificate covers, and what it does not\n\n- Covered: every signal and every start "
+         "that "
+         "satisfy the assumptions, any noise and any change of frequency within the bounds, with any "
+         "statistics, at constant amplitude.\n- The tracker is covered as it runs in double precision: IEEE "
+         "754, rounding to nearest, sine and cosine of the C library within 1 ulp, without -ffast-math. What "
+         "rounding adds to a step is bounded and added to noise and slew (docs/rounding.md).\n- Every "
+         "enclosure was computed with outward-rounded interval arithmetic: the true value lies in it.\n- "
+         "Simulated numbers are marked ≈ and prove nothing.\n\n";
+}
+
+/// The words of the guarantee, without "and with".
+std::string start_covariance_of(const Certificate& certificate) {
+  const std::string words = start_covariance_words(certificate);
+  return words.substr(words.find("P(0|0)"));
 }
 
 std::string summary(const Certificate& certificate) {
+  return guarantee_section(certificate);
+}
+
+/// Theorem 2.9 and the other results of papers are about noise with a bound.
+std::string published(const Certificate& certificate) {
   if (quadrature_tables(certificate.design).assume.gaussian) {
-    return guarantee_section(certificate);
+    return "";
   }
-  return guarantee_section(certificate) + summary_section(certificate);
+  return theorem_summary(certificate) + comparison_section(certificate, ComparedResults::all) +
+         conditions_section(certificate) + proof_section(certificate) + other_results_section(certificate) +
+         constants_section(certificate) + other_constants_section(certificate) + audit_section(certificate);
 }
 
 std::string sections(const Certificate& certificate, const MarkdownOptions& options) {
@@ -83,11 +90,9 @@ std::string sections(const Certificate& certificate, const MarkdownOptions& opti
            mean_square_section(certificate) + lowest_snr_section(certificate) +
            simulated_run_section(certificate, tables.simulate, options) + lock_coverage_section();
   }
-  return design_section(certificate) + assumptions_section(tables.assume) + contraction_section(certificate) +
-         comparison_section(certificate) + simulated_run_section(certificate, tables.simulate, options) +
-         conditions_section(certificate) + proof_section(certificate) + other_results_section(certificate) +
-         constants_section(certificate) + other_constants_section(certificate) + audit_section(certificate) +
-         coverage_section();
+  return design_section(certificate) + assumptions_section(tables.assume, start_covariance_of(certificate)) +
+         contraction_section(certificate) + comparison_section(certificate, ComparedResults::of_the_theorem) +
+         simulated_run_section(certificate, tables.simulate, options) + coverage_section();
 }
 
 }  // namespace
@@ -98,6 +103,7 @@ const TrackerKind& quadrature_kind() {
                                 .certify = certify_quadrature,
                                 .summary = summary,
                                 .sections = sections,
+                                .published = published,
                                 .evidence_json = quadrature_evidence_json,
                                 .report_json = quadrature_report_json,
                                 .formal_proofs = coq::theorem_2_9_proofs,

@@ -71,7 +71,7 @@ std::string proof_section(const Certificate& certificate) {
       row = found.insert(found.end(), {place.name, {}, {}, {}});
     }
     add(row->sentences, markdown::escaped(claim.statement), place.reading);
-    add(row->verdicts, markdown::verdict(claim.verdict), place.reading);
+    add(row->verdicts, markdown::answer(claim.verdict), place.reading);
     add(row->witnesses, markdown::escaped(claim.reason), place.reading);
   }
   if (found.empty()) {
@@ -82,13 +82,14 @@ std::string proof_section(const Certificate& certificate) {
       "Each possible gap in the proof (La Scala 1994, chapter 2 and section 3.5) is a sentence with a "
       "verdict. The witness is a point, or a set, where both sides can be evaluated again. Where the "
       "readings differ, both are given; *general* means for every system, *repaired* is our own "
-      "correction. The witness of a REFUTED sentence begins with the kind of mistake, and the place.\n\n";
+      "correction. The witness of a sentence that is not true begins with the kind of mistake, and the "
+      "place.\n\n";
   std::vector<std::vector<std::string>> rows;
   rows.reserve(found.size());
   for (const Row& row : found) {
     rows.push_back({"`" + row.name + "`", cell(row.sentences), cell(row.verdicts), cell(row.witnesses)});
   }
-  return text + markdown::table({"Place", "What the proof says", "Verdict", "Witness"}, rows) + "\n";
+  return text + markdown::table({"Place", "What the proof says", "True", "Witness"}, rows) + "\n";
 }
 
 }  // namespace veritrack::certificates

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -48,7 +50,7 @@ std::string rows_text(const CovarianceArray& covariance) {
   return text;
 }
 
-std::string covariance_text(const Assumptions& assume) {
+std::string covariance_text(const Assumptions& assume, const std::string& found) {
   const std::string rows = "in the frame of the estimated phase, row by row:";
   if (const auto& range = assume.covariance_range) {
     return fmt::format("every one {} from{} to{}", rows, rows_text((*range)[0]), rows_text((*range)[1]));
@@ -60,12 +62,27 @@ std::string covariance_text(const Assumptions& assume) {
         (*multiples)[0].text, (*multiples)[1].text);
   }
   return assume.initial_covariance ? rows + rows_text(*assume.initial_covariance)
+         : !found.empty()          ? markdown::escaped(found)
                                    : "that of the guarantee, next to or below the filter's steady state";
+}
+
+/// Of the frequency, along the run and over its second half; nothing without a run.
+std::optional<std::pair<double, double>> largest_errors(const theorems::Trajectory& run) {
+  if (run.empty()) {
+    return std::nullopt;
+  }
+  std::pair<double, double> largest{0.0, 0.0};
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const double error = std::fabs(run[k].filtered_state[2] - run[k].true_state[2]);
+    largest.first = std::max(largest.first, error);
+    largest.second = 2 * k >= run.size() ? std::max(largest.second, error) : largest.second;
+  }
+  return largest;
 }
 
 }  // namespace
 
-std::string assumptions_section(const Assumptions& assume) {
+std::string assumptions_section(const Assumptions& assume, const std::string& covariance) {
   const auto row = [](const std::string& what, const std::string& relation, const std::string& value,
                       const std::string& unit) {
     return std::vector<std::string>{what, relation.empty() ? value : math(relation) + " " + value, unit};
@@ -103,7 +120,8 @@ std::string assumptions_section(const Assumptions& assume) {
            row("error of phase at the start", "\\le", code(assume.initial_phase_error), "rad"),
            row("error of amplitude at the start", "\\le", code(assume.initial_amplitude_error),
                "signal units"),
-           row("covariance at the start", "P(0|0):", covariance_text(assume), "")}) {
+           row("covariance at the start", "P(0|0):", covariance_text(assume, covariance),
+               "signal units² (the first two rows and columns), (rad/sample)² (the last entry)")}) {
     rows.push_back(std::move(start));
   }
   text += markdown::table({"Assumption", "Value", "Unit"}, rows);
@@ -122,11 +140,17 @@ std::string simulated_run_section(const Certificate& certificate, const Simulati
       "The double-precision tracker on the signal `{}`, {} samples, seed {}, started with the largest "
       "assumed start errors. A simulation proves nothing; it is for comparison with the bounds.\n\n",
       run.signal, run.samples, run.seed);
+  if (const auto error = largest_errors(certificate.simulation.trajectory)) {
+    text += fmt::format(
+        "Its frequency error is at most ≈ {:.3g} rad/sample, and ≈ {:.3g} rad/sample over its second "
+        "half.\n\n",
+        error->first, error->second);
+  }
   for (const std::string& note : certificate.simulation.notes) {
     text += note + "\n\n";
   }
   for (const FigureReference& figure : options.figures) {
-    text += fmt::format("![{}]({})\n\n*{}*\n\n", escaped(figure.caption), figure.path, figure.caption);
+    text += picture(figure);
   }
   return text;
 }

@@ -9,8 +9,9 @@
 
 namespace veritrack::certificates {
 
-/// What is assumed of the signal and the start.
-[[nodiscard]] std::string assumptions_section(const Assumptions& assume);
+/// What is assumed of the signal and the start. `covariance`: P(0|0) in words, where the design leaves it to
+/// the certificate.
+[[nodiscard]] std::string assumptions_section(const Assumptions& assume, const std::string& covariance = "");
 
 /// The simulated run with its figures. Empty without figures.
 [[nodiscard]] std::string simulated_run_section(const Certificate& certificate, const SimulationSettings& run,

@@ -10,7 +10,7 @@ namespace veritrack::certificates {
 namespace {
 
 std::string derivation_tables(const theorems::Derivation& derivation) {
-  return markdown::conditions_table(derivation) + "\n" + markdown::quantities_table(derivation) + "\n" +
+  return markdown::conditions_table(derivation) + "\n" + markdown::values_table(derivation) + "\n" +
          (derivation.notes.empty() ? "" : markdown::notes_list(derivation) + "\n");
 }
 
@@ -19,8 +19,8 @@ std::string derivation_tables(const theorems::Derivation& derivation) {
 std::string contraction_section(const Certificate& certificate) {
   std::string text;
   for (const theorems::Derivation& derivation : derivations_of(certificate, "contraction")) {
-    text += fmt::format("## What is certified for it: contraction, {}\n\n",
-                        markdown::verdict(derivation.verdict));
+    text += fmt::format("## What is certified for it: contraction, conditions {}\n\n",
+                        markdown::satisfied(derivation.verdict));
     text += fmt::format("{}. The proof is in `{}` of the program's sources.\n\n", derivation.title,
                         derivation.quantities.front().source);
     text += derivation_tables(derivation);
@@ -29,8 +29,8 @@ std::string contraction_section(const Certificate& certificate) {
     const char* disturbed = derivation.id == "capture"              ? "under the assumed noise and slew"
                             : derivation.id == "capture/noise-free" ? "without noise and slew"
                                                                     : "under less noise and slew";
-    text += fmt::format("## Starts beyond the certified set: capture {}, {}\n\n", disturbed,
-                        markdown::verdict(derivation.verdict));
+    text += fmt::format("## Starts beyond the certified set: capture {}, conditions {}\n\n", disturbed,
+                        markdown::satisfied(derivation.verdict));
     text += derivation.title +
             ", by verified propagation: boxes of starts are followed sample by sample, for all noise and "
             "slew within the bounds, and are bisected where they cannot be followed.\n\n";

@@ -51,21 +51,22 @@ std::vector<Derivation> biases(const Certificate& certificate) {
 std::string bias_sentence(const Certificate& certificate, const Derivation& bias) {
   const std::string frequency = frequency_text(certificate, bias);
   if (bias.verdict != Verdict::proved) {
-    return fmt::format("The steady-state frequency error on a noise-free tone of {} rad/sample is {}: {}",
-                       frequency, markdown::verdict(bias.verdict), bias.conditions.front().reason);
+    return fmt::format(
+        "The steady-state frequency error on a noise-free tone of {} rad/sample is not enclosed: {}",
+        frequency, bias.conditions.front().reason);
   }
   if (value_of(bias, "min_error") == Interval(0.0) && value_of(bias, "max_error") == Interval(0.0)) {
     return fmt::format(
-        "{}: in exact arithmetic, on a noise-free tone of {} rad/sample, the steady-state frequency error "
-        "is exactly zero.",
-        markdown::verdict(bias.verdict), frequency);
+        "In exact arithmetic, on a noise-free tone of {} rad/sample, the steady-state frequency error is "
+        "exactly zero.",
+        frequency);
   }
   return fmt::format(
-      "{}: in exact arithmetic, on a noise-free tone of {} rad/sample, the steady-state frequency error has "
+      "In exact arithmetic, on a noise-free tone of {} rad/sample, the steady-state frequency error has "
       "the mean {} "
       "rad/sample; it varies with the phase between the minimum {} and the maximum {} rad/sample.",
-      markdown::verdict(bias.verdict), frequency, enclosure(value_of(bias, "mean_bias"), 6),
-      enclosure(value_of(bias, "min_error"), 4), enclosure(value_of(bias, "max_error"), 4));
+      frequency, enclosure(value_of(bias, "mean_bias"), 6), enclosure(value_of(bias, "min_error"), 4),
+      enclosure(value_of(bias, "max_error"), 4));
 }
 
 /// The bias of the quadrature tracker of the same design values.
@@ -92,7 +93,8 @@ std::string single_channel_summary(const Certificate& certificate) {
   std::string text = "- " + bias_sentence(certificate, middle_bias(certificate)) + "\n";
   for (const Claim& claim : certificate.claims) {
     if (claim.id == "single-channel/exponentially-stable-steady-state") {
-      text += fmt::format("- {}: {} {}\n", markdown::verdict(claim.verdict), claim.statement, claim.reason);
+      text +=
+          fmt::format("- {} True: {}. {}\n", claim.statement, markdown::answer(claim.verdict), claim.reason);
     }
   }
   int proved = 0;
@@ -108,8 +110,8 @@ std::string single_channel_summary(const Certificate& certificate) {
     }
   }
   return text + fmt::format(
-                    "- Of the statements on the paper's Propositions 1 and 2, {} are **PROVED**, {} "
-                    "**UNDECIDED**; **REFUTED**: {} (see *What was found about the paper*).\n\n",
+                    "- Of the statements on the paper's Propositions 1 and 2, {} are true, {} undecided; "
+                    "false: {} (see `published-theorems.md`).\n\n",
                     proved, undecided, refuted.empty() ? "none" : refuted);
 }
 
@@ -159,14 +161,14 @@ std::string bias_section(const Certificate& certificate) {
     const theorems::Quantity& around = find_quantity(bias, "mean_bias_around");
     rows.push_back({frequency_text(certificate, bias), cell("mean_bias", 6), cell("min_error", 4),
                     cell("max_error", 4), around.not_applicable ? "not verified" : enclosure(around.value, 4),
-                    markdown::verdict(bias.verdict), quadrature_cell(bias),
+                    markdown::answer(bias.verdict), quadrature_cell(bias),
                     theorems::applicable_quantity(bias, "contraction_rate") != nullptr
                         ? cell("contraction_rate", 3)
                         : bias.conditions.front().reason});
   }
   return text +
          markdown::table({"Frequency, rad/sample", "Mean bias", "Smallest error", "Largest error",
-                          "Mean bias within 0.002 rad/sample of it", "Verdict", "Quadrature tracker",
+                          "Mean bias within 0.002 rad/sample of it", "Enclosed", "Quadrature tracker",
                           "Rate, or why there is none"},
                          rows) +
          "\n";
@@ -174,29 +176,28 @@ std::string bias_section(const Certificate& certificate) {
 
 std::string transfer_function_section(const Certificate& certificate) {
   const Derivation derivation = derivations_of(certificate, "single-channel/transfer-function").at(0);
-  return "## The frozen filter\n\n" + derivation.title + ": " + markdown::verdict(derivation.verdict) +
-         ".\n\n" + markdown::quantities_table(derivation) + "\n" + markdown::conditions_table(derivation) +
-         "\n" + markdown::notes_list(derivation) + "\n";
+  return "## The frozen filter\n\n" + derivation.title + ": conditions " +
+         markdown::satisfied(derivation.verdict) + ".\n\n" + markdown::quantities_table(derivation) + "\n" +
+         markdown::conditions_table(derivation) + "\n" + markdown::notes_list(derivation) + "\n";
 }
 
 std::string proposition_section(const Certificate& certificate) {
   std::vector<std::vector<std::string>> rows;
   for (const Claim& claim : certificate.claims) {
-    if (!claim.required) {
-      rows.push_back({"`" + claim.id + "`", claim.statement, markdown::verdict(claim.verdict), claim.reason});
+    if (claim.id.starts_with("proposition-")) {
+      rows.push_back({"`" + claim.id + "`", claim.statement, markdown::answer(claim.verdict), claim.reason});
     }
   }
   return "## What was found about the paper\n\nS. Bittanti and S. M. Savaresi, *On the Parameterization and "
          "Design of an Extended Kalman Filter Frequency Tracker*, IEEE Trans. Automatic Control 45(9), "
          "2000.\n\n" +
-         markdown::table({"Claim", "Statement", "Verdict", "Ground"}, rows) + "\n";
+         markdown::table({"Claim", "Statement", "True", "Ground"}, rows) + "\n";
 }
 
 std::string single_channel_coverage_section() {
   return "## What this certificate covers, and what it does not\n\n- Covered: every enclosure was computed "
-         "with outward-rounded interval arithmetic from the design values; the true value lies in it. A "
-         "verdict PROVED or REFUTED follows from the enclosures; UNDECIDED means that neither could be "
-         "shown.\n- The contraction certificate is valid at every phase, for every frequency that stays in "
+         "with outward-rounded interval arithmetic from the design values; the true value lies in it.\n- The "
+         "contraction certificate is valid at every phase, for every frequency that stays in "
          "the band, and for any noise and any change of frequency within the bounds, with any statistics. It "
          "covers a tracker without a leak, started with the steady-state covariance, and a signal of "
          "constant amplitude.\n- The bias is that of the steady state which the tracker reaches from the "

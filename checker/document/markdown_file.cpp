@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <vector>
+
+#include "checker/document/sha256.hpp"
 
 namespace veritrack::checker {
 
@@ -22,6 +25,34 @@ Lines lines_of(const std::string& document) {
     lines.push_back(line);
   }
   return lines;
+}
+
+/// Whether a claim is about a publication, not about the tracker.
+bool concerns_publication(const std::string& id) {
+  return id.starts_with("theorem-") || id.starts_with("proposition-") || id.ends_with("/conditions");
+}
+
+/// The block with the text of the design file: where its lines begin and end. Whoever reads the document sees
+/// a design there, so that its words say nothing of verdicts.
+std::optional<std::pair<std::size_t, std::size_t>> design_text(const Lines& lines, const std::string& hash) {
+  const auto fence = [](const std::string& line) { return line.starts_with("```"); };
+  const auto last = std::find_if(lines.rbegin(), lines.rend(), fence);
+  const auto first =
+      last == lines.rend() ? lines.rend() : std::find_if(last + 1, lines.rend(), [](const auto& line) {
+        return line.starts_with("```") && line.ends_with("toml");
+      });
+  if (first == lines.rend()) {
+    return std::nullopt;
+  }
+  const auto begin = static_cast<std::size_t>(lines.rend() - first);
+  const auto end = static_cast<std::size_t>(lines.rend() - last) - 1;
+  std::string text;
+  for (std::size_t i = begin; i < end; ++i) {
+    text += lines[i] + "\n";
+  }
+  const bool is_it =
+      sha256(text) == hash || (!text.empty() && sha256(text.substr(0, text.size() - 1)) == hash);
+  return is_it ? std::optional(std::pair(begin, end)) : std::nullopt;
 }
 
 /// The lines from that heading to the next, without both; all up to the first heading for an empty one.
@@ -50,6 +81,26 @@ void check_lines(const Lines& section, const std::string& beginning, const Lines
   }
 }
 
+/// No verdict stands where it was not compared.
+void check_elsewhere(const Verification& verified, const Lines& lines, const Lines& compared,
+                     Objections& objections) {
+  const auto design = design_text(lines, verified.design_sha256);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (design && i >= design->first && i < design->second) {
+      continue;
+    }
+    const auto known = std::find_if(compared.begin(), compared.end(), [&](const std::string& one) {
+      return lines[i] == one || (one.starts_with("| ") && lines[i].starts_with(one));
+    });
+    const std::string rest = known == compared.end() ? lines[i] : lines[i].substr(known->size());
+    if (rest.find("PROVED") != std::string::npos || rest.find("REFUTED") != std::string::npos) {
+      objections.push_back("line " + std::to_string(i + 1) +
+                           " of the document gives a verdict that was not verified");
+      return;
+    }
+  }
+}
+
 /// "| requirement | **VERDICT** |" of a row of the table.
 std::string first_two_cells(const std::string& row) {
   const std::size_t second = row.find(" | ", row.find(" | ") + 1);
@@ -70,25 +121,32 @@ std::string headline(const Verification& verified) {
 void compare_with_markdown(const Verification& verified, const std::string& certificate_sha256,
                            const std::string& document, Objections& objections) {
   const Lines lines = lines_of(document);
-  if (lines.empty() || lines[0] != headline(verified)) {
-    objections.emplace_back("the document begins with another headline: " + headline(verified));
+  const bool is_published = !lines.empty() && lines[0] == kPublishedHeadline;
+  const std::string first = is_published ? kPublishedHeadline : headline(verified);
+  if (lines.empty() || lines[0] != first) {
+    objections.emplace_back("the document begins with another headline: " + first);
   }
   if (document.find(certificate_sha256) == std::string::npos) {
     objections.emplace_back("the document does not name the SHA-256 of the certificate");
   }
   Lines top;
+  for (const Sentence& sentence : verified.sentences) {
+    if (sentence.is_summary && !is_published) {
+      top.push_back("**" + word(sentence.verdict) + "**: " + sentence.text);
+    }
+  }
   Lines all;
   for (const Sentence& sentence : verified.sentences) {
     const std::string verdict = "**" + word(sentence.verdict) + "**";
-    if (sentence.is_summary) {
-      top.push_back(verdict + ": " + sentence.text);
+    const bool is_at_top = std::find(top.begin(), top.end(), verdict + ": " + sentence.text) != top.end();
+    if (concerns_publication(sentence.id) == is_published && !is_at_top) {
+      all.push_back("- " + verdict + " `" + sentence.id + "`: " + sentence.text);
     }
-    all.push_back("- " + verdict + " `" + sentence.id + "`: " + sentence.text);
   }
   check_lines(section(lines, ""), "**", top, "in the block at the top", objections);
   check_lines(section(lines, kSectionOfTheChecker), "- ", all, "in the section of the checker", objections);
   Lines rows;
-  for (const Requirement& requirement : verified.requirements) {
+  for (const Requirement& requirement : is_published ? std::vector<Requirement>{} : verified.requirements) {
     rows.push_back("| " + requirement.text + " | **" + word(requirement.verdict) + "** |");
   }
   Lines found;
@@ -100,6 +158,11 @@ void compare_with_markdown(const Verification& verified, const std::string& cert
   if (found != rows) {
     objections.emplace_back("the document says something else than was verified of what is required");
   }
+  Lines compared{first};
+  for (const Lines& some : {top, all, rows}) {
+    compared.insert(compared.end(), some.begin(), some.end());
+  }
+  check_elsewhere(verified, lines, compared, objections);
 }
 
 }  // namespace veritrack::checker

@@ -85,11 +85,11 @@ std::vector<Figure> draw_kkl_figures(const certificates::Certificate& certificat
            "The simulations of the paper's section V (its Figures 1 to 6) with the ell in use: estimated "
            "amplitude and frequency over time (s) under a disturbance of amplitude 0.2 at 10, 100 and 1000 "
            "rad/s. Where a line is missing the observer has no estimate.",
-           draw(kkl, {amplitude, frequency}, 30.0)},
+           draw(kkl, {amplitude, frequency}, 30.0), "Estimates in the simulations of section V"},
           {"section-v-adaptive.svg",
            "The adaptive observer on the same signals (the paper's Figures 7 to 9), with our own parameters: "
            "estimated frequency over time (s).",
-           draw(adaptive, {frequency}, 180.0)}};
+           draw(adaptive, {frequency}, 180.0), "The adaptive observer on the same signals"}};
 }
 
 }  // namespace veritrack::reports

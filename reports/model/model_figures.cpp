@@ -20,9 +20,9 @@ namespace veritrack::reports {
 
 namespace {
 
+using certificates::FrequencyUnits;
 using certificates::ModelCell;
 using certificates::ModelSet;
-using certificates::FrequencyUnits;
 using model::ProvedTube;
 
 /// A value over each cell of frequencies, as a data block: two lines a cell.
@@ -104,7 +104,7 @@ Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::
                       "band, the ripple to be below the solid line; the dashed lines are computed from the "
                       "curve of the certificate in floating point and are not proved.",
                       unit),
-          run_gnuplot(script)};
+          run_gnuplot(script), "Bias and ripple over the frequency of the signal"};
 }
 
 /// How far each tube of a set reaches, proved as for the whole set.
@@ -151,7 +151,7 @@ Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& 
                       "phase a set contains states with a frequency error of that size. Proved for each cell "
                       "of frequencies.",
                       units.drawn_unit()),
-          run_gnuplot(script + plot + "\n")};
+          run_gnuplot(script + plot + "\n"), "How far the certified sets reach"};
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ MapResult write_model_map(const certificates::Design& design, const MapRequest& 
     return {std::nullopt, result.reason};
   }
   const ModelMap& map = *result.found;
-  const Figure figure = draw_model_map(map);
+  const Figure figure = with_title(draw_model_map(map));
   std::filesystem::path document = directory / "map.md";
   certificates::OutputFiles files;
   files.stage(document, model_map_document(design, map, figure));

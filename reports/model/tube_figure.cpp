@@ -158,7 +158,7 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
           set.noise > 0.0
               ? ", with the noise that pushes outward most at every sample, at a constant frequency"
               : ""),
-      run_gnuplot(script)};
+      run_gnuplot(script), "The certified tube, with simulated runs"};
 }
 
 }  // namespace veritrack::reports

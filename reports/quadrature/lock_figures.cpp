@@ -152,11 +152,11 @@ std::vector<Figure> draw_lock_figures(const Certificate& certificate) {
            "certificate); counted in simulation (circles) and extrapolated with log rate linear in 1/sigma^2 "
            "(dashed), which proves nothing; and what the certificate for bounded noise would give, by the "
            "probability that its noise is exceeded (grey).",
-           over_decibels(curves)},
+           over_decibels(curves), "Probability of losing lock over the signal-to-noise ratio"},
           {"lock-samples.svg",
            "Probability of losing lock within so many samples, each at a ratio of its own: certified, "
            "simulated and extrapolated, which proves nothing, and by the union bound.",
-           over_sample_numbers(curves)}};
+           over_sample_numbers(curves), "Probability of losing lock within so many samples"}};
 }
 
 }  // namespace veritrack::reports

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "certificates/quadrature/guarantee.hpp"
@@ -11,6 +13,7 @@
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/quadrature/tube.hpp"
 #include "reports/gnuplot.hpp"
+#include "reports/line_styles.hpp"
 #include "reports/quadrature/lock_figures.hpp"
 #include "reports/quadrature/region_map.hpp"
 #include "reports/simulated_run.hpp"
@@ -22,14 +25,39 @@ namespace {
 using certificates::Certificate;
 using theorems::TrajectoryRecord;
 
-/// Dash patterns that can be told apart in grey.
-constexpr std::array kDashes{"'-'", "'_'", "'.'", "'-.'", "'-..'"};
-
-/// A horizontal line: its meaning and its value.
+/// A horizontal line: its meaning, its value and how it looks.
 struct Level {
   std::string title;
   double value = 0.0;
+  const char* style = line::kCertified;
 };
+
+std::optional<double> long_run_bound(const Certificate& certificate) {
+  if (!certificate.contraction || !certificate.contraction->starts.ultimate_frequency_error.applies()) {
+    return std::nullopt;
+  }
+  const double bound = certificate.contraction->starts.ultimate_frequency_error.value.upper();
+  return std::isfinite(bound) && bound > 0.0 ? std::optional(bound) : std::nullopt;
+}
+
+/// Bounds that far below the others are told in words: as lines they would take most of the axis.
+constexpr double kWorthDrawing = 1e-3;
+
+/// "Too small to draw: start error that (2.45) admits, printed: 2.24e-14." Takes them out of the levels.
+std::string words_for_small(std::vector<Level>& levels, double largest) {
+  for (const Level& level : levels) {
+    largest = std::max(largest, level.value);
+  }
+  std::string words;
+  for (const Level& level : levels) {
+    if (level.value < kWorthDrawing * largest) {
+      words += fmt::format("{} {}: ≈ {:.3g}", words.empty() ? " Too small to draw:" : ";", level.title,
+                           level.value);
+    }
+  }
+  std::erase_if(levels, [&](const Level& level) { return level.value < kWorthDrawing * largest; });
+  return words.empty() ? words : words + ".";
+}
 
 /// Everything that the error is to be compared with, as far as it is a positive number.
 std::vector<Level> error_levels(const Certificate& certificate) {
@@ -37,10 +65,14 @@ std::vector<Level> error_levels(const Certificate& certificate) {
   if (certificates::quadrature_tables(certificate.design).require.frequency_error_below) {
     levels.push_back(
         {"required of the frequency error",
-         certificates::quadrature_tables(certificate.design).require.frequency_error_below->nearest});
+         certificates::quadrature_tables(certificate.design).require.frequency_error_below->nearest,
+         line::kRequired});
   }
   if (const auto bound = certificates::proved_frequency_bound(certificate)) {
     levels.push_back({"certified bound of the frequency error", bound->upper()});
+  }
+  if (const auto bound = long_run_bound(certificate)) {
+    levels.push_back({"certified in the long run", *bound, line::kLongRun});
   }
   for (const theorems::Derivation& derivation : certificate.derivations) {
     for (const theorems::Quantity& quantity : derivation.quantities) {
@@ -51,7 +83,7 @@ std::vector<Level> error_levels(const Certificate& certificate) {
       if (quantity.name == "initial_error_bound" && std::isfinite(bound) && bound > 0.0) {
         levels.push_back({fmt::format("start error that (2.45) admits, {}",
                                       derivation.id.substr(derivation.id.find('/') + 1)),
-                          bound});
+                          bound, line::kPublished});
       }
     }
   }
@@ -72,22 +104,30 @@ Figure error_figure(const Certificate& certificate) {
       "set logscale y\n"
       "unset mytics\n"
       "set format y '10^{%L}'\n"
-      "set key maxcols 2\n"
-      "plot $run using 1:3 with lines lw 3 lc rgb '#aaaaaa' title 'whole error |e(k|k)|', "
-      "'' using 1:2 with lines lw 1.4 lc rgb '#000000' title 'frequency error, rad/sample'";
-  const std::vector<Level> levels = error_levels(certificate);
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    script += fmt::format(", {:.9g} with lines lw 1.8 dt {} lc rgb '#000000' title '{}'", levels[i].value,
-                          kDashes.at(i % kDashes.size()), levels[i].title);
+      "set key maxcols 2\n";
+  script += fmt::format(
+      "plot $run using 1:3 with lines {} title 'whole error |e(k|k)|, simulated', "
+      "'' using 1:2 with lines {} title 'frequency error, simulated'",
+      line::kSignal, line::kSimulated);
+  std::vector<Level> levels = error_levels(certificate);
+  double largest = 0.0;
+  for (const TrajectoryRecord& record : certificate.simulation.trajectory) {
+    const double error = std::fabs(record.true_state[2] - record.filtered_state[2]);
+    largest = std::isfinite(error) ? std::max(largest, error) : largest;
+  }
+  const std::string small = words_for_small(levels, largest);
+  for (const Level& level : levels) {
+    script += fmt::format(", {:.9g} with lines {} title '{}'", level.value, level.style, level.title);
   }
   script += "\n";
   std::string caption =
       "Error of the tracker along the simulated run, logarithmic: the whole error |e(k|k)| (signal relative "
       "to its amplitude, and rad/sample) and the frequency error alone.";
   if (!levels.empty()) {
-    caption += " The dashed lines are bounds for comparison.";
+    caption += " The black lines are bounds for comparison.";
   }
-  return {"error.svg", caption + stride_remark(certificate), run_gnuplot(script)};
+  return {"error.svg", caption + small + stride_remark(certificate), run_gnuplot(script),
+          "Error along the simulated run, with its bounds"};
 }
 
 /// The runs in grey, thin, under the bound, black and broad.
@@ -111,31 +151,36 @@ Figure tube_figure(const Certificate& certificate, const certificates::Frequency
       "set key maxcols 2\n"
       "plot ";
   for (std::size_t i = 0; i < tube.runs.size(); ++i) {
-    script += fmt::format("$tube using 1:{} with lines lw 1 lc rgb '#888888' notitle, ", i + 3);
+    script += fmt::format("$tube using 1:{} with lines {} notitle, ", i + 3, line::kSimulated);
   }
   script += fmt::format(
-      "$tube using 1:2 with lines lw 3 lc rgb '#000000' title 'certified, {}', "
-      "keyentry with lines lw 1 lc rgb '#888888' title 'simulated runs'",
-      tube.from_assumed_starts ? "assumed starts" : "the whole set");
+      "$tube using 1:2 with lines {} title 'certified, {}', "
+      "keyentry with lines {} title 'simulated runs'",
+      line::kCertified, tube.from_assumed_starts ? "assumed starts" : "the whole set", line::kSimulated);
   if (!tube.bound_of_assumed_starts.empty()) {
-    script +=
-        fmt::format(", {:.9g} with lines lw 1.8 dt 4 lc rgb '#000000' title 'certified, assumed starts'",
-                    tube.bound_of_assumed_starts.front());
+    script += fmt::format(", {:.9g} with lines {} title 'certified, assumed starts'",
+                          tube.bound_of_assumed_starts.front(), line::kAssumed);
   }
   if (const auto& required =
           certificates::quadrature_tables(certificate.design).require.frequency_error_below) {
+    script += fmt::format(", {:.9g} with lines {} title 'required'", required->nearest, line::kRequired);
+  }
+  const auto long_run = long_run_bound(certificate);
+  if (long_run) {
     script +=
-        fmt::format(", {:.9g} with lines lw 1.8 dt 2 lc rgb '#000000' title 'required'", required->nearest);
+        fmt::format(", {:.9g} with lines {} title 'certified, in the long run'", *long_run, line::kLongRun);
   }
   script += "\n";
   return {
       "tube.svg",
       fmt::format(
           "Frequency error, rad/sample, logarithmic: the certified bound for every start {} and all assumed "
-          "noise and slew (black), and simulated runs from the boundary of these starts (grey), without "
+          "noise and slew (broad black){}, and simulated runs from the boundary of these starts (grey), "
+          "without "
           "disturbances and with noise and slew that increase the errors. The runs prove nothing.",
-          tube.from_assumed_starts ? "within the assumed errors" : "in the certified set"),
-      run_gnuplot(script)};
+          tube.from_assumed_starts ? "within the assumed errors" : "in the certified set",
+          long_run ? ", the bound that it approaches in the long run (dash-dotted)" : ""),
+      run_gnuplot(script), "Frequency error: certified bound and simulated runs"};
 }
 
 }  // namespace
@@ -155,6 +200,7 @@ std::vector<Figure> draw_quadrature_figures(const Certificate& certificate) {
   if (followed_starts && followed_starts->region.cells.size() > 1) {
     Figure map = draw_region_map(followed_starts->region, followed_starts->basin);
     map.file = "capture.svg";
+    map.title = "The assumed starts that are captured";
     map.caption = "The assumed starts, followed under the assumed noise and slew. " + map.caption;
     figures.push_back(std::move(map));
   }

@@ -29,7 +29,7 @@ std::filesystem::path write_files(const certificates::RegionOfAttraction& region
                                   const std::filesystem::path& directory) {
   std::filesystem::path picture = directory / "region.svg";
   certificates::OutputFiles files;
-  files.stage(picture, draw_region_map(region.region, region.basin).svg);
+  files.stage(picture, with_title(draw_region_map(region.region, region.basin)).svg);
   files.stage(directory / "region.csv", cells_csv(region.region));
   files.commit();
   return picture;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -41,15 +43,38 @@ void join_along(std::vector<MapRectangle>& rectangles, Side lower, Side upper, S
   rectangles = std::move(result);
 }
 
-std::vector<MapRectangle> rectangles_of(const Region& region, Verdict verdict) {
+template <typename Choice>
+std::vector<MapRectangle> rectangles_of(const Region& region, Verdict verdict, const Choice& is_chosen) {
   std::vector<MapRectangle> rectangles;
   for (const RegionCell& cell : region.cells) {
-    if (cell.verdict == verdict) {
+    if (cell.verdict == verdict && is_chosen(cell)) {
       rectangles.push_back({cell.starts.frequency_error.lower(), cell.starts.frequency_error.upper(),
                             cell.starts.phase_error.lower(), cell.starts.phase_error.upper()});
     }
   }
   return joined(std::move(rectangles));
+}
+
+bool any(const RegionCell& /*cell*/) {
+  return true;
+}
+
+/// Shades for starts that are captured, from the soonest to the latest.
+constexpr std::array<std::string_view, 4> kShades{"#2c4a59", "#587f93", "#8aadbd", "#bcd5df"};
+
+/// The latest sample of each shade: equal steps up to the latest capture.
+std::vector<int> capture_steps(const Region& region) {
+  int most = 0;
+  for (const RegionCell& cell : region.cells) {
+    most = cell.verdict == Verdict::proved ? std::max(most, cell.result.samples) : most;
+  }
+  const int shades = std::clamp(most, 1, static_cast<int>(kShades.size()));
+  std::vector<int> steps;
+  steps.reserve(kShades.size());
+  for (int i = 1; i <= shades; ++i) {
+    steps.push_back((most * i + shades - 1) / shades);
+  }
+  return steps;
 }
 
 /// A gnuplot data block for `with boxxyerror`; NaN alone when there is nothing to draw.
@@ -120,7 +145,8 @@ std::string caption(const Region& region, const SimulatedBasin& basin) {
   }
   return fmt::format(
       "Region of attraction over the start's frequency error (rad/sample) and phase error (rad): starts "
-      "proved to be captured (dark), proved to lock at a wrong frequency (hatched) and undecided (light), "
+      "proved to be captured (blue, the darker the sooner), proved to lock at a wrong frequency (hatched) "
+      "and undecided (light), "
       "with the outline of the basin found by simulating {} x {} starts. Proved: {} of the simulated basin; "
       "undecided: {}.",
       basin.frequencies, basin.phases, percent(shares.proved), percent(shares.undecided));
@@ -144,13 +170,20 @@ Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
                        "set tics out\n"
                        "unset grid\n"
                        "set xlabel 'frequency error at the start, rad/sample'\n"
-                       "set ylabel 'phase error at the start, rad'\n";
+                       "set ylabel 'phase error at the start, rad'\n"
+                       "set key maxcols 2\n";
   script +=
       fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n", basin.frequency_error.lower(),
                   basin.frequency_error.upper(), basin.phase_error.lower(), basin.phase_error.upper());
-  script += boxes("proved", rectangles_of(region, Verdict::proved));
-  script += boxes("refuted", rectangles_of(region, Verdict::refuted));
-  script += boxes("undecided", rectangles_of(region, Verdict::undecided));
+  const std::vector<int> steps = capture_steps(region);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    script +=
+        boxes(fmt::format("proved{}", i), rectangles_of(region, Verdict::proved, [&](const RegionCell& cell) {
+                return cell.result.samples <= steps[i] && (i == 0 || cell.result.samples > steps[i - 1]);
+              }));
+  }
+  script += boxes("refuted", rectangles_of(region, Verdict::refuted, any));
+  script += boxes("undecided", rectangles_of(region, Verdict::undecided, any));
   script += outline(basin);
   // Solid boxes carry a thin border of their own colour, or seams would show between them.
   const auto solid = [](std::string_view colour) {
@@ -158,10 +191,12 @@ Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
   };
   constexpr std::string_view kHatched =
       "boxxyerror fillcolor rgb '#000000' fs transparent pattern 4 noborder";
-  constexpr std::string_view kDark = "#5b8296";
   constexpr std::string_view kMiddle = "#d9cfbf";
   constexpr std::string_view kLight = "#eeeeee";
-  script += "plot $proved using 1:2:3:4:5:6 with " + solid(kDark) + " notitle";
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    script += fmt::format("{}$proved{} using 1:2:3:4:5:6 with {} notitle", i == 0 ? "plot " : ", ", i,
+                          solid(kShades.at(i)));
+  }
   script += ", $refuted using 1:2:3:4:5:6 with " + solid(kMiddle) + " notitle";
   script += fmt::format(", '' using 1:2:3:4:5:6 with {} notitle", kHatched);
   script += ", $undecided using 1:2:3:4:5:6 with " + solid(kLight) + " notitle";
@@ -170,11 +205,15 @@ Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
   const auto key = [&](std::string_view style, std::string_view title) {
     script += fmt::format(", keyentry with boxes {} title '{}'", style, title);
   };
-  key(fmt::format("fillcolor rgb '{}' fs solid 1.0 noborder", kDark), "proved captured");
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    key(fmt::format("fillcolor rgb '{}' fs solid 1.0 noborder", kShades.at(i)),
+        fmt::format("proved captured within {} samples", steps[i]));
+  }
   key("fillcolor rgb '#000000' fs pattern 4 noborder", "proved to lock at a wrong frequency");
   key(fmt::format("fillcolor rgb '{}' fs solid 1.0 border lc rgb '#888888'", kLight), "undecided");
   script += '\n';
-  return {"region.svg", caption(region, basin), run_gnuplot(script)};
+  return {"region.svg", caption(region, basin), run_gnuplot(script),
+          "Region of attraction: starts that are captured"};
 }
 
 }  // namespace veritrack::reports

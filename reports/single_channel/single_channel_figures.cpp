@@ -39,6 +39,10 @@ std::vector<Derivation> verified_biases(const Certificate& certificate) {
 
 Figure bias_figure(const std::vector<Derivation>& biases) {
   std::string script = preamble(360, "frequency of the signal, rad/sample", "frequency error, rad/sample");
+  // What is exactly zero has no scale.
+  const bool is_zero = std::all_of(biases.begin(), biases.end(), [](const Derivation& bias) {
+    return value_of(bias, "min_error").lower() == 0.0 && value_of(bias, "max_error").upper() == 0.0;
+  });
   script += "$bias << END\n";
   for (const Derivation& bias : biases) {
     script += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", midpoint(value_of(bias, "frequency")),
@@ -56,7 +60,9 @@ Figure bias_figure(const std::vector<Derivation>& biases) {
   script += "0 NaN\n";  // gnuplot refuses an empty block
   script +=
       "END\n"
-      "set offsets graph 0.05, graph 0.05, graph 0.08, graph 0.08\n"
+      "set offsets graph 0.05, graph 0.05, graph 0.08, graph 0.08\n";
+  script += is_zero ? "set yrange [-1:1]\nunset ytics\nset ytics ('0' 0)\n" : "";
+  script +=
       "plot 0 with lines lw 0.8 lc rgb '#888888' notitle, "
       "$bias using 1:2:3:4 with yerrorbars lw 1.6 pt 0 lc rgb '#888888' title 'ripple', "
       "'' using 1:2 with linespoints lw 1.4 pt 7 ps 0.6 lc rgb '#000000' title 'mean bias', "
@@ -67,7 +73,7 @@ Figure bias_figure(const std::vector<Derivation>& biases) {
       "Steady-state error of the frequency estimate on a noise-free tone, rad/sample, against the frequency "
       "of the tone: mean over the phase (black) and the range of the ripple (grey bars). The enclosures of "
       "all of them are narrower than the lines.",
-      run_gnuplot(script)};
+      run_gnuplot(script), "Bias and ripple over the frequency of the tone"};
 }
 
 /// |G| of the frozen filter over cells of the frequency axis: each cell drawn from its lower to its upper
@@ -102,7 +108,7 @@ Figure response_figure(const Derivation& filter) {
       "Response of the filter with frozen frequency and gain, from the measurement to the innovation, "
       "logarithmic, as an enclosure over 400 cells. Its zero is at the frozen frequency. It is cut off at "
       "0.001.",
-      run_gnuplot(script)};
+      run_gnuplot(script), "Response of the filter with frozen frequency"};
 }
 
 }  // namespace

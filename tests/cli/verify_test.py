@@ -16,13 +16,19 @@ def verify(*arguments):
     return subprocess.run([CHECKER, *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
+def documents(folder):
+    """The options that name the documents of a certificate."""
+    return [word for name in ("certificate.md", "published-theorems.md") if (folder / name).exists()
+            for word in ("--markdown", folder / name)]
+
+
 class Verify(CliTestCase):
     def certified_and_checked(self, name):
         """The run of the checker for a shipped design and its document, and the verified parts."""
         design = ROOT / "designs" / (name + ".toml")
         self.run_here("certify", design, "--out", name)
         folder = self.folder / name
-        result = verify("--design", design, "--markdown", folder / "certificate.md", folder / "certificate.json")
+        result = verify("--design", design, *documents(folder), folder / "certificate.json")
         self.assertNotIn("ALARM", result.stdout)
         lines = result.stdout.splitlines()
         return result, {line.split(maxsplit=1)[1] for line in lines if line.startswith("verified")}
@@ -66,6 +72,23 @@ class Verify(CliTestCase):
         self.write(flattering, "flattering.md")
         self.assertEqual(verify("--markdown", self.folder / "flattering.md", certificate).returncode, 3)
 
+    def test_a_sentence_that_was_put_into_a_document(self):
+        self.run_here("certify", ROOT / "designs/la-scala-1994-figure-3.5-without-leak.toml", "--out", "out")
+        certificate = self.folder / "out/certificate.json"
+        for name in ("certificate.md", "published-theorems.md"):
+            text = (self.folder / "out" / name).read_text()
+            self.assertEqual(verify("--markdown", self.folder / "out" / name, certificate).returncode, 0)
+            verdict = re.search(r"^- \*\*REFUTED\*\*.*$|^\*\*PROVED\*\*: .*$", text, re.MULTILINE).group()
+            turned = verdict.replace("REFUTED", "PROVED") if "REFUTED" in verdict else verdict.replace("PROVED", "REFUTED")
+            for forged in (text.replace("\n## ", "\nPROVED: the tracker tolerates any noise.\n\n## ", 1),
+                           text + "\n- **PROVED** `ekf/limits`: it tolerates any noise.\n",
+                           text.replace(verdict, turned), text.replace(verdict + "\n", "")):
+                self.assertNotEqual(forged, text)
+                self.write(forged, "forged.md")
+                result = verify("--markdown", self.folder / "forged.md", certificate)
+                self.assertEqual(result.returncode, 3, forged[:200])
+                self.assertIn("NOT VERIFIED the document", result.stdout)
+
     def test_a_range_of_start_covariances(self):
         text = (ROOT / "designs/la-scala-1994-figure-3.5-without-leak.toml").read_text()
         steady = 'initial_covariance = "steady-state"'
@@ -79,7 +102,7 @@ class Verify(CliTestCase):
             design = self.write(text.replace(steady, "initial_covariance = " + value), name + ".toml")
             self.run_here("certify", design, "--out", name)
             folder = self.folder / name
-            result = verify("--design", design, "--markdown", folder / "certificate.md", folder / "certificate.json")
+            result = verify("--design", design, *documents(folder), folder / "certificate.json")
             self.assertEqual(result.returncode, 0, result.stdout)
             self.assertIn(words, result.stdout)
             certificate = json.loads((folder / "certificate.json").read_text())

@@ -14,6 +14,8 @@ TEST_CASE("a certificate has its three figures, with captions that carry units")
   for (const reports::Figure& figure : figures) {
     CHECK(figure.svg.find("</svg>") != std::string::npos);
     CHECK(figure.caption.find("rad/sample") != std::string::npos);
+    CHECK(figure.svg.find("<title>" + figure.title + "</title>") != std::string::npos);
+    CHECK(figure.title.size() > 10);
   }
 }
 
@@ -22,8 +24,12 @@ TEST_CASE("the bounds that the error is compared with are in the figure") {
       reports::draw_figures(test::certificate({{"[require]", "[require]\nfrequency_error_below = 0.05"}}));
   const std::string& svg = figures.at(1).svg;
   CHECK(svg.find("required of the frequency error") != std::string::npos);
-  CHECK(svg.find("(2.45) admits, printed") != std::string::npos);
-  CHECK(svg.find("(2.45) admits, errata") != std::string::npos);
+  // Far below everything else: in words.
+  CHECK(svg.find("(2.45)") == std::string::npos);
+  CHECK(figures[1].caption.find("(2.45) admits, printed: ≈ 2.2") != std::string::npos);
+  CHECK(figures[1].caption.find("(2.45) admits, errata: ≈ ") != std::string::npos);
+  CHECK(svg.find("certified in the long run") != std::string::npos);
+  CHECK(figures.at(2).svg.find("in the long run") != std::string::npos);
 }
 
 TEST_CASE("starts that had to be followed are mapped") {

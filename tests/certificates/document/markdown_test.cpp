@@ -11,7 +11,8 @@ namespace {
 
 using namespace veritrack;
 
-const certificates::MarkdownOptions kOptions{{{"figures/error.svg", "a caption"}}, "0123", "a program 1.0"};
+const certificates::MarkdownOptions kOptions{
+    {{"figures/error.svg", "a title", "a caption"}}, "0123", "a program 1.0"};
 
 /// Versions of software are as they are; and what is approximate may differ in its last digit between
 /// machines.
@@ -25,6 +26,13 @@ TEST_CASE("the document is the one that was looked at") {
   const std::string document = certificates::to_markdown(test::certificate(), kOptions);
   test::check_golden(comparable(document),
                      VERITRACK_SOURCE_DIR "/tests/certificates/golden/nothing-required.md");
+  test::check_golden(comparable(certificates::to_published_markdown(test::certificate(), kOptions)),
+                     VERITRACK_SOURCE_DIR "/tests/certificates/golden/published-theorems.md");
+}
+
+TEST_CASE("the document has two pages") {
+  constexpr std::size_t kTwoPages = 12000;
+  CHECK(certificates::to_markdown(test::certificate(), kOptions).size() < kTwoPages);
 }
 
 TEST_CASE("the first line is the answer") {
@@ -52,7 +60,8 @@ TEST_CASE("every table is rectangular") {
   for (const auto& certificate :
        {test::certificate(), test::certificate({{"q1 = 0.0023", "q1 = 0"}}),
         test::certificate({{"[require]", "[require]\nsettles_within = 9\nsettled_below = 0.01"}})}) {
-    const std::string document = certificates::to_markdown(certificate, kOptions);
+    const std::string document = certificates::to_markdown(certificate, kOptions) +
+                                 certificates::to_published_markdown(certificate, kOptions);
     std::size_t columns = 0;
     std::size_t start = 0;
     while (start < document.size()) {

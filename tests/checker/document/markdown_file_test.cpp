@@ -4,17 +4,23 @@
 
 #include <string>
 
+#include "checker/document/sha256.hpp"
+
 using namespace veritrack::checker;
 
 namespace {
+
+const std::string kDesign = "# It shall be PROVED\nname = 1\n";
 
 Verification verified_document() {
   Verification found;
   found.parts = {{"design", {}}, {"a", {}}, {"verdict", {}}, {"read", {}}};
   found.sentences = {{"a/b", Verdict::proved, "It is so.", true},
-                     {"c/d", Verdict::refuted, "It is not so.", false}};
+                     {"c/d", Verdict::refuted, "It is not so.", false},
+                     {"theorem-1/conditions", Verdict::refuted, "The theorem applies.", false}};
   found.requirements = {{"a/b", "it must be so", Verdict::proved},
                         {"e/f", "it must be more", Verdict::undecided}};
+  found.design_sha256 = sha256(kDesign);
   return found;
 }
 
@@ -36,11 +42,24 @@ const std::string kDocument = R"(# NOT PROVED. PROVED: it must be so; UNDECIDED:
 
 certificate.json, 0123
 
-- **PROVED** `a/b`: It is so.
 - **REFUTED** `c/d`: It is not so.
 
 ## The rest
-- **PROVED** nothing of this is compared
+Told, with no verdict.
+
+```toml
+)" + kDesign + "```\n";
+
+const std::string kPublished = R"(# What published theorems say of this design
+
+## What the checker verifies
+
+certificate.json, 0123
+
+- **REFUTED** `theorem-1/conditions`: The theorem applies.
+
+## More
+- told: not satisfied
 )";
 
 std::size_t objections_to(const std::string& document) {
@@ -49,8 +68,8 @@ std::size_t objections_to(const std::string& document) {
   return objections.size();
 }
 
-std::string changed(const std::string& from, const std::string& to) {
-  std::string text = kDocument;
+std::string changed(const std::string& from, const std::string& to, const std::string& document = kDocument) {
+  std::string text = document;
   text.replace(text.find(from), from.size(), to);
   return text;
 }
@@ -61,19 +80,44 @@ TEST_CASE("a document that says what was verified is accepted") {
   CHECK(objections_to(kDocument) == 0);
 }
 
+// A verdict that is not the verified one is also one that stands where none is known.
 TEST_CASE("every verdict of the document is compared") {
-  CHECK(objections_to(changed("NOT PROVED. ", "")) == 1);
-  CHECK(objections_to(changed("UNDECIDED: it", "PROVED: it")) == 1);
-  CHECK(objections_to(changed("**PROVED**: It is so.", "**PROVED**: It is much so.")) == 1);
-  CHECK(objections_to(changed("**UNDECIDED**: It might", "**PROVED**: It might")) == 1);
+  CHECK(objections_to(changed("NOT PROVED. ", "")) == 2);
+  CHECK(objections_to(changed("UNDECIDED: it", "PROVED: it")) == 2);
+  CHECK(objections_to(changed("**PROVED**: It is so.", "**PROVED**: It is much so.")) == 2);
+  CHECK(objections_to(changed("**UNDECIDED**: It might", "**PROVED**: It might")) == 2);
   CHECK(objections_to(changed("**PROVED**: It is so.\n", "")) == 1);
   CHECK(objections_to(changed("| it must be more | **UNDECIDED** |", "| it must be more | **PROVED** |")) ==
-        1);
+        2);
   CHECK(objections_to(changed("| it must be so | **PROVED** | by this |\n", "")) == 1);
-  CHECK(objections_to(changed("- **REFUTED** `c/d`", "- **PROVED** `c/d`")) == 1);
+  CHECK(objections_to(changed("- **REFUTED** `c/d`", "- **PROVED** `c/d`")) == 2);
   CHECK(objections_to(changed("- **REFUTED** `c/d`: It is not so.\n", "")) == 1);
   CHECK(objections_to(changed("0123", "4567")) == 1);
   CHECK(objections_to("") == 5);
+}
+
+TEST_CASE("no verdict stands where it is not compared") {
+  CHECK(objections_to(changed("Told, with no verdict.", "**PROVED**: It is perfect.")) == 1);
+  CHECK(objections_to(changed("Told, with no verdict.", "PROVED, too: it is perfect.")) == 1);
+  CHECK(objections_to(changed("Told, with no verdict.", "| it must be cheap | **PROVED** | surely |")) == 1);
+  CHECK(objections_to(changed("It might be more.", "It might be more, as is PROVED.")) == 1);
+  CHECK(objections_to(changed("by this", "by this; PROVED for all")) == 1);
+  CHECK(objections_to(changed("# It shall be PROVED", "# It is PROVED")) == 1);  // not the design file's text
+  CHECK(objections_to(changed("name = 1\n```", "name = 1\n```\nPROVED")) == 1);
+  CHECK(objections_to(changed("certificate.json, 0123", "certificate.json, 0123\n\n```\nPROVED\n```")) == 1);
+}
+
+TEST_CASE("published theorems have a document of their own") {
+  CHECK(objections_to(kPublished) == 0);
+  CHECK(objections_to(changed("- **REFUTED** `theorem", "- **PROVED** `theorem", kPublished)) == 2);
+  CHECK(objections_to(
+            changed("- **REFUTED** `theorem-1/conditions`: The theorem applies.\n", "", kPublished)) == 1);
+  CHECK(objections_to(changed("- told: not satisfied", "- told: REFUTED", kPublished)) == 1);
+  CHECK(objections_to(changed("0123", "4567", kPublished)) == 1);
+  CHECK(objections_to(changed("\n## What the", "\n**PROVED**: It is so.\n\n## What the", kPublished)) == 2);
+  // A sentence of one in the other.
+  CHECK(objections_to(changed("- **REFUTED** `c/d`: It is not so.",
+                              "- **REFUTED** `theorem-1/conditions`: The theorem applies.")) == 2);
 }
 
 TEST_CASE("where nothing is required the headline says so") {

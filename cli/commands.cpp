@@ -80,7 +80,12 @@ ExitStatus run_certify(const CertifyOptions& options) {
                files.missing_figures);
   }
   fmt::print("{}: {}\n", files.document.string(), certificates::headline(certificate));
-  return status_of(certificate);
+  const ExitStatus status = status_of(certificate);
+  if (status == not_proved && certificates::can_be_tuned(certificate.design) && !options.quiet) {
+    fmt::print(stderr, "{}: veritrack tune looks for design values that meet what is required\n",
+               options.design);
+  }
+  return status;
 }
 
 ExitStatus run_map(const MapOptions& options) {

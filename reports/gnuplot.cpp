@@ -122,6 +122,7 @@ std::string gnuplot_style(std::size_t height) {
          "set border 3 lw 1 lc rgb '#444444'\n"
          "set tics nomirror\n"
          "set grid ytics lw 0.5 lc rgb '#cccccc'\n"
+         "set xlabel offset 0,0.4\n"
          "set key outside below center horizontal Left reverse samplen 4\n";
 }
 

@@ -64,12 +64,12 @@ std::vector<Level> error_levels(const Certificate& certificate) {
   std::vector<Level> levels;
   if (certificates::quadrature_tables(certificate.design).require.frequency_error_below) {
     levels.push_back(
-        {"required of the frequency error",
+        {"required",
          certificates::quadrature_tables(certificate.design).require.frequency_error_below->nearest,
          line::kRequired});
   }
   if (const auto bound = certificates::proved_frequency_bound(certificate)) {
-    levels.push_back({"certified bound of the frequency error", bound->upper()});
+    levels.push_back({"certified bound", bound->upper()});
   }
   if (const auto bound = long_run_bound(certificate)) {
     levels.push_back({"certified in the long run", *bound, line::kLongRun});
@@ -77,13 +77,13 @@ std::vector<Level> error_levels(const Certificate& certificate) {
   for (const theorems::Derivation& derivation : certificate.derivations) {
     for (const theorems::Quantity& quantity : derivation.quantities) {
       if (quantity.name == "lock_frequency_error" && quantity.applies()) {
-        levels.push_back({"certified bound of the frequency error in lock", quantity.value.upper()});
+        levels.push_back({"certified in lock", quantity.value.upper()});
       }
       const double bound = quantity.value.lower();
       if (quantity.name == "initial_error_bound" && std::isfinite(bound) && bound > 0.0) {
-        levels.push_back({fmt::format("start error that (2.45) admits, {}",
-                                      derivation.id.substr(derivation.id.find('/') + 1)),
-                          bound, line::kPublished});
+        levels.push_back(
+            {fmt::format("start by (2.45), {}", derivation.id.substr(derivation.id.find('/') + 1)), bound,
+             line::kPublished});
       }
     }
   }
@@ -106,7 +106,7 @@ Figure error_figure(const Certificate& certificate) {
       "set format y '10^{%L}'\n"
       "set key maxcols 2\n";
   script += fmt::format(
-      "plot $run using 1:3 with lines {} title 'whole error |e(k|k)|, simulated', "
+      "plot $run using 1:3 with lines {} title 'whole error, simulated', "
       "'' using 1:2 with lines {} title 'frequency error, simulated'",
       line::kSignal, line::kSimulated);
   std::vector<Level> levels = error_levels(certificate);
@@ -124,7 +124,9 @@ Figure error_figure(const Certificate& certificate) {
       "Error of the tracker along the simulated run, logarithmic: the whole error |e(k|k)| (signal relative "
       "to its amplitude, and rad/sample) and the frequency error alone.";
   if (!levels.empty()) {
-    caption += " The black lines are bounds for comparison.";
+    caption +=
+        " The black lines are bounds: of the frequency error, and of the start error that Theorem 2.9 admits "
+        "by its condition (2.45).";
   }
   return {"error.svg", caption + small + stride_remark(certificate), run_gnuplot(script),
           "Error along the simulated run, with its bounds"};

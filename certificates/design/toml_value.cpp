@@ -263,8 +263,9 @@ std::optional<TomlValue> TomlValue::elsewhere(std::string_view table, std::strin
                                               std::string_view allowed) const {
   const toml::table* content = source_->root().get_as<toml::table>(table);
   const toml::node* node = content != nullptr ? content->get(key) : nullptr;
-  return node != nullptr ? std::optional(TomlValue(*source_, *node, fmt::format("{}.{}", table, key), allowed))
-                         : std::nullopt;
+  return node != nullptr
+             ? std::optional(TomlValue(*source_, *node, fmt::format("{}.{}", table, key), allowed))
+             : std::nullopt;
 }
 
 }  // namespace veritrack::certificates

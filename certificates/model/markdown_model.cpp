@@ -12,8 +12,8 @@
 #include "certificates/model/markdown_model_lock.hpp"
 #include "certificates/model/markdown_model_sets.hpp"
 #include "certificates/model/model_sets.hpp"
-#include "certificates/sets/frequency_units.hpp"
 #include "certificates/model/recursion_text.hpp"
+#include "certificates/sets/frequency_units.hpp"
 
 namespace veritrack::certificates {
 

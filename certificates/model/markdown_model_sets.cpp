@@ -157,7 +157,8 @@ std::string objections(const NamedSet& named) {
 }
 
 /// What simulations reach of the bounds of the set that decides.
-std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker, const FrequencyUnits& units) {
+std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker,
+                      const FrequencyUnits& units) {
   const ModelSet& set = *named.set;
   const model::TubeAttack attack = attack_tubes(tracker, set.tubes);
   if (attack.level_share > 1.0 || attack.frequency_error > set.frequency_error) {

@@ -76,9 +76,8 @@ Claim mean_square_claim(const Certificate& certificate, const GuaranteeTerms& te
       derivation == nullptr ? nullptr : theorems::applicable_quantity(*derivation, kRms);
   Claim claim;
   claim.id = "ekf/rms-frequency-error";
-  claim.requirement =
-      fmt::format("the root mean square of the frequency error in lock is below {} {}",
-                  frequency_words(required), stretch_of_samples(terms.assume));
+  claim.requirement = fmt::format("the root mean square of the frequency error in lock is below {} {}",
+                                  frequency_words(required), stretch_of_samples(terms.assume));
   claim.statement = hypotheses(terms) + claim.requirement + ".";
   claim.required = true;
   claim.position = required.position;
@@ -97,10 +96,9 @@ Claim mean_square_claim(const Certificate& certificate, const GuaranteeTerms& te
   }
   const bool below = rigor::certainly_less(rms->value, required.value);
   claim.verdict = below ? Verdict::proved : Verdict::undecided;
-  claim.reason =
-      fmt::format("It is at most {}{}.",
-                  FrequencyUnits(terms.assume.sample_rate).at_most(rms->value, kShownRmsDigits),
-                  below ? "" : ", which is not below what is required");
+  claim.reason = fmt::format("It is at most {}{}.",
+                             FrequencyUnits(terms.assume.sample_rate).at_most(rms->value, kShownRmsDigits),
+                             below ? "" : ", which is not below what is required");
   claim.evidence = {*rms};
   return claim;
 }

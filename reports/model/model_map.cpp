@@ -18,9 +18,9 @@ namespace veritrack::reports {
 
 namespace {
 
+using certificates::FrequencyUnits;
 using certificates::MappedState;
 using certificates::ModelMap;
-using certificates::FrequencyUnits;
 namespace markdown = certificates::markdown;
 
 /// "26.8 %": never 0 or 100 unless it is none or all.
@@ -46,7 +46,8 @@ std::string amount(double value, const MappedState& state) {
   return fmt::format("{:.4g}{}{}", value, state.unit.empty() ? "" : " ", markdown::escaped(state.unit));
 }
 
-std::string statement(const certificates::ModelTables& tables, const ModelMap& map, const FrequencyUnits& units) {
+std::string statement(const certificates::ModelTables& tables, const ModelMap& map,
+                      const FrequencyUnits& units) {
   const std::string noise =
       map.noise > 0.0 ? fmt::format("with noise of at most {} at every sample", tables.assume.noise.text)
                       : std::string("without noise");

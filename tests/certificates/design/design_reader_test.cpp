@@ -204,8 +204,8 @@ void check_position(const Number& number, const std::string& text) {
     start = text.find('\n', start) + 1;
     REQUIRE(start != 0);
   }
-  CHECK(text.compare(start + static_cast<std::size_t>(number.position.column) - 1, written.size(),
-                     written) == 0);
+  CHECK(text.compare(start + static_cast<std::size_t>(number.position.column) - 1, written.size(), written) ==
+        0);
 }
 
 std::string minimal() {

@@ -27,8 +27,8 @@ LockQuestion short_question(double decibels) {
 
 }  // namespace
 
-TEST_CASE(
-    "the lowest ratio is far below an easy one, proved, and hardly depends on where the search begins") {
+TEST_CASE("the lowest ratio is far below an easy one, proved, and hardly depends on where the search begins" *
+          doctest::test_suite("nightly")) {
   const LockQuestion easy = short_question(26.0);
   LockCertificate at_its_noise;
   {

@@ -62,17 +62,24 @@ bool any(const RegionCell& /*cell*/) {
 /// Shades for starts that are captured, from the soonest to the latest.
 constexpr std::array<std::string_view, 4> kShades{"#2c4a59", "#587f93", "#8aadbd", "#bcd5df"};
 
-/// The latest sample of each shade: equal steps up to the latest capture.
+/// The latest sample of each shade: about equal steps from the soonest capture to the latest.
 std::vector<int> capture_steps(const Region& region) {
-  int most = 0;
+  std::vector<int> samples;
+  samples.reserve(region.cells.size());
   for (const RegionCell& cell : region.cells) {
-    most = cell.verdict == Verdict::proved ? std::max(most, cell.result.samples) : most;
+    if (cell.verdict == Verdict::proved) {
+      samples.push_back(cell.result.samples);
+    }
   }
-  const int shades = std::clamp(most, 1, static_cast<int>(kShades.size()));
+  if (samples.empty()) {
+    return {0};
+  }
+  const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
+  const int shades = std::clamp(*most - *least + 1, 1, static_cast<int>(kShades.size()));
   std::vector<int> steps;
   steps.reserve(kShades.size());
-  for (int i = 1; i <= shades; ++i) {
-    steps.push_back((most * i + shades - 1) / shades);
+  for (int i = 0; i < shades; ++i) {
+    steps.push_back(shades == 1 ? *most : *least + ((*most - *least) * i) / (shades - 1));
   }
   return steps;
 }

@@ -16,10 +16,11 @@
 namespace veritrack::certificates {
 namespace {
 
-const MarkdownOptions kFigures{
-    {{"figures/reach.svg", "a reach"}, {"figures/bias.svg", "a bias"}, {"figures/tube.svg", "a tube"}},
-    "0123",
-    "a program 1.0"};
+const MarkdownOptions kFigures{{{"figures/reach.svg", "Reach", "a reach"},
+                                {"figures/bias.svg", "Bias", "a bias"},
+                                {"figures/tube.svg", "Tube", "a tube"}},
+                               "0123",
+                               "a program 1.0"};
 
 /// A certificate of the loop with these sets, which nothing has proved.
 Certificate with_sets(ModelSets sets, const std::string& text = test::kLoopText) {

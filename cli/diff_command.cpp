@@ -32,7 +32,7 @@ std::string certificate_of(const std::string& path, bool quiet) {
   }
   const fs::path file = fs::is_directory(path) ? fs::path(path) / "certificate.json" : fs::path(path);
   std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   try {
     reports::require_certificate(text);
   } catch (const std::invalid_argument& error) {

@@ -23,8 +23,6 @@ namespace veritrack::certificates {
 
 namespace {
 
-using rigor::Interval;
-
 constexpr std::array<std::string_view, 5> kObjectives{"long-run", "for-ever", "radius", "noise", "slew"};
 constexpr int kEvaluationsOfStart = 40;
 constexpr double kDecades = 4.0;       // around a start

@@ -83,7 +83,7 @@ std::string FrequencyUnits::at_least(const std::string& decimal) const {
 }
 
 std::string FrequencyUnits::between(const std::string& low, const std::string& high) const {
-  const std::string text = fmt::format("{} and {} rad/sample", low, high);
+  std::string text = fmt::format("{} and {} rad/sample", low, high);
   if (!has_hertz()) {
     return text;
   }

@@ -17,7 +17,6 @@ namespace veritrack::certificates {
 
 namespace {
 
-using markdown::escaped;
 using markdown::math;
 
 /// The unit of numbers as they are written, and what they are in the other one, rounded outward.
@@ -34,7 +33,7 @@ std::string in_both_units(std::initializer_list<Number> numbers, const Frequency
   return in_hertz ? others + " rad/sample" : fmt::format("rad/sample, {} Hz", others);
 }
 std::string slew_in_both_units(const Number& slew, const FrequencyUnits& units) {
-  const std::string own = "rad/sample per sample";
+  std::string own = "rad/sample per sample";
   if (!units.has_hertz() || slew.value == rigor::Interval(0.0)) {
     return own;
   }

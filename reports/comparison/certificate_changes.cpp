@@ -77,7 +77,7 @@ void flatten(const std::string& path, const Json& json, std::map<std::string, st
     texts[path] = json.at("text").get<std::string>();
   } else if (json.is_object()) {
     for (const auto& [name, member] : json.items()) {
-      flatten(path.empty() ? name : path + "." + name, member, texts);
+      flatten(path.empty() ? name : fmt::format("{}.{}", path, name), member, texts);
     }
   } else if (json.is_array()) {
     for (std::size_t i = 0; i < json.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "checker/document/sha256.hpp"
@@ -81,6 +82,23 @@ void check_lines(const Lines& section, const std::string& beginning, const Lines
   }
 }
 
+/// Whether a reader may see a verdict in the line: as it is written, without the marks of Markdown, or
+/// without tags, too. A character that is given by its number is none of ours, and may be part of any word.
+bool shows_a_verdict(const std::string& line) {
+  std::string unmarked, untagged;
+  bool is_in_tag = false;
+  for (const char letter : line) {
+    const bool is_mark = std::string_view("*_`~\\").find(letter) != std::string_view::npos;
+    is_in_tag = letter == '<' || (is_in_tag && letter != '>');
+    unmarked += is_mark ? "" : std::string(1, letter);
+    untagged += is_mark || is_in_tag || letter == '>' ? "" : std::string(1, letter);
+  }
+  const Lines seen{line, unmarked, untagged};
+  return line.find("&#") != std::string::npos || std::any_of(seen.begin(), seen.end(), [](const auto& text) {
+           return text.find("PROVED") != std::string::npos || text.find("REFUTED") != std::string::npos;
+         });
+}
+
 /// No verdict stands where it was not compared.
 void check_elsewhere(const Verification& verified, const Lines& lines, const Lines& compared,
                      Objections& objections) {
@@ -93,7 +111,7 @@ void check_elsewhere(const Verification& verified, const Lines& lines, const Lin
       return lines[i] == one || (one.starts_with("| ") && lines[i].starts_with(one));
     });
     const std::string rest = known == compared.end() ? lines[i] : lines[i].substr(known->size());
-    if (rest.find("PROVED") != std::string::npos || rest.find("REFUTED") != std::string::npos) {
+    if (shows_a_verdict(rest)) {
       objections.push_back("line " + std::to_string(i + 1) +
                            " of the document gives a verdict that was not verified");
       return;

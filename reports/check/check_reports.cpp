@@ -144,7 +144,7 @@ std::string text_of(const Json& json) {
 
 std::string uri_of(const std::string& path) {
   constexpr std::string_view kKept = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
-  // "./" in front keeps a colon in the first segment from looking like a scheme; encoded it is none.
+  // A colon is encoded, too, so that no first segment looks like a scheme.
   std::string uri;
   for (const char letter : path) {
     uri += kKept.find(letter) != std::string_view::npos

@@ -105,6 +105,10 @@ TEST_CASE("no verdict stands where it is not compared") {
   CHECK(objections_to(changed("# It shall be PROVED", "# It is PROVED")) == 1);  // not the design file's text
   CHECK(objections_to(changed("name = 1\n```", "name = 1\n```\nPROVED")) == 1);
   CHECK(objections_to(changed("certificate.json, 0123", "certificate.json, 0123\n\n```\nPROVED\n```")) == 1);
+  for (const char* hidden : {"It is PROV&#69;D.", "It is PRO**VED**.", "It is PRO<b>VED</b>.",
+                             "It is REF\\UTED.", "k < 3, and it is PRO*VED*."}) {
+    CHECK(objections_to(changed("Told, with no verdict.", hidden)) == 1);
+  }
 }
 
 TEST_CASE("published theorems have a document of their own") {

@@ -112,6 +112,10 @@ Band read_band(const Tree& assume, Objections& objections) {
   if (band.elements().size() != 2) {
     objections.emplace_back("a band has two ends");
   }
+  // A sentence names the unit once, behind both ends.
+  if (text_of(band.at(0)).ends_with(kHertz) != text_of(band.at(1)).ends_with(kHertz)) {
+    objections.emplace_back("the ends of a band are in the same unit");
+  }
   Band ends{read_frequency(band.at(0), assume, "frequency", objections),
             read_frequency(band.at(1), assume, "frequency", objections)};
   const bool in_order =

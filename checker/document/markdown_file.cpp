@@ -1,6 +1,8 @@
 #include "checker/document/markdown_file.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -82,19 +84,45 @@ void check_lines(const Lines& section, const std::string& beginning, const Lines
   }
 }
 
-/// Whether a reader may see a verdict in the line: as it is written, without the marks of Markdown, or
-/// without tags, too. A character that is given by its number is none of ours, and may be part of any word.
+/// "&zwj;" or "&#69;": a character by its name or number.
+bool has_character_reference(const std::string& line) {
+  for (std::size_t begin = line.find('&'); begin != std::string::npos; begin = line.find('&', begin + 1)) {
+    const auto end =
+        std::find_if(line.begin() + static_cast<std::ptrdiff_t>(begin) + 1, line.end(),
+                     [](char c) { return c != '#' && std::isalnum(static_cast<unsigned char>(c)) == 0; });
+    const bool is_empty = end == line.begin() + static_cast<std::ptrdiff_t>(begin) + 1;
+    if (!is_empty && end != line.end() && *end == ';') {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A tag or a comment that goes on in the next line.
+bool has_open_tag(const std::string& line) {
+  const std::size_t begin = line.rfind('<');
+  const bool is_tag = begin != std::string::npos && begin + 1 < line.size() &&
+                      (std::isalpha(static_cast<unsigned char>(line[begin + 1])) != 0 ||
+                       std::string_view("/!?").find(line[begin + 1]) != std::string_view::npos);
+  return is_tag && line.find('>', begin) == std::string::npos;
+}
+
+/// Whether a reader may see a verdict in the line: as it is written; without the marks of Markdown and what
+/// is not ASCII, which may be invisible; or without tags, too. A character reference or the rest of a tag may
+/// hide in any word.
 bool shows_a_verdict(const std::string& line) {
   std::string unmarked, untagged;
   bool is_in_tag = false;
   for (const char letter : line) {
-    const bool is_mark = std::string_view("*_`~\\").find(letter) != std::string_view::npos;
+    const bool is_ascii = static_cast<unsigned char>(letter) < 0x80U;
+    const bool is_mark = !is_ascii || std::string_view("*_`~\\").find(letter) != std::string_view::npos;
     is_in_tag = letter == '<' || (is_in_tag && letter != '>');
     unmarked += is_mark ? "" : std::string(1, letter);
     untagged += is_mark || is_in_tag || letter == '>' ? "" : std::string(1, letter);
   }
   const Lines seen{line, unmarked, untagged};
-  return line.find("&#") != std::string::npos || std::any_of(seen.begin(), seen.end(), [](const auto& text) {
+  return has_character_reference(line) || has_open_tag(line) ||
+         std::any_of(seen.begin(), seen.end(), [](const auto& text) {
            return text.find("PROVED") != std::string::npos || text.find("REFUTED") != std::string::npos;
          });
 }

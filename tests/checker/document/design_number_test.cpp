@@ -88,6 +88,19 @@ TEST_CASE("a band goes from low to high, from 0 to pi, and is never empty") {
   CHECK_FALSE(band_is_accepted(kMinus, kThree));
 }
 
+TEST_CASE("the ends of a band are in the same unit") {
+  const std::string hertz =
+      R"({"text": "1200 Hz", "lo": "0x1.e28c731eb694fp-1", "hi": "0x1.e28c731eb6952p-1"})";
+  const std::string rate = R"("sample_rate": {"text": "8000", "lo": "0x1.f4p+12", "hi": "0x1.f4p+12"})";
+  const auto objections_to = [&](const std::string& low) {
+    Objections objections;
+    read_band(read_json("{\"frequency\": [" + low + ", " + hertz + "], " + rate + "}"), objections);
+    return objections;
+  };
+  CHECK(objections_to(hertz).empty());
+  CHECK(objections_to(kQuarter) == Objections{"the ends of a band are in the same unit"});
+}
+
 TEST_CASE("signs are demanded") {
   Objections objections;
   read_positive(read_json(kQuarter), "a", objections);

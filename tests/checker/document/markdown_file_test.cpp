@@ -106,8 +106,12 @@ TEST_CASE("no verdict stands where it is not compared") {
   CHECK(objections_to(changed("name = 1\n```", "name = 1\n```\nPROVED")) == 1);
   CHECK(objections_to(changed("certificate.json, 0123", "certificate.json, 0123\n\n```\nPROVED\n```")) == 1);
   for (const char* hidden : {"It is PROV&#69;D.", "It is PRO**VED**.", "It is PRO<b>VED</b>.",
-                             "It is REF\\UTED.", "k < 3, and it is PRO*VED*."}) {
+                             "It is REF\\UTED.", "k < 3, and it is PRO*VED*.", "It is PRO&zwj;VED.",
+                             "It is PRO\u200bVED.", "It is PRO<!--\n-->VED.", "It is PRO<b\n>VED."}) {
     CHECK(objections_to(changed("Told, with no verdict.", hidden)) == 1);
+  }
+  for (const char* harmless : {"R&D, k < 3 && m > 2.", "a <b>word</b>, \u2264 2", "3 < x;"}) {
+    CHECK(objections_to(changed("Told, with no verdict.", harmless)) == 0);
   }
 }
 

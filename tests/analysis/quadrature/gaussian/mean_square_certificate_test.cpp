@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "analysis/quadrature/gaussian/leaking_filter.hpp"
 #include "analysis/quadrature/gaussian/linear_filter.hpp"
 #include "tests/analysis/quadrature/gaussian/lock_question.hpp"
 #include "tests/support/random.hpp"
@@ -75,12 +76,37 @@ TEST_CASE("without a set there is no mean square, and it says why") {
   CHECK(found.derivation.verdict == Verdict::undecided);
   CHECK(theorems::applicable_quantity(found.derivation, "rms_frequency_error") == nullptr);
   CHECK(found.derivation.conditions.front().verdict == Verdict::undecided);
-  question = test_sets::question(26.0);
-  LockCertificate lock = certify_lock(question);
+}
+
+TEST_CASE("with a leak the bias is in the root mean square, and what it is beside the linear filter's") {
+  LockQuestion question = test_sets::question(32.0);
   question.design.epsilon = Interval(0.01);
-  const MeanSquareCertificate leaking = certify_mean_square(question, lock);
-  CHECK(leaking.mean_squares.empty());
-  CHECK(leaking.derivation.conditions.back().reason.find("leak") != std::string::npos);
+  question.frequencies = Interval::from_bounds(0.5, 0.6);
+  question.starts.amplitude_error = question.starts.phase_error = question.starts.frequency_error =
+      Interval(0.002);
+  question.enough_rms = 0.06;  // some thousand cells
+  const LockCertificate lock = certify_lock(question);
+  REQUIRE_FALSE(lock.sets.empty());
+  const MeanSquareCertificate found = certify_mean_square(question, lock);
+  CHECK(found.derivation.verdict == Verdict::proved);
+  REQUIRE(found.mean_squares.size() == lock.sets.size());
+  const double proved = theorems::find_quantity(found.derivation, "rms_frequency_error").value.upper();
+  trackers::ToneModel<double> design = test_sets::kDesigns[1];
+  design.epsilon = 0.01;
+  const auto filter = leaking_filter(design, 0.6);
+  REQUIRE(filter);
+  const double linear =
+      std::sqrt(mean_square_frequency_error(*filter, question.noise_deviation.upper()).value());
+  MESSAGE("proved " << proved << ", linear " << linear << ", " << found.cells << " cells");
+  CHECK(linear > std::fabs(filter->steady.errors[2]));
+  CHECK(proved > linear);
+  CHECK(proved < 0.06);
+  // Sets that do not belong to the leak.
+  LockQuestion without = test_sets::question(26.0);
+  const LockCertificate other = certify_lock(without);
+  without.design.epsilon = Interval(0.2);
+  without.enough_rms.reset();
+  CHECK(certify_mean_square(without, other).mean_squares.empty());
 }
 
 }  // namespace veritrack::quadrature

@@ -45,7 +45,8 @@ double excess(const Example& example, const Eigen::Vector3d& away, const Matrix&
   const LockSet& set = example.filter.set;
   const LockMeanSquare& form = example.form;
   const auto next = example.filter.step(away, p, frequency);
-  double after = squared_length(form.metric, next.mean);
+  const Eigen::Vector3d offset(form.offset[0], form.offset[1], form.offset[2]);
+  double after = squared_length(form.metric, next.mean - offset);
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(next.sigma);
   for (int i = 0; i < 3; ++i) {
     after += solver.eigenvalues()[i] * squared_length(form.metric, solver.eigenvectors().col(i));
@@ -54,7 +55,7 @@ double excess(const Example& example, const Eigen::Vector3d& away, const Matrix&
   const double w = std::exp(0.5 * away.dot(example.filter.weight() * away) + 0.5 * set.weight * now * now);
   const double nu = away[2] + set.bias[2];
   return (after + form.weight * next.level * next.level + form.share * (set.decay * w + set.drift) -
-          squared_length(form.metric, away) - form.weight * now * now - form.share * w -
+          squared_length(form.metric, away - offset) - form.weight * now * now - form.share * w -
           form.rate * (form.bound - nu * nu)) /
          (form.rate * form.bound);
 }
@@ -127,19 +128,22 @@ TEST_CASE("a cell with a point where the form grows too fast is not proved") {
 
 TEST_CASE("what a point needs is what the textbook filter needs there, or a little more") {
   test::Random random(4422);
-  const Example found = example(0, 0.0, 1.0);
-  const LockSet& set = found.filter.set;
-  const rigor::UpwardRounding upward;
-  const MeanSquareInequality inequality(enclosed(found.filter.design), set, found.form);
-  for (int k = 0; k < 100; ++k) {
-    const Place place = somewhere(set, 0.0, random);
-    const std::array<double, 3> e =
-        errors_of(set.metric, std::array<double, 3>{place.x[0], place.x[1], place.x[2]});
-    for (int l = 0; l < 20; ++l) {
-      const Matrix p = covariance_of_level(set, place.x[3], random);
-      if (found.filter.level_of(p) > 0.999 * place.x[3]) {
-        const double needed = found.form.bound * (1.0 + excess(found, {e[0], e[1], e[2]}, p, 0.0));
-        CHECK(needed <= inequality.needed_at(place.x) + 1e-6 * found.form.bound);
+  for (const std::size_t design : {std::size_t{0}, std::size_t{2}}) {
+    const Example found = example(design, 0.0, 1.0);
+    const LockSet& set = found.filter.set;
+    const rigor::UpwardRounding upward;
+    const MeanSquareInequality inequality(enclosed(found.filter.design), set, found.form);
+    for (int k = 0; k < 100; ++k) {
+      const Place place = somewhere(set, 0.0, random);
+      const std::array<double, 3> e =
+          errors_of(set.metric, std::array<double, 3>{place.x[0], place.x[1], place.x[2]});
+      for (int l = 0; l < 20; ++l) {
+        const Matrix p = covariance_of_level(set, place.x[3], random);
+        if (found.filter.level_of(p) > 0.999 * place.x[3]) {
+          const double frequency = random.uniform(set.lowest_frequency, set.highest_frequency);
+          const double needed = found.form.bound * (1.0 + excess(found, {e[0], e[1], e[2]}, p, frequency));
+          CHECK(needed <= inequality.needed_at(place.x) + 1e-6 * found.form.bound);
+        }
       }
     }
   }

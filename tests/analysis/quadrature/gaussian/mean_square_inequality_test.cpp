@@ -29,7 +29,11 @@ Example example(std::size_t design, double walk, double more, double level = 12.
   result.filter.set.level = std::min(result.filter.set.level, level);
   result.filter.set.frequency_walk = walk;
   const rigor::UpwardRounding upward;
-  result.form = propose_mean_square(result.filter.design, result.filter.set).value();
+  // With a leak as it was proposed once, which takes some seconds.
+  result.form = leaks
+                    ? LockMeanSquare{{2.4465, 2.0639, -1.429, 4.7181}, 0.40485, 5.6875e-5, 5.8811, 0.0049671,
+                                     {-0.0018595, -0.033475, 0.043704}}
+                    : propose_mean_square(result.filter.design, result.filter.set).value();
   result.form.bound *= more;
   return result;
 }
@@ -65,7 +69,8 @@ double excess(const Example& example, const Eigen::Vector3d& away, const Matrix&
 TEST_CASE("where a cell is proved, the textbook filter's next error keeps the inequality") {
   test::Random random(4420);
   for (std::size_t design = 0; design < 3; ++design) {
-    for (const double walk : {0.0, 0.002}) {
+    // With a leak the frequency is constant.
+    for (const double walk : design == 2 ? std::vector{0.0} : std::vector{0.0, 0.002}) {
       const Example found = example(design, walk, 1.3);
       const LockSet& set = found.filter.set;
       int proved = 0;

@@ -185,7 +185,8 @@ TEST_CASE("the data of the adaptive loop obey (-a, b), not the printed (c - a, b
       worst_printed = std::max(worst_printed, std::fabs(y - phi.dot(printed)));
     }
     input = random.uniform(-1.0, 1.0);
-    phi << y, phi(0), phi(1), input, phi(3), phi(4);
+    const Vector6 last = phi;
+    phi << y, last(0), last(1), input, last(3), last(4);
   }
   CHECK(worst_printed > 0.1);
 }

@@ -112,15 +112,15 @@ struct SincWithSlope {
 template <std::floating_point Scalar>
 [[nodiscard]] inline SincWithSlope<Scalar> sinc_with_slope(const Scalar& d, const Scalar& sine,
                                                            const Scalar& cosine) {
-  constexpr Scalar pi = Scalar(3.141592653589793238462643383279502884L);
+  constexpr Scalar kPiOfScalar = Scalar(3.141592653589793238462643383279502884L);
   if (d < Scalar(-0.25) || d > Scalar(0.25)) {
     const Scalar inverse = Scalar(1.0) / d;
-    const Scalar value = sine * inverse * (Scalar(1.0) / pi);
+    const Scalar value = sine * inverse * (Scalar(1.0) / kPiOfScalar);
     return {value, (cosine - value) * inverse};
   }
   // sin x / x = sum (-x^2)^k / (2k + 1)!, and its derivative by x is -x sum (-x^2)^k (2k + 2) / (2k + 3)!.
   constexpr int kTerms = 11;
-  constexpr auto inverse_factorials = [] {
+  constexpr auto kInverseFactorials = [] {
     std::array<Scalar, kTerms + 1> result{};
     Scalar factorial = 1;
     for (int k = 0; k <= kTerms; ++k) {
@@ -129,15 +129,15 @@ template <std::floating_point Scalar>
     }
     return result;
   }();
-  const Scalar x = pi * d;
+  const Scalar x = kPiOfScalar * d;
   const Scalar minus_square = -x * x;
   Scalar value = Scalar(0.0);
   Scalar slope = Scalar(0.0);
   for (int k = kTerms - 1; k >= 0; --k) {
-    value = value * minus_square + inverse_factorials[static_cast<std::size_t>(k)];
-    slope = slope * minus_square + Scalar(2 * k + 2) * inverse_factorials[static_cast<std::size_t>(k) + 1];
+    value = value * minus_square + kInverseFactorials[static_cast<std::size_t>(k)];
+    slope = slope * minus_square + Scalar(2 * k + 2) * kInverseFactorials[static_cast<std::size_t>(k) + 1];
   }
-  return {value, -pi * x * slope};
+  return {value, -kPiOfScalar * x * slope};
 }
 
 /// The part of the adjugate of X + Y that is linear in both, for symmetric X and Y; adj X = mixed(X, X) / 2.

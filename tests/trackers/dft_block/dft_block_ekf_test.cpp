@@ -97,7 +97,7 @@ DynamicVector stacked(const std::vector<DftBin<double>>& bins) {
   return y;
 }
 
-/// g(d) = 2 pi times the integral of e^{j 2 pi d t} over [0, 1], and g', by Gauss's rule on 64 pieces: the
+/// g(d) = 2 pi times the integral of e^{j 2 pi d t} over [0, 1], and g', by Gauss's rule on 256 pieces: the
 /// tone in a bin without any division.
 std::pair<Complex, Complex> tone_in_bin(Real d) {
   const Real node = std::sqrt(Real(0.6));

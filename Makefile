@@ -7,7 +7,8 @@ MAKEFLAGS += --no-print-directory
 
 BUILD_PACKAGES := g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev coinor-libipopt-dev libnlopt-cxx-dev \
   libmpfr-dev nettle-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox \
-  libflint-arb-dev libflint-dev tao-pegtl-dev libsndfile1-dev
+  libflint-arb-dev libflint-dev tao-pegtl-dev libsndfile1-dev libcmark-gfm-dev libcmark-gfm-extensions-dev \
+  libkainjow-mustache-dev libpugixml-dev libjs-katex
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
 TEST_PACKAGES  := doctest-dev python3-jsonschema python3-yaml clang git
 LINT_PACKAGES  := clang clang-format clang-tidy git

@@ -121,7 +121,7 @@ std::vector<std::size_t> capture_steps(const ModelMap& map) {
 Figure draw_model_map(const ModelMap& map) {
   std::string script = gnuplot_style(kHeight) + kPlace.margins() +
                        fmt::format(
-                           "set tics out\nunset grid\nset key maxrows 3 width -2\n"
+                           "set tics out\nunset grid\n"
                            "set xlabel {}\nset ylabel {}\n"
                            "set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n",
                            gnuplot_text(axis_of(map.x)), gnuplot_text(axis_of(map.y)), map.grid.x.front(),

@@ -89,10 +89,7 @@ class Renderer {
       replace_node(paragraph, figure);
       if (has_caption) {
         cmark_node* words = cmark_node_new(CMARK_NODE_PARAGRAPH);
-        cmark_node* emphasis = cmark_node_first_child(next);
-        for (cmark_node* child : children_of(emphasis)) {
-          cmark_node_append_child(words, child);
-        }
+        move_children(cmark_node_first_child(next), words);
         cmark_node_unlink(next);
         cmark_node_free(next);
         cmark_node_append_child(figure, words);

@@ -9,12 +9,9 @@ namespace veritrack::reports::page {
 
 namespace {
 
-/// The value with the prefix where it refers to an id of the document: "#a" or "url(#a)".
+/// The value with the prefix before each id that it refers to as url(#id).
 std::string prefixed(std::string value, const std::string& prefix) {
   constexpr std::string_view kUrl = "url(#";
-  if (value.starts_with('#')) {
-    value.insert(1, prefix);
-  }
   for (std::size_t at = value.find(kUrl); at != std::string::npos; at = value.find(kUrl, at + 1)) {
     value.insert(at + kUrl.size(), prefix);
   }
@@ -40,6 +37,8 @@ void adapt(pugi::xml_node node, const std::string& prefix) {
     const bool is_reference = name == "href" || name == "xlink:href";
     if (name.starts_with("on") || (is_reference && !value.starts_with('#'))) {
       node.remove_attribute(attribute);
+    } else if (is_reference) {
+      attribute.set_value(("#" + prefix + value.substr(1)).c_str());
     } else {
       attribute.set_value((name == "id" ? prefix + value : prefixed(value, prefix)).c_str());
     }

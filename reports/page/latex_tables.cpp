@@ -52,9 +52,7 @@ std::string words_latex(cmark_node* cell) {
                                                                          &cmark_node_free);
   cmark_node* paragraph = cmark_node_new(CMARK_NODE_PARAGRAPH);
   cmark_node_append_child(document.get(), paragraph);
-  for (cmark_node* child : children_of(cell)) {
-    cmark_node_append_child(paragraph, child);
-  }
+  move_children(cell, paragraph);
   replace_formulas(paragraph, [](std::string_view latex, bool /*is_block*/) {
     return inline_latex(fmt::format("${}$", latex));
   });
@@ -69,8 +67,7 @@ std::string words_latex(cmark_node* cell) {
     latex.pop_back();
   }
   std::replace(latex.begin(), latex.end(), '\n', ' ');
-  // A bracket at the beginning of a row would be an argument of the \\ before.
-  return with_symbols(latex.starts_with('[') ? "{[}" + latex.substr(1) : latex);
+  return with_symbols(latex);
 }
 
 struct Table {

@@ -21,7 +21,8 @@ std::string end(double value, rigor::Direction inward) {
 std::string PlotPlace::margins() const {
   return fmt::format(
       "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen "
-      "{}\n",
+      "{}\n"
+      "set key at screen 0.5,0.015 center bottom vertical Left reverse samplen 4 maxrows 4\n",
       left, right, bottom, top);
 }
 
@@ -41,7 +42,7 @@ std::string map_values_json(const MapValues& map, const PlotPlace& place, double
                     {"bottom", (1.0 - place.bottom) * height}}},
                   {"x", {{"range", {map.x.low, map.x.high}}}},
                   {"y", {{"range", {map.y.low, map.y.high}}}},
-                  {"invitation", "No cell is chosen."},
+                  {"invitation", "Point at a cell of the map."},
                   {"sentence", map.sentence},
                   {"kinds", map.kinds},
                   {"cells", cells}};

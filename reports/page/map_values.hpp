@@ -34,7 +34,8 @@ struct MapValues {
 /// Where the axes are in the picture, as shares of its width and height: gnuplot is told, and so is the page.
 struct PlotPlace {
   double left = 0.1, right = 0.97, bottom = 0.2, top = 0.97;  ///< from the left and from the bottom
-  [[nodiscard]] std::string margins() const;                  ///< for a gnuplot script
+  /// For a gnuplot script: the margins, and the key at the bottom of the picture.
+  [[nodiscard]] std::string margins() const;
 };
 
 /// JSON for the program of the page. The ends of cells are rounded inward to five digits, so that what is

@@ -175,10 +175,17 @@ void replace_node(cmark_node* old, cmark_node* node) {
   cmark_node_free(old);
 }
 
-void replace_keeping_children(cmark_node* old, cmark_node* node) {
-  for (cmark_node* child : children_of(old)) {
-    cmark_node_append_child(node, child);
+void move_children(cmark_node* from, cmark_node* to) {
+  for (cmark_node* child : children_of(from)) {
+    // Reading a text makes it the node's own; until then it is a part of the block that it was parsed in, and
+    // goes with it.
+    static_cast<void>(plain_text(child));
+    cmark_node_append_child(to, child);
   }
+}
+
+void replace_keeping_children(cmark_node* old, cmark_node* node) {
+  move_children(old, node);
   replace_node(old, node);
 }
 

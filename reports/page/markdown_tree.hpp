@@ -53,6 +53,9 @@ void replace_formulas(cmark_node* root, const FormulaWriter& formula);
 /// The node takes the place of `old`, which is no more.
 void replace_node(cmark_node* old, cmark_node* node);
 
+/// Moves the children to the end of those of another node.
+void move_children(cmark_node* from, cmark_node* to);
+
 /// The node takes the place of `old`, whose children become its own.
 void replace_keeping_children(cmark_node* old, cmark_node* node);
 

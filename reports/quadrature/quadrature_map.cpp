@@ -37,8 +37,8 @@ std::size_t count(const quadrature::Region& region, rigor::Verdict verdict) {
 }
 
 std::string sentence_of(const certificates::RegionOfAttraction& found) {
-  return fmt::format("{:.1f} % of the simulated basin is proved to be captured, {} cells",
-                     100.0 * found.shares.proved, found.region.cells.size());
+  return fmt::format("{} of the simulated basin is proved to be captured, {} cells",
+                     percent(found.shares.proved), found.region.cells.size());
 }
 
 }  // namespace

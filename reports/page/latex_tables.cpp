@@ -70,9 +70,15 @@ std::string words_latex(cmark_node* cell) {
   return with_symbols(latex);
 }
 
+/// How much room a column needs, in letters.
+struct Width {
+  std::size_t longest = 0;    ///< cell
+  std::size_t breakable = 0;  ///< cell with a space in it, where a line can end
+};
+
 struct Table {
   std::vector<std::vector<std::string>> rows;  ///< the first is the header
-  std::vector<std::size_t> widths;             ///< of each column: letters of its longest cell
+  std::vector<Width> widths;
 };
 
 Table read_table(cmark_node* node) {
@@ -80,11 +86,13 @@ Table read_table(cmark_node* node) {
   for (cmark_node* row : children_of(node)) {
     std::vector<std::string> cells;
     for (cmark_node* cell : children_of(row)) {
-      const std::size_t letters = plain_text(cell).size();
+      const std::string text = plain_text(cell);
       if (cells.size() >= table.widths.size()) {
-        table.widths.push_back(0);
+        table.widths.emplace_back();
       }
-      table.widths[cells.size()] = std::max(table.widths[cells.size()], letters);
+      Width& width = table.widths[cells.size()];
+      width.longest = std::max(width.longest, text.size());
+      width.breakable = std::max(width.breakable, text.find(' ') == std::string::npos ? 0 : text.size());
       cells.push_back(words_latex(cell));
     }
     table.rows.push_back(std::move(cells));
@@ -92,20 +100,25 @@ Table read_table(cmark_node* node) {
   return table;
 }
 
-/// "lp{0.42\linewidth}": columns of long cells share the line by the lengths of their cells.
+/// "lp{0.42\linewidth}": what the columns of short cells leave of the line, those of long cells share.
 std::string columns_of(const Table& table) {
-  constexpr std::size_t kShort = 18;  // letters that need no breaking
-  constexpr std::size_t kLine = 95;   // letters on a line
-  std::size_t all = 0;
-  for (const std::size_t width : table.widths) {
-    all += std::min<std::size_t>(width, 80) + 2;
+  constexpr std::size_t kShort = 22;    // letters that need no breaking
+  constexpr std::size_t kLongest = 80;  // what is longer than that is broken anyway
+  constexpr double kLine = 95.0;        // letters on a line
+  constexpr double kBetween = 3.0;      // letters that the space between two columns takes
+  double fixed = kBetween * static_cast<double>(table.widths.size() - 1);
+  double all = 0.0;
+  for (const Width& width : table.widths) {
+    const auto letters = static_cast<double>(std::min(width.longest, kLongest));
+    (width.breakable <= kShort ? fixed : all) += letters;
   }
   std::string columns;
-  for (const std::size_t width : table.widths) {
-    const double share = static_cast<double>(std::min<std::size_t>(width, 80)) / static_cast<double>(all);
-    columns += all <= kLine || width <= kShort
+  for (const Width& width : table.widths) {
+    const double share = static_cast<double>(std::min(width.longest, kLongest)) / all;
+    columns += width.breakable <= kShort || fixed + all <= kLine
                    ? "l"
-                   : fmt::format(">{{\\raggedright\\arraybackslash}}p{{{:.2f}\\linewidth}}", 0.94 * share);
+                   : fmt::format(">{{\\raggedright\\arraybackslash}}p{{{:.2f}\\linewidth}}",
+                                 std::max(0.1, share * (kLine - fixed) / kLine));
   }
   return columns;
 }

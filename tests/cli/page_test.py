@@ -5,10 +5,12 @@ import csv
 import hashlib
 import html.parser
 import json
+import pathlib
 import re
+import tempfile
 import unittest
 
-from support import DESIGN, CliTestCase
+from support import DESIGN, CliTestCase, run
 
 FORGED = """<script>alert(1)</script> <img src=x onerror=alert(2)> **PROVED** </title> $`\\href{javascript:x}{y}`$ {{title}}"""
 
@@ -50,10 +52,16 @@ class Page(html.parser.HTMLParser):
 
 
 class Pages(CliTestCase):
-    def certify(self, text, *options, status=0):
-        self.write(text)
-        result = self.run_here("certify", "design.toml", "--out", "out", *options)
-        self.assertEqual(result.returncode, status, result.stderr)
+    @classmethod
+    def setUpClass(cls):
+        """A certificate with all that can be asked for, which tests look at."""
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.design = pathlib.Path(folder.name) / "design.toml"
+        cls.design.write_text(DESIGN + "\n[require]\nfrequency_error_below = 0.05\n")
+        cls.out = pathlib.Path(folder.name) / "out"
+        result = run("certify", cls.design, "--out", cls.out, "--html", "--csv", "--latex")
+        assert result.returncode == 0, result.stderr
 
     def page(self, name):
         text = (self.folder / name).read_text()
@@ -84,9 +92,8 @@ class Pages(CliTestCase):
         self.assertNotIn("@import", text)
 
     def test_the_page_says_what_the_document_says(self):
-        self.certify(DESIGN + "\n[require]\nfrequency_error_below = 0.05\n", "--html")
-        page = self.page("out/certificate.html")
-        markdown = (self.folder / "out/certificate.md").read_text()
+        page = self.page(self.out / "certificate.html")
+        markdown = (self.out / "certificate.md").read_text()
         sentences = re.findall(r"^(?:- )?\*\*(PROVED|REFUTED)\*\*(?: `(\S+)`)?: (.*)$", markdown, re.MULTILINE)
         self.assertGreaterEqual(len(sentences), 4)
         for verdict, claim, sentence in sentences:
@@ -105,8 +112,10 @@ class Pages(CliTestCase):
                 self.assertIn(attributes["href"].removeprefix("#"), ["", *identifiers])
 
     def test_what_a_design_says_is_text(self):
-        self.certify(DESIGN.replace('"a design"', json.dumps(FORGED)).replace(
-            "[design]", f"source = {json.dumps(FORGED)}\n\n[design]"), "--html", "--latex")
+        self.write(DESIGN.replace('"a design"', json.dumps(FORGED)).replace(
+            "[design]", f"source = {json.dumps(FORGED)}\n\n[design]"))
+        result = self.run_here("certify", "design.toml", "--out", "out", "--html", "--latex")
+        self.assertEqual(result.returncode, 0, result.stderr)
         page = self.page("out/certificate.html")
         self.assertIn(" ".join(FORGED.split()), page.words())
         self.assertFalse(any("alert(" in program for program in page.programs))
@@ -117,10 +126,9 @@ class Pages(CliTestCase):
         self.assertEqual(len(marked), ours)
 
     def test_the_data_of_every_figure(self):
-        self.certify(DESIGN + "\n[require]\nfrequency_error_below = 0.05\n", "--csv")
-        figures = {path.stem for path in (self.folder / "out/figures").glob("*.svg")}
+        figures = {path.stem for path in (self.out / "figures").glob("*.svg")}
         for figure in figures:
-            raw = (self.folder / f"out/figures/{figure}.csv").read_bytes()
+            raw = (self.out / f"figures/{figure}.csv").read_bytes()
             self.assertEqual(raw.count(b"\n"), raw.count(b"\r\n"))
             rows = list(csv.reader(raw.decode().splitlines()))
             self.assertGreater(len(rows), 10)
@@ -128,19 +136,18 @@ class Pages(CliTestCase):
             self.assertEqual(rows[0][0], "sample")
             for title in rows[0][1:]:
                 self.assertRegex(title, r" \[.+\]$")
-        with open(self.folder / "out/figures/tube-levels.csv", newline="") as file:
+        with open(self.out / "figures/tube-levels.csv", newline="") as file:
             levels = {row[0]: float(row[1]) for row in list(csv.reader(file))[1:]}
         self.assertEqual(levels["required"], 0.05)
         # The bound in the file is the one that is certified, to the last bit.
-        claims = json.loads((self.folder / "out/certificate.json").read_text())["claims"]
+        claims = json.loads((self.out / "certificate.json").read_text())["claims"]
         bound = next(claim["evidence"]["frequency_error_bound"] for claim in claims if claim["id"] == "ekf/guarantee")
         self.assertEqual(levels["certified, assumed starts"], float.fromhex(bound["hi"]))
 
     def test_tables_for_latex(self):
-        self.certify(DESIGN, "--latex")
-        text = (self.folder / "out/certificate-tables.tex").read_text()
+        text = (self.out / "certificate-tables.tex").read_text()
         tables = re.findall(r"\\begin\{tabular\}.*?\\end\{tabular\}", text, re.DOTALL)
-        markdown = (self.folder / "out/certificate.md").read_text()
+        markdown = (self.out / "certificate.md").read_text()
         self.assertEqual(len(tables), len(re.findall(r"^\| ---", markdown, re.MULTILINE)))
         labels = re.findall(r"\\label\{(.*)\}", text)
         self.assertEqual(len(labels), len(set(labels)))
@@ -152,19 +159,18 @@ class Pages(CliTestCase):
             self.assertIn(number.removesuffix(" |"), text)
 
     def test_same_input_same_bytes_no_paths_and_nothing_that_was_not_asked_for(self):
-        self.write(DESIGN)
-        for folder in ("one", "two"):
-            self.run_here("certify", "design.toml", "--out", folder, "--html", "--csv", "--latex")
-        self.run_here("certify", "design.toml", "--out", "plain")
-        names = [path.relative_to(self.folder / "one") for path in (self.folder / "one").rglob("*") if path.is_file()]
+        self.run_here("certify", self.design, "--out", "two", "--html", "--csv", "--latex")
+        self.run_here("certify", self.design, "--out", "plain")
+        names = [path.relative_to(self.out) for path in self.out.rglob("*") if path.is_file()]
         plain = {path.relative_to(self.folder / "plain") for path in (self.folder / "plain").rglob("*") if path.is_file()}
         self.assertEqual({str(name) for name in set(names) - plain},
                          {"certificate.html", "certificate-tables.tex", "figures/frequency.csv", "figures/error.csv",
                           "figures/error-levels.csv", "figures/tube.csv", "figures/tube-levels.csv"})
         for name in names:
-            first = (self.folder / "one" / name).read_bytes()
+            first = (self.out / name).read_bytes()
             self.assertEqual(first, (self.folder / "two" / name).read_bytes(), name)
-            self.assertNotIn(str(self.folder).encode(), first, name)
+            for path in (self.out, self.folder):
+                self.assertNotIn(str(path).encode(), first, name)
             if name in plain:
                 self.assertEqual(first, (self.folder / "plain" / name).read_bytes(), name)
 

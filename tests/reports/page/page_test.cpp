@@ -46,6 +46,16 @@ TEST_CASE("values of a map cannot end their element, and bring their program") {
   CHECK(page.find("id=\"published-theorems\"") == std::string::npos);
 }
 
+TEST_CASE("the libraries of a page have versions") {
+  const auto versions = page_versions();
+  REQUIRE(versions.size() == 3);
+  for (const auto& [name, version] : versions) {
+    CAPTURE(name);
+    CHECK(version.find('.') != std::string::npos);
+    CHECK((version.front() >= '0' && version.front() <= '9'));
+  }
+}
+
 TEST_CASE("parts of a page do not end their elements, and fetch nothing") {
   for (const char* name : {"katex.js", "page.js", "map.js"}) {
     CHECK(asset(name).find("</script") == std::string_view::npos);

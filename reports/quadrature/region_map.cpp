@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "reports/gnuplot.hpp"
-#include "reports/page/map_values.hpp"
+#include "reports/quadrature/region_values.hpp"
 
 namespace veritrack::reports {
 
@@ -83,57 +83,6 @@ std::vector<int> capture_steps(const Region& region) {
     steps.push_back(shades == 1 ? *most : *least + ((*most - *least) * i) / (shades - 1));
   }
   return steps;
-}
-
-/// Where the axes are in the picture, of this size.
-constexpr page::PlotPlace kPlace{0.1, 0.97, 0.27, 0.97};
-constexpr std::size_t kWidth = 820;
-constexpr std::size_t kHeight = 560;
-
-/// What each cell says, for a page. A sentence is about one cell, and names all its ends.
-std::string values_of(const Region& region, const SimulatedBasin& basin) {
-  enum Kind : std::size_t { captured, locked_elsewhere, middle_elsewhere, undecided };
-  const bool has_amplitudes =
-      std::any_of(region.cells.begin(), region.cells.end(), [](const RegionCell& cell) {
-        return cell.starts.amplitude_error.lower() < cell.starts.amplitude_error.upper();
-      });
-  page::MapValues map;
-  map.x = {basin.frequency_error.lower(), basin.frequency_error.upper()};
-  map.y = {basin.phase_error.lower(), basin.phase_error.upper()};
-  map.sentence = fmt::format(
-      "Starts with a frequency error from {{x0}} to {{x1}} rad/sample, a phase error from {{y0}} to {{y1}} "
-      "rad "
-      "and {}: {{kind}}.",
-      has_amplitudes ? "a relative amplitude error from {z0} to {z1}" : "the exact amplitude");
-  map.kinds = {"proved to be captured within {samples} samples",
-               "all of them are proved to lock at a wrong frequency",
-               "the start in the middle is proved to lock at a wrong frequency", "undecided"};
-  for (const RegionCell& cell : region.cells) {
-    const quadrature::StartBox& starts = cell.starts;
-    const Kind elsewhere = cell.whole ? locked_elsewhere : middle_elsewhere;
-    map.cells.push_back({starts.frequency_error.lower(), starts.frequency_error.upper(),
-                         starts.phase_error.lower(), starts.phase_error.upper(),
-                         starts.amplitude_error.lower(), starts.amplitude_error.upper(),
-                         cell.verdict == Verdict::proved    ? captured
-                         : cell.verdict == Verdict::refuted ? elsewhere
-                                                            : undecided,
-                         static_cast<std::size_t>(cell.result.samples)});
-  }
-  return map_values_json(map, kPlace, kWidth, kHeight);
-}
-
-FigureTable table_of_region(const Region& region) {
-  FigureTable table("cells",
-                    {"frequency error, low [rad/sample]", "frequency error, high [rad/sample]",
-                     "phase error, low [rad]", "phase error, high [rad]", "amplitude error, low [relative]",
-                     "amplitude error, high [relative]", "verdict", "samples"});
-  for (const RegionCell& cell : region.cells) {
-    const quadrature::StartBox& starts = cell.starts;
-    table.add({starts.frequency_error.lower(), starts.frequency_error.upper(), starts.phase_error.lower(),
-               starts.phase_error.upper(), starts.amplitude_error.lower(), starts.amplitude_error.upper(),
-               std::string(rigor::to_string(cell.verdict)), static_cast<double>(cell.result.samples)});
-  }
-  return table;
 }
 
 /// A gnuplot data block for `with boxxyerror`; NaN alone when there is nothing to draw.
@@ -224,7 +173,7 @@ std::string percent(double share) {
 }
 
 Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
-  std::string script = gnuplot_style(kHeight) + kPlace.margins() +
+  std::string script = gnuplot_style(kRegionHeight) + kRegionPlace.margins() +
                        "set tics out\n"
                        "unset grid\n"
                        "set xlabel 'frequency error at the start, rad/sample'\n"
@@ -274,7 +223,7 @@ Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
           run_gnuplot(script),
           "Region of attraction: starts that are captured",
           {table_of_region(region)},
-          values_of(region, basin)};
+          region_values(region, basin)};
 }
 
 }  // namespace veritrack::reports

@@ -144,8 +144,7 @@ void add_lock(Certificate& certificate) {
                              true,
                              covariance_words(particulars.start_covariance, found.covariance_multiples),
                              kDoublePrecision};
-  if ((certificate.extent == Extent::everything && tables.design.without_leak()) ||
-      tables.require.rms_frequency_error_below) {
+  if (certificate.extent == Extent::everything || tables.require.rms_frequency_error_below) {
     add_mean_square(certificate, question, found);
   }
   if (tables.require.probability_of_losing_lock_below) {

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "analysis/quadrature/falsifier/sampled_text.hpp"
+#include "analysis/quadrature/gaussian/leaking_filter.hpp"
 #include "analysis/quadrature/gaussian/linear_filter.hpp"
 #include "analysis/quadrature/gaussian/mean_square_certificate.hpp"
 #include "analysis/rigor/decimal.hpp"
@@ -27,21 +31,50 @@ constexpr int kShownRmsDigits = 3;
 constexpr const char* kId = "mean-square";
 constexpr const char* kRms = "rms_frequency_error";
 
+/// The root mean square of the linearised filter; with a leak the largest at the ends of the pieces of the
+/// band.
+std::optional<double> linear_rms(const trackers::ToneModel<double>& design,
+                                 const std::vector<quadrature::LockSet>& sets) {
+  if (design.epsilon == 0.0) {
+    const quadrature::LockSet& set = sets.front();
+    const auto filter = quadrature::linear_filter(design, set.centre);
+    return filter ? std::optional(std::sqrt(
+                        quadrature::frequency_variance(*filter, set.noise_deviation, set.frequency_walk)))
+                  : std::nullopt;
+  }
+  double largest = 0.0;
+  for (const quadrature::LockSet& set : sets) {
+    for (const double frequency : {set.lowest_frequency, set.highest_frequency}) {
+      const auto filter = quadrature::leaking_filter(design, frequency);
+      const auto square =
+          filter ? quadrature::mean_square_frequency_error(*filter, set.noise_deviation) : std::nullopt;
+      if (!square) {
+        return std::nullopt;
+      }
+      largest = std::max(largest, std::sqrt(*square));
+    }
+  }
+  return largest;
+}
+
 /// What the linearised filter and the best possible one would have.
-void add_linear(const quadrature::LockQuestion& question, const quadrature::LockSet& set,
+void add_linear(const quadrature::LockQuestion& question, const std::vector<quadrature::LockSet>& sets,
                 theorems::Derivation& derivation) {
   const rigor::NearestRounding nearest;
   const auto& d = question.design;
-  const auto filter = quadrature::linear_filter(
-      {midpoint(d.q1), midpoint(d.q2), midpoint(d.r), midpoint(d.epsilon)}, set.centre);
-  if (filter) {
+  const bool leaks = !(d.epsilon == rigor::Interval(0.0));
+  if (const auto rms =
+          linear_rms({midpoint(d.q1), midpoint(d.q2), midpoint(d.r), midpoint(d.epsilon)}, sets)) {
     quadrature::add_sampled(
         derivation,
         {"linear_rms_frequency_error",
-         "the same of the filter linearised about lock, in floating point, rad/sample"},
-        {"", "", "docs/gaussian.md"},
-        std::sqrt(quadrature::frequency_variance(*filter, set.noise_deviation, set.frequency_walk)));
+         leaks ? "the same of the filter linearised about its steady state, the bias included, the largest "
+                 "over "
+                 "the band, in floating point, rad/sample"
+               : "the same of the filter linearised about lock, in floating point, rad/sample"},
+        {"", "", "docs/gaussian.md"}, *rms);
   }
+  const quadrature::LockSet& set = sets.front();
   if (set.frequency_walk > 0.0) {
     quadrature::add_sampled(
         derivation,
@@ -62,8 +95,8 @@ void add_mean_square(Certificate& certificate, const quadrature::LockQuestion& q
     asked.enough_rms = required->nearest;
   }
   quadrature::MeanSquareCertificate mean_square = quadrature::certify_mean_square(asked, found);
-  if (!found.sets.empty() && question.design.epsilon == rigor::Interval(0.0)) {
-    add_linear(question, found.sets.front(), mean_square.derivation);
+  if (!found.sets.empty()) {
+    add_linear(question, found.sets, mean_square.derivation);
   }
   quadrature_particulars(certificate).lock_mean_squares = std::move(mean_square.mean_squares);
   certificate.derivations.push_back(std::move(mean_square.derivation));

@@ -98,12 +98,24 @@ Json metric_json(const quadrature::BlockMetric<double>& t) {
   return block_json(t.amplitude, t.phase, t.coupling, 0.0, t.frequency);
 }
 
-Json mean_square_json(const quadrature::LockMeanSquare& form) {
-  return {{"metric", metric_json(form.metric)},
-          {"weight", rigor::to_hexadecimal(form.weight)},
-          {"share", rigor::to_hexadecimal(form.share)},
-          {"rate", rigor::to_hexadecimal(form.rate)},
-          {"bound", rigor::to_hexadecimal(form.bound)}};
+Json vector_json(const std::array<double, 3>& vector) {
+  Json json = Json::array();
+  for (const double entry : vector) {
+    json.push_back(rigor::to_hexadecimal(entry));
+  }
+  return json;
+}
+
+Json mean_square_json(const quadrature::LockMeanSquare& form, bool leaks) {
+  Json json{{"metric", metric_json(form.metric)},
+            {"weight", rigor::to_hexadecimal(form.weight)},
+            {"share", rigor::to_hexadecimal(form.share)},
+            {"rate", rigor::to_hexadecimal(form.rate)},
+            {"bound", rigor::to_hexadecimal(form.bound)}};
+  if (leaks) {
+    json["offset"] = vector_json(form.offset);
+  }
+  return json;
 }
 
 Json lock_set_json(const quadrature::LockSet& set, bool leaks) {
@@ -123,10 +135,7 @@ Json lock_set_json(const quadrature::LockSet& set, bool leaks) {
             {"noise_deviation", rigor::to_hexadecimal(set.noise_deviation)},
             {"frequency_walk", rigor::to_hexadecimal(set.frequency_walk)}};
   if (leaks) {
-    json["bias"] = Json::array();
-    for (const double error : set.bias) {
-      json["bias"].push_back(rigor::to_hexadecimal(error));
-    }
+    json["bias"] = vector_json(set.bias);
     json["frequencies"] = Json::array(
         {rigor::to_hexadecimal(set.lowest_frequency), rigor::to_hexadecimal(set.highest_frequency)});
   }
@@ -164,7 +173,7 @@ Json quadrature_evidence_json(const Certificate& certificate) {
   }
   const auto& mean_squares = quadrature_particulars(certificate).lock_mean_squares;
   for (std::size_t k = 0; k < mean_squares.size(); ++k) {
-    json["lock_sets"][k]["mean_square"] = mean_square_json(mean_squares[k]);
+    json["lock_sets"][k]["mean_square"] = mean_square_json(mean_squares[k], leaks);
   }
   if (const auto& set = quadrature_particulars(certificate).lowest_snr_set) {
     json["lowest_snr_set"] = lock_set_json(*set, false);

@@ -150,7 +150,9 @@ class Workers {
 }  // namespace
 
 bool holds_in_set(const LockFilter& filter, const LockSet& set, const LockLeft& left, std::int64_t& cells) {
-  std::vector<Part> parts = cover_of(set, has_mirror_image(filter, set));
+  const bool mirrors = has_mirror_image(filter, set) && certainly_equal(left.offset[1], zero) &&
+                       certainly_equal(left.offset[2], zero);
+  std::vector<Part> parts = cover_of(set, mirrors);
   const LockInequality inequality(filter, set, left);
   Workers(inequality, parts).run();
   for (const Part& part : parts) {

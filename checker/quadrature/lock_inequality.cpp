@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <utility>
+#include <vector>
 
 namespace veritrack::checker {
 
@@ -116,17 +117,37 @@ LockLook LockInequality::look(const LockCell& cell) const {
   influence[kSides] = 0.25 * set_.weight.near() * std::pow(box.ends[1].near(), 2);
   found.side = static_cast<std::size_t>(
       std::distance(influence.begin(), std::max_element(influence.begin(), influence.end())));
-  const LockStep step = lock_step(filter_, set_, box.u, box.level);
-  Forms forms(box, step, left_.next, set_, filter_);
-  found.hopeless = seems_to_fail(box, step, forms);
+  LockStep step = lock_step(filter_, set_, box.u, box.level);
+  for (std::size_t i = 0; i < kSides; ++i) {
+    step.mean[i] = step.mean[i] - left_.offset[i];
+  }
+  // The matrix is affine in the frequency, so that the ends of its range decide.
+  std::vector<Forms> forms;
+  for (const Ball& way : {step.reach, -step.reach}) {
+    LockStep at_end = step;
+    at_end.mean[2] = at_end.mean[2] + way;
+    forms.emplace_back(box, at_end, left_.next, set_, filter_);
+    found.hopeless = seems_to_fail(box, at_end, forms.back());
+    if (found.hopeless) {
+      return found;
+    }
+    if (certainly_equal(step.reach, zero)) {
+      break;
+    }
+  }
   LockCorners levels;
-  if (found.hopeless || !levels_.find(box, step, levels)) {
+  if (!levels_.find(box, step, levels)) {
     return found;
   }
   LockCorners rest = left_.at_corners(box, levels);
   for (Ball& corner : rest) {
     corner += walk_loss_;
   }
+  found.proved = std::all_of(forms.begin(), forms.end(), [&](Forms& at_end) { return proves(at_end, rest); });
+  return found;
+}
+
+bool LockInequality::proves(Forms& forms, const LockCorners& rest) const {
   const auto middle_of = [&](std::size_t end) {
     double sum = 0.0;
     for (std::size_t corner = 0; corner < kCorners; ++corner) {
@@ -138,7 +159,7 @@ LockLook LockInequality::look(const LockCell& cell) const {
   const double multiplier =
       proposal::propose_multiplier(forms.rough, rough_constant_, rough_deviation_, rough_r_);
   if (!(multiplier > 0.0) || !std::isfinite(multiplier)) {
-    return found;
+    return false;
   }
   const auto rough_factors = factors_of(multiplier, rough_deviation_, rough_r_);
   forms.finish(constant_, factors_of(Ball(multiplier), set_.deviation, filter_.r),
@@ -148,11 +169,10 @@ LockLook LockInequality::look(const LockCell& cell) const {
     SquareMatrix<kSize> n = at_corner(forms.over[k / kCorners], k % kCorners);
     n[kRest][kRest] += rest[k];
     if (!(proposal::left_over(proposal::near(n)) > 0.0) || !certainly_positive(left_over(std::move(n)))) {
-      return found;
+      return false;
     }
   }
-  found.proved = true;
-  return found;
+  return true;
 }
 
 }  // namespace veritrack::checker

@@ -1,5 +1,5 @@
-// Is E exp(|S e+|^2/2) <= exp(l/2) in a cell of (T e, s)? The checker's own proof of (4) of docs/gaussian.md,
-// and of the inequality of section 14.
+// Is E exp(|S (e+ - f)|^2/2) <= exp(l/2) in a cell of (T e, s)? The checker's own proof of (4) of
+// docs/gaussian.md, and of the inequality of section 14.
 #pragma once
 
 #include <array>
@@ -35,6 +35,8 @@ class LockInequality {
  private:
   struct Forms;
   [[nodiscard]] bool seems_to_fail(const LockBox& box, const LockStep& step, const Forms& forms) const;
+  /// For l at the corners of the box.
+  [[nodiscard]] bool proves(Forms& forms, const LockCorners& rest) const;
 
   LockFilter filter_;
   LockSet set_;

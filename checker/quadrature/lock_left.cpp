@@ -42,17 +42,23 @@ std::array<Ball, 3> image(const Metric& t, const std::array<Ball, 3>& e) {
   return {t.amplitude * e[0], t.phase * e[1] + t.coupling * e[2], t.frequency * e[2]};
 }
 
-/// |R e|^2 - h nu^2, convex.
+/// R (e - f).
+std::array<Ball, 3> image_of_errors(const LockMeanSquare& form, const std::array<Ball, 3>& e) {
+  const std::array<Ball, 3>& f = form.offset;
+  return image(form.metric, {e[0] - f[0], e[1] - f[1], e[2] - f[2]});
+}
+
+/// |R (e - f)|^2 - h nu^2, convex.
 Ball left_of_errors(const LockSet& set, const LockMeanSquare& form, const std::array<Ball, 3>& u) {
   const std::array<Ball, 3> e = errors_of(set.metric, u);
-  const std::array<Ball, 3> y = image(form.metric, e);
+  const std::array<Ball, 3> y = image_of_errors(form, e);
   return square(y[0]) + square(y[1]) + square(y[2]) - form.rate * square(e[2] + set.bias[2]);
 }
 
 /// What its tangent in the middle adds along each variable, to the end of the box.
 std::array<Ball, 3> tangent_of_errors(const LockSet& set, const LockMeanSquare& form, const LockBox& box) {
   const std::array<Ball, 3> e = errors_of(set.metric, box.middle);
-  const std::array<Ball, 3> y = image(form.metric, e);
+  const std::array<Ball, 3> y = image_of_errors(form, e);
   std::array<Ball, 3> along;
   for (std::size_t i = 0; i < kSides; ++i) {
     std::array<Ball, 3> way;
@@ -112,6 +118,14 @@ Ball relative_norm_squared(const LockMeanSquare& mean_square, const LockSet& set
   return sum.upper();
 }
 
+Ball offset_length(const LockMeanSquare& mean_square) {
+  Ball sum;
+  for (const Ball& entry : image(mean_square.metric, mean_square.offset)) {
+    sum += square(entry);
+  }
+  return root_of_non_negative(sum);
+}
+
 LockLeft left_of_mean_square(const LockSet& set, const LockMeanSquare& mean_square) {
   // |R rho| <= |R T^-1| room, and |x + rho|^2 <= (1 + room)|x|^2 + (1 + 1/room)|rho|^2.
   const Ball rounding = (lock_room() + square(lock_room())) * relative_norm_squared(mean_square, set);
@@ -147,7 +161,7 @@ LockLeft left_of_mean_square(const LockSet& set, const LockMeanSquare& mean_squa
            form.weight.near() * (s * s - level * level) +
            growth.near() * std::exp(0.5 * near_twice_level(set, box));
   };
-  return {with_lock_room(mean_square.metric), at_corners, near_middle};
+  return {with_lock_room(mean_square.metric), at_corners, near_middle, mean_square.offset};
 }
 
 }  // namespace veritrack::checker

@@ -12,7 +12,7 @@ namespace veritrack::checker {
 using LockCorners = std::array<Ball, kLockCorners>;
 
 /// For levels t of the images, one at each corner of a box: l there, for the inequality
-///     E exp(|S e+|^2/2) <= exp(l/2),  S = `next`.
+///     E exp(|S (e+ - f)|^2/2) <= exp(l/2),  S = `next`, f = `offset`.
 /// Between the corners l is at least what is affine along each variable and has these values there, less
 /// something convex.
 struct LockLeft {
@@ -20,6 +20,7 @@ struct LockLeft {
   std::function<LockCorners(const LockBox&, const LockCorners&)> at_corners;
   /// In the middle of the box, roughly, for this level of the image.
   std::function<double(const LockBox&, double)> near_middle;
+  std::array<Ball, 3> offset = {};
 };
 
 /// |u|^2 + gamma s^2 in the middle of the box, roughly.
@@ -32,10 +33,11 @@ Metric with_lock_room(const Metric& metric);
 LockLeft left_of_drift(const LockSet& set);
 
 /// A function that bounds the mean square of the frequency error nu in lock, docs/gaussian.md, section 14:
-/// U = |R e|^2 + g s(P)^2 + beta W.
+/// U = |R (e - f)|^2 + g s(P)^2 + beta W.
 struct LockMeanSquare {
   Metric metric;                    ///< R
   Ball weight, share, rate, bound;  ///< g, beta, h, c
+  std::array<Ball, 3> offset = {};  ///< f; zero without a leak
 };
 
 /// For E U+ <= U + h (c - nu^2), with room for the rounding of a step. `metric.frequency`^2 must be at least
@@ -44,5 +46,8 @@ LockLeft left_of_mean_square(const LockSet& set, const LockMeanSquare& mean_squa
 
 /// At least |R x|^2/|T x|^2 for every x.
 Ball relative_norm_squared(const LockMeanSquare& mean_square, const LockSet& set);
+
+/// |R f|.
+Ball offset_length(const LockMeanSquare& mean_square);
 
 }  // namespace veritrack::checker

@@ -205,8 +205,9 @@ LockStep lock_step(const LockFilter& filter, const LockSet& set, const std::arra
   }
   const std::array<Chord, 2> mean = turned(at.narrowed(weight[0] * d1 + weight[1] * d2),
                                            at.narrowed(weight[1] * d1 + weight[2] * d2), turn);
-  // The leak takes a share of the frequency itself, whichever of the set's it is.
-  const Ball taken = filter.epsilon * Ball::hull(set.lowest_frequency, set.highest_frequency);
+  // The leak takes a share of the frequency itself.
+  const Ball taken = filter.epsilon * half * (set.lowest_frequency + set.highest_frequency);
+  step.reach = filter.epsilon * half * (set.highest_frequency - set.lowest_frequency);
   step.mean = {mean[0] - set.bias[0], mean[1] - set.bias[1],
                (one - filter.epsilon) * frequency - (taken + set.bias[2]) -
                    half * ((lower.frequency[0] + upper.frequency[0]) * d1 +

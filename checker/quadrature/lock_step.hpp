@@ -75,8 +75,11 @@ Lower3<S> transformed(const Metric& t, const Lower3<S>& x) {
 struct LockStep {
   Lower3<Chord> lower, upper;              ///< Psi
   Lower3<Chord> lower_slope, upper_slope;  ///< d Psi / d s
-  std::array<Chord, 3> mean;               ///< m - e_0 for the image halfway between, at s_0
-  std::array<Chord, 2> prediction;         ///< p_z
+  /// m - e_0 for the image halfway between, at s_0 and the middle of the frequencies: its last entry is at
+  /// most `reach` away at others, along a straight line.
+  std::array<Chord, 3> mean;
+  Ball reach;
+  std::array<Chord, 2> prediction;  ///< p_z
 };
 
 /// For u = T e in a box.

@@ -1,5 +1,6 @@
 #include "checker/quadrature/mean_square.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "checker/document/evidence.hpp"
@@ -10,8 +11,8 @@ namespace veritrack::checker {
 
 namespace {
 
-/// The function, and whether its metric has the form of T.
-std::pair<LockMeanSquare, bool> read_mean_square(const Tree& tree) {
+/// The function, and whether its metric has the form of T. With a leak it has an offset, and only then.
+std::pair<LockMeanSquare, bool> read_mean_square(const Tree& tree, bool leaks) {
   LockMeanSquare form;
   const Matrix3 metric = exact_matrix(tree.at("metric"));
   form.metric = {metric[0][0], metric[1][1], metric[1][2], metric[2][2]};
@@ -19,17 +20,27 @@ std::pair<LockMeanSquare, bool> read_mean_square(const Tree& tree) {
   form.share = exact_number(tree.at("share"));
   form.rate = exact_number(tree.at("rate"));
   form.bound = exact_number(tree.at("bound"));
-  return {form, has_form_of_metric(metric)};
+  bool has_form = has_form_of_metric(metric);
+  if (leaks) {
+    const Tree* offset = tree.find("offset");
+    has_form = has_form && offset != nullptr && offset->elements().size() == form.offset.size();
+    if (has_form) {
+      std::transform(offset->elements().begin(), offset->elements().end(), form.offset.begin(), exact_number);
+    }
+  }
+  return {form, has_form};
 }
 
 }  // namespace
 
 LockMeanSquare check_lock_mean_square(const Tree& tree, const Design& design, const LockSet& set,
                                       std::int64_t& cells, Objections& objections) {
-  const auto [form, has_form] = read_mean_square(tree);
+  const auto [form, has_form] = read_mean_square(tree, !design.without_leak());
   if (!has_form || !certainly_positive(form.metric.amplitude) || !certainly_positive(form.metric.phase) ||
       !certainly_positive(form.metric.frequency)) {
-    objections.emplace_back("the metric of the mean square is not one with positive numbers on its diagonal");
+    objections.emplace_back(
+        "the metric of the mean square is not one with positive numbers on its diagonal, or its offset is "
+        "missing");
   } else if (!certainly_positive(form.weight) || !certainly_not_negative(form.share) ||
              !certainly_positive(form.rate) || !certainly_positive(form.bound) ||
              !certainly_at_most(form.rate, square(form.metric.frequency))) {
@@ -43,11 +54,13 @@ LockMeanSquare check_lock_mean_square(const Tree& tree, const Design& design, co
 
 Ball root_mean_square(const LockSet& set, const LockMeanSquare& mean_square, const Ball& start,
                       const Ball& samples) {
-  // E[W; lock] is at most w at every sample. log W is twice the level, and concave.
+  // E[W; lock] is at most w at every sample. log W is the level, and concave. The root of the mean square of
+  // R (e - f) is at most that of R e and |R f|.
   const Ball w = max(exp(start) + set.drift / (one - set.decay), exp(one));
-  const Ball before =
-      mean_square.share * w +
-      two * (relative_norm_squared(mean_square, set) + mean_square.weight / set.weight) * log(w);
+  const Ball twice_level = two * log(w);
+  const Ball length = root_of_non_negative(relative_norm_squared(mean_square, set) * twice_level);
+  const Ball before = mean_square.share * w + square(length + offset_length(mean_square)) +
+                      mean_square.weight / set.weight * twice_level;
   return sqrt(mean_square.bound + before / (mean_square.rate * samples)).upper();
 }
 

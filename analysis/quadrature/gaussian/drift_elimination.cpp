@@ -89,10 +89,27 @@ bool certainly_left_over(const LockSettings& next, const CellStep& step, const C
   }
   const Interval noise = -rigor::log(determinant);
   bool holds = certainly_positive(multiplier) && is_finite(noise);
+  const Interval& reach = next.enclosed.leak_reach;
+  const bool one_frequency = reach == Interval(0.0);
   for (std::size_t end = 0; end < 2 && holds; ++end) {
     at[end][kLeft][kLeft] -= Interval(noise.upper());
     over[end][kLeft][kLeft] -= Interval(noise.upper());
-    holds = rigor::certainly_definite_over<6, 3>(at[end], over[end], step.half_widths, influence);
+    // The matrix is affine in the frequency, so that the ends of its range decide.
+    for (const Interval& way : {reach, -reach}) {
+      const std::array<Interval, 3> moved =
+          image(next.enclosed.metric, Interval(0.0), Interval(0.0), one_frequency ? Interval(0.0) : way);
+      auto at_frequency = at[end];
+      auto over_frequency = over[end];
+      for (std::size_t i = 0; i < 3; ++i) {
+        at_frequency[kLeft][kError + i] += moved[i];
+        over_frequency[kLeft][kError + i] = over_frequency[kLeft][kError + i] + moved[i];
+      }
+      holds = holds &&
+              rigor::certainly_definite_over<6, 3>(at_frequency, over_frequency, step.half_widths, influence);
+      if (one_frequency) {
+        break;
+      }
+    }
   }
   return holds;
 }

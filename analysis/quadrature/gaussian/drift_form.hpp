@@ -100,7 +100,10 @@ template <typename Constant, typename Scalar>
   const Constant by_both = by_noise * deviation;
   const Constant over_multiplier = one / multiplier;
   const std::array<Constant, 3> t3{Constant(0.0), t.coupling, t.frequency};
-  const std::array<Scalar, 3> mean = image(t, images.error[0], images.error[1], images.error[2]);
+  const auto& away = setting.offset;
+  const std::array<Scalar, 3> mean =
+      image(t, Scalar(images.error[0] - away[0]), Scalar(images.error[1] - away[1]),
+            Scalar(images.error[2] - away[2]));
   DriftForm<Scalar> form;
   for (auto& row : form) {
     row.fill(Scalar(0.0));

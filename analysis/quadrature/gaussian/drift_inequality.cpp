@@ -72,7 +72,7 @@ double DriftInequality::margin_at(const std::array<double, 4>& x) const {
   double rest = std::numeric_limits<double>::infinity();
   // The error is affine in the frequency: one end of its range or the other is worst.
   const double middle = images.error[2];
-  const double reach = 0.5 * rough.design.epsilon * (set_.highest_frequency - set_.lowest_frequency);
+  const double reach = rough.leak_reach;
   for (const double way : {reach, -reach}) {
     images.error[2] = middle + way;
     rest = std::min(rest, choose_multiplier(rough, images, left).left);

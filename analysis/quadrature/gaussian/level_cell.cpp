@@ -35,10 +35,13 @@ LevelStep<double> rough(const LevelStep<Scalar>& step, const Part& part) {
 }
 
 template <typename Scalar>
-LockSetting<Scalar> setting_of(const trackers::ToneModel<Scalar>& design, const LockSet& set,
-                               const Scalar& frequency) {
+LockSetting<Scalar> setting_of(const trackers::ToneModel<Scalar>& design, const LockSet& set) {
   const Scalar deviation(set.noise_deviation);
   const Scalar walk(set.frequency_walk);
+  const double frequency = 0.5 * (set.lowest_frequency + set.highest_frequency);
+  using std::max;
+  const Scalar half_band = max(Scalar(set.highest_frequency) - Scalar(frequency),
+                               Scalar(frequency) - Scalar(set.lowest_frequency));
   return {design,
           {Scalar(set.metric.amplitude), Scalar(set.metric.phase), Scalar(set.metric.coupling),
            Scalar(set.metric.frequency)},
@@ -50,7 +53,8 @@ LockSetting<Scalar> setting_of(const trackers::ToneModel<Scalar>& design, const 
           deviation,
           deviation * deviation,
           walk * walk,
-          frequency,
+          Scalar(frequency),
+          design.epsilon * half_band,
           {Scalar(set.bias[0]), Scalar(set.bias[1]), Scalar(set.bias[2])}};
 }
 
@@ -87,10 +91,10 @@ bool is_level(const LockSetting<Interval>& setting, const CellStep& step, const 
 }  // namespace
 
 LockSettings::LockSettings(const trackers::ToneModel<Interval>& design, const LockSet& set)
-    : enclosed(setting_of(design, set, Interval::from_bounds(set.lowest_frequency, set.highest_frequency))),
+    : enclosed(setting_of(design, set)),
       rough(setting_of(trackers::ToneModel<double>{midpoint(design.q1), midpoint(design.q2),
                                                    midpoint(design.r), midpoint(design.epsilon)},
-                       set, 0.5 * (set.lowest_frequency + set.highest_frequency))) {}
+                       set)) {}
 
 CellStep::CellStep(const LockSetting<Interval>& setting, const LevelCell& cell)
     : level_middle(0.5 * (cell.low[3] + cell.high[3])),

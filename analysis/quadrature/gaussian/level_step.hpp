@@ -34,9 +34,12 @@ struct LockSetting {
   Scalar deviation;       ///< sigma
   Scalar noise_variance;  ///< sigma^2
   Scalar walk_variance;   ///< w^2
-  /// With a leak: omega, over intervals all of them; and e_0.
+  /// With a leak: omega, in the middle of all; how far epsilon omega reaches from there; and e_0.
   Scalar frequency = Scalar(0.0);
+  Scalar leak_reach = Scalar(0.0);
   std::array<Scalar, 3> bias{Scalar(0.0), Scalar(0.0), Scalar(0.0)};
+  /// What the next error is less in the form: T (e+ - offset).
+  std::array<Scalar, 3> offset{Scalar(0.0), Scalar(0.0), Scalar(0.0)};
 };
 
 /// hi(s) and lo(s).

@@ -1,5 +1,6 @@
 #include "analysis/quadrature/gaussian/mean_square_certificate.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -36,22 +37,22 @@ double enough_bound(const LockQuestion& question, const LockSet& set, const Lock
   return most * most - before.upper();
 }
 
+/// With a bound as small as is affordable, but no smaller than `least`: what counts is the largest of all
+/// sets.
 std::optional<ProvedForm> proved_form(const LockQuestion& question, const LockSet& set,
+                                      const LockMeanSquare& proposal, double least,
                                       const Interval& start_level) {
   constexpr std::size_t kEvery = 13;
-  const auto proposal = propose_mean_square(proposal_request(question).design, set);
-  if (!proposal) {
-    return std::nullopt;
-  }
   std::vector<double> bounds(kFactors.begin(), kFactors.end());
   for (double& bound : bounds) {
-    bound *= proposal->bound;
+    bound *= proposal.bound;
   }
-  if (const double enough = enough_bound(question, set, *proposal, start_level); enough > bounds.front()) {
+  const double enough = std::max(least, enough_bound(question, set, proposal, start_level));
+  if (enough > bounds.front()) {
     bounds.insert(bounds.begin(), enough);
   }
   for (const double bound : bounds) {
-    LockMeanSquare form = *proposal;
+    LockMeanSquare form = proposal;
     form.bound = bound;
     if (expects_cells(question.design, set, form, kEvery, kAffordableCells)) {
       const LockVerification found = verify_mean_square(question.design, set, form);
@@ -61,6 +62,30 @@ std::optional<ProvedForm> proved_form(const LockQuestion& question, const LockSe
     }
   }
   return std::nullopt;
+}
+
+/// One for each set; nothing when one is missing.
+std::vector<ProvedForm> proved_forms(const LockQuestion& question, const std::vector<LockSet>& sets,
+                                     const Interval& start_level) {
+  std::vector<LockMeanSquare> proposals;
+  double worst = 0.0;
+  for (const LockSet& set : sets) {
+    const auto proposal = propose_mean_square(proposal_request(question).design, set);
+    if (!proposal) {
+      return {};
+    }
+    proposals.push_back(*proposal);
+    worst = std::max(worst, proposal->bound);
+  }
+  std::vector<ProvedForm> forms;
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    const auto form = proved_form(question, sets[k], proposals[k], kFactors.front() * worst, start_level);
+    if (!form) {
+      return {};
+    }
+    forms.push_back(*form);
+  }
+  return forms;
 }
 
 }  // namespace
@@ -84,36 +109,33 @@ MeanSquareCertificate certify_mean_square(const LockQuestion& question, const Lo
                                    Interval::empty(),
                                    in_lock ? "the probability of losing lock is certified."
                                            : "no probability of losing lock is certified."});
-  std::vector<LockMeanSquare> forms;
   const bool leaks = !(question.design.epsilon == Interval(0.0));
-  if (in_lock && !leaks) {
-    for (const LockSet& set : lock.sets) {
-      if (const auto found = proved_form(question, set, start->value)) {
-        forms.push_back(found->form);
-        result.cells += found->cells;
-      } else {
-        break;
-      }
-    }
+  std::vector<ProvedForm> forms;
+  if (in_lock) {
+    forms = proved_forms(question, lock.sets, start->value);
   }
-  const bool bounded = in_lock && !leaks && forms.size() == lock.sets.size();
+  const bool bounded = !forms.empty();
+  for (const ProvedForm& found : forms) {
+    result.mean_squares.push_back(found.form);
+    result.cells += found.cells;
+  }
   derivation.conditions.push_back(
       {"mean-square", "E[U(k+1) \\mid k] \\le U(k) + h\\,(c - \\nu(k)^2) \\text{ in the set}",
        bounded ? Verdict::proved : Verdict::undecided, Interval::empty(), Interval::empty(),
        bounded ? "it is proved in " + std::to_string(result.cells) + " cells that cover the set."
-       : leaks ? "with a leak, which biases the frequency, no mean square is certified yet."
                : "no quadratic form was found for which it could be proved."});
   Interval root;
   if (bounded) {
-    result.mean_squares = forms;
     root = Interval(0.0);
     for (std::size_t k = 0; k < forms.size(); ++k) {
-      root = max(root, root_mean_square(lock.sets[k], forms[k], start->value, question.samples));
+      root = max(root, root_mean_square(lock.sets[k], forms[k].form, start->value, question.samples));
     }
     derivation.notes.push_back(
-        "U = |R e|^2 + g s(P)^2 + beta W, with e, s(P) and W as for the probability of losing lock. It grows "
-        "at "
-        "each sample by at most h (c - nu^2) on average while in lock, and is never negative.");
+        std::string(leaks ? "U = |R (e - f)|^2 + g s(P)^2 + beta W" : "U = |R e|^2 + g s(P)^2 + beta W") +
+        ", with e, s(P) and W as for the probability of losing lock. It grows at each sample by at most h (c "
+        "- "
+        "nu^2) on average while in lock, and is never negative." +
+        (leaks ? " nu is the whole frequency error, its bias included." : ""));
   }
   theorems::conclude(derivation);
   theorems::add_quantity(derivation,

@@ -17,7 +17,7 @@ struct MeanSquareCertificate {
   std::int64_t cells = 0;
 };
 
-/// Searches and verifies, for the sets that were proved; without a leak. Sets its own rounding mode.
+/// Searches and verifies, for the sets that were proved. Sets its own rounding mode.
 [[nodiscard]] MeanSquareCertificate certify_mean_square(const LockQuestion& question,
                                                         const LockCertificate& lock);
 

@@ -35,13 +35,16 @@ Scalar rounding_share(const BlockMetric<Scalar>& r, const BlockMetric<Scalar>& t
   return Scalar(2.0 * kRoundingRoom) * norm_squared(r, t);
 }
 
-/// |R e|^2 - h nu^2, nu = e_3 + e_03: convex, as the frequency's entry of R is at least sqrt(h).
+/// |R (e - f)|^2 - h nu^2, nu = e_3 + e_03: convex, as the frequency's entry of R is at least sqrt(h).
+/// `next` has R and f.
 template <typename Constant, typename Scalar>
-Scalar left_of_errors(const BlockMetric<Constant>& r, const Constant& rate, const Constant& bias,
+Scalar left_of_errors(const LockSetting<Constant>& next, const Constant& rate,
                       const std::array<Scalar, 3>& e) {
   using trackers::detail::square;
-  const std::array<Scalar, 3> y = image(r, e[0], e[1], e[2]);
-  return square(y[0]) + square(y[1]) + square(y[2]) - square(e[2] + bias) * rate;
+  const auto& f = next.offset;
+  const std::array<Scalar, 3> y =
+      image(next.metric, Scalar(e[0] - f[0]), Scalar(e[1] - f[1]), Scalar(e[2] - f[2]));
+  return square(y[0]) + square(y[1]) + square(y[2]) - square(e[2] + next.bias[2]) * rate;
 }
 
 }  // namespace
@@ -50,11 +53,22 @@ Interval relative_norm_squared(const LockMeanSquare& mean_square, const LockSet&
   return norm_squared(metric_of<Interval>(mean_square.metric), metric_of<Interval>(set.metric));
 }
 
+Interval offset_length(const LockMeanSquare& mean_square) {
+  const auto& f = mean_square.offset;
+  const std::array<Interval, 3> y =
+      image(metric_of<Interval>(mean_square.metric), Interval(f[0]), Interval(f[1]), Interval(f[2]));
+  return rigor::sqrt(rigor::square(y[0]) + rigor::square(y[1]) + rigor::square(y[2]));
+}
+
 MeanSquareInequality::MeanSquareInequality(const trackers::ToneModel<Interval>& design, const LockSet& set,
                                            const LockMeanSquare& mean_square)
     : set_(set), mean_square_(mean_square), settings_(design, set), next_(settings_) {
   next_.enclosed.metric = metric_of<Interval>(mean_square.metric);
   next_.rough.metric = mean_square.metric;
+  for (std::size_t i = 0; i < 3; ++i) {
+    next_.enclosed.offset[i] = Interval(mean_square.offset[i]);
+    next_.rough.offset[i] = mean_square.offset[i];
+  }
 }
 
 CellDrift MeanSquareInequality::check(const LevelCell& cell) const {
@@ -83,9 +97,8 @@ CellDrift MeanSquareInequality::check(const LevelCell& cell) const {
         square(u[0]) + square(u[1]) + square(u[2]) + Interval(set_.weight) * level_squared;
     const std::array<Scalar, 3> e = errors_of(settings_.enclosed.metric, u);
     const Scalar next = t + Interval(kRoundingRoom);
-    return Scalar(left_of_errors(next_.enclosed.metric, rate, settings_.enclosed.bias[2], e) +
-                  twice_level * (Interval(0.5) * growth) - square(next) * weight +
-                  (weight * level_squared + constant));
+    return Scalar(left_of_errors(next_.enclosed, rate, e) + twice_level * (Interval(0.5) * growth) -
+                  square(next) * weight + (weight * level_squared + constant));
   };
   CellLeft l;
   for (std::size_t end = 0; end < 2; ++end) {
@@ -106,15 +119,24 @@ double MeanSquareInequality::needed_at(const std::array<double, 4>& x) const {
   const double level = propose_level(rough, step, {}).level;
   const double twice = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + set_.weight * x[3] * x[3];
   const double w = std::exp(0.5 * twice);
-  const double left =
-      left_of_errors(mean_square_.metric, mean_square_.rate, rough.bias[2], errors_of(rough.metric, u)) +
-      mean_square_.weight * (x[3] * x[3] - std::max(0.0, level) * level) +
-      mean_square_.share * ((1.0 - set_.decay) * w - set_.drift) -
-      rounding_share(mean_square_.metric, rough.metric);
-  // Whatever is far above needs a multiplier as near to the others as what is just enough.
-  const double rest =
-      choose_multiplier(next_.rough, images_at(step, 0.0, rough.design.r), std::min(left, 0.0)).left +
-      std::max(left, 0.0);
+  const double left = left_of_errors(next_.rough, mean_square_.rate, errors_of(rough.metric, u)) +
+                      mean_square_.weight * (x[3] * x[3] - std::max(0.0, level) * level) +
+                      mean_square_.share * ((1.0 - set_.decay) * w - set_.drift) -
+                      rounding_share(mean_square_.metric, rough.metric);
+  LevelImages<double> images = images_at(step, 0.0, rough.design.r);
+  double rest = std::numeric_limits<double>::infinity();
+  // The error is affine in the frequency: one end of its range or the other is worst.
+  const double middle = images.error[2];
+  const double reach = rough.leak_reach;
+  for (const double way : {reach, -reach}) {
+    images.error[2] = middle + way;
+    // Whatever is far above needs a multiplier as near to the others as what is just enough.
+    rest = std::min(rest,
+                    choose_multiplier(next_.rough, images, std::min(left, 0.0)).left + std::max(left, 0.0));
+    if (reach == 0.0) {
+      break;
+    }
+  }
   return std::isfinite(rest) ? -rest / mean_square_.rate : kTooMuch;
 }
 

@@ -3,11 +3,13 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
+#include "analysis/quadrature/gaussian/leaking_filter.hpp"
 #include "analysis/quadrature/gaussian/linear_filter.hpp"
 #include "analysis/quadrature/gaussian/lock_samples.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -18,28 +20,50 @@ namespace veritrack::quadrature {
 namespace {
 
 /// Six numbers: logarithms of the entries of a factor but the coupling, of g and of beta, in units in which
-/// the linear filter has 1.
+/// the linear filter has 1. With a leak three more: how much of what the bias adds to later squares is in the
+/// form, of each error.
 constexpr Eigen::Index kFormParameters = 6;
+constexpr Eigen::Index kWithLeak = 9;
+
+/// The linear filter: what a form for it needs, and begins with.
+struct Linear {
+  double mean_square;     ///< of its frequency error, the bias included
+  double variance;        ///< without the bias
+  Eigen::Matrix3d later;  ///< e'Ne is about the sum of all later squares of nu
+  Eigen::Vector3d along;  ///< what the bias adds to that sum is twice this times e
+};
 
 class Forms {
  public:
-  Forms(const Eigen::Matrix2d& later, double linear) : linear_(linear) {
+  Forms(const Linear& linear, bool leaks) : linear_(linear), leaks_(leaks) {
     constexpr double kRate = 0.01;
     constexpr double kAmplitudeShare = 0.1;
-    rate_ = kRate / linear;
-    phase_ = std::sqrt(later(0, 0));
-    coupling_ = later(0, 1) / phase_;
-    frequency_ = std::sqrt(later(1, 1) - coupling_ * coupling_);
-    amplitude_ = std::sqrt(kAmplitudeShare * later(1, 1));
+    const Eigen::Matrix3d& later = linear.later;
+    rate_ = kRate / linear.mean_square;
+    phase_ = std::sqrt(later(1, 1));
+    coupling_ = later(1, 2) / phase_;
+    frequency_ = std::sqrt(later(2, 2) - coupling_ * coupling_);
+    amplitude_ = std::sqrt(kAmplitudeShare * later(2, 2));
   }
 
-  [[nodiscard]] static search::SearchSpace space(int evaluations) {
-    search::SearchSpace space{
-        Eigen::VectorXd(kFormParameters), Eigen::VectorXd::Constant(kFormParameters, 0.1),
-        Eigen::VectorXd(kFormParameters), Eigen::VectorXd(kFormParameters), evaluations};
-    space.start << 0.35, 0.4, 0.6, 0.4, 4.5, -2.5;
-    space.lower << -0.2, -0.2, -1.0, -0.2, 2.0, -9.0;
-    space.upper << 3.0, 3.0, 3.0, 3.0, 8.0, 1.0;
+  [[nodiscard]] search::SearchSpace space(int evaluations) const {
+    const Eigen::Index n = leaks_ ? kWithLeak : kFormParameters;
+    search::SearchSpace space{Eigen::VectorXd(n), Eigen::VectorXd::Constant(n, 0.1), Eigen::VectorXd(n),
+                              Eigen::VectorXd(n), evaluations};
+    space.start.head(kFormParameters) << 0.35, 0.4, 0.6, 0.4, 4.5, -2.5;
+    space.lower.head(kFormParameters) << -0.2, -0.2, -1.0, -0.2, 2.0, -9.0;
+    space.upper.head(kFormParameters) << 3.0, 3.0, 3.0, 3.0, 8.0, 1.0;
+    if (leaks_) {
+      space.lower[4] = -2.0;
+      space.upper[4] = 14.0;
+      space.lower[5] = -14.0;
+      space.upper[5] = 8.0;
+      // So that h is at most the square of the frequency's entry.
+      space.lower[3] = 0.001 - std::log(frequency_);
+      space.start.tail(3).setConstant(1.0);
+      space.lower.tail(3).setConstant(-1.0);
+      space.upper.tail(3).setConstant(3.0);
+    }
     return space;
   }
 
@@ -49,16 +73,47 @@ class Forms {
     form.metric = {root * std::exp(x[0]) * amplitude_, root * std::exp(x[1]) * phase_,
                    root * (std::exp(x[1]) * coupling_ + x[2] * frequency_),
                    root * std::exp(x[3]) * frequency_};
-    form.weight = rate_ * linear_ * std::exp(x[4]);
-    form.share = rate_ * linear_ * std::exp(x[5]);
+    form.weight = rate_ * linear_.variance * std::exp(x[4]);
+    form.share = rate_ * linear_.variance * std::exp(x[5]);
     form.rate = rate_;
+    if (leaks_) {
+      // |R (e - f)|^2 = |R e|^2 - 2 f'R'R e + ...
+      const auto& r = form.metric;
+      Eigen::Matrix3d factor;
+      factor << r.amplitude, 0.0, 0.0, 0.0, r.phase, r.coupling, 0.0, 0.0, r.frequency;
+      const Eigen::Vector3d along = rate_ * linear_.along.cwiseProduct(x.tail(3));
+      const Eigen::Vector3d offset = -(factor.transpose() * factor).llt().solve(along);
+      std::copy(offset.begin(), offset.end(), form.offset.begin());
+    }
     return form;
   }
 
  private:
-  double linear_, rate_;
+  Linear linear_;
+  bool leaks_;
+  double rate_;
   double amplitude_, phase_, coupling_, frequency_;
 };
+
+std::optional<Linear> linear_of(const trackers::ToneModel<double>& design, const LockSet& set) {
+  if (design.epsilon != 0.0) {
+    const auto filter = leaking_filter(design, 0.5 * (set.lowest_frequency + set.highest_frequency));
+    const auto square = filter ? mean_square_frequency_error(*filter, set.noise_deviation) : std::nullopt;
+    if (!square) {
+      return std::nullopt;
+    }
+    const double bias = filter->steady.errors[2];
+    return Linear{*square, *square - bias * bias, filter->later, bias * filter->later_sum};
+  }
+  const auto filter = linear_filter(design, set.centre);
+  if (!filter) {
+    return std::nullopt;
+  }
+  const double variance = frequency_variance(*filter, set.noise_deviation, set.frequency_walk);
+  Linear linear{variance, variance, Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero()};
+  linear.later.bottomRightCorner<2, 2>() = filter->later;
+  return linear;
+}
 
 constexpr std::array<double, 17> kLevels{0.003, 0.03, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 3.0,
                                          4.0,   5.0,  6.0, 7.0, 8.5, 11., 16., 24.};
@@ -66,7 +121,7 @@ constexpr std::array<double, 17> kLevels{0.003, 0.03, 0.1, 0.3, 0.6, 1.0, 1.5, 2
 /// Besides what the point needs: far out there is room, so that cells there need not be small.
 constexpr double kRoomPerLevel = 0.15;
 constexpr double kMostLevelWithRoom = 8.0;
-/// What the points need, in units of the linear variance.
+/// What the points need, in units of the linear mean square.
 Eigen::VectorXd needs(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set,
                       const LockMeanSquare& form, double linear, const std::vector<LockSample>& samples) {
   const MeanSquareInequality inequality(design, set, form);
@@ -93,11 +148,12 @@ Eigen::VectorXd wanted(Eigen::VectorXd needed, const std::vector<LockSample>& sa
 
 std::optional<LockMeanSquare> propose_mean_square(const trackers::ToneModel<double>& design,
                                                   const LockSet& set) {
-  const auto filter = linear_filter(design, set.centre);
-  if (!filter) {
+  const auto about_lock = linear_of(design, set);
+  if (!about_lock) {
     return std::nullopt;
   }
-  const double linear = frequency_variance(*filter, set.noise_deviation, set.frequency_walk);
+  const double linear = about_lock->mean_square;
+  const bool leaks = design.epsilon != 0.0;
   constexpr int kAllDirections = 1200;
   constexpr std::size_t kAdded = 40;
   constexpr int kRounds = 8;
@@ -107,16 +163,24 @@ std::optional<LockMeanSquare> propose_mean_square(const trackers::ToneModel<doub
                                                       rigor::Interval(design.r),
                                                       rigor::Interval(design.epsilon)};
   std::vector<LockSample> all;
+  std::vector<double> levels(kLevels.begin(), kLevels.end());
+  if (leaks) {
+    // From here on W shrinks.
+    levels.push_back(std::log(set.drift / (1.0 - set.decay)));
+  }
   for (const LevelPoint& direction : sample_directions(kAllDirections)) {
-    for (const double level : kLevels) {
+    for (const double level : levels) {
       if (level < set.level) {
         all.push_back({direction, level});
+        if (leaks) {
+          all.push_back({{direction[0], direction[1], -direction[2], direction[3]}, level});
+        }
       }
     }
   }
-  const Forms forms(filter->later, linear);
+  const Forms forms(*about_lock, leaks);
   std::vector<LockSample> looked_at(all.begin(), all.begin() + 17 * 12);
-  search::SearchSpace space = Forms::space(400);
+  search::SearchSpace space = forms.space(400);
   double bound = 0.0;
   for (int round = 0; round < kRounds; ++round) {
     const search::BestPoint best = search::climb_least(

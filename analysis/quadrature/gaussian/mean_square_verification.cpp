@@ -1,5 +1,8 @@
 #include "analysis/quadrature/gaussian/mean_square_verification.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "analysis/quadrature/gaussian/lock_cover.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -17,6 +20,7 @@ bool is_in_range(const LockMeanSquare& form) {
   return certainly_positive(Interval(form.metric.amplitude)) &&
          certainly_positive(Interval(form.metric.phase)) && certainly_positive(frequency) &&
          is_finite(Interval(form.metric.coupling)) && certainly_positive(Interval(form.weight)) &&
+         std::all_of(form.offset.begin(), form.offset.end(), [](double x) { return std::isfinite(x); }) &&
          certainly_not_negative(Interval(form.share)) && certainly_positive(Interval(form.rate)) &&
          certainly_positive(Interval(form.bound)) &&
          // What is left of the errors is convex.
@@ -29,9 +33,10 @@ std::optional<std::int64_t> cells_of(const trackers::ToneModel<Interval>& design
     return std::nullopt;
   }
   const MeanSquareInequality inequality(design, set, proposal);
+  const bool mirrors =
+      has_mirror_image(design, set) && proposal.offset[1] == 0.0 && proposal.offset[2] == 0.0;
   return cells_of_proof(
-      set, has_mirror_image(design, set), [&](const LevelCell& cell) { return inequality.check(cell); },
-      limits);
+      set, mirrors, [&](const LevelCell& cell) { return inequality.check(cell); }, limits);
 }
 
 }  // namespace
@@ -58,10 +63,10 @@ bool expects_cells(const trackers::ToneModel<Interval>& design, const LockSet& s
 Interval expected_form(const LockSet& set, const LockMeanSquare& mean_square,
                        const Interval& expected_weight) {
   const Interval weight = max(expected_weight, rigor::exp(Interval(1.0)));
-  return Interval(mean_square.share) * weight +
-         Interval(2.0) *
-             (relative_norm_squared(mean_square, set) + Interval(mean_square.weight) / Interval(set.weight)) *
-             rigor::log(weight);
+  const Interval twice_level = Interval(2.0) * rigor::log(weight);
+  const Interval length = rigor::sqrt(relative_norm_squared(mean_square, set) * twice_level);
+  return Interval(mean_square.share) * weight + rigor::square(length + offset_length(mean_square)) +
+         Interval(mean_square.weight) / Interval(set.weight) * twice_level;
 }
 
 }  // namespace veritrack::quadrature

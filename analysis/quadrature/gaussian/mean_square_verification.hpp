@@ -21,8 +21,8 @@ namespace veritrack::quadrature {
 [[nodiscard]] bool expects_cells(const trackers::ToneModel<rigor::Interval>& design, const LockSet& set,
                                  const LockMeanSquare& proposal, std::size_t every, std::int64_t most_cells);
 
-/// An upper bound on E[U; lock] where w is one on E[W; lock]: beta w + 2 (|R T^-1|^2 + g/gamma) log w, and w
-/// no less than e, as log W is twice the level and concave. Needs the upward mode.
+/// An upper bound on E[U; lock] where w is one on E[W; lock], with x = 2 log w and w no less than e, as log W
+/// is the level and concave: beta w + (|R T^-1| sqrt(x) + |R f|)^2 + g x/gamma.
 [[nodiscard]] rigor::Interval expected_form(const LockSet& set, const LockMeanSquare& mean_square,
                                             const rigor::Interval& expected_weight);
 

@@ -34,13 +34,10 @@ std::string text_of_form(const std::string& bound, const std::string& rate) {
          rate + R"(", "bound": ")" + bound + "\"}";
 }
 
-}  // namespace
-
-TEST_CASE("where a cell is proved, the textbook filter's next error keeps the inequality") {
-  test::Random random(5420);
-  const LockSet set = still_set();
-  const Textbook book{{}, set};
-  const LockMeanSquare form = form_of_written_set();
+/// In cells around random points; with a leak at random frequencies.
+void check_in_proved_cells(const Textbook& book, const LockMeanSquare& form, test::Random& random) {
+  const LockSet& set = book.set;
+  const Vector offset(form.offset[0].near(), form.offset[1].near(), form.offset[2].near());
   Matrix r = Matrix::Zero();
   r << form.metric.amplitude.near(), 0.0, 0.0, 0.0, form.metric.phase.near(), form.metric.coupling.near(),
       0.0, 0.0, form.metric.frequency.near();
@@ -64,23 +61,36 @@ TEST_CASE("where a cell is proved, the textbook filter's next error keeps the in
         x[i] = random.uniform(cell.low[i], cell.high[i]);
       }
       const Vector e = book.metric().inverse() * Vector(x[0], x[1], x[2]);
-      const Textbook::Step after = book.step(e, book.covariance_of_level(x[3], random));
+      const double frequency = random.uniform(set.lowest_frequency.near(), set.highest_frequency.near());
+      const Textbook::Step after = book.step(e, book.covariance_of_level(x[3], random), frequency);
       const double deviation = set.deviation.near();
       const double next = book.level_of(after.covariance);
       const double g = form.weight.near();
       const double w =
           std::exp(0.5 * (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) + 0.5 * set.weight.near() * x[3] * x[3]);
-      const double excess = (r * after.mean).squaredNorm() +
+      const double nu = e[2] + set.bias[2].near();
+      const double excess = (r * (after.mean - offset)).squaredNorm() +
                             deviation * deviation * (r * after.gain).squaredNorm() + g * next * next -
-                            (r * e).squaredNorm() - g * x[3] * x[3] -
+                            (r * (e - offset)).squaredNorm() - g * x[3] * x[3] -
                             form.share.near() * ((1.0 - set.decay.near()) * w - set.drift.near()) -
-                            form.rate.near() * (form.bound.near() - e[2] * e[2]);
+                            form.rate.near() * (form.bound.near() - nu * nu);
       CHECK(excess <= 0.0);
       closest = std::max(closest, excess / (form.rate.near() * form.bound.near()));
     }
   }
   MESSAGE(proved << " of " << count << " cells proved, closest " << closest);
   CHECK(4 * proved > count);
+}
+
+}  // namespace
+
+TEST_CASE("where a cell is proved, the textbook filter's next error keeps the inequality") {
+  test::Random random(5420);
+  check_in_proved_cells({{}, still_set()}, form_of_written_set(), random);
+  LockMeanSquare form = form_of_written_set();
+  form.offset = {Ball(-0.001), Ball(-0.01), Ball(0.01)};
+  form.bound = Ball(0x1.8p-7);
+  check_in_proved_cells({lock_test::leaking_variances(), lock_test::leaking_set()}, form, random);
 }
 
 TEST_CASE("a function is read and proved, or there is an objection") {
@@ -126,4 +136,36 @@ TEST_CASE("the root mean square is by the formula, and the start is forgotten") 
         doctest::Approx(std::sqrt(form.bound.near() + before / (form.rate.near() * 100.0))));
   CHECK(rms(3.0, 1e15) == doctest::Approx(std::sqrt(form.bound.near())));
   CHECK(rms(4.0, 100.0) > rms(3.0, 100.0));
+  // An offset adds its length to that of the start, and is forgotten as well.
+  LockMeanSquare moved = form;
+  moved.offset = {zero, Ball(0.02), Ball(0.03)};
+  const double length =
+      std::sqrt(2.0 * relative_norm_squared(form, set).near() * std::log(w)) + offset_length(moved).near();
+  const double more =
+      form.share.near() * w + length * length + 2.0 * form.weight.near() / set.weight.near() * std::log(w);
+  CHECK(root_mean_square(set, moved, Ball(3.0), Ball(100.0)).near() ==
+        doctest::Approx(std::sqrt(form.bound.near() + more / (form.rate.near() * 100.0))));
+  CHECK(root_mean_square(set, moved, Ball(3.0), Ball(1e15)).near() ==
+        doctest::Approx(std::sqrt(form.bound.near())));
+}
+
+TEST_CASE("with a leak a function has an offset, of three numbers") {
+  const LockSet set = lock_test::leaking_set();
+  Design design;
+  design.q1 = design.q2 = Ball(0.0013);
+  design.r = Ball(0.01);
+  design.epsilon = Ball(lock_test::kLeak);
+  const auto refused = [&](const std::string& offset) {
+    std::string text = text_of_form("0x1p-14", "0x1.8p+5");
+    text.insert(text.size() - 1, offset);
+    Objections objections;
+    std::int64_t cells = 0;
+    check_lock_mean_square(read_json(text), design, set, cells, objections);
+    return objections.empty() ? std::string() : objections.front();
+  };
+  // The bound is too small; without an offset that is not looked at.
+  const std::string small = "the mean square is not proved to be bounded";
+  CHECK(refused(R"(, "offset": ["0x0p+0", "0x1p-9", "0x1p-8"])") == small);
+  CHECK(refused("").find("offset") != std::string::npos);
+  CHECK(refused(R"(, "offset": ["0x0p+0", "0x1p-9"])").find("offset") != std::string::npos);
 }

@@ -4,8 +4,11 @@
 
 #include <cmath>
 
+#include "analysis/quadrature/gaussian/leaking_filter.hpp"
 #include "analysis/quadrature/gaussian/linear_filter.hpp"
+#include "analysis/theorems/derivation_builder.hpp"
 #include "tests/analysis/quadrature/gaussian/lock_question.hpp"
+#include "tests/analysis/quadrature/gaussian/textbook_filter.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
 #include "trackers/signals/random.hpp"
@@ -75,12 +78,37 @@ TEST_CASE("without a set there is no mean square, and it says why") {
   CHECK(found.derivation.verdict == Verdict::undecided);
   CHECK(theorems::applicable_quantity(found.derivation, "rms_frequency_error") == nullptr);
   CHECK(found.derivation.conditions.front().verdict == Verdict::undecided);
-  question = test_sets::question(26.0);
-  LockCertificate lock = certify_lock(question);
-  question.design.epsilon = Interval(0.01);
-  const MeanSquareCertificate leaking = certify_mean_square(question, lock);
-  CHECK(leaking.mean_squares.empty());
-  CHECK(leaking.derivation.conditions.back().reason.find("leak") != std::string::npos);
+}
+
+TEST_CASE("with a leak the bias is in the root mean square, and what it is beside the linear filter's") {
+  const LockSet set = [] {
+    LockSet small = test_sets::leaking_set();
+    small.level = 3.0;
+    return small;
+  }();
+  LockQuestion question;
+  question.design = test_sets::enclosed(test_sets::kLeakingDesign);
+  question.noise_deviation = Interval(set.noise_deviation);
+  question.frequency_walk = Interval(0.0);
+  question.samples = Interval(1e6);
+  question.frequencies = Interval::from_bounds(set.lowest_frequency, set.highest_frequency);
+  question.enough_rms = 0.11;  // some thousand cells
+  LockCertificate lock;
+  lock.sets = {set};
+  theorems::conclude(lock.derivation);
+  theorems::add_quantity(lock.derivation, {"start_level", "", "", "", "", theorems::Sense::at_most},
+                         Interval(2.0), "");
+  const MeanSquareCertificate found = certify_mean_square(question, lock);
+  CHECK(found.derivation.verdict == Verdict::proved);
+  REQUIRE(found.mean_squares.size() == 1);
+  const double proved = theorems::find_quantity(found.derivation, "rms_frequency_error").value.upper();
+  const auto filter = leaking_filter(test_sets::kLeakingDesign, set.highest_frequency);
+  REQUIRE(filter);
+  const double linear = std::sqrt(mean_square_frequency_error(*filter, set.noise_deviation).value());
+  MESSAGE("proved " << proved << ", linear " << linear << ", " << found.cells << " cells");
+  CHECK(linear > std::fabs(filter->steady.errors[2]));
+  CHECK(proved > linear);
+  CHECK(proved < 0.11);
 }
 
 }  // namespace veritrack::quadrature

@@ -46,6 +46,7 @@ struct MapOptions {
   std::string design;
   std::string directory;
   reports::MapRequest request;
+  double seconds = 0.0;  ///< after which what is known so far is written; 0: never
   bool quiet = false;  ///< no progress on standard error
 };
 
@@ -57,8 +58,12 @@ struct ShowOptions {
 struct TuneOptions {
   std::string design;
   std::string output;
-  std::string objective;  ///< empty: the first of those of the tracker
-  bool quiet = false;     ///< no progress on standard error
+  std::string objective;   ///< empty: the first that fits what is assumed
+  std::string directory;   ///< for the certificate; empty: by the name of the output
+  int designs = 60;        ///< that the search looks at, at most
+  double seconds = 0.0;    ///< after which the search ends; 0: never
+  bool free_leak = false;  ///< epsilon may become smaller
+  bool quiet = false;      ///< no progress on standard error
 };
 
 struct TrackOptions {
@@ -84,7 +89,8 @@ struct TrackOptions {
 struct ReproduceOptions {
   std::string report = kExampleReport;
   std::string directory;
-  int seeds = 0;  ///< 0: the number used for the report in docs/reports
+  int seeds = 0;       ///< 0: the number used for the report in docs/reports
+  bool quiet = false;  ///< no progress on standard error
 };
 
 struct ExplainOptions {

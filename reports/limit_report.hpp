@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/limits/limit_study.hpp"
+#include "reports/written_report.hpp"
 
 namespace veritrack::reports {
 
@@ -17,13 +18,17 @@ struct LimitStudy {
   std::vector<limits::ErrorOverTime> over_time;
 };
 
-[[nodiscard]] LimitStudy simulate_limits(int runs);
+[[nodiscard]] LimitStudy simulate_limits(int runs, const limits::StudyProgress& progress = {});
+
+/// What the runs are too few for, a sentence; empty when every threshold is decided.
+[[nodiscard]] std::string undecided_thresholds(const LimitStudy& study);
 
 /// The document, without its figures.
 [[nodiscard]] std::string limit_document(const LimitStudy& study);
 
-/// report.md and its figures into `directory`, whole or not at all. Returns the path of the document. Throws
-/// FigureError, and OutputError when files cannot be written.
-std::filesystem::path write_limit_report(int runs, const std::filesystem::path& directory);
+/// report.md and its figures into `directory`, whole or not at all. Throws FigureError, and OutputError when
+/// files cannot be written.
+[[nodiscard]] WrittenReport write_limit_report(int runs, const std::filesystem::path& directory,
+                                               const limits::StudyProgress& progress = {});
 
 }  // namespace veritrack::reports

@@ -72,6 +72,15 @@ std::string statement(const certificates::ModelTables& tables, const ModelMap& m
                                           : "an unknown number of");
 }
 
+/// What the reader of a map that is not finished has to know.
+std::string stopped_sentence(const ModelMap& map) {
+  return map.unfinished() == 0
+             ? ""
+             : fmt::format(
+                   "*Stopped before the end*: {} cells were not followed to an answer, and count as not proved.\n\n",
+                   map.unfinished());
+}
+
 std::string cells_section(const ModelMap& map) {
   const std::size_t all = map.cells.size();
   const std::size_t simulated = map.simulated_only();
@@ -131,7 +140,7 @@ std::string model_map_document(const certificates::Design& design, const ModelMa
                                   share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size());
   title += fmt::format("Which starts of {} lock at {}.\n\n", markdown::escaped(design.name),
                        frequency_of(map, units));
-  return title + statement(tables, map, units) + fmt::format("![{}]({})\n\n", figure.caption, figure.file) +
+  return title + stopped_sentence(map) + statement(tables, map, units) + fmt::format("![{}]({})\n\n", figure.caption, figure.file) +
          cells_section(map) + hypotheses_section(tables, map);
 }
 
@@ -184,7 +193,8 @@ MapResult write_model_map(const certificates::Design& design, const MapRequest& 
                           const certificates::CertifyProgress& progress) {
   const certificates::ModelMapResult result = certificates::map_model(
       design,
-      {request.at, request.x, request.y, request.x_range, request.y_range, request.cells, request.with_noise},
+      {request.at, request.x, request.y, request.x_range, request.y_range, request.cells, request.with_noise,
+       request.deadline},
       progress);
   if (!result.found) {
     return {std::nullopt, result.reason};
@@ -198,9 +208,12 @@ MapResult write_model_map(const certificates::Design& design, const MapRequest& 
   files.stage(directory / "region.csv", model_map_cells(map));
   files.stage(directory / "map.json", model_map_json(design, map));
   files.commit();
-  return {document, fmt::format("{} of the starts are PROVED to lock, {} of {} cells; {} lock in simulation",
+  return {document, fmt::format("{} of the starts are PROVED to lock, {} of {} cells; {} lock in simulation{}",
                                 share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size(),
-                                map.proved() + map.simulated_only())};
+                                map.proved() + map.simulated_only(),
+                                map.unfinished() > 0
+                                    ? fmt::format("; stopped before the end, {} cells open", map.unfinished())
+                                    : "")};
 }
 
 }  // namespace veritrack::reports

@@ -158,13 +158,15 @@ void add_commands(CLI::App& app, Arguments& into) {
       ->required();
   tune->add_option("--objective", into.tune.objective,
                    "noise with a bound: long-run (default), for-ever, radius, noise, slew or simulated-rms; "
-                   "Gaussian noise: lowest-snr (default), rms or simulated-rms; kkl-observer: "
+                   "Gaussian noise: rms (default), lowest-snr or simulated-rms; kkl-observer: "
                    "frequency-error");
   tune->add_option("--out", into.tune.output,
                    "design file to write (default: <name of the design file>-tuned.toml)");
   tune->add_option("--certificate", into.tune.directory,
                    "folder for its certificate, tuning.md and the figure of the trade-off (default: "
                    "certificates-out/<name of the design file to write>)");
+  tune->add_flag("--no-certificate", into.tune.no_certificate,
+                 "write the design file only, without certifying it");
   tune->add_option("--designs", into.tune.designs, "designs that the search looks at, at most")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

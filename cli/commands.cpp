@@ -21,8 +21,8 @@
 #include "reports/certificate_files.hpp"
 #include "reports/example_report.hpp"
 #include "reports/limit_report.hpp"
-#include "reports/written_report.hpp"
 #include "reports/tracker_reports.hpp"
+#include "reports/written_report.hpp"
 
 namespace veritrack::cli {
 

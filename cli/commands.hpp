@@ -47,7 +47,7 @@ struct MapOptions {
   std::string directory;
   reports::MapRequest request;
   double seconds = 0.0;  ///< after which what is known so far is written; 0: never
-  bool quiet = false;  ///< no progress on standard error
+  bool quiet = false;    ///< no progress on standard error
 };
 
 struct ShowOptions {
@@ -58,12 +58,13 @@ struct ShowOptions {
 struct TuneOptions {
   std::string design;
   std::string output;
-  std::string objective;   ///< empty: the first that fits what is assumed
-  std::string directory;   ///< for the certificate; empty: by the name of the output
-  int designs = 60;        ///< that the search looks at, at most
-  double seconds = 0.0;    ///< after which the search ends; 0: never
-  bool free_leak = false;  ///< epsilon may become smaller
-  bool quiet = false;      ///< no progress on standard error
+  std::string objective;        ///< empty: the first that fits what is assumed
+  std::string directory;        ///< for the certificate; empty: by the name of the output
+  int designs = 60;             ///< that the search looks at, at most
+  double seconds = 0.0;         ///< after which the search ends; 0: never
+  bool free_leak = false;       ///< epsilon may become smaller
+  bool no_certificate = false;  ///< the design file alone
+  bool quiet = false;           ///< no progress on standard error
 };
 
 struct TrackOptions {

@@ -49,6 +49,15 @@ certificates::TuningResult tuned(const certificates::Design& design, const std::
   }
 }
 
+void print_sentences(const certificates::TuningResult& result) {
+  for (const std::string& note : result.notes) {
+    fmt::print("{}\n", note);
+  }
+  for (const std::string& change : result.changes) {
+    fmt::print("{}\n", change);
+  }
+}
+
 }  // namespace
 
 ExitStatus run_tune(const TuneOptions& options) {
@@ -60,9 +69,8 @@ ExitStatus run_tune(const TuneOptions& options) {
         fmt::format("veritrack tune cannot be used with the tracker {}; allowed: {}", design.tracker,
                     certificates::trackers_with_tuning()));
   }
-  const fs::path output = options.output.empty()
-                              ? fs::path(options.design).stem().string() + "-tuned.toml"
-                              : options.output;
+  const fs::path output =
+      options.output.empty() ? fs::path(options.design).stem().string() + "-tuned.toml" : options.output;
   certificates::TuningResult result = tuned(design, text, options);
   if (!result.design_text) {
     fmt::print("{}: undecided: {}\n", options.design, result.reason);
@@ -72,6 +80,11 @@ ExitStatus run_tune(const TuneOptions& options) {
   files.keep(options.design);
   files.stage(output, *result.design_text);
   files.commit();
+  if (options.no_certificate) {
+    print_sentences(result);
+    fmt::print("{}: written, not certified\n", output.string());
+    return all_proved;
+  }
   const bool by_name = options.directory.empty();
   const fs::path directory =
       by_name ? default_folder("certificates-out", output) : fs::path(options.directory);
@@ -97,12 +110,7 @@ ExitStatus run_tune(const TuneOptions& options) {
   if (!missing.empty()) {
     fmt::print(stderr, "{}: written without its figures; {}\n", written.document.string(), missing);
   }
-  for (const std::string& note : result.notes) {
-    fmt::print("{}\n", note);
-  }
-  for (const std::string& change : result.changes) {
-    fmt::print("{}\n", change);
-  }
+  print_sentences(result);
   fmt::print("{}: {}\n", output.string(), certificates::headline(certificate));
   fmt::print("{}\n", written.document.string());
   const bool fine = !certificate.verdict || *certificate.verdict == rigor::Verdict::proved;

@@ -177,7 +177,8 @@ std::string document(const std::vector<StartRates>& rates, int seeds, std::uint6
       "The paper prints the process noise covariance as $`q I_3`$ and defines $`I_3`$ as "
       "$`\\mathrm{{diag}}(0, 0, 1)`$. Both readings were simulated over {} noise seeds for each of {} starts "
       "of the tracker, which the paper does not give. A rate is the fraction of the seeds for which a "
-      "statement of the text or of a figure was reproduced, ± its standard error. Locked means: over the 100 samples before the "
+      "statement of the text or of a figure was reproduced, ± its standard error. Locked means: over the 100 "
+      "samples before the "
       "frequency first changes, or the last 100, the mean error is below 0.35 rad/sample and the deviation "
       "about the mean below 0.5 rad/sample; an estimate that settles at an alias, a multiple of $`2\\pi`$ "
       "away, is not locked. These are simulations in double precision; they prove nothing.\n\n",
@@ -236,7 +237,8 @@ std::string too_few_seeds(const std::vector<StartRates>& rates, int seeds) {
   }
   return fmt::format(
       "{} seeds are too few to say whether Q = q diag({}) can have produced the published figures: two "
-      "standard errors do not decide whether every statement is reproduced for at least a tenth of the seeds. "
+      "standard errors do not decide whether every statement is reproduced for at least a tenth of the "
+      "seeds. "
       "More seeds would.",
       seeds,
       printed != Reproduced::undecided    ? "1, 1, 1"

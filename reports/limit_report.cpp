@@ -82,8 +82,8 @@ const LimitPoint* worst_above_threshold(const LimitStudy& study) {
     const auto threshold = limits::threshold_of(series.points).at_most;
     for (const LimitPoint& point : series.points) {
       const bool counts = threshold && point.decibels >= *threshold;
-      if (counts && (worst == nullptr ||
-                     limits::decibels_above_bound(point) > limits::decibels_above_bound(*worst))) {
+      if (counts &&
+          (worst == nullptr || limits::decibels_above_bound(point) > limits::decibels_above_bound(*worst))) {
         worst = &point;
       }
     }
@@ -103,7 +103,8 @@ std::string threshold_table(const LimitStudy& study) {
     const LimitPoint& clean = series.points.back();
     rows.push_back({tracker_name(series.channels), fmt::format("{:.1g}", series.walk_variance),
                     q1_words(series.q1_share), threshold_words(series.points), above_bound(noisy),
-                    lost_words(noisy.lost, study.runs), above_bound(clean), lost_words(clean.lost, study.runs)});
+                    lost_words(noisy.lost, study.runs), above_bound(clean),
+                    lost_words(clean.lost, study.runs)});
   }
   return certificates::markdown::table(
       {"Tracker", "Walk variance, (rad/sample)²", "q1", "Threshold", "Above the bound at 0 dB",
@@ -120,7 +121,8 @@ std::string random_walk_table(const LimitStudy& study, Channels channels, double
     std::vector<std::string> row{fmt::format("{:.0f}", matched.points[i].decibels),
                                  approximately(matched.points[i].bound)};
     for (const LimitPoint* point : {&matched.points[i], &looser.points[i]}) {
-      row.insert(row.end(), {approximately(point->error), above_bound(*point), lost_words(point->lost, study.runs)});
+      row.insert(row.end(),
+                 {approximately(point->error), above_bound(*point), lost_words(point->lost, study.runs)});
     }
     rows.push_back(std::move(row));
   }
@@ -182,22 +184,32 @@ std::string summary(const LimitStudy& study) {
   const double noise = limits::noise_variance_of(limits::kOverTimeDecibels);
   const LimitPoint* worst = worst_above_threshold(study);
   const std::string warning = undecided_thresholds(study);
-  return (warning.empty() ? "" : "*" + warning + "*\n\n") + fmt::format(
-      "**Results for an engineer.** (1) With $`q_2`$ and $`r`$ equal to the variances of the signal, no "
-      "filter can do much better: from its threshold on, each tracker has a mean square frequency error at "
-      "most ≈ {} above the bound for any estimator. For a frequency that changes by {:.3f} rad/sample "
-      "per sample (standard deviation) the threshold is {} for the quadrature tracker and {} for the "
-      "single-channel one. (2) $`q_1`$ is important when one channel is measured: the signal has no such "
-      "noise, but with $`q_1`$ = {} the same threshold of the single-channel tracker is {}. With $`q_1 = 0`$ "
-      "and little measurement noise that filter trusts its linearisation too much for the steps of the "
-      "frequency. (3) Measuring one channel instead of two has the same effect as twice the noise. (4) For a "
-      "constant frequency everything depends on $`q_2`$: the error stops decreasing after about "
-      "$`3.2\\,(\\rho/q_2)^{{1/4}}`$ samples, $`\\rho`$ the noise variance over the squared amplitude, so "
-      "that averaging over $`N`$ samples needs $`q_2 \\approx \\rho\\,(3.2/N)^4`$ (at {:.0f} dB and $`N`$ = "
-      "{}: ≈ {:.0e} (rad/sample)²).\n\n",
-      worst == nullptr ? "an unknown number of dB" : above_bound(*worst), std::sqrt(kFast), words(Channels::quadrature, 0.0),
-      words(Channels::single, 0.0), q1_words(limits::kSomeQ1), words(Channels::single, limits::kSomeQ1),
-      limits::kOverTimeDecibels, kAverage, noise * std::pow(3.24 / kAverage, 4));
+  return (warning.empty() ? "" : "*" + warning + "*\n\n") +
+         fmt::format(
+             "**Results for an engineer.** (1) With $`q_2`$ and $`r`$ equal to the variances of the signal, "
+             "no "
+             "filter can do much better: from its threshold on, each tracker has a mean square frequency "
+             "error at "
+             "most ≈ {} above the bound for any estimator. For a frequency that changes by {:.3f} rad/sample "
+             "per sample (standard deviation) the threshold is {} for the quadrature tracker and {} for the "
+             "single-channel one. (2) $`q_1`$ is important when one channel is measured: the signal has no "
+             "such "
+             "noise, but with $`q_1`$ = {} the same threshold of the single-channel tracker is {}. With "
+             "$`q_1 = 0`$ "
+             "and little measurement noise that filter trusts its linearisation too much for the steps of "
+             "the "
+             "frequency. (3) Measuring one channel instead of two has the same effect as twice the noise. "
+             "(4) For a "
+             "constant frequency everything depends on $`q_2`$: the error stops decreasing after about "
+             "$`3.2\\,(\\rho/q_2)^{{1/4}}`$ samples, $`\\rho`$ the noise variance over the squared "
+             "amplitude, so "
+             "that averaging over $`N`$ samples needs $`q_2 \\approx \\rho\\,(3.2/N)^4`$ (at {:.0f} dB and "
+             "$`N`$ = "
+             "{}: ≈ {:.0e} (rad/sample)²).\n\n",
+             worst == nullptr ? "an unknown number of dB" : above_bound(*worst), std::sqrt(kFast),
+             words(Channels::quadrature, 0.0), words(Channels::single, 0.0), q1_words(limits::kSomeQ1),
+             words(Channels::single, limits::kSomeQ1), limits::kOverTimeDecibels, kAverage,
+             noise * std::pow(3.24 / kAverage, 4));
 }
 
 std::string setting_text(const LimitStudy& study) {
@@ -212,7 +224,8 @@ std::string setting_text(const LimitStudy& study) {
       "runs (noise seeds 1 to {}, the same for every entry), lost runs included; ± is their standard error. "
       "A run is lost when its root mean square frequency error over the last {} samples is above {} "
       "rad/sample. The threshold is the lowest SNR of the grid from which on the error stays within {:.0f} "
-      "dB of the bound; where {:.0f} standard errors do not decide that, it is given as undecided. Differences "
+      "dB of the bound; where {:.0f} standard errors do not decide that, it is given as undecided. "
+      "Differences "
       "of less than {:.0f} standard errors may be chance.\n\n",
       study.runs, study.runs, limits::kLockWindow, limits::kLockThreshold, limits::kNearBound,
       limits::kStandardErrors, limits::kStandardErrors);
@@ -241,15 +254,16 @@ LimitStudy simulate_limits(int runs, const limits::StudyProgress& progress) {
 }
 
 std::string undecided_thresholds(const LimitStudy& study) {
-  const auto undecided = std::count_if(
-      study.random_walks.begin(), study.random_walks.end(), [](const limits::RandomWalkSeries& series) {
-        return !limits::threshold_of(series.points).is_decided();
-      });
+  const auto undecided = std::count_if(study.random_walks.begin(), study.random_walks.end(),
+                                       [](const limits::RandomWalkSeries& series) {
+                                         return !limits::threshold_of(series.points).is_decided();
+                                       });
   return undecided == 0
              ? ""
-             : fmt::format("{} runs are too few for {} of the {} thresholds: two standard errors do not decide "
-                           "them. More seeds would.",
-                           study.runs, undecided, study.random_walks.size());
+             : fmt::format(
+                   "{} runs are too few for {} of the {} thresholds: two standard errors do not decide "
+                   "them. More seeds would.",
+                   study.runs, undecided, study.random_walks.size());
 }
 
 std::string limit_document(const LimitStudy& study) {

@@ -13,8 +13,7 @@ namespace veritrack::reports {
   const double n = seeds;
   const double square = kErrors * kErrors / n;
   const double middle = (share + 0.5 * square) / (1.0 + square);
-  const double half =
-      kErrors / (1.0 + square) * std::sqrt(share * (1.0 - share) / n + 0.25 * square / n);
+  const double half = kErrors / (1.0 + square) * std::sqrt(share * (1.0 - share) / n + 0.25 * square / n);
   return {middle - half, middle + half};
 }
 

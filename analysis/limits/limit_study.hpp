@@ -92,8 +92,7 @@ struct ErrorOverTime {
 inline constexpr double kOverTimeDecibels = 20.0;
 
 /// For q2 = 1e-14, 1e-10, 1e-8 and 1e-6, both trackers.
-[[nodiscard]] std::vector<ErrorOverTime> study_errors_over_time(int runs,
-                                                                const StudyProgress& progress = {});
+[[nodiscard]] std::vector<ErrorOverTime> study_errors_over_time(int runs, const StudyProgress& progress = {});
 
 /// The signal of these experiments: constant, with the tracker's start drawn about it.
 [[nodiscard]] TrackingModel constant_frequency_model(Channels channels, double decibels);

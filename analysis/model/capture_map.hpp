@@ -50,7 +50,7 @@ struct CapturedCell {
   /// All starts in it, at all phases of the signal and for all noise, are in the tube after so many samples,
   /// angles modulo 2 pi, and stay.
   bool is_proved = false;
-  std::size_t samples = 0;  ///< when proved
+  std::size_t samples = 0;     ///< when proved
   bool is_unfinished = false;  ///< the deadline came first
 };
 

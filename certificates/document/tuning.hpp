@@ -38,10 +38,10 @@ struct TriedDesign {
 
 /// What was looked at, for a figure: the objective against the response.
 struct TradeOff {
-  std::string words;            ///< what the objective is, "the certified bound ..."
-  std::string unit;             ///< of the values
-  bool is_to_be_small = true;   ///< the less the better
-  bool is_estimated = false;    ///< values guide the search and are neither certified nor simulated
+  std::string words;           ///< what the objective is, "the certified bound ..."
+  std::string unit;            ///< of the values
+  bool is_to_be_small = true;  ///< the less the better
+  bool is_estimated = false;   ///< values guide the search and are neither certified nor simulated
   bool is_simulated = false;
   std::optional<double> required;  ///< a limit on the value that [require] sets
   std::vector<TriedDesign> designs;

@@ -22,8 +22,8 @@ namespace veritrack::certificates {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kObjectives{
-    "long-run", "for-ever", "radius", "noise", "slew", "lowest-snr", "rms", "simulated-rms"};
+constexpr std::array<std::string_view, 8> kObjectives{"long-run", "for-ever",   "radius", "noise",
+                                                      "slew",     "lowest-snr", "rms",    "simulated-rms"};
 
 Design with_values(const Design& design, const DesignValues& values, const Assumptions& assume) {
   Design changed = design;
@@ -48,8 +48,9 @@ CertifiedValues certified_with_bound(const Design& design, const std::set<Object
     return values_of(quadrature::certify_contraction(question).result, tables.require);
   }
   const auto& band = tables.assume.frequency;
-  return values_of(quadrature::certify_with_leak({question, rigor::hull(band[0].value, band[1].value)}).result,
-                   tables.require);
+  return values_of(
+      quadrature::certify_with_leak({question, rigor::hull(band[0].value, band[1].value)}).result,
+      tables.require);
 }
 
 /// Gaussian noise: estimated from proposals, which start from the last good one.
@@ -73,8 +74,8 @@ class LockEstimate {
     if (needed.contains(Objective::rms) && at_assumed->margin > 0.0) {
       // As much as is added before a proof is tried (mean_square_certificate.cpp).
       constexpr double kRoom = 1.08;
-      if (const auto form =
-              quadrature::propose_mean_square(quadrature::proposal_request(question).design, at_assumed->set)) {
+      if (const auto form = quadrature::propose_mean_square(quadrature::proposal_request(question).design,
+                                                            at_assumed->set)) {
         found.rms = std::sqrt(kRoom * form->bound);
       }
     }
@@ -82,7 +83,8 @@ class LockEstimate {
   }
 
  private:
-  std::optional<quadrature::LockProposal> proposed(const quadrature::LockQuestion& question, double deviation) {
+  std::optional<quadrature::LockProposal> proposed(const quadrature::LockQuestion& question,
+                                                   double deviation) {
     quadrature::LockQuestion asked = question;
     asked.noise_deviation = rigor::Interval(deviation);
     quadrature::LockRequest request = quadrature::proposal_request(asked);
@@ -140,7 +142,9 @@ TuningResult tune_quadrature(const Design& design, const TuningRequest& request)
     return {std::nullopt,
             "With a leak the search has nothing to go by in Gaussian noise; --free-leak lets it become 0."};
   }
-  problem.design_with = [&](const DesignValues& values) { return with_values(design, values, tables.assume); };
+  problem.design_with = [&](const DesignValues& values) {
+    return with_values(design, values, tables.assume);
+  };
   const auto estimate = std::make_shared<LockEstimate>();
   problem.certify = [&, estimate](const DesignValues& values, const Assumptions& assume,
                                   const std::set<Objective>& needed) {

@@ -61,8 +61,8 @@ RegionResult prove_region_of_attraction(const Design& design, const RegionReques
     constexpr std::size_t kFew = 64;  // to be asked often
     options.generation_size = kFew;
   }
-  found.region =
-      quadrature::prove_region(*problem, target, starts, options, region_progress(progress, request.deadline));
+  found.region = quadrature::prove_region(*problem, target, starts, options,
+                                          region_progress(progress, request.deadline));
   found.basin = quadrature::simulate_basin(*problem, starts, kGrid, kGrid, 2000);
   found.shares = quadrature::shares_of_basin(found.region, found.basin);
   return {std::move(found), ""};

@@ -71,11 +71,14 @@ TuningResult tune_single_channel(const Design& design, const TuningRequest& requ
   problem.free_leak = request.free_leak;
   const bool leaks = !(tables.design.epsilon.value == rigor::Interval(0.0));
   if (leaks && !request.free_leak && problem.objective != Objective::simulated_rms) {
-    return {std::nullopt,
-            "With a leak no bound is certified for this tracker; --free-leak lets it become 0, and --objective "
-            "simulated-rms compares simulations."};
+    return {
+        std::nullopt,
+        "With a leak no bound is certified for this tracker; --free-leak lets it become 0, and --objective "
+        "simulated-rms compares simulations."};
   }
-  problem.design_with = [&](const DesignValues& values) { return with_values(design, values, tables.assume); };
+  problem.design_with = [&](const DesignValues& values) {
+    return with_values(design, values, tables.assume);
+  };
   problem.certify = [&](const DesignValues& values, const Assumptions& assume,
                         const std::set<Objective>& needed) {
     const Design changed = with_values(design, values, assume);

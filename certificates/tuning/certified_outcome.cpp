@@ -15,9 +15,9 @@ std::vector<std::string> certified_in_gaussian_noise(const Certificate& certific
     return found == nullptr ? nullptr : theorems::applicable_quantity(*found, name);
   };
   if (const auto* ratio = quantity("lowest-snr", "lowest_snr")) {
-    sentences.push_back(fmt::format(
-        "Certified: the probability of losing lock at a signal-to-noise ratio of at least {} dB.",
-        rigor::upper_decimal(ratio->value, kDigits)));
+    sentences.push_back(
+        fmt::format("Certified: the probability of losing lock at a signal-to-noise ratio of at least {} dB.",
+                    rigor::upper_decimal(ratio->value, kDigits)));
   } else if (find_derivation(certificate, "lowest-snr") != nullptr) {
     sentences.emplace_back("At no signal-to-noise ratio a probability of losing lock could be certified.");
   }

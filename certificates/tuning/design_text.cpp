@@ -40,9 +40,9 @@ class Places {
   /// Whether the line says "key = ..." and nothing before.
   [[nodiscard]] bool has_line(const std::string& key, std::size_t value) const {
     std::string before(text_.substr(line_begin(value), value - line_begin(value)));
-    before.erase(std::remove_if(before.begin(), before.end(),
-                                [](unsigned char c) { return std::isspace(c) != 0; }),
-                 before.end());
+    before.erase(
+        std::remove_if(before.begin(), before.end(), [](unsigned char c) { return std::isspace(c) != 0; }),
+        before.end());
     return before == key + "=";
   }
 

@@ -33,8 +33,8 @@ struct CertifiedValues {
   double rms = kInfinite;         ///< of the frequency error in lock, rad/sample
 
   // Simulated:
-  double simulated_rms = kInfinite;    ///< of the frequency error, rad/sample
-  double simulated_deviation = 0.0;    ///< its standard error
+  double simulated_rms = kInfinite;  ///< of the frequency error, rad/sample
+  double simulated_deviation = 0.0;  ///< its standard error
 };
 
 /// With less of it at the sampled points, a probability of losing lock takes too long to be proved.
@@ -49,14 +49,16 @@ struct ObjectiveWords {
 };
 
 inline constexpr std::array<ObjectiveWords, 8> kObjectiveWords{{
-    {Objective::long_run, "long-run", "the certified bound on the frequency error in the long run", true, false},
+    {Objective::long_run, "long-run", "the certified bound on the frequency error in the long run", true,
+     false},
     {Objective::for_ever, "for-ever", "the certified bound on the frequency error for ever", true, false},
     {Objective::radius, "radius", "how far the certified set reaches in frequency", true, false},
     {Objective::noise, "noise", "the noise that is tolerated at a constant frequency", true, false},
     {Objective::slew, "slew", "the slew that is tolerated without noise", true, false},
-    {Objective::lowest_snr, "lowest-snr",
-     "the lowest signal-to-noise ratio at which the probability of losing lock can be certified", false, true},
     {Objective::rms, "rms", "the bound on the root mean square of the frequency error in lock", false, true},
+    {Objective::lowest_snr, "lowest-snr",
+     "the lowest signal-to-noise ratio at which the probability of losing lock can be certified", false,
+     true},
     {Objective::simulated_rms, "simulated-rms", "the simulated root mean square of the frequency error", true,
      true},
 }};
@@ -73,7 +75,8 @@ inline constexpr std::array<ObjectiveWords, 8> kObjectiveWords{{
 /// where nothing is known.
 [[nodiscard]] double merit_of(const CertifiedValues& values, Objective objective);
 /// "0.0021 rad/sample (3.4 Hz)", "16.3 dB": rounded to the side that makes it true.
-[[nodiscard]] std::string shown(const CertifiedValues& values, Objective objective, const Assumptions& assume);
+[[nodiscard]] std::string shown(const CertifiedValues& values, Objective objective,
+                                const Assumptions& assume);
 
 /// Everything that has to be known to judge values: the objective, and what [require] asks.
 [[nodiscard]] std::set<Objective> needed(Objective objective, const Assumptions& assume,

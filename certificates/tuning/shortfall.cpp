@@ -72,11 +72,13 @@ void reduce_starts(Assumptions& assume, double factor) {
 }
 
 const Reducible kReducible[] = {
-    {"noise of at most", [](Assumptions& assume, double factor) { assume.noise = times(assume.noise, factor); },
+    {"noise of at most",
+     [](Assumptions& assume, double factor) { assume.noise = times(assume.noise, factor); },
      [](const Assumptions& assume) { return rounded_down(assume.noise.nearest) + " signal units"; },
      [](const Assumptions& assume) { return assume.noise.text; },
      [](const Assumptions& assume) { return assume.noise.nearest > 0.0; }},
-    {"a slew of at most", [](Assumptions& assume, double factor) { assume.slew = times(assume.slew, factor); },
+    {"a slew of at most",
+     [](Assumptions& assume, double factor) { assume.slew = times(assume.slew, factor); },
      [](const Assumptions& assume) {
        return FrequencyUnits(assume.sample_rate).slew(assume.slew.nearest, kShortfallDigits);
      },
@@ -221,7 +223,8 @@ std::vector<std::string> changes_that_would_do(const CertifiedUnder& certify, co
   }
   if (alone.empty()) {
     sentences.emplace_back(
-        "No less noise, slew or start error, each by itself, would do for these values, as far as was tried.");
+        "No less noise, slew or start error, each by itself, would do for these values, as far as was "
+        "tried.");
     return sentences;
   }
   std::string list = alone.front();

@@ -58,7 +58,8 @@ TuningResult tuned_file(const TuningProblem& problem, const TuningRequest& reque
   if (!result.design_text) {
     const DesignValues& found = outcome.chosen;
     result.reason = fmt::format(
-        "q1 = {}, q2 = {}, r = {} and epsilon = {} were found, but [design] of the file is not a table with a "
+        "q1 = {}, q2 = {}, r = {} and epsilon = {} were found, but [design] of the file is not a table with "
+        "a "
         "line for each key, into which they could be written.",
         found.q1, found.q2, found.r, found.epsilon);
     return result;

@@ -19,7 +19,8 @@ void add_simulated(const Design& design, const Assumptions& assume, const std::s
                    CertifiedValues& found);
 
 /// Searches, and writes the result into the text of the design file; `edits` says how values stand there.
-[[nodiscard]] TuningResult tuned_file(const TuningProblem& problem, const TuningRequest& request,
-                                      const std::function<std::vector<DesignEdit>(const DesignValues&)>& edits);
+[[nodiscard]] TuningResult tuned_file(
+    const TuningProblem& problem, const TuningRequest& request,
+    const std::function<std::vector<DesignEdit>(const DesignValues&)>& edits);
 
 }  // namespace veritrack::certificates

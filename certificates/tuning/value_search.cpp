@@ -22,12 +22,12 @@ namespace veritrack::certificates {
 
 namespace {
 
-constexpr double kDecades = 4.0;       // around a start
+constexpr double kDecades = 4.0;  // around a start
 constexpr double kMissingMerit = 20.0;
 constexpr double kWeightOfOpen = 1e3;  // what is required comes first
 constexpr double kNoLeakBelow = 1e-3;  // of the given leak
 constexpr int kTradeOffDesigns = 8;
-constexpr int kChangeDesigns = 21;     // at most, to find out what would do
+constexpr int kChangeDesigns = 21;  // at most, to find out what would do
 
 /// Thrown to end a search whose time is over, or that has looked at enough.
 struct Enough {};
@@ -116,7 +116,8 @@ class Search {
     values.q2 = decimal(r * std::pow(10.0, x(1)));
     if (leak_is_free()) {
       const double share = std::pow(10.0, x(x.size() - 1));
-      values.epsilon = share < kNoLeakBelow ? "0" : decimal(share * number_of(problem_.given.epsilon).nearest);
+      values.epsilon =
+          share < kNoLeakBelow ? "0" : decimal(share * number_of(problem_.given.epsilon).nearest);
     }
     return values;
   }
@@ -168,7 +169,8 @@ class Search {
       return known->second;
     }
     const bool is_first = known_.empty();
-    if (!is_first && (static_cast<int>(known_.size()) >= request_.most_designs || request_.deadline.is_over())) {
+    if (!is_first &&
+        (static_cast<int>(known_.size()) >= request_.most_designs || request_.deadline.is_over())) {
       throw Enough();
     }
     return known_.emplace(values, looked_at(values, *problem_.assume)).first->second;
@@ -204,10 +206,10 @@ class Search {
   }
   [[nodiscard]] std::string unit() const {
     const FrequencyUnits units(problem_.assume->sample_rate);
-    return is_frequency()                                 ? units.drawn_unit()
+    return is_frequency()                                ? units.drawn_unit()
            : problem_.objective == Objective::lowest_snr ? "dB"
            : problem_.objective == Objective::noise      ? "of the amplitude"
-                                                          : "rad/sample per sample";
+                                                         : "rad/sample per sample";
   }
   /// What [require] asks of the objective itself.
   [[nodiscard]] std::optional<double> required() const {
@@ -223,9 +225,9 @@ class Search {
       case Objective::radius:
         return nearest(require.frequency_error_radius_at_least);
       case Objective::noise:
-        return require.largest_noise_at_least
-                   ? std::optional(require.largest_noise_at_least->nearest / problem_.assume->amplitude.nearest)
-                   : std::nullopt;
+        return require.largest_noise_at_least ? std::optional(require.largest_noise_at_least->nearest /
+                                                              problem_.assume->amplitude.nearest)
+                                              : std::nullopt;
       case Objective::slew:
         return nearest(require.largest_slew_at_least);
       case Objective::rms:
@@ -318,10 +320,10 @@ Objective chosen_objective(const std::string& name, const Assumptions& assume) {
   }
   const std::optional<Objective> objective = objective_called(name.empty() ? fitting.front() : name);
   if (!objective || !fits(words_of(*objective))) {
-    throw RequestError(fmt::format("veritrack tune: the objective {} does not fit {}; allowed: {}", name,
-                                   assume.gaussian ? "Gaussian noise" : "noise with a bound",
-                                   fmt::join(fitting, ", ")),
-                       "assume.noise");
+    throw RequestError(
+        fmt::format("veritrack tune: the objective {} does not fit {}; allowed: {}", name,
+                    assume.gaussian ? "Gaussian noise" : "noise with a bound", fmt::join(fitting, ", ")),
+        "assume.noise");
   }
   return *objective;
 }
@@ -351,13 +353,15 @@ std::vector<std::string> notes_of(const TuningProblem& problem, const TuningOutc
                                 shown(outcome.after, objective, *problem.assume)));
   }
   if (before.r != after.r && !gives_covariance(*problem.assume)) {
-    notes.emplace_back("r is the variance of the assumed noise in a channel; the estimates depend on the ratios "
-                       "of q1, q2 and r only.");
+    notes.emplace_back(
+        "r is the variance of the assumed noise in a channel; the estimates depend on the ratios "
+        "of q1, q2 and r only.");
   }
   if (outcome.was_stopped) {
-    notes.push_back(fmt::format("The time limit ended the search after {} designs; more time may find better "
-                                "ones.",
-                                outcome.looked_at));
+    notes.push_back(
+        fmt::format("The time limit ended the search after {} designs; more time may find better "
+                    "ones.",
+                    outcome.looked_at));
   }
   return notes;
 }

@@ -29,9 +29,9 @@ struct TuningProblem {
 /// What came of it.
 struct TuningOutcome {
   DesignValues chosen;
-  CertifiedValues before;  ///< of the given values
-  CertifiedValues after;   ///< of the chosen ones
-  bool is_met = false;     ///< everything required and the assumed starts, as far as it is looked at here
+  CertifiedValues before;    ///< of the given values
+  CertifiedValues after;     ///< of the chosen ones
+  bool is_met = false;       ///< everything required and the assumed starts, as far as it is looked at here
   bool was_stopped = false;  ///< by the deadline
   int looked_at = 0;
   std::vector<std::string> changes;  ///< TuningResult::changes

@@ -74,11 +74,11 @@ std::string statement(const certificates::ModelTables& tables, const ModelMap& m
 
 /// What the reader of a map that is not finished has to know.
 std::string stopped_sentence(const ModelMap& map) {
-  return map.unfinished() == 0
-             ? ""
-             : fmt::format(
-                   "*Stopped before the end*: {} cells were not followed to an answer, and count as not proved.\n\n",
-                   map.unfinished());
+  return map.unfinished() == 0 ? ""
+                               : fmt::format(
+                                     "*Stopped before the end*: {} cells were not followed to an answer, and "
+                                     "count as not proved.\n\n",
+                                     map.unfinished());
 }
 
 std::string cells_section(const ModelMap& map) {
@@ -140,8 +140,9 @@ std::string model_map_document(const certificates::Design& design, const ModelMa
                                   share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size());
   title += fmt::format("Which starts of {} lock at {}.\n\n", markdown::escaped(design.name),
                        frequency_of(map, units));
-  return title + stopped_sentence(map) + statement(tables, map, units) + fmt::format("![{}]({})\n\n", figure.caption, figure.file) +
-         cells_section(map) + hypotheses_section(tables, map);
+  return title + stopped_sentence(map) + statement(tables, map, units) +
+         fmt::format("![{}]({})\n\n", figure.caption, figure.file) + cells_section(map) +
+         hypotheses_section(tables, map);
 }
 
 std::string model_map_cells(const ModelMap& map) {
@@ -191,11 +192,11 @@ std::string model_map_json(const certificates::Design& design, const ModelMap& m
 MapResult write_model_map(const certificates::Design& design, const MapRequest& request,
                           const std::filesystem::path& directory,
                           const certificates::CertifyProgress& progress) {
-  const certificates::ModelMapResult result = certificates::map_model(
-      design,
-      {request.at, request.x, request.y, request.x_range, request.y_range, request.cells, request.with_noise,
-       request.deadline},
-      progress);
+  const certificates::ModelMapResult result =
+      certificates::map_model(design,
+                              {request.at, request.x, request.y, request.x_range, request.y_range,
+                               request.cells, request.with_noise, request.deadline},
+                              progress);
   if (!result.found) {
     return {std::nullopt, result.reason};
   }
@@ -208,12 +209,13 @@ MapResult write_model_map(const certificates::Design& design, const MapRequest& 
   files.stage(directory / "region.csv", model_map_cells(map));
   files.stage(directory / "map.json", model_map_json(design, map));
   files.commit();
-  return {document, fmt::format("{} of the starts are PROVED to lock, {} of {} cells; {} lock in simulation{}",
-                                share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size(),
-                                map.proved() + map.simulated_only(),
-                                map.unfinished() > 0
-                                    ? fmt::format("; stopped before the end, {} cells open", map.unfinished())
-                                    : "")};
+  return {document,
+          fmt::format("{} of the starts are PROVED to lock, {} of {} cells; {} lock in simulation{}",
+                      share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size(),
+                      map.proved() + map.simulated_only(),
+                      map.unfinished() > 0
+                          ? fmt::format("; stopped before the end, {} cells open", map.unfinished())
+                          : "")};
 }
 
 }  // namespace veritrack::reports

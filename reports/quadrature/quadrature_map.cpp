@@ -18,12 +18,11 @@ std::string cells_csv(const quadrature::Region& region) {
   for (std::size_t number = 0; number < region.cells.size(); ++number) {
     const quadrature::RegionCell& cell = region.cells[number];
     const quadrature::StartBox& starts = cell.starts;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", starts.amplitude_error.lower(),
-                        starts.amplitude_error.upper(), starts.phase_error.lower(),
-                        starts.phase_error.upper(), starts.frequency_error.lower(),
-                        starts.frequency_error.upper(), rigor::to_string(cell.verdict), cell.whole,
-                        cell.result.samples,
-                        number < looked_at ? quadrature::to_string(cell.result.outcome) : "not looked at");
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{}\n", starts.amplitude_error.lower(), starts.amplitude_error.upper(),
+        starts.phase_error.lower(), starts.phase_error.upper(), starts.frequency_error.lower(),
+        starts.frequency_error.upper(), rigor::to_string(cell.verdict), cell.whole, cell.result.samples,
+        number < looked_at ? quadrature::to_string(cell.result.outcome) : "not looked at");
   }
   return text;
 }
@@ -44,7 +43,8 @@ MapResult write_quadrature_map(const certificates::Design& design, const MapRequ
                                const std::filesystem::path& directory,
                                const certificates::CertifyProgress& progress) {
   const certificates::RegionResult result = certificates::prove_region_of_attraction(
-      design, {request.frequency_error.value_or(1.0), request.phase_error.value_or(1.5), request.with_noise,
+      design,
+      {request.frequency_error.value_or(1.0), request.phase_error.value_or(1.5), request.with_noise,
        request.deadline},
       progress);
   if (!result.found) {

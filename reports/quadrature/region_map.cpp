@@ -151,9 +151,10 @@ std::string caption(const Region& region, const SimulatedBasin& basin) {
            "simulation none of these starts locks.";
   }
   const std::string stopped =
-      region.unfinished > 0 ? fmt::format(" Stopped before the end: {} of the undecided cells were not looked at.",
-                                          region.unfinished)
-                            : "";
+      region.unfinished > 0
+          ? fmt::format(" Stopped before the end: {} of the undecided cells were not looked at.",
+                        region.unfinished)
+          : "";
   return fmt::format(
       "Region of attraction over the start's frequency error (rad/sample) and phase error (rad): starts "
       "proved to be captured (blue, the darker the sooner), proved to lock at a wrong frequency (hatched) "
@@ -183,10 +184,11 @@ Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
                        "set xlabel 'frequency error at the start, rad/sample'\n"
                        "set ylabel 'phase error at the start, rad'\n"
                        "set key maxcols 2\n";
-  script += region.unfinished > 0
-                ? fmt::format("set title 'stopped before the end: {} of the undecided cells were not looked at'\n",
-                              region.unfinished)
-                : "";
+  script +=
+      region.unfinished > 0
+          ? fmt::format("set title 'stopped before the end: {} of the undecided cells were not looked at'\n",
+                        region.unfinished)
+          : "";
   script +=
       fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n", basin.frequency_error.lower(),
                   basin.frequency_error.upper(), basin.phase_error.lower(), basin.phase_error.upper());

@@ -70,12 +70,15 @@ std::string caption(const TradeOff& trade_off) {
 
 Figure draw_trade_off(const TradeOff& trade_off) {
   std::string script = gnuplot_style(480) +
-                       "set tics out\nset logscale x\nset xlabel 'response, samples'\nset key maxcols 2\n"
+                       "set tics out\nset logscale x\nset xlabel 'response, samples'\nset key maxcols 3 "
+                       "width -4\nset xlabel offset 0,0.2\n"
+                       "set xrange [*:*] noextend\nset offsets graph 0.06, graph 0.06, 0, 0\n"
                        "set grid xtics ytics lw 0.5 lc rgb '#cccccc'\n";
   script += fmt::format("set ylabel '{}'\n", trade_off.unit);
   // Decibels are logarithms already.
   script += trade_off.unit == "dB" ? "" : "set logscale y\nset mytics 10\n";
-  script += block("line", trade_off, [](const TriedDesign& design) { return design.role == Role::trade_off; });
+  script +=
+      block("line", trade_off, [](const TriedDesign& design) { return design.role == Role::trade_off; });
   script += block("good", trade_off, [](const TriedDesign& design) {
     return design.meets && (design.role == Role::tried || design.role == Role::trade_off);
   });
@@ -84,15 +87,16 @@ Figure draw_trade_off(const TradeOff& trade_off) {
   });
   script += block("given", trade_off, [](const TriedDesign& design) { return design.role == Role::given; });
   script += block("chosen", trade_off, [](const TriedDesign& design) { return design.role == Role::chosen; });
-  script += fmt::format("plot $line using 1:2 with lines {} title 'chosen design, faster and slower ({})'",
-                        trade_off.is_simulated || trade_off.is_estimated ? line::kSimulated : line::kCertified,
-                        what(trade_off));
+  script +=
+      fmt::format("plot $line using 1:2 with lines {} title 'faster and slower ({})'",
+                  trade_off.is_simulated || trade_off.is_estimated ? line::kSimulated : line::kCertified,
+                  what(trade_off));
   if (trade_off.required) {
     script += fmt::format(", {:.9g} with lines {} title 'required'", *trade_off.required, line::kRequired);
   }
   script +=
       ", $good using 1:2 with points pt 7 ps 0.5 lc rgb '#777777' title 'looked at'"
-      ", $bad using 1:2 with points pt 2 ps 0.6 lw 1.2 lc rgb '#777777' title 'not all that is required'"
+      ", $bad using 1:2 with points pt 2 ps 0.6 lw 1.2 lc rgb '#777777' title 'something is not met'"
       ", $given using 1:2 with points pt 4 ps 1.4 lw 2 lc rgb '#000000' title 'given'"
       ", $chosen using 1:2 with points pt 7 ps 1.3 lc rgb '#000000' title 'chosen'\n";
   return with_title({"trade-off.svg", caption(trade_off), run_gnuplot(script),

@@ -91,14 +91,18 @@ std::string tuning_document(const certificates::TuningResult& result, const std:
   text += trade_off_table(trade_off) + "\n";
   text += fmt::format(
       "Objective: {}. {}The response is the number of samples in which a small step of the frequency is "
-      "followed to within a tenth, simulated without noise.\n\nA local search (Sbplx, from NLopt) went from the "
-      "given values, or from those of the Kalman filter for the assumed noise and slew or walk where they are "
-      "better; others may be better still. `tuning.csv` has everything that it looked at. Numbers on this page "
+      "followed to within a tenth, simulated without noise.\n\nA local search (Sbplx, from NLopt) went from "
+      "the "
+      "given values, or from those of the Kalman filter for the assumed noise and slew or walk where they "
+      "are "
+      "better; others may be better still. `tuning.csv` has everything that it looked at. Numbers on this "
+      "page "
       "are rounded to the nearest; what is proved of the design, [certificate.md](certificate.md) says.\n",
       trade_off.words,
-      trade_off.is_simulated   ? "It is simulated and proves nothing. "
-      : trade_off.is_estimated ? "During the search it is estimated from sampled points, which proves nothing. "
-                               : "It is certified for each design. ");
+      trade_off.is_simulated ? "It is simulated and proves nothing. "
+      : trade_off.is_estimated
+          ? "During the search it is estimated from sampled points, which proves nothing. "
+          : "It is certified for each design. ");
   return text;
 }
 

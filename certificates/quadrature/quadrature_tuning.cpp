@@ -8,7 +8,7 @@
 
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 #include "analysis/quadrature/gaussian/lock_certificate.hpp"
-#include "analysis/quadrature/gaussian/lowest_snr.hpp"
+#include "analysis/quadrature/gaussian/lock_rounding.hpp"
 #include "analysis/quadrature/gaussian/mean_square_search.hpp"
 #include "analysis/quadrature/leak/steady_certificate.hpp"
 #include "certificates/quadrature/guarantee.hpp"
@@ -90,6 +90,9 @@ class LockEstimate {
     quadrature::LockRequest request = quadrature::proposal_request(asked);
     request.near = near_;
     auto found = quadrature::propose_lock_set(request);
+    if (found && !quadrature::lock_rounding(asked.design, asked.signal, found->set, asked.samples).has_room) {
+      found->margin = -1.0;  // no proof either
+    }
     constexpr double kGood = 0.02;
     if (found && found->margin > kGood) {
       near_ = found->shape;

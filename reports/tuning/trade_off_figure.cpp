@@ -61,7 +61,9 @@ std::string caption(const TradeOff& trade_off) {
       "crosses where something required is not met.",
       capital(trade_off.words), trade_off.unit);
   if (missing > 0) {
-    text += fmt::format(" {} designs for which nothing is {} are not shown.", missing, what(trade_off));
+    text += fmt::format(" {} for which nothing is {} {} not shown.",
+                        missing == 1 ? "One design" : fmt::format("{} designs", missing), what(trade_off),
+                        missing == 1 ? "is" : "are");
   }
   return text;
 }

@@ -38,6 +38,7 @@ certificates::TuningResult tuned(const certificates::Design& design, const std::
   request.objective = options.objective;
   request.most_designs = options.designs;
   request.free_leak = options.free_leak;
+  request.with_trade_off = !options.no_certificate;
   request.deadline = (options.seconds > 0.0 ? search::Deadline(options.seconds) : search::Deadline())
                          .or_when(Interruption::flag());
   const ProgressLine line(options.quiet, "tuning");

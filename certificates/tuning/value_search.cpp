@@ -83,7 +83,9 @@ class Search {
     outcome.after = known_.at(best);
     outcome.is_met = shortage_of(outcome.after) == 0.0;
     outcome.looked_at = static_cast<int>(known_.size());
-    tell_trade_off(best, outcome);
+    if (request_.with_trade_off) {
+      tell_trade_off(best, outcome);
+    }
     if (!outcome.is_met) {
       tell_changes(best, outcome);
     }

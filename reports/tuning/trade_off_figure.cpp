@@ -73,7 +73,7 @@ std::string caption(const TradeOff& trade_off) {
 Figure draw_trade_off(const TradeOff& trade_off) {
   std::string script = gnuplot_style(480) +
                        "set tics out\nset logscale x\nset xlabel 'response, samples'\nset key maxcols 3 "
-                       "width -4\nset xlabel offset 0,0.2\n"
+                       "width -4\nset xlabel offset 0,0.7\n"
                        "set xrange [*:*] noextend\nset offsets graph 0.06, graph 0.06, 0, 0\n"
                        "set grid xtics ytics lw 0.5 lc rgb '#cccccc'\n";
   script += fmt::format("set ylabel '{}'\n", trade_off.unit);

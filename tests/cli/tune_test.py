@@ -1,6 +1,5 @@
 """veritrack tune: what it writes and what it refuses. What it finds takes minutes: nightly/tune_test.py."""
 
-import csv
 import signal
 import subprocess
 import unittest
@@ -26,32 +25,17 @@ class Tune(CliTestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("allowed: rms, lowest-snr, simulated-rms", result.stderr)
 
-    def test_a_few_designs_give_a_file_a_certificate_and_a_figure(self):
+    def test_the_file_keeps_its_words(self):
         self.write(POOR)
-        result = self.run_here("tune", "design.toml", "--designs", "3")
+        result = self.run_here("tune", "design.toml", "--designs", "2", "--no-certificate", "--out", "tuned.toml")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stderr, "")
         self.assertIn("goes from", result.stdout)
-        folder = self.folder / "certificates-out/design-tuned"
-        for name in ("certificate.md", "certificate.json", "tuning.md", "tuning.csv", "figures/trade-off.svg"):
-            self.assertTrue((folder / name).is_file(), name)
-        tuned = (self.folder / "design-tuned.toml").read_text()
+        tuned = (self.folder / "tuned.toml").read_text()
         self.assertIn("# too much", tuned)
-        with open(folder / "tuning.csv", newline="") as file:
-            rows = list(csv.DictReader(file))
-        chosen = next(row for row in rows if row["role"] == "chosen")
-        for key in ("q1", "q2", "r"):
-            self.assertRegex(tuned, rf"(?m)^{key} = {chosen[key]}\b")
-        self.assertIn("How the values of design-tuned.toml were chosen", (folder / "tuning.md").read_text())
-
-    def test_what_cannot_be_met_says_what_would_have_to_change(self):
-        self.write(DESIGN.replace("noise = 0.001", "noise = 0.02") + "\n[require]\nfrequency_error_below = 0.02\n")
-        result = self.run_here("tune", "design.toml", "--designs", "2", "--no-certificate")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stdout, r"Required: 0.02 rad/sample for ever; certified: 0\.\d+ rad/sample.")
-        self.assertRegex(result.stdout, r"would be certified with noise of at most 0\.0\d+ signal units \(in place of 0.02\)")
+        changed = [old.split()[0] for old, new in zip(POOR.splitlines(), tuned.splitlines(), strict=True) if old != new]
+        self.assertEqual(changed, ["q1", "q2", "r"])
         self.assertEqual(self.files(), [])
-        self.assertTrue((self.folder / "design-tuned.toml").is_file())
 
     def test_a_leak_is_free_or_is_not(self):
         self.write(GAUSSIAN.replace("epsilon = 0.0", "epsilon = 0.01"))

@@ -48,7 +48,7 @@ double ratio(const std::string& q, const std::string& r) {
 TEST_CASE("the best is found, and r is the variance of the noise") {
   const rigor::NearestRounding nearest;
   Example example;
-  const TuningOutcome outcome = search_values(example.problem, {.design_text = ""});
+  const TuningOutcome outcome = search_values(example.problem, TuningRequest());
   CHECK(ratio(outcome.chosen.q1, outcome.chosen.r) == doctest::Approx(0.1).epsilon(0.15));
   CHECK(ratio(outcome.chosen.q2, outcome.chosen.r) == doctest::Approx(0.01).epsilon(0.15));
   CHECK(outcome.chosen.r == "0.0001");  // 0.02^2/4
@@ -68,7 +68,7 @@ TEST_CASE("the same twice, with no more designs than allowed") {
   const rigor::NearestRounding nearest;
   Example one;
   Example two;
-  TuningRequest request{.design_text = ""};
+  TuningRequest request;
   request.most_designs = 7;
   int told = 0;
   request.progress = [&](int done, int /*most*/) { told = done; };
@@ -82,7 +82,7 @@ TEST_CASE("the same twice, with no more designs than allowed") {
 TEST_CASE("what is required comes first") {
   const rigor::NearestRounding nearest;
   Example example(testing::kTunedText + "[require]\nlargest_noise_at_least = 0.05\n");  // q2 = r
-  const TuningOutcome outcome = search_values(example.problem, {.design_text = ""});
+  const TuningOutcome outcome = search_values(example.problem, TuningRequest());
   CHECK(outcome.is_met);
   CHECK(ratio(outcome.chosen.q2, outcome.chosen.r) >= 0.999);
 }
@@ -91,7 +91,7 @@ TEST_CASE("a deadline that is over leaves the given values, and says so") {
   const rigor::NearestRounding nearest;
   Example example;
   const std::atomic<bool> now{true};
-  TuningRequest request{.design_text = ""};
+  TuningRequest request;
   request.deadline = search::Deadline().or_when(now);
   const TuningOutcome outcome = search_values(example.problem, request);
   CHECK(outcome.was_stopped);
@@ -117,7 +117,7 @@ TEST_CASE("a leak stays, unless it is free") {
   std::string text = testing::kTunedText;
   text.replace(text.find("epsilon = 0"), 11, "epsilon = 0.05");
   Example example(text);
-  CHECK(search_values(example.problem, {.design_text = ""}).chosen.epsilon == "0.05");
+  CHECK(search_values(example.problem, TuningRequest()).chosen.epsilon == "0.05");
   example.problem.free_leak = true;
   const auto certify = example.problem.certify;
   example.problem.certify = [&](const DesignValues& values, const Assumptions& assume,
@@ -126,7 +126,7 @@ TEST_CASE("a leak stays, unless it is free") {
     found.long_run += number_of(values.epsilon).nearest;
     return found;
   };
-  CHECK(search_values(example.problem, {.design_text = ""}).chosen.epsilon == "0");
+  CHECK(search_values(example.problem, TuningRequest()).chosen.epsilon == "0");
 }
 
 }  // namespace

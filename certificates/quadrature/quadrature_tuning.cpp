@@ -22,8 +22,8 @@ namespace veritrack::certificates {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kObjectives{"long-run", "for-ever",   "radius", "noise",
-                                                      "slew",     "lowest-snr", "rms",    "simulated-rms"};
+constexpr std::array<std::string_view, 8> kObjectives{"long-run", "for-ever", "radius",     "noise",
+                                                      "slew",     "rms",      "lowest-snr", "simulated-rms"};
 
 Design with_values(const Design& design, const DesignValues& values, const Assumptions& assume) {
   Design changed = design;

@@ -27,7 +27,7 @@ class Tune(CliTestCase):
 
     def test_the_file_keeps_its_words(self):
         self.write(POOR)
-        result = self.run_here("tune", "design.toml", "--designs", "2", "--no-certificate", "--out", "tuned.toml")
+        result = self.run_here("tune", "design.toml", "--designs", "6", "--no-certificate", "--out", "tuned.toml")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stderr, "")
         self.assertIn("goes from", result.stdout)

@@ -72,7 +72,7 @@ ExitStatus run_certify(const CertifyOptions& options) {
     certificate.formal_proofs = certificates::coq_proofs(certificate);
   }
   const reports::CertificateFiles files =
-      reports::write_certificate_files(certificate, directory, options.design);
+      reports::write_certificate_files(certificate, directory, options.design, options.renderings);
   if (by_name) {
     mark_folder(directory, options.design);
   }
@@ -145,8 +145,8 @@ ExitStatus run_reproduce(const ReproduceOptions& options) {
   const reports::WrittenReport written = [&] {
     const ProgressLine line(options.quiet, "simulating");
     const auto tell = [&](int done, int most) { line(done, most, "simulated"); };
-    return limits ? reports::write_limit_report(seeds, directory, tell)
-                  : reports::write_example_report(seeds, directory, tell);
+    return limits ? reports::write_limit_report(seeds, directory, options.renderings, tell)
+                  : reports::write_example_report(seeds, directory, options.renderings, tell);
   }();
   if (!written.warning.empty()) {
     fmt::print(stderr, "{}: {}\n", written.document.string(), written.warning);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/single_channel/published_examples.hpp"
+#include "reports/page/renderings.hpp"
 #include "reports/written_report.hpp"
 
 namespace veritrack::reports {
@@ -33,9 +34,10 @@ struct StartRates {
 /// Told how many of how many starts have been simulated.
 using StartProgress = std::function<void(int, int)>;
 
-/// report.md and its figures into `directory`, whole or not at all. Throws FigureError, and InputError when
-/// files cannot be written.
+/// report.md, its figures and what is asked for into `directory`, whole or not at all. Throws FigureError,
+/// and InputError when files cannot be written.
 [[nodiscard]] WrittenReport write_example_report(int seeds, const std::filesystem::path& directory,
+                                                 const page::Renderings& renderings = {},
                                                  const StartProgress& progress = {});
 
 }  // namespace veritrack::reports

@@ -314,15 +314,16 @@ std::string limit_document(const LimitStudy& study) {
 }
 
 WrittenReport write_limit_report(int runs, const std::filesystem::path& directory,
-                                 const limits::StudyProgress& progress) {
+                                 const page::Renderings& renderings, const limits::StudyProgress& progress) {
   const LimitStudy study = simulate_limits(runs, progress);
+  page::Document document{"report", limit_document(study)};
+  document.figure_folder = "figures/";
+  document.figures = {with_title(draw_random_walks(study.random_walks)),
+                      with_title(draw_errors_over_time(study.over_time))};
   certificates::OutputFiles files;
-  files.stage(directory / "figures/random-walk.svg", draw_random_walks(study.random_walks));
-  files.stage(directory / "figures/constant.svg", draw_errors_over_time(study.over_time));
-  WrittenReport written{directory / "report.md", undecided_thresholds(study)};
-  files.stage(written.document, limit_document(study));
+  stage_document(files, directory, document, renderings);
   files.commit();
-  return written;
+  return {directory / "report.md", undecided_thresholds(study)};
 }
 
 }  // namespace veritrack::reports

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/limits/limit_study.hpp"
+#include "reports/page/renderings.hpp"
 #include "reports/written_report.hpp"
 
 namespace veritrack::reports {
@@ -26,9 +27,10 @@ struct LimitStudy {
 /// The document, without its figures.
 [[nodiscard]] std::string limit_document(const LimitStudy& study);
 
-/// report.md and its figures into `directory`, whole or not at all. Throws FigureError, and OutputError when
-/// files cannot be written.
+/// report.md, its figures and what is asked for into `directory`, whole or not at all. Throws FigureError,
+/// and OutputError when files cannot be written.
 [[nodiscard]] WrittenReport write_limit_report(int runs, const std::filesystem::path& directory,
+                                               const page::Renderings& renderings = {},
                                                const limits::StudyProgress& progress = {});
 
 }  // namespace veritrack::reports

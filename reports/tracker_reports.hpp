@@ -24,6 +24,7 @@ struct MapRequest {
   std::optional<int> cells;                ///< in each direction
   bool with_noise = false;                 ///< with the noise (and slew) of [assume]; otherwise without
   search::Deadline deadline = {};          ///< what is not proved when it is over is open
+  bool html = false;                       ///< map.html, too
 };
 
 /// The files of a map, or why there are none.

@@ -41,6 +41,10 @@ struct RegionResult {
 [[nodiscard]] RegionResult prove_region_of_attraction(const Design& design, const RegionRequest& request,
                                                       const CertifyProgress& progress = {});
 
+/// What is proved of the starts in the cells that are PROVED, as one sentence with all its hypotheses;
+/// without the verdict.
+[[nodiscard]] std::string region_statement(const Design& design, const RegionRequest& request);
+
 /// Tells `progress`, when there is one, and asks to stop when the deadline is over. Refers to both: must not
 /// outlive them.
 [[nodiscard]] std::function<bool(const quadrature::RegionProgress&)> region_progress(

@@ -58,8 +58,8 @@ class Map(CliTestCase):
         result = self.run_here("map", "design.toml", "--frequency", "3", "--phase", "3", "--timeout", "0.001")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("stopped before the end", result.stdout)
-        svg = (self.folder / "maps-out/design/region.svg").read_text()
-        self.assertIn("stopped before the end", svg)
+        document = (self.folder / "maps-out/design/map.md").read_text()
+        self.assertIn("stopped before the end", document.splitlines()[0])
         cells = self.cells("maps-out/design")
         open_cells = [cell for cell in cells if cell["outcome"] == "not looked at"]
         self.assertGreater(len(open_cells), 0)

@@ -30,12 +30,14 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
      "  veritrack diff old.toml new.toml"},
     {"map",
      "  veritrack map my-design.toml\n"
-     "  veritrack map my-design.toml --frequency 0.5 --phase 1 --noise --html"},
+     "  veritrack map my-design.toml --frequency 0.5 --phase 1 --noise --html\n"
+     "  veritrack map my-loop.toml --timeout 60"},
     {"show",
      "  veritrack show my-loop.toml\n"
      "  veritrack show my-loop.toml --language c > tracker.c"},
     {"tune",
-     "  veritrack tune my-design.toml --objective noise\n"
+     "  veritrack tune my-design.toml\n"
+     "  veritrack tune my-design.toml --objective noise --timeout 300\n"
      "  veritrack tune my-observer.toml --out tuned.toml"},
     {"track",
      "  veritrack track my-design.toml scope.csv --columns CH1,CH2\n"
@@ -147,6 +149,9 @@ void add_commands(CLI::App& app, Arguments& into) {
   map->add_option("--y-range", into.map.request.y_range, "model: likewise")->check(CLI::Range(1e-300, 1e300));
   map->add_option("--cells", into.map.request.cells, "model: cells in each direction (default 21)")
       ->check(CLI::Range(1, 200));
+  map->add_option("--timeout", into.map.seconds,
+                  "stop after so many seconds and write what is proved by then; so does Ctrl-C")
+      ->check(seconds);
   map->add_flag("--noise", into.map.request.with_noise,
                 "with the noise of [assume], for quadrature-ekf with its slew, too; otherwise without any");
 
@@ -162,13 +167,27 @@ void add_commands(CLI::App& app, Arguments& into) {
 
   CLI::App* tune =
       app.add_subcommand("tune", "choose design values for the best guarantee, and certify the result");
-  tune->add_option("DESIGN", into.tune.design, "design file (TOML), tracker quadrature-ekf or kkl-observer")
+  tune->add_option("DESIGN", into.tune.design,
+                   "design file (TOML), tracker quadrature-ekf, single-channel-ekf or kkl-observer")
       ->required();
-  tune->add_option(
-      "--objective", into.tune.objective,
-      "quadrature-ekf: long-run (default), for-ever, radius, noise or slew; kkl-observer: frequency-error");
+  tune->add_option("--objective", into.tune.objective,
+                   "noise with a bound: long-run (default), for-ever, radius, noise, slew or simulated-rms; "
+                   "Gaussian noise: rms (default), lowest-snr or simulated-rms; kkl-observer: "
+                   "frequency-error");
   tune->add_option("--out", into.tune.output,
                    "design file to write (default: <name of the design file>-tuned.toml)");
+  tune->add_option("--certificate", into.tune.directory,
+                   "folder for its certificate, tuning.md and the figure of the trade-off (default: "
+                   "certificates-out/<name of the design file to write>)");
+  tune->add_flag("--no-certificate", into.tune.no_certificate,
+                 "write the design file only, without certifying it");
+  tune->add_option("--designs", into.tune.designs, "designs that the search looks at, at most")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  tune->add_option("--timeout", into.tune.seconds,
+                   "end the search after so many seconds, and certify the best so far; so does Ctrl-C")
+      ->check(seconds);
+  tune->add_flag("--free-leak", into.tune.free_leak, "epsilon may become smaller than it is, down to 0");
 
   CLI::App* track = app.add_subcommand("track", "run the tracker of a design over a recording");
   track->add_option("DESIGN", into.track.design, "design file (TOML)")->required();

@@ -90,7 +90,7 @@ std::string work_on(const CheckTask& task, const CheckOptions& options, std::siz
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const tbb::global_control share(tbb::global_control::max_allowed_parallelism,
                                   std::max<std::size_t>(1, cores / at_once));
-  const ProgressLine line(options.quiet || !is_alone);
+  const ProgressLine line(options.quiet || !is_alone, "checking");
   const search::Deadline deadline =
       options.seconds > 0.0 ? search::Deadline(options.seconds) : search::Deadline();
   const certificates::Certificate certificate =

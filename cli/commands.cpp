@@ -13,15 +13,16 @@
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/coq_document.hpp"
 #include "certificates/document/markdown.hpp"
-#include "certificates/document/output_files.hpp"
 #include "certificates/document/tracker_kind.hpp"
 #include "certificates/document/tuning.hpp"
 #include "cli/default_folder.hpp"
+#include "cli/interruption.hpp"
 #include "cli/progress_line.hpp"
 #include "reports/certificate_files.hpp"
 #include "reports/example_report.hpp"
 #include "reports/limit_report.hpp"
 #include "reports/tracker_reports.hpp"
+#include "reports/written_report.hpp"
 
 namespace veritrack::cli {
 
@@ -38,7 +39,7 @@ certificates::Certificate certify_with_progress(const std::string& design_path, 
                                                 certificates::Extent extent, double seconds) {
   const search::Deadline deadline = seconds > 0.0 ? search::Deadline(seconds) : search::Deadline();
   certificates::Certificate certificate = [&] {
-    const ProgressLine line(quiet);
+    const ProgressLine line(quiet, "certifying");
     return certificates::certify_file(design_path, std::cref(line), extent, deadline);
   }();
   if (seconds > 0.0 && !quiet && !certificates::kind_of(certificate.design).limited_in_time) {
@@ -98,9 +99,13 @@ ExitStatus run_map(const MapOptions& options) {
   const std::filesystem::path directory =
       by_name ? default_folder("maps-out", options.design) : std::filesystem::path(options.directory);
   const reports::MapResult result = [&] {
-    const ProgressLine line(options.quiet);
+    const Interruption interruption;
+    reports::MapRequest request = options.request;
+    request.deadline = (options.seconds > 0.0 ? search::Deadline(options.seconds) : search::Deadline())
+                           .or_when(Interruption::flag());
+    const ProgressLine line(options.quiet, "mapping");
     try {
-      return reports::write_map(design, options.request, directory, std::cref(line));
+      return reports::write_map(design, request, directory, std::cref(line));
     } catch (const certificates::RequestError& error) {
       const auto position = design.positions.find(error.key());
       throw certificates::InputError(
@@ -130,39 +135,6 @@ ExitStatus run_show(const ShowOptions& options) {
   return all_proved;
 }
 
-ExitStatus run_tune(const TuneOptions& options) {
-  const std::string text = certificates::read_design_text(options.design);
-  const certificates::Design design = certificates::read_design(text, options.design);
-  if (!certificates::can_be_tuned(design)) {
-    refuse_tracker(options.design, design, "tune", certificates::trackers_with_tuning());
-  }
-  const certificates::TuningResult result = [&] {
-    const ProgressLine line(options.quiet);
-    return certificates::tune(design,
-                              {text, options.objective, [&](int done, int most) { line(done, most); }});
-  }();
-  if (!result.design_text) {
-    fmt::print("{}: undecided: {}\n", options.design, result.reason);
-    return not_proved;
-  }
-  const std::filesystem::path output =
-      options.output.empty() ? std::filesystem::path(options.design).stem().string() + "-tuned.toml"
-                             : options.output;
-  certificates::OutputFiles files;
-  files.keep(options.design);
-  files.stage(output, *result.design_text);
-  files.commit();
-  // From the text, because the output need not be a file that can be read again.
-  const certificates::Certificate certificate = certificates::certify(
-      certificates::read_design(*result.design_text, output.string()), output.filename().string(),
-      *result.design_text, {}, certificates::Extent::requirements);
-  for (const std::string& note : result.notes) {
-    fmt::print("{}\n", note);
-  }
-  fmt::print("{}: {}\n", output.string(), certificates::headline(certificate));
-  return status_of(certificate);
-}
-
 ExitStatus run_reproduce(const ReproduceOptions& options) {
   const std::filesystem::path directory = options.directory.empty()
                                               ? std::filesystem::path("reports-out") / options.report
@@ -170,10 +142,16 @@ ExitStatus run_reproduce(const ReproduceOptions& options) {
   const bool limits = options.report == kLimitReport;
   const int published_seeds = limits ? 1000 : 200;
   const int seeds = options.seeds > 0 ? options.seeds : published_seeds;
-  const std::filesystem::path document =
-      limits ? reports::write_limit_report(seeds, directory, options.renderings)
-             : reports::write_example_report(seeds, directory, options.renderings);
-  fmt::print("{}\n", document.string());
+  const reports::WrittenReport written = [&] {
+    const ProgressLine line(options.quiet, "simulating");
+    const auto tell = [&](int done, int most) { line(done, most, "simulated"); };
+    return limits ? reports::write_limit_report(seeds, directory, options.renderings, tell)
+                  : reports::write_example_report(seeds, directory, options.renderings, tell);
+  }();
+  if (!written.warning.empty()) {
+    fmt::print(stderr, "{}: {}\n", written.document.string(), written.warning);
+  }
+  fmt::print("{}\n", written.document.string());
   return all_proved;
 }
 

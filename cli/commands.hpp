@@ -48,7 +48,8 @@ struct MapOptions {
   std::string design;
   std::string directory;
   reports::MapRequest request;
-  bool quiet = false;  ///< no progress on standard error
+  double seconds = 0.0;  ///< after which what is known so far is written; 0: never
+  bool quiet = false;    ///< no progress on standard error
 };
 
 struct ShowOptions {
@@ -59,8 +60,13 @@ struct ShowOptions {
 struct TuneOptions {
   std::string design;
   std::string output;
-  std::string objective;  ///< empty: the first of those of the tracker
-  bool quiet = false;     ///< no progress on standard error
+  std::string objective;        ///< empty: the first that fits what is assumed
+  std::string directory;        ///< for the certificate; empty: by the name of the output
+  int designs = 60;             ///< that the search looks at, at most
+  double seconds = 0.0;         ///< after which the search ends; 0: never
+  bool free_leak = false;       ///< epsilon may become smaller
+  bool no_certificate = false;  ///< the design file alone
+  bool quiet = false;           ///< no progress on standard error
 };
 
 struct TrackOptions {
@@ -87,7 +93,8 @@ struct ReproduceOptions {
   reports::page::Renderings renderings;
   std::string report = kExampleReport;
   std::string directory;
-  int seeds = 0;  ///< 0: the number used for the report in docs/reports
+  int seeds = 0;       ///< 0: the number used for the report in docs/reports
+  bool quiet = false;  ///< no progress on standard error
 };
 
 struct ExplainOptions {

@@ -27,7 +27,7 @@ using ChangeKind = reports::CertificateChange::Kind;
 /// certificate.json: that of a folder, of a file, or of a design, which is certified.
 std::string certificate_of(const std::string& path, bool quiet) {
   if (fs::path(path).extension() == ".toml") {
-    const ProgressLine line(quiet);
+    const ProgressLine line(quiet, "certifying");
     return certificates::to_json(certificates::certify_file(path, std::cref(line)));
   }
   const fs::path file = fs::is_directory(path) ? fs::path(path) / "certificate.json" : fs::path(path);

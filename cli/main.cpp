@@ -71,7 +71,7 @@ int run(int argc, char** argv) {
   }
 
   arguments.certify.quiet = arguments.check.quiet = arguments.map.quiet = arguments.track.quiet = quiet;
-  arguments.diff.quiet = arguments.tune.quiet = quiet;
+  arguments.diff.quiet = arguments.tune.quiet = arguments.reproduce.quiet = quiet;
 
   if (app.got_subcommand("explain")) {
     return run_explain(arguments.explain);

@@ -10,6 +10,7 @@
 #include "certificates/document/output_files.hpp"
 #include "reports/example_linearization.hpp"
 #include "reports/gnuplot.hpp"
+#include "reports/seed_share.hpp"
 
 namespace veritrack::reports {
 
@@ -25,13 +26,39 @@ constexpr double kReproduced =
     0.1;  // of the seeds: a published figure is one run, and need not be the usual one
 constexpr std::uint64_t kDrawnSeed = 1;
 
-bool reproduces_all(const std::vector<StatementRate>& rates) {
-  return std::all_of(rates.begin(), rates.end(),
-                     [](const StatementRate& one) { return one.rate >= kReproduced; });
+/// Of a start: whether every statement came out often enough, as far as so many seeds can say.
+enum class Reproduced { yes, no, undecided };
+Reproduced reproduces_all(const std::vector<StatementRate>& rates, int seeds) {
+  Reproduced all = Reproduced::yes;
+  for (const StatementRate& one : rates) {
+    const auto [low, high] = share_interval(one.rate, seeds);
+    if (high < kReproduced) {
+      return Reproduced::no;
+    }
+    all = low >= kReproduced ? all : Reproduced::undecided;
+  }
+  return all;
 }
 
-std::string percent(double rate) {
-  return fmt::format("{:.1f} %", 100.0 * rate);
+/// Of a reading: that of its best start.
+template <typename Member>
+Reproduced reproduced_for_some_start(const std::vector<StartRates>& rates, Member member, int seeds) {
+  Reproduced best = Reproduced::no;
+  for (const StartRates& one : rates) {
+    const Reproduced here = reproduces_all(one.*member, seeds);
+    best = here == Reproduced::yes || best == Reproduced::yes               ? Reproduced::yes
+           : here == Reproduced::undecided || best == Reproduced::undecided ? Reproduced::undecided
+                                                                            : Reproduced::no;
+  }
+  return best;
+}
+
+/// "43.5 ± 3.5 %", the standard error of a share of seeds; "0 of 200" where it says nothing.
+std::string share_words(double rate, int seeds) {
+  if (rate <= 0.0 || rate >= 1.0) {
+    return fmt::format("{:.0f} of {}", rate * seeds, seeds);
+  }
+  return fmt::format("{:.1f} ± {:.1f} %", 100.0 * rate, 100.0 * std::sqrt(rate * (1.0 - rate) / seeds));
 }
 
 /// A panel: its title, and the run.
@@ -108,7 +135,7 @@ Figure draw_difference(const char* file, const char* title, const std::vector<Pa
   return {file, {}, run_gnuplot(script + "\n"), title, {std::move(table)}};
 }
 
-std::string rate_table(const std::vector<StartRates>& rates) {
+std::string rate_table(const std::vector<StartRates>& rates, int seeds) {
   std::vector<std::string> header{"Statement", "Reading of Q"};
   for (const StartRates& one : rates) {
     header.push_back(one.start.words);
@@ -118,8 +145,8 @@ std::string rate_table(const std::vector<StartRates>& rates) {
     std::vector<std::string> printed{rates.front().identity[i].statement, "q diag(0, 0, 1)"};
     std::vector<std::string> identity{"", "q diag(1, 1, 1)"};
     for (const StartRates& one : rates) {
-      printed.push_back(percent(one.frequency_only[i].rate));
-      identity.push_back(percent(one.identity[i].rate));
+      printed.push_back(share_words(one.frequency_only[i].rate, seeds));
+      identity.push_back(share_words(one.identity[i].rate, seeds));
     }
     rows.push_back(printed);
     rows.push_back(identity);
@@ -152,17 +179,18 @@ std::uint64_t seed_of_figure_3(int seeds) {
 
 std::string document(const std::vector<StartRates>& rates, int seeds, std::uint64_t figure_3_seed) {
   std::string text = "# Which process noise the examples of Bittanti and Savaresi (2000) were run with\n\n";
-  text += reading_sentence(rates) + "\n\n";
+  text += reading_sentence(rates, seeds) + "\n\n";
   text += fmt::format(
       "The paper prints the process noise covariance as $`q I_3`$ and defines $`I_3`$ as "
       "$`\\mathrm{{diag}}(0, 0, 1)`$. Both readings were simulated over {} noise seeds for each of {} starts "
       "of the tracker, which the paper does not give. A rate is the fraction of the seeds for which a "
-      "statement of the text or of a figure was reproduced. Locked means: over the 100 samples before the "
+      "statement of the text or of a figure was reproduced, ± its standard error. Locked means: over the 100 "
+      "samples before the "
       "frequency first changes, or the last 100, the mean error is below 0.35 rad/sample and the deviation "
       "about the mean below 0.5 rad/sample; an estimate that settles at an alias, a multiple of $`2\\pi`$ "
       "away, is not locked. These are simulations in double precision; they prove nothing.\n\n",
       seeds, rates.size());
-  text += rate_table(rates) + "\n" + linearization_section();
+  text += rate_table(rates, seeds) + "\n" + linearization_section();
   text +=
       "## Figure 2\n\n![Two panels: the estimate over 1000 samples, with and without "
       "leak](figures/figure-2.svg)\n\n"
@@ -193,44 +221,61 @@ std::string document(const std::vector<StartRates>& rates, int seeds, std::uint6
 
 }  // namespace
 
-std::vector<StartRates> simulate_published_examples(int seeds) {
+std::vector<StartRates> simulate_published_examples(int seeds,
+                                                    const std::function<void(int, int)>& progress) {
   std::vector<StartRates> rates;
-  for (const single_channel::ExampleStart& start : single_channel::example_starts()) {
+  const std::vector<single_channel::ExampleStart> starts = single_channel::example_starts();
+  for (const single_channel::ExampleStart& start : starts) {
     rates.push_back({start,
                      single_channel::statement_rates(ProcessNoiseReading::frequency_only, start, seeds),
                      single_channel::statement_rates(ProcessNoiseReading::identity, start, seeds)});
+    if (progress) {
+      progress(static_cast<int>(rates.size()), static_cast<int>(starts.size()));
+    }
   }
   return rates;
 }
 
-std::string reading_sentence(const std::vector<StartRates>& rates) {
-  const auto starts_of = [&](auto member) {
-    std::vector<std::string> starts;
-    for (const StartRates& one : rates) {
-      if (reproduces_all(one.*member)) {
-        starts.push_back(one.start.words);
-      }
-    }
-    return starts;
-  };
-  const auto printed = starts_of(&StartRates::frequency_only);
-  const auto identity = starts_of(&StartRates::identity);
+std::string too_few_seeds(const std::vector<StartRates>& rates, int seeds) {
+  const Reproduced printed = reproduced_for_some_start(rates, &StartRates::frequency_only, seeds);
+  const Reproduced identity = reproduced_for_some_start(rates, &StartRates::identity, seeds);
+  if (printed != Reproduced::undecided && identity != Reproduced::undecided) {
+    return {};
+  }
+  return fmt::format(
+      "{} seeds are too few to say whether Q = q diag({}) can have produced the published figures: two "
+      "standard errors do not decide whether every statement is reproduced for at least a tenth of the "
+      "seeds. "
+      "More seeds would.",
+      seeds,
+      printed != Reproduced::undecided    ? "1, 1, 1"
+      : identity != Reproduced::undecided ? "0, 0, 1"
+                                          : "0, 0, 1) or Q = q diag(1, 1, 1");
+}
+
+std::string reading_sentence(const std::vector<StartRates>& rates, int seeds) {
+  if (const std::string undecided = too_few_seeds(rates, seeds); !undecided.empty()) {
+    return undecided;
+  }
+  const Reproduced printed = reproduced_for_some_start(rates, &StartRates::frequency_only, seeds);
+  const Reproduced identity = reproduced_for_some_start(rates, &StartRates::identity, seeds);
   const std::string criterion =
-      " (for some start every statement is reproduced for at least a tenth of the seeds)";
-  if (printed.empty() && identity.empty()) {
+      " (for some start every statement is reproduced for at least a tenth of the seeds, two standard errors "
+      "included)";
+  if (printed == Reproduced::no && identity == Reproduced::no) {
     return "Neither reading reproduces every statement of the examples for any of the starts tried.";
   }
-  if (!printed.empty() && !identity.empty()) {
+  if (printed == Reproduced::yes && identity == Reproduced::yes) {
     return "Either reading can have produced the published figures" + criterion + ".";
   }
   return fmt::format(
       "Of the two readings only Q = q diag({}) can have produced the published figures{}: the other one "
       "fails for every start tried.",
-      printed.empty() ? "1, 1, 1" : "0, 0, 1", criterion);
+      printed == Reproduced::no ? "1, 1, 1" : "0, 0, 1", criterion);
 }
 
-std::filesystem::path write_example_report(int seeds, const std::filesystem::path& directory,
-                                           const page::Renderings& renderings) {
+WrittenReport write_example_report(int seeds, const std::filesystem::path& directory,
+                                   const page::Renderings& renderings, const StartProgress& progress) {
   const auto run = [](const ExampleSetting& setting) { return run_example(setting, kDrawnSeed); };
   const std::uint64_t figure_3_seed = seed_of_figure_3(seeds);
   const auto run_2 = [&](double lambda) { return run_example(drawn_example_2(lambda), figure_3_seed); };
@@ -238,7 +283,8 @@ std::filesystem::path write_example_report(int seeds, const std::filesystem::pat
   const auto scaled = [&](double factor) {
     return run(drawn(Example::one, kIdentity, factor * 0.005, factor * 0.01, 0.0));
   };
-  page::Document report{"report", document(simulate_published_examples(seeds), seeds, figure_3_seed)};
+  const std::vector<StartRates> rates = simulate_published_examples(seeds, progress);
+  page::Document report{"report", document(rates, seeds, figure_3_seed)};
   report.figure_folder = "figures/";
   report.figures = {
       draw_panels("figure-2.svg", "Two panels: the estimate over 1000 samples, with and without leak",
@@ -256,7 +302,7 @@ std::filesystem::path write_example_report(int seeds, const std::filesystem::pat
   certificates::OutputFiles files;
   stage_document(files, directory, report, renderings);
   files.commit();
-  return directory / "report.md";
+  return {directory / "report.md", too_few_seeds(rates, seeds)};
 }
 
 }  // namespace veritrack::reports

@@ -25,23 +25,45 @@ std::string approximately(double value) {
   return fmt::format("≈ {:.2e}", value);
 }
 
-std::string percent(double share) {
-  return fmt::format("{:.1f} %", 100.0 * share);
+/// "≈ 3.01e-09 ± 2 %".
+std::string with_standard_error(double value, double standard_error) {
+  return std::isfinite(standard_error)
+             ? fmt::format("≈ {:.2e} ± {:.0f} %", value, 100.0 * standard_error / value)
+             : approximately(value) + " ± unknown";
+}
+
+/// "0.7 ± 0.3 %", the standard error of a share; "0 of 1000" where it says nothing.
+std::string lost_words(double share, int runs) {
+  if (share <= 0.0 || share >= 1.0) {
+    return fmt::format("{:.0f} of {}", share * runs, runs);
+  }
+  return fmt::format("{:.1f} ± {:.1f} %", 100.0 * share, 100.0 * std::sqrt(share * (1.0 - share) / runs));
 }
 
 /// "0.31 ± 0.05 dB", the standard error of the mean carried over.
 std::string above_bound(const LimitPoint& point) {
+  if (!std::isfinite(point.standard_error)) {
+    return fmt::format("{:+.2f} dB ± unknown", limits::decibels_above_bound(point));
+  }
   const double spread = 10.0 / std::log(10.0) * point.standard_error / point.error;
   return fmt::format("{:+.2f} ± {:.2f} dB", limits::decibels_above_bound(point), spread);
 }
 
 std::string threshold_words(const std::vector<LimitPoint>& points) {
-  const auto threshold = limits::threshold_of(points);
-  if (!threshold) {
-    return fmt::format("above {:.0f} dB", points.back().decibels);
+  const limits::Threshold threshold = limits::threshold_of(points);
+  const double first = points.front().decibels;
+  const double last = points.back().decibels;
+  if (!threshold.at_least) {
+    return fmt::format("above {:.0f} dB", last);
   }
-  return *threshold == points.front().decibels ? fmt::format("at or below {:.0f} dB", *threshold)
-                                               : fmt::format("{:.0f} dB", *threshold);
+  if (threshold.is_decided()) {
+    return *threshold.at_most == first ? fmt::format("at or below {:.0f} dB", first)
+                                       : fmt::format("{:.0f} dB", *threshold.at_most);
+  }
+  const std::string from = *threshold.at_least == first ? fmt::format("at or below {:.0f}", first)
+                                                        : fmt::format("{:.0f}", *threshold.at_least);
+  return threshold.at_most ? fmt::format("undecided, {} to {:.0f} dB", from, *threshold.at_most)
+                           : fmt::format("undecided, {} dB or higher", from);
 }
 
 const limits::RandomWalkSeries& series_of(const LimitStudy& study, Channels channels, double walk_variance,
@@ -52,14 +74,17 @@ const limits::RandomWalkSeries& series_of(const LimitStudy& study, Channels chan
   });
 }
 
-/// The largest excess over the bound among all points from their series' thresholds on, dB.
-double worst_above_threshold(const LimitStudy& study) {
-  double worst = 0.0;
+/// The point with the largest excess over the bound among all from their series' thresholds on; null when no
+/// threshold is known.
+const LimitPoint* worst_above_threshold(const LimitStudy& study) {
+  const LimitPoint* worst = nullptr;
   for (const limits::RandomWalkSeries& series : study.random_walks) {
-    const auto threshold = limits::threshold_of(series.points);
+    const auto threshold = limits::threshold_of(series.points).at_most;
     for (const LimitPoint& point : series.points) {
-      if (threshold && point.decibels >= *threshold) {
-        worst = std::max(worst, limits::decibels_above_bound(point));
+      const bool counts = threshold && point.decibels >= *threshold;
+      if (counts &&
+          (worst == nullptr || limits::decibels_above_bound(point) > limits::decibels_above_bound(*worst))) {
+        worst = &point;
       }
     }
   }
@@ -78,7 +103,8 @@ std::string threshold_table(const LimitStudy& study) {
     const LimitPoint& clean = series.points.back();
     rows.push_back({tracker_name(series.channels), fmt::format("{:.1g}", series.walk_variance),
                     q1_words(series.q1_share), threshold_words(series.points), above_bound(noisy),
-                    percent(noisy.lost), above_bound(clean), percent(clean.lost)});
+                    lost_words(noisy.lost, study.runs), above_bound(clean),
+                    lost_words(clean.lost, study.runs)});
   }
   return certificates::markdown::table(
       {"Tracker", "Walk variance, (rad/sample)²", "q1", "Threshold", "Above the bound at 0 dB",
@@ -95,7 +121,8 @@ std::string random_walk_table(const LimitStudy& study, Channels channels, double
     std::vector<std::string> row{fmt::format("{:.0f}", matched.points[i].decibels),
                                  approximately(matched.points[i].bound)};
     for (const LimitPoint* point : {&matched.points[i], &looser.points[i]}) {
-      row.insert(row.end(), {approximately(point->error), above_bound(*point), percent(point->lost)});
+      row.insert(row.end(),
+                 {approximately(point->error), above_bound(*point), lost_words(point->lost, study.runs)});
     }
     rows.push_back(std::move(row));
   }
@@ -138,7 +165,8 @@ std::string floor_table(const LimitStudy& study) {
     rows.push_back({tracker_name(series.channels), fmt::format("{:.1g}", series.tracker_q2),
                     fmt::format("≈ {:.0f}", samples),
                     approximately(limits::mistuned_variance(noise, series.tracker_q2)),
-                    approximately(series.mean_square.back()) + (reached ? "" : " (still falling)")});
+                    with_standard_error(series.mean_square.back(), series.standard_error) +
+                        (reached ? "" : " (still falling)")});
   }
   return certificates::markdown::table(
       {"Tracker", "q2, (rad/sample)²", "Samples until the floor", "Floor by formula, (rad/sample)²",
@@ -154,22 +182,34 @@ std::string summary(const LimitStudy& study) {
   };
   constexpr int kAverage = 1000;
   const double noise = limits::noise_variance_of(limits::kOverTimeDecibels);
-  return fmt::format(
-      "**Results for an engineer.** (1) With $`q_2`$ and $`r`$ equal to the variances of the signal, no "
-      "filter can do much better: from its threshold on, each tracker has a mean square frequency error at "
-      "most ≈ {:.1f} dB above the bound for any estimator. For a frequency that changes by {:.3f} rad/sample "
-      "per sample (standard deviation) the threshold is {} for the quadrature tracker and {} for the "
-      "single-channel one. (2) $`q_1`$ is important when one channel is measured: the signal has no such "
-      "noise, but with $`q_1`$ = {} the same threshold of the single-channel tracker is {}. With $`q_1 = 0`$ "
-      "and little measurement noise that filter trusts its linearisation too much for the steps of the "
-      "frequency. (3) Measuring one channel instead of two has the same effect as twice the noise. (4) For a "
-      "constant frequency everything depends on $`q_2`$: the error stops decreasing after about "
-      "$`3.2\\,(\\rho/q_2)^{{1/4}}`$ samples, $`\\rho`$ the noise variance over the squared amplitude, so "
-      "that averaging over $`N`$ samples needs $`q_2 \\approx \\rho\\,(3.2/N)^4`$ (at {:.0f} dB and $`N`$ = "
-      "{}: ≈ {:.0e} (rad/sample)²).\n\n",
-      worst_above_threshold(study), std::sqrt(kFast), words(Channels::quadrature, 0.0),
-      words(Channels::single, 0.0), q1_words(limits::kSomeQ1), words(Channels::single, limits::kSomeQ1),
-      limits::kOverTimeDecibels, kAverage, noise * std::pow(3.24 / kAverage, 4));
+  const LimitPoint* worst = worst_above_threshold(study);
+  const std::string warning = undecided_thresholds(study);
+  return (warning.empty() ? "" : "*" + warning + "*\n\n") +
+         fmt::format(
+             "**Results for an engineer.** (1) With $`q_2`$ and $`r`$ equal to the variances of the signal, "
+             "no "
+             "filter can do much better: from its threshold on, each tracker has a mean square frequency "
+             "error at "
+             "most ≈ {} above the bound for any estimator. For a frequency that changes by {:.3f} rad/sample "
+             "per sample (standard deviation) the threshold is {} for the quadrature tracker and {} for the "
+             "single-channel one. (2) $`q_1`$ is important when one channel is measured: the signal has no "
+             "such "
+             "noise, but with $`q_1`$ = {} the same threshold of the single-channel tracker is {}. With "
+             "$`q_1 = 0`$ "
+             "and little measurement noise that filter trusts its linearisation too much for the steps of "
+             "the "
+             "frequency. (3) Measuring one channel instead of two has the same effect as twice the noise. "
+             "(4) For a "
+             "constant frequency everything depends on $`q_2`$: the error stops decreasing after about "
+             "$`3.2\\,(\\rho/q_2)^{{1/4}}`$ samples, $`\\rho`$ the noise variance over the squared "
+             "amplitude, so "
+             "that averaging over $`N`$ samples needs $`q_2 \\approx \\rho\\,(3.2/N)^4`$ (at {:.0f} dB and "
+             "$`N`$ = "
+             "{}: ≈ {:.0e} (rad/sample)²).\n\n",
+             worst == nullptr ? "an unknown number of dB" : above_bound(*worst), std::sqrt(kFast),
+             words(Channels::quadrature, 0.0), words(Channels::single, 0.0), q1_words(limits::kSomeQ1),
+             words(Channels::single, limits::kSomeQ1), limits::kOverTimeDecibels, kAverage,
+             noise * std::pow(3.24 / kAverage, 4));
 }
 
 std::string setting_text(const LimitStudy& study) {
@@ -184,15 +224,46 @@ std::string setting_text(const LimitStudy& study) {
       "runs (noise seeds 1 to {}, the same for every entry), lost runs included; ± is their standard error. "
       "A run is lost when its root mean square frequency error over the last {} samples is above {} "
       "rad/sample. The threshold is the lowest SNR of the grid from which on the error stays within {:.0f} "
-      "dB of the bound.\n\n",
-      study.runs, study.runs, limits::kLockWindow, limits::kLockThreshold, limits::kNearBound);
+      "dB of the bound; where {:.0f} standard errors do not decide that, it is given as undecided. "
+      "Differences "
+      "of less than {:.0f} standard errors may be chance.\n\n",
+      study.runs, study.runs, limits::kLockWindow, limits::kLockThreshold, limits::kNearBound,
+      limits::kStandardErrors, limits::kStandardErrors);
 }
 
 }  // namespace
 
-LimitStudy simulate_limits(int runs) {
-  return {runs, limits::study_random_walks(runs), limits::study_constant_frequency(runs),
-          limits::study_errors_over_time(runs)};
+LimitStudy simulate_limits(int runs, const limits::StudyProgress& progress) {
+  // Of all three parts together; the first has most of them.
+  constexpr int kWalks = 132;
+  constexpr int kConstant = 22;
+  constexpr int kOverTime = 8;
+  const auto part = [&](int before) -> limits::StudyProgress {
+    return [&progress, before](int done, int /*most*/) {
+      if (progress) {
+        progress(before + done, kWalks + kConstant + kOverTime);
+      }
+    };
+  };
+  LimitStudy study;
+  study.runs = runs;
+  study.random_walks = limits::study_random_walks(runs, part(0));
+  study.constant = limits::study_constant_frequency(runs, part(kWalks));
+  study.over_time = limits::study_errors_over_time(runs, part(kWalks + kConstant));
+  return study;
+}
+
+std::string undecided_thresholds(const LimitStudy& study) {
+  const auto undecided = std::count_if(study.random_walks.begin(), study.random_walks.end(),
+                                       [](const limits::RandomWalkSeries& series) {
+                                         return !limits::threshold_of(series.points).is_decided();
+                                       });
+  return undecided == 0
+             ? ""
+             : fmt::format(
+                   "{} runs are too few for {} of the {} thresholds: two standard errors do not decide "
+                   "them. More seeds would.",
+                   study.runs, undecided, study.random_walks.size());
 }
 
 std::string limit_document(const LimitStudy& study) {
@@ -242,9 +313,9 @@ std::string limit_document(const LimitStudy& study) {
   return text;
 }
 
-std::filesystem::path write_limit_report(int runs, const std::filesystem::path& directory,
-                                         const page::Renderings& renderings) {
-  const LimitStudy study = simulate_limits(runs);
+WrittenReport write_limit_report(int runs, const std::filesystem::path& directory,
+                                 const page::Renderings& renderings, const limits::StudyProgress& progress) {
+  const LimitStudy study = simulate_limits(runs, progress);
   page::Document document{"report", limit_document(study)};
   document.figure_folder = "figures/";
   document.figures = {with_title(draw_random_walks(study.random_walks)),
@@ -252,7 +323,7 @@ std::filesystem::path write_limit_report(int runs, const std::filesystem::path& 
   certificates::OutputFiles files;
   stage_document(files, directory, document, renderings);
   files.commit();
-  return directory / "report.md";
+  return {directory / "report.md", undecided_thresholds(study)};
 }
 
 }  // namespace veritrack::reports

@@ -7,6 +7,7 @@
 
 #include "analysis/limits/limit_study.hpp"
 #include "reports/page/renderings.hpp"
+#include "reports/written_report.hpp"
 
 namespace veritrack::reports {
 
@@ -18,14 +19,18 @@ struct LimitStudy {
   std::vector<limits::ErrorOverTime> over_time;
 };
 
-[[nodiscard]] LimitStudy simulate_limits(int runs);
+[[nodiscard]] LimitStudy simulate_limits(int runs, const limits::StudyProgress& progress = {});
+
+/// What the runs are too few for, a sentence; empty when every threshold is decided.
+[[nodiscard]] std::string undecided_thresholds(const LimitStudy& study);
 
 /// The document, without its figures.
 [[nodiscard]] std::string limit_document(const LimitStudy& study);
 
-/// report.md, its figures and what is asked for into `directory`, whole or not at all. Returns the path of
-/// the document. Throws FigureError, and OutputError when files cannot be written.
-std::filesystem::path write_limit_report(int runs, const std::filesystem::path& directory,
-                                         const page::Renderings& renderings = {});
+/// report.md, its figures and what is asked for into `directory`, whole or not at all. Throws FigureError,
+/// and OutputError when files cannot be written.
+[[nodiscard]] WrittenReport write_limit_report(int runs, const std::filesystem::path& directory,
+                                               const page::Renderings& renderings = {},
+                                               const limits::StudyProgress& progress = {});
 
 }  // namespace veritrack::reports

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/search/deadline.hpp"
 #include "certificates/document/certificate.hpp"
 #include "reports/figures.hpp"
 
@@ -22,6 +23,7 @@ struct MapRequest {
   std::optional<double> x_range, y_range;  ///< by how much at most
   std::optional<int> cells;                ///< in each direction
   bool with_noise = false;                 ///< with the noise (and slew) of [assume]; otherwise without
+  search::Deadline deadline = {};          ///< what is not proved when it is over is open
   bool html = false;                       ///< map.html, too
 };
 

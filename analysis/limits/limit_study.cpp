@@ -14,6 +14,23 @@ namespace {
 
 constexpr std::array<Channels, 2> kBoth{Channels::quadrature, Channels::single};
 
+/// Experiments, as they are done.
+class Counter {
+ public:
+  Counter(const StudyProgress& progress, int most) : progress_(progress), most_(most) {}
+  void tell() {
+    ++done_;
+    if (progress_) {
+      progress_(done_, most_);
+    }
+  }
+
+ private:
+  const StudyProgress& progress_;
+  int done_ = 0;
+  int most_;
+};
+
 LimitPoint random_walk_point(const RandomWalkSeries& series, double decibels, int runs) {
   TrackingExperiment experiment;
   experiment.model.channels = series.channels;
@@ -51,14 +68,30 @@ double decibels_above_bound(const LimitPoint& point) {
   return 10.0 * std::log10(point.error / point.bound);
 }
 
-std::optional<double> threshold_of(const std::vector<LimitPoint>& points) {
-  std::optional<double> threshold;
+Nearness nearness_of(const LimitPoint& point) {
+  const rigor::NearestRounding nearest;
+  const double allowed = point.bound * std::pow(10.0, 0.1 * kNearBound);
+  const double reserve = kStandardErrors * point.standard_error;
+  if (point.error + reserve <= allowed) {
+    return Nearness::near;
+  }
+  // What is not a number is not near, and a single run decides nothing.
+  return point.error - reserve > allowed || std::isnan(point.error) ? Nearness::far : Nearness::undecided;
+}
+
+Threshold threshold_of(const std::vector<LimitPoint>& points) {
+  Threshold threshold;
+  bool all_near = true;
   for (auto point = points.rbegin(); point != points.rend(); ++point) {
-    const bool near = decibels_above_bound(*point) <= kNearBound;
-    if (!near) {
+    const Nearness nearness = nearness_of(*point);
+    if (nearness == Nearness::far) {
       break;
     }
-    threshold = point->decibels;
+    all_near = all_near && nearness == Nearness::near;
+    threshold.at_least = point->decibels;
+    if (all_near) {
+      threshold.at_most = point->decibels;
+    }
   }
   return threshold;
 }
@@ -67,14 +100,16 @@ std::vector<double> studied_decibels() {
   return {0.0, 3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 21.0, 24.0, 27.0, 30.0};
 }
 
-std::vector<RandomWalkSeries> study_random_walks(int runs) {
+std::vector<RandomWalkSeries> study_random_walks(int runs, const StudyProgress& progress) {
   std::vector<RandomWalkSeries> study;
+  Counter counter(progress, static_cast<int>(4 * kWalkVariances.size() * studied_decibels().size()));
   for (const Channels channels : kBoth) {
     for (const double walk_variance : kWalkVariances) {
       for (const double q1_share : {0.0, kSomeQ1}) {
         RandomWalkSeries series{channels, walk_variance, q1_share, {}};
         for (const double decibels : studied_decibels()) {
           series.points.push_back(random_walk_point(series, decibels, runs));
+          counter.tell();
         }
         study.push_back(std::move(series));
       }
@@ -83,21 +118,24 @@ std::vector<RandomWalkSeries> study_random_walks(int runs) {
   return study;
 }
 
-std::vector<ConstantSeries> study_constant_frequency(int runs) {
+std::vector<ConstantSeries> study_constant_frequency(int runs, const StudyProgress& progress) {
   std::vector<ConstantSeries> study;
+  Counter counter(progress, static_cast<int>(2 * studied_decibels().size()));
   for (const Channels channels : kBoth) {
     ConstantSeries series{channels, {}, {}};
     for (const double decibels : studied_decibels()) {
       series.early.push_back(constant_point(channels, decibels, kEarlySample, runs));
       series.late.push_back(constant_point(channels, decibels, kLateSample, runs));
+      counter.tell();
     }
     study.push_back(std::move(series));
   }
   return study;
 }
 
-std::vector<ErrorOverTime> study_errors_over_time(int runs) {
+std::vector<ErrorOverTime> study_errors_over_time(int runs, const StudyProgress& progress) {
   std::vector<ErrorOverTime> study;
+  Counter counter(progress, 8);
   for (const Channels channels : kBoth) {
     for (const double tracker_q2 : {kNearlyZeroQ2, 1e-10, 1e-8, 1e-6}) {
       TrackingExperiment experiment;
@@ -106,7 +144,9 @@ std::vector<ErrorOverTime> study_errors_over_time(int runs) {
       experiment.samples = kLateSample;
       experiment.first_sample = kLateSample;
       experiment.runs = runs;
-      study.push_back({channels, tracker_q2, simulate_tracking(experiment).mean_square});
+      const TrackingErrors errors = simulate_tracking(experiment);
+      study.push_back({channels, tracker_q2, errors.mean_square, errors.standard_error});
+      counter.tell();
     }
   }
   return study;

@@ -139,7 +139,7 @@ TrackingErrors simulate_tracking(const TrackingExperiment& experiment) {
   for (const double mean : batch_means) {
     scatter += (mean - errors.window_mean) * (mean - errors.window_mean);
   }
-  errors.standard_error = std::sqrt(scatter / (count * std::max(1.0, count - 1.0)));
+  errors.standard_error = std::sqrt(scatter / (count * (count - 1.0)));  // NaN of one batch: 0 by 0
   return errors;
 }
 

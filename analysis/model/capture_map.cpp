@@ -59,6 +59,53 @@ std::vector<std::size_t> spread_order(std::size_t count) {
   return order;
 }
 
+/// The ring of a cell, from 0 in the middle; of equal widths.
+int ring_of(const CaptureGrid& grid, std::size_t cell, int rings) {
+  const auto away = [](std::size_t number, std::size_t count) {
+    return std::fabs(2.0 * static_cast<double>(number) + 1.0 - static_cast<double>(count)) /
+           static_cast<double>(count);
+  };
+  const double distance =
+      std::max(away(cell % grid.columns(), grid.columns()), away(cell / grid.columns(), grid.rows()));
+  return std::min(static_cast<int>(distance * rings), rings - 1);
+}
+
+/// Follows the cells that are left at all phases; those that fail somewhere are left no longer. False when
+/// the deadline came before all phases were looked at: nothing is known then.
+bool follow_all_phases(const CaptureProblem& problem, const CaptureGrid& grid, std::vector<char>& left,
+                       const CaptureOptions& options, std::vector<CapturedCell>& cells,
+                       const CaptureProgress& progress) {
+  const auto phases = static_cast<std::size_t>(options.phases);
+  const std::vector<std::size_t> order = spread_order(phases);
+  // What is given up in one generation is not followed in the next.
+  constexpr std::size_t kGeneration = 8;
+  for (std::size_t first = 0; first < phases; first += kGeneration) {
+    const std::size_t count = std::min(kGeneration, phases - first);
+    std::vector<PhaseAnswer> answers(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t number) {
+      const rigor::UpwardRounding upward;
+      const double half = 0.5 / static_cast<double>(phases);
+      const double turn = (static_cast<double>(order[first + number]) + 0.5) / static_cast<double>(phases);
+      answers[number] = follow_halving(problem, grid, left, options, {turn, half}, options.phase_halvings);
+    });
+    if (options.deadline.is_over()) {
+      return false;
+    }
+    for (const PhaseAnswer& answer : answers) {
+      for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+        if (answer.outcomes[cell] != CaptureOutcome::captured) {
+          left[cell] = 0;
+        }
+        if (left[cell] != 0) {
+          cells[cell].samples = std::max(cells[cell].samples, answer.samples[cell]);
+        }
+      }
+    }
+    progress(static_cast<double>(first + count) / static_cast<double>(phases));
+  }
+  return true;
+}
+
 }  // namespace
 
 CaptureGrid capture_grid(std::size_t x_state, double x_range, std::size_t y_state, double y_range,
@@ -85,39 +132,29 @@ std::vector<CapturedCell> prove_captured(const CaptureProblem& problem, const Ca
                                          const CaptureProgress& progress) {
   const auto phases = static_cast<std::size_t>(std::max(options.phases, 0));
   const bool is_power = phases > 0 && (phases & (phases - 1)) == 0;
-  if (!is_power || wanted.size() != grid.cells() || options.stride == 0) {
+  if (!is_power || wanted.size() != grid.cells() || options.stride == 0 || options.rings < 1) {
     throw std::invalid_argument("a grid of deviations that does not fit");
   }
   const rigor::UpwardRounding here;
-  std::vector<char> left = wanted;
   std::vector<CapturedCell> cells(grid.cells());
-  const std::vector<std::size_t> order = spread_order(phases);
-  // What is given up in one generation is not followed in the next.
-  constexpr std::size_t kGeneration = 8;
-  for (std::size_t first = 0; first < phases; first += kGeneration) {
-    const std::size_t count = std::min(kGeneration, phases - first);
-    std::vector<PhaseAnswer> answers(count);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t number) {
-      const rigor::UpwardRounding upward;
-      const double half = 0.5 / static_cast<double>(phases);
-      const double turn = (static_cast<double>(order[first + number]) + 0.5) / static_cast<double>(phases);
-      answers[number] = follow_halving(problem, grid, left, options, {turn, half}, options.phase_halvings);
+  for (int ring = 0; ring < options.rings; ++ring) {
+    std::vector<char> left = wanted;
+    for (std::size_t cell = 0; cell < left.size(); ++cell) {
+      left[cell] = wanted[cell] != 0 && ring_of(grid, cell, options.rings) == ring ? 1 : 0;
+    }
+    const std::vector<char> asked = left;
+    const bool is_finished = follow_all_phases(problem, grid, left, options, cells, [&](double share) {
+      if (progress) {
+        progress((ring + share) / options.rings);
+      }
     });
-    for (const PhaseAnswer& answer : answers) {
-      for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-        if (answer.outcomes[cell] != CaptureOutcome::captured) {
-          left[cell] = 0;
-        }
-        cells[cell].samples = std::max(cells[cell].samples, answer.samples[cell]);
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+      if (asked[cell] != 0) {
+        cells[cell].is_proved = is_finished && left[cell] != 0;
+        cells[cell].is_unfinished = !is_finished;
+        cells[cell].samples = cells[cell].is_proved ? cells[cell].samples : 0;
       }
     }
-    if (progress) {
-      progress(static_cast<double>(first + count) / static_cast<double>(phases));
-    }
-  }
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    cells[cell].is_proved = left[cell] != 0;
-    cells[cell].samples = cells[cell].is_proved ? cells[cell].samples : 0;
   }
   return cells;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/model/capture_set.hpp"
+#include "analysis/search/deadline.hpp"
 
 namespace veritrack::model {
 
@@ -37,7 +38,11 @@ struct CaptureOptions {
   std::size_t most_samples = 0;  ///< for how long a start is followed
   std::size_t stride = 4;        ///< samples between two looks at whether it is in the tube
   double tolerance = 0.0;        ///< what a step may add to the radius, as a share of R_0
-  std::size_t most_steps = 0;    ///< for all starts at one cell of phases
+  std::size_t most_steps = 0;    ///< for all starts of a ring at one cell of phases
+  /// The cells are followed ring by ring, from the middle outwards: what is proved of a ring stays when the
+  /// deadline ends the work on a later one.
+  int rings = 1;
+  search::Deadline deadline = {};
 };
 
 /// What is known of a cell of the grid.
@@ -45,7 +50,8 @@ struct CapturedCell {
   /// All starts in it, at all phases of the signal and for all noise, are in the tube after so many samples,
   /// angles modulo 2 pi, and stay.
   bool is_proved = false;
-  std::size_t samples = 0;  ///< when proved
+  std::size_t samples = 0;     ///< when proved
+  bool is_unfinished = false;  ///< the deadline came first
 };
 
 /// The share that is done.

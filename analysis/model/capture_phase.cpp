@@ -132,7 +132,8 @@ class PhaseRun {
         fail(company, CaptureOutcome::too_coarse);
         return;
       }
-      if (++steps_ > options_->most_steps) {
+      constexpr std::size_t kEvery = 64;  // to ask for the time costs little, but not nothing
+      if (++steps_ > options_->most_steps || (steps_ % kEvery == 0 && options_->deadline.is_over())) {
         fail(company, CaptureOutcome::given_up);
         return;
       }

@@ -19,11 +19,18 @@ class Deadline {
         end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                 std::chrono::duration<double>(seconds < kLongest ? seconds : kLongest))) {}
 
+  /// The same, and over as well when `stop` becomes true, which must outlive all copies.
+  [[nodiscard]] Deadline or_when(const std::atomic<bool>& stop) const {
+    Deadline both = is_set() ? *this : Deadline(kLongest);
+    both.stop_ = &stop;
+    return both;
+  }
+
   /// Whether there is one.
   [[nodiscard]] bool is_set() const { return struck_ != nullptr; }
   /// Whether the time is over; whoever asks ends its work then.
   [[nodiscard]] bool is_over() const {
-    if (struck_ && !struck_->load() && !(Clock::now() < end_)) {
+    if (struck_ && !struck_->load() && (!(Clock::now() < end_) || (stop_ != nullptr && stop_->load()))) {
       struck_->store(true);
     }
     return has_struck();
@@ -37,6 +44,7 @@ class Deadline {
 
   std::shared_ptr<std::atomic<bool>> struck_;
   Clock::time_point end_;
+  const std::atomic<bool>* stop_ = nullptr;
 };
 
 }  // namespace veritrack::search

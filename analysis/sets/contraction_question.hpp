@@ -29,7 +29,8 @@ struct ContractionQuestion {
   double largest_frequency = 0x1.921fb54442d19p+1;
   int search_evaluations = 40;  ///< per set
   bool with_samples = true;     ///< also what a search finds, which proves nothing
-  /// With a leak: also as much noise, and as much slew, as sets of their own tolerate.
+  /// Also as much noise, and as much slew, as sets of their own tolerate. Without, they are looked for only
+  /// where nothing is certified under the assumed ones, for a filter without a leak.
   bool with_limits = true;
 };
 

@@ -260,8 +260,10 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
       certificate.bound_set = search.least_bound();
       level_seen = search.start_level_seen(*certificate.set);
     }
-    certificate.noise_set = search.largest_noise();
-    certificate.slew_set = search.largest_slew();
+    if (question.tracker.with_limits || !certificate.set) {
+      certificate.noise_set = search.largest_noise();
+      certificate.slew_set = search.largest_slew();
+    }
   }
   const std::pair<const char*, const std::optional<PhaseSet>*> sets[] = {
       {"start-error", &certificate.set},

@@ -44,7 +44,7 @@ struct TrackerKind {
   FormalProofs (*formal_proofs)(const Certificate& certificate) = nullptr;
   /// Opens its own rounding scopes.
   TuningResult (*tune)(const Design& design, const TuningRequest& request) = nullptr;
-  /// What `tune` can make best; the first is what it makes best unless asked.
+  /// What `tune` can make best; the first that fits what is assumed is what it makes best unless asked.
   std::span<const std::string_view> tuning_objectives = {};
   /// The step as text. Opens its own rounding scopes.
   std::string (*show)(const Design& design, CodeLanguage language) = nullptr;

@@ -29,14 +29,11 @@ TuningResult tune(const Design& design, const TuningRequest& request) {
     throw std::logic_error("nothing can be tuned of the tracker " + design.tracker);
   }
   const auto& known = kind.tuning_objectives;
-  TuningRequest named = request;
-  if (request.objective.empty()) {
-    named.objective = known.front();
-  } else if (std::find(known.begin(), known.end(), request.objective) == known.end()) {
+  if (!request.objective.empty() && std::find(known.begin(), known.end(), request.objective) == known.end()) {
     throw RequestError(fmt::format("veritrack tune: the tracker {} has no objective {}; allowed: {}",
                                    design.tracker, request.objective, fmt::join(known, ", ")));
   }
-  return kind.tune(design, named);
+  return kind.tune(design, request);
 }
 
 }  // namespace veritrack::certificates

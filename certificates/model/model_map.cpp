@@ -190,6 +190,11 @@ std::size_t ModelMap::proved() const {
       cells.begin(), cells.end(), [](const model::CapturedCell& cell) { return cell.is_proved; }));
 }
 
+std::size_t ModelMap::unfinished() const {
+  return static_cast<std::size_t>(std::count_if(
+      cells.begin(), cells.end(), [](const model::CapturedCell& cell) { return cell.is_unfinished; }));
+}
+
 std::size_t ModelMap::simulated_only() const {
   std::size_t count = 0;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
@@ -274,6 +279,8 @@ ModelMapResult map_model(const Design& design, const ModelMapRequest& request,
   model::CaptureOptions options;
   options.most_samples = std::min<std::size_t>(2 * map.simulated.longest + 64, 6'000);
   options.most_steps = 40'000;
+  options.rings = 3;
+  options.deadline = request.deadline;
   constexpr double kTolerance = 0.05;
   options.tolerance = kTolerance * (1.0 - map.tube.shrinking.back());
   const auto tell = [&](double share) {

@@ -10,6 +10,7 @@
 #include "analysis/model/capture_basin.hpp"
 #include "analysis/model/capture_map.hpp"
 #include "analysis/model/tube_set.hpp"
+#include "analysis/search/deadline.hpp"
 #include "certificates/document/certificate.hpp"
 
 namespace veritrack::certificates {
@@ -21,6 +22,7 @@ struct ModelMapRequest {
   std::optional<double> x_range, y_range;  ///< by how much at most, in the units of the states
   std::optional<int> cells;                ///< in each direction; otherwise 21
   bool with_noise = false;                 ///< the noise of [assume]
+  search::Deadline deadline = {};          ///< cells that are open when it is over are not proved
 };
 
 /// A state that deviates at the start.
@@ -48,6 +50,7 @@ struct ModelMap {
 
   [[nodiscard]] std::size_t proved() const;          ///< cells
   [[nodiscard]] std::size_t simulated_only() const;  ///< that lock in simulation and are not proved
+  [[nodiscard]] std::size_t unfinished() const;      ///< cells that the deadline left open
   [[nodiscard]] std::size_t longest() const;         ///< samples, of the proved cells
 };
 

@@ -110,7 +110,8 @@ void add_capture(Certificate& certificate, const CertifyProgress& progress) {
       !starts_are_outside(*certificate.contraction)) {
     return;
   }
-  const auto report = region_progress(progress);
+  const search::Deadline never;
+  const auto report = region_progress(progress, never);
   ContractionQuestion question = contraction_question(certificate.design);
   StartCapture capture = quadrature::capture_starts(question, set->set, "capture", kMostCells, report);
   const StartCovarianceText covariance = quadrature_particulars(certificate).start_covariance;

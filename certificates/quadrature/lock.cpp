@@ -28,28 +28,6 @@ using rigor::Verdict;
 
 constexpr int kShownDigits = 3;
 
-quadrature::LockQuestion lock_question(const QuadratureEkfTables& tables) {
-  const Assumptions& assume = tables.assume;
-  const Interval& amplitude = assume.amplitude.value;
-  quadrature::LockQuestion question;
-  question.design = enclosed_at_unit_amplitude(tables);
-  question.noise_deviation = deviation_at_unit_amplitude(assume);
-  question.frequency_walk = assume.frequency_walk ? assume.frequency_walk->value : Interval(0.0);
-  question.samples = assume.samples.value().value;
-  question.starts = {assume.initial_amplitude_error.value / amplitude, assume.initial_phase_error.value,
-                     assume.initial_frequency_error.value, start_covariance(tables)};
-  question.signal.amplitude = amplitude;
-  question.frequencies = hull(assume.frequency[0].value, assume.frequency[1].value);
-  for (const Number& end : assume.frequency) {
-    question.signal.largest_frequency =
-        std::max(question.signal.largest_frequency, rigor::magnitude(end.value));
-  }
-  if (const auto& required = tables.require.probability_of_losing_lock_below) {
-    question.probability = required->nearest;
-  }
-  return question;
-}
-
 /// Why nothing is certified.
 std::string open_condition(const theorems::Derivation& derivation) {
   for (const theorems::Condition& condition : derivation.conditions) {
@@ -85,6 +63,28 @@ Claim probability_claim(const theorems::Derivation& derivation, const GuaranteeT
 }
 
 }  // namespace
+
+quadrature::LockQuestion lock_question(const QuadratureEkfTables& tables) {
+  const Assumptions& assume = tables.assume;
+  const Interval& amplitude = assume.amplitude.value;
+  quadrature::LockQuestion question;
+  question.design = enclosed_at_unit_amplitude(tables);
+  question.noise_deviation = deviation_at_unit_amplitude(assume);
+  question.frequency_walk = assume.frequency_walk ? assume.frequency_walk->value : Interval(0.0);
+  question.samples = assume.samples.value().value;
+  question.starts = {assume.initial_amplitude_error.value / amplitude, assume.initial_phase_error.value,
+                     assume.initial_frequency_error.value, start_covariance(tables)};
+  question.signal.amplitude = amplitude;
+  question.frequencies = hull(assume.frequency[0].value, assume.frequency[1].value);
+  for (const Number& end : assume.frequency) {
+    question.signal.largest_frequency =
+        std::max(question.signal.largest_frequency, rigor::magnitude(end.value));
+  }
+  if (const auto& required = tables.require.probability_of_losing_lock_below) {
+    question.probability = required->nearest;
+  }
+  return question;
+}
 
 Claim lock_guarantee(const theorems::Derivation& derivation, const GuaranteeTerms& terms,
                      const theorems::Quantity* rms) {

@@ -3,10 +3,16 @@
 
 #include <string>
 
+#include "analysis/quadrature/gaussian/lock_certificate.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 
 namespace veritrack::certificates {
+
+/// What is asked under the assumptions of a design, at amplitude 1; its noise must be Gaussian. Needs the
+/// upward mode.
+[[nodiscard]] quadrature::LockQuestion lock_question(const QuadratureEkfTables& tables);
 
 /// Adds the derivation "lock", the claim "ekf/probability-of-losing-lock" that [require] asks for, and the
 /// guarantee in one sentence. The design's noise must be Gaussian. Needs the upward mode.

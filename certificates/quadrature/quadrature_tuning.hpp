@@ -1,4 +1,4 @@
-// q1 and q2 of the quadrature tracker, chosen for the best certified value.
+// q1, q2, r and the leak of the quadrature tracker, chosen for the best certified value.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace veritrack::certificates {
 
-/// "long-run", "for-ever", "radius", "noise", "slew": of what `tune_quadrature` makes the best.
+/// Of what `tune_quadrature` makes the best: all of certificates/tuning/objective.hpp.
 [[nodiscard]] std::span<const std::string_view> quadrature_tuning_objectives();
 
-/// Only the ratios of q1, q2, r and P(0) matter to the estimate; r is left as it is. Noise must have a bound.
-/// A local search over certified values, from the given design and from the steady-state Kalman filter for
-/// the assumed noise and slew. Opens its own rounding scopes.
+/// For noise with a bound the search is over certified values; for Gaussian noise over what the inequality
+/// has left at sampled points of a proposed set, from which the ratio and the mean square that can be
+/// certified are estimated. Opens its own rounding scopes.
 [[nodiscard]] TuningResult tune_quadrature(const Design& design, const TuningRequest& request);
 
 }  // namespace veritrack::certificates

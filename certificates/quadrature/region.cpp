@@ -13,12 +13,13 @@ namespace veritrack::certificates {
 
 using rigor::Interval;
 
-std::function<bool(const quadrature::RegionProgress&)> region_progress(const CertifyProgress& progress) {
-  return [&progress](const quadrature::RegionProgress& so_far) {
+std::function<bool(const quadrature::RegionProgress&)> region_progress(const CertifyProgress& progress,
+                                                                       const search::Deadline& deadline) {
+  return [&progress, &deadline](const quadrature::RegionProgress& so_far) {
     if (progress) {
       progress({so_far.proved_share, so_far.refuted_share, so_far.propagations});
     }
-    return true;
+    return !deadline.is_over();
   };
 }
 
@@ -80,7 +81,13 @@ RegionResult prove_region_of_attraction(const Design& design, const RegionReques
                                     rigor::symmetric(request.frequency_error)};
   constexpr int kGrid = 64;
   RegionOfAttraction found;
-  found.region = quadrature::prove_region(*problem, target, starts, {}, region_progress(progress));
+  quadrature::RegionOptions options;
+  if (request.deadline.is_set()) {
+    constexpr std::size_t kFew = 64;  // to be asked often
+    options.generation_size = kFew;
+  }
+  found.region = quadrature::prove_region(*problem, target, starts, options,
+                                          region_progress(progress, request.deadline));
   found.basin = quadrature::simulate_basin(*problem, starts, kGrid, kGrid, 2000);
   found.shares = quadrature::shares_of_basin(found.region, found.basin);
   return {std::move(found), ""};

@@ -7,6 +7,7 @@
 
 #include "analysis/quadrature/capture/capture_basin.hpp"
 #include "analysis/quadrature/capture/capture_region.hpp"
+#include "analysis/search/deadline.hpp"
 #include "certificates/document/certificate.hpp"
 
 namespace veritrack::certificates {
@@ -16,6 +17,7 @@ struct RegionRequest {
   double frequency_error = 1.0;  ///< up to, rad/sample
   double phase_error = 1.5;      ///< up to, rad
   bool with_noise = false;       ///< with the noise and slew of [assume]; without, the signal is free of both
+  search::Deadline deadline = {};  ///< what is open when it is over stays undecided
 };
 
 /// The region, and the simulated basin beside it.
@@ -43,8 +45,9 @@ struct RegionResult {
 /// without the verdict.
 [[nodiscard]] std::string region_statement(const Design& design, const RegionRequest& request);
 
-/// Tells `progress`, when there is one, and never asks to stop. Refers to it: must not outlive it.
+/// Tells `progress`, when there is one, and asks to stop when the deadline is over. Refers to both: must not
+/// outlive them.
 [[nodiscard]] std::function<bool(const quadrature::RegionProgress&)> region_progress(
-    const CertifyProgress& progress);
+    const CertifyProgress& progress, const search::Deadline& deadline);
 
 }  // namespace veritrack::certificates

@@ -11,6 +11,7 @@
 #include "certificates/single_channel/single_channel.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
 #include "certificates/single_channel/single_channel_json.hpp"
+#include "certificates/single_channel/single_channel_tuning.hpp"
 
 namespace veritrack::certificates {
 
@@ -42,6 +43,8 @@ const TrackerKind& single_channel_kind() {
                                 .published = published,
                                 .report_json = single_channel_report_json,
                                 .formal_proofs = coq::proposition_1_proofs,
+                                .tune = tune_single_channel,
+                                .tuning_objectives = single_channel_tuning_objectives(),
                                 .track = single_channel_on_samples};
   return kind;
 }

@@ -74,6 +74,15 @@ std::string statement(const certificates::ModelTables& tables, const ModelMap& m
                                           : "an unknown number of");
 }
 
+/// What the reader of a map that is not finished has to know.
+std::string stopped_sentence(const ModelMap& map) {
+  return map.unfinished() == 0 ? ""
+                               : fmt::format(
+                                     "*Stopped before the end*: {} cells were not followed to an answer, and "
+                                     "count as not proved.\n\n",
+                                     map.unfinished());
+}
+
 std::string cells_section(const ModelMap& map) {
   const std::size_t all = map.cells.size();
   const std::size_t simulated = map.simulated_only();
@@ -133,7 +142,7 @@ std::string model_map_document(const certificates::Design& design, const ModelMa
                                   share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size());
   title += fmt::format("Which starts of {} lock at {}.\n\n", markdown::escaped(design.name),
                        frequency_of(map, units));
-  return title + statement(tables, map, units) +
+  return title + stopped_sentence(map) + statement(tables, map, units) +
          certificates::picture({figure.file, figure.title, figure.caption}) + cells_section(map) +
          hypotheses_section(tables, map);
 }
@@ -185,10 +194,11 @@ std::string model_map_json(const certificates::Design& design, const ModelMap& m
 MapResult write_model_map(const certificates::Design& design, const MapRequest& request,
                           const std::filesystem::path& directory,
                           const certificates::CertifyProgress& progress) {
-  const certificates::ModelMapResult result = certificates::map_model(
-      design,
-      {request.at, request.x, request.y, request.x_range, request.y_range, request.cells, request.with_noise},
-      progress);
+  const certificates::ModelMapResult result =
+      certificates::map_model(design,
+                              {request.at, request.x, request.y, request.x_range, request.y_range,
+                               request.cells, request.with_noise, request.deadline},
+                              progress);
   if (!result.found) {
     return {std::nullopt, result.reason};
   }
@@ -202,9 +212,12 @@ MapResult write_model_map(const certificates::Design& design, const MapRequest& 
   files.stage(directory / "map.json", model_map_json(design, map));
   files.commit();
   return {directory / "map.md",
-          fmt::format("{} of the starts are PROVED to lock, {} of {} cells; {} lock in simulation",
+          fmt::format("{} of the starts are PROVED to lock, {} of {} cells; {} lock in simulation{}",
                       share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size(),
-                      map.proved() + map.simulated_only())};
+                      map.proved() + map.simulated_only(),
+                      map.unfinished() > 0
+                          ? fmt::format("; stopped before the end, {} cells open", map.unfinished())
+                          : "")};
 }
 
 }  // namespace veritrack::reports

@@ -18,13 +18,15 @@ std::string cells_csv(const quadrature::Region& region) {
   std::string text =
       "amplitude_error_low,amplitude_error_high,phase_error_low,phase_error_high,frequency_error_low,"
       "frequency_error_high,verdict,whole_cell,samples,outcome\n";
-  for (const quadrature::RegionCell& cell : region.cells) {
+  const std::size_t looked_at = region.cells.size() - region.unfinished;
+  for (std::size_t number = 0; number < region.cells.size(); ++number) {
+    const quadrature::RegionCell& cell = region.cells[number];
     const quadrature::StartBox& starts = cell.starts;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", starts.amplitude_error.lower(),
-                        starts.amplitude_error.upper(), starts.phase_error.lower(),
-                        starts.phase_error.upper(), starts.frequency_error.lower(),
-                        starts.frequency_error.upper(), rigor::to_string(cell.verdict), cell.whole,
-                        cell.result.samples, quadrature::to_string(cell.result.outcome));
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{}\n", starts.amplitude_error.lower(), starts.amplitude_error.upper(),
+        starts.phase_error.lower(), starts.phase_error.upper(), starts.frequency_error.lower(),
+        starts.frequency_error.upper(), rigor::to_string(cell.verdict), cell.whole, cell.result.samples,
+        number < looked_at ? quadrature::to_string(cell.result.outcome) : "not looked at");
   }
   return text;
 }
@@ -37,8 +39,11 @@ std::size_t count(const quadrature::Region& region, rigor::Verdict verdict) {
 }
 
 std::string sentence_of(const certificates::RegionOfAttraction& found) {
-  return fmt::format("{} of the simulated basin is proved to be captured, {} cells",
-                     percent(found.shares.proved), found.region.cells.size());
+  const std::size_t unfinished = found.region.unfinished;
+  return fmt::format(
+      "{} of the simulated basin is proved to be captured, {} cells{}", percent(found.shares.proved),
+      found.region.cells.size(),
+      unfinished > 0 ? fmt::format("; stopped before the end, {} of them not looked at", unfinished) : "");
 }
 
 }  // namespace
@@ -87,7 +92,8 @@ MapResult write_quadrature_map(const certificates::Design& design, const MapRequ
                                const std::filesystem::path& directory,
                                const certificates::CertifyProgress& progress) {
   const certificates::RegionRequest region{request.frequency_error.value_or(1.0),
-                                           request.phase_error.value_or(1.5), request.with_noise};
+                                           request.phase_error.value_or(1.5), request.with_noise,
+                                           request.deadline};
   const certificates::RegionResult result =
       certificates::prove_region_of_attraction(design, region, progress);
   if (!result.found) {

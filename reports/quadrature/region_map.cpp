@@ -143,13 +143,18 @@ std::string caption(const Region& region, const SimulatedBasin& basin) {
     return "Region of attraction over the start's frequency error (rad/sample) and phase error (rad). In "
            "simulation none of these starts locks.";
   }
+  const std::string stopped =
+      region.unfinished > 0
+          ? fmt::format(" Stopped before the end: {} of the undecided cells were not looked at.",
+                        region.unfinished)
+          : "";
   return fmt::format(
       "Region of attraction over the start's frequency error (rad/sample) and phase error (rad): starts "
       "proved to be captured (blue, the darker the sooner), proved to lock at a wrong frequency (hatched) "
       "and undecided (light), "
       "with the outline of the basin found by simulating {} x {} starts. Proved: {} of the simulated basin; "
-      "undecided: {}.",
-      basin.frequencies, basin.phases, percent(shares.proved), percent(shares.undecided));
+      "undecided: {}.{}",
+      basin.frequencies, basin.phases, percent(shares.proved), percent(shares.undecided), stopped);
 }
 
 }  // namespace
@@ -178,6 +183,11 @@ Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
                        "unset grid\n"
                        "set xlabel 'frequency error at the start, rad/sample'\n"
                        "set ylabel 'phase error at the start, rad'\n";
+  script +=
+      region.unfinished > 0
+          ? fmt::format("set title 'stopped before the end: {} of the undecided cells were not looked at'\n",
+                        region.unfinished)
+          : "";
   script +=
       fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n", basin.frequency_error.lower(),
                   basin.frequency_error.upper(), basin.phase_error.lower(), basin.phase_error.upper());

@@ -3,6 +3,7 @@
 import csv
 import os
 import pty
+import signal
 import subprocess
 import unittest
 import xml.etree.ElementTree
@@ -51,6 +52,32 @@ class Map(CliTestCase):
         self.assertIn(b"propagations", self.on_a_terminal(*command))
         self.assertEqual(self.on_a_terminal(*command, "--quiet"), b"")
         self.assertEqual(self.on_a_terminal("--quiet", *command), b"")
+
+    def test_a_map_that_is_stopped_is_written_and_says_so(self):
+        self.write(WITHOUT_AMPLITUDE_ERROR)
+        result = self.run_here("map", "design.toml", "--frequency", "3", "--phase", "3", "--timeout", "0.001")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("stopped before the end", result.stdout)
+        document = (self.folder / "maps-out/design/map.md").read_text()
+        self.assertIn("stopped before the end", document.splitlines()[0])
+        cells = self.cells("maps-out/design")
+        open_cells = [cell for cell in cells if cell["outcome"] == "not looked at"]
+        self.assertGreater(len(open_cells), 0)
+        self.assertEqual({cell["verdict"] for cell in open_cells}, {"undecided"})
+        area = sum((float(cell["frequency_error_high"]) - float(cell["frequency_error_low"])) *
+                   (float(cell["phase_error_high"]) - float(cell["phase_error_low"])) for cell in cells)
+        self.assertAlmostEqual(area, 36.0)
+
+    def test_ctrl_c_writes_what_is_known(self):
+        self.write(WITHOUT_AMPLITUDE_ERROR)
+        process = subprocess.Popen([PROGRAM, "map", "design.toml", "--frequency", "4", "--phase", "3.1", "--noise"],
+                                   cwd=self.folder, stdout=subprocess.PIPE, text=True)
+        with self.assertRaises(subprocess.TimeoutExpired):
+            process.wait(timeout=1)
+        process.send_signal(signal.SIGINT)
+        told, _ = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 0)
+        self.assertIn("stopped before the end", told)
 
     def test_same_input_same_bytes(self):
         self.write(WITHOUT_AMPLITUDE_ERROR)

@@ -79,6 +79,15 @@ class ModelMap(CliTestCase):
         for name in ("map.md", "map.json", "region.svg", "region.csv"):
             self.assertEqual((self.folder / "one" / name).read_bytes(), (self.folder / "two" / name).read_bytes())
 
+    def test_a_map_that_is_stopped_proves_only_what_is_finished(self):
+        self.write(LOOP)
+        result = self.run_here("map", "design.toml", *FEW, "--timeout", "0.001")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("stopped before the end", result.stdout)
+        document = (self.folder / "maps-out/design/map.md").read_text()
+        self.assertRegex(document, r"\n\*Stopped before the end\*: \d+ cells were not followed to an answer")
+        self.assertEqual({cell["verdict"] for cell in self.cells("maps-out/design")}, {"UNDECIDED"})
+
     def test_noise_and_frequency_are_in_the_sentence(self):
         self.write(LOOP)
         result = self.run_here("map", "design.toml", "--cells", "3", "--x-range", "0.2", "--y-range", "0.01",

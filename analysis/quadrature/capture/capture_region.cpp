@@ -179,6 +179,7 @@ Region prove_region(const CaptureProblem& problem, const CaptureTarget& target, 
     so_far.propagations = region.propagations;
     stopped = progress && !progress(so_far);
   }
+  region.unfinished = stopped ? open.size() : 0;
   for (const OpenCell& cell : open) {
     RegionCell left;
     left.starts = cell.starts;

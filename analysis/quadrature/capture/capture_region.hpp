@@ -40,6 +40,8 @@ struct Region {
   /// Upper bounds on |frequency error|, rad/sample, after 0, 1, ... samples, of the starts of those PROVED
   /// cells that are not captured before: a captured start satisfies the bounds of the target from then on.
   std::vector<double> frequency_errors;
+  /// Cells that nobody looked at because `progress` asked to stop; they are the last ones.
+  std::size_t unfinished = 0;
 };
 
 /// What has been done so far, in terms of the volume of the box of starts (approximate, for display).

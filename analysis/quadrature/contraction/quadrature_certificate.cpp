@@ -163,9 +163,11 @@ bool tolerates(const CertifiedSet& set, const sets::ContractionQuestion& questio
 }
 
 void find_sets(const sets::ContractionQuestion& question, ContractionCertificate& certificate) {
-  certificate.noise_set = find_set(question, Objective::noise);
-  certificate.slew_set = find_set(question, Objective::slew);
   certificate.set = find_set(question, Objective::start_error);
+  if (question.with_limits || !certificate.set) {
+    certificate.noise_set = find_set(question, Objective::noise);
+    certificate.slew_set = find_set(question, Objective::slew);
+  }
   for (const auto* found : {&certificate.noise_set, &certificate.slew_set}) {
     if (!certificate.set && *found && tolerates((*found)->set, question)) {
       certificate.set = *found;

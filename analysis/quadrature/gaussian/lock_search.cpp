@@ -135,9 +135,8 @@ Eigen::VectorXd margins_of(const trackers::ToneModel<rigor::Interval>& design, c
   return margins;
 }
 
-}  // namespace
-
-std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
+/// From the usual shapes, or from a near one.
+std::optional<LockProposal> propose_from(const LockRequest& request) {
   const bool leaks = request.design.epsilon != 0.0;
   const auto centre =
       lock_centre(request.design, 0.5 * (request.lowest_frequency + request.highest_frequency));
@@ -199,6 +198,59 @@ std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
   LockProposal proposal{set, least};
   std::copy(space.start.begin(), space.start.end(), proposal.shape.begin());
   return proposal;
+}
+
+/// With much less noise the shape of a good set changes little from design to design: followed from La
+/// Scala's designs, which the usual shapes are of, to this one.
+std::optional<LockShape> followed_shape(const LockRequest& request) {
+  constexpr double kUsualRatio = 0.13;  // q1/r and q2/r of figure 3.4
+  constexpr double kQuiet = 0.3;        // of the noise
+  constexpr int kSteps = 4;
+  std::optional<LockShape> shape;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double share = static_cast<double>(k) / kSteps;
+    LockRequest between = request;
+    const double usual = kUsualRatio * request.design.r;
+    between.design.q1 = usual * std::pow(request.design.q1 / usual, share);
+    between.design.q2 = usual * std::pow(request.design.q2 / usual, share);
+    between.noise_deviation *= kQuiet;
+    between.frequency_walk *= kQuiet;
+    between.near = shape;
+    const auto found = propose_from(between);
+    if (!found || !(found->margin > 0.0)) {
+      return std::nullopt;
+    }
+    shape = found->shape;
+  }
+  return shape;
+}
+
+}  // namespace
+
+std::optional<LockProposal> propose_lock_set(const LockRequest& request) {
+  std::optional<LockProposal> found = propose_from(request);
+  const bool is_unusual = found && !(found->margin > 0.0) && !request.near && request.design.epsilon == 0.0;
+  if (!is_unusual) {
+    return found;
+  }
+  LockRequest louder = request;
+  louder.near = followed_shape(request);
+  for (const double part : {0.5, 0.75, 1.0}) {
+    if (!louder.near) {
+      return found;
+    }
+    louder.noise_deviation = part * request.noise_deviation;
+    louder.frequency_walk = part * request.frequency_walk;
+    const auto better = propose_from(louder);
+    if (!better || !(better->margin > 0.0)) {
+      return found;
+    }
+    louder.near = better->shape;
+    if (part == 1.0) {
+      return better;
+    }
+  }
+  return found;
 }
 
 }  // namespace veritrack::quadrature

@@ -8,16 +8,45 @@
 namespace veritrack::limits {
 namespace {
 
-LimitPoint point(double decibels, double ratio) {
-  return {decibels, 2.0, 2.0 * ratio, 0.0, 0.0};
+LimitPoint point(double decibels, double ratio, double error_of_ratio = 0.0) {
+  return {decibels, 2.0, 2.0 * ratio, 2.0 * error_of_ratio, 0.0};
 }
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST_CASE("the threshold is where the last stretch near the bound begins") {
   CHECK(decibels_above_bound(point(0.0, 10.0)) == doctest::Approx(10.0));
-  CHECK(threshold_of({point(0.0, 1.1), point(3.0, 2.0), point(6.0, 1.2), point(9.0, 1.0)}) == 6.0);
-  CHECK(threshold_of({point(0.0, 1.0), point(3.0, 1.2)}) == 0.0);
-  CHECK_FALSE(threshold_of({point(0.0, 1.0), point(3.0, 1.3)}).has_value());
-  CHECK_FALSE(threshold_of({point(0.0, std::numeric_limits<double>::quiet_NaN())}).has_value());
+  const Threshold late = threshold_of({point(0.0, 1.1), point(3.0, 2.0), point(6.0, 1.2), point(9.0, 1.0)});
+  CHECK(late.is_decided());
+  CHECK(late.at_most == 6.0);
+  CHECK(threshold_of({point(0.0, 1.0), point(3.0, 1.2)}).at_most == 0.0);
+  CHECK_FALSE(threshold_of({point(0.0, 1.0), point(3.0, 1.3)}).at_least.has_value());
+  CHECK_FALSE(threshold_of({point(0.0, kNaN)}).at_least.has_value());
+}
+
+TEST_CASE("what is within two standard errors decides nothing") {
+  // 1 dB is a ratio of 1.259.
+  CHECK(nearness_of(point(0.0, 1.2, 0.02)) == Nearness::near);
+  CHECK(nearness_of(point(0.0, 1.2, 0.04)) == Nearness::undecided);
+  CHECK(nearness_of(point(0.0, 1.3, 0.04)) == Nearness::undecided);
+  CHECK(nearness_of(point(0.0, 1.3, 0.01)) == Nearness::far);
+  CHECK(nearness_of(point(0.0, 1.0, kNaN)) == Nearness::undecided);
+  CHECK(nearness_of(point(0.0, kNaN, kNaN)) == Nearness::far);
+  const Threshold open = threshold_of({point(0.0, 2.0), point(3.0, 1.2, 0.1), point(6.0, 1.0)});
+  CHECK_FALSE(open.is_decided());
+  CHECK(open.at_least == 3.0);
+  CHECK(open.at_most == 6.0);
+  const Threshold higher = threshold_of({point(0.0, 2.0), point(3.0, 1.2, 0.1)});
+  CHECK(higher.at_least == 3.0);
+  CHECK_FALSE(higher.at_most.has_value());
+}
+
+TEST_CASE("a single run has no standard error") {
+  TrackingExperiment experiment;
+  experiment.runs = 1;
+  CHECK(std::isnan(simulate_tracking(experiment).standard_error));
+  experiment.runs = 2;
+  CHECK(simulate_tracking(experiment).standard_error > 0.0);
 }
 
 TEST_CASE("a few runs of the study: both trackers, every ratio, errors and bounds that fall") {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -93,6 +94,38 @@ TEST_CASE("a map: far more than the certified set is captured, and random starts
   for (std::size_t cell = 0; cell < one.size(); ++cell) {
     CHECK(one[cell].is_proved == (cell == grid.cell(3, 3)));
   }
+}
+
+TEST_CASE("ring by ring: what is proved of a ring stays when the deadline ends the next one") {
+  const test::CaptureExample example;
+  const CaptureGrid grid = capture_grid(kTheta, 0.6, kW, 0.018, 4);
+  const SimulatedStarts simulated = simulate_starts(example.problem, grid, 4, 3000);
+  CaptureOptions options = options_for(example, simulated);
+  const std::vector<char> wanted(grid.cells(), 1);
+  options.rings = 2;
+  std::atomic<bool> stop{false};
+  options.deadline = search::Deadline().or_when(stop);
+  const auto cells = prove_captured(example.problem, grid, wanted, options, [&](double share) {
+    stop = share >= 0.5;  // the inner ring is done
+  });
+  for (const std::size_t column : {0U, 1U, 2U, 3U}) {
+    for (const std::size_t row : {0U, 1U, 2U, 3U}) {
+      const bool is_inner = column % 3 != 0 && row % 3 != 0;
+      const CapturedCell& cell = cells[grid.cell(column, row)];
+      CHECK(cell.is_unfinished == !is_inner);
+      CHECK(cell.is_proved == is_inner);
+      CHECK((cell.samples > 0) == is_inner);
+    }
+  }
+  stop = true;
+  options.deadline = search::Deadline().or_when(stop);
+  for (const CapturedCell& cell : prove_captured(example.problem, grid, wanted, options)) {
+    CHECK_FALSE(cell.is_proved);
+    CHECK(cell.is_unfinished);
+  }
+  options.deadline = {};
+  options.rings = 0;
+  CHECK_THROWS_AS((void)prove_captured(example.problem, grid, wanted, options), std::invalid_argument);
 }
 
 TEST_CASE("with noise") {

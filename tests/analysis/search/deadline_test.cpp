@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -27,6 +28,22 @@ TEST_CASE("a limit is over when its time has come, and strikes when somebody ask
   CHECK(near.is_over());
   CHECK(near.has_struck());
   CHECK(copy.has_struck());
+}
+
+TEST_CASE("a wish to stop is as good as a limit, for all copies") {
+  std::atomic<bool> stop{false};
+  for (const Deadline& both : {Deadline().or_when(stop), Deadline(1e6).or_when(stop)}) {
+    stop = false;
+    const Deadline copy = both;
+    CHECK(both.is_set());
+    CHECK_FALSE(both.is_over());
+    stop = true;
+    CHECK_FALSE(both.has_struck());
+    CHECK(both.is_over());
+    CHECK(copy.has_struck());
+    stop = false;
+    CHECK(copy.is_over());  // it stays over
+  }
 }
 
 }  // namespace

@@ -54,6 +54,19 @@ TEST_CASE("proposals hold at points that the search has not looked at, the same 
   }
 }
 
+TEST_CASE("a design that is unlike La Scala's gets a proposal, too" * doctest::test_suite("nightly")) {
+  const rigor::UpwardRounding upward;
+  LockRequest unusual = request(0, 17.0, 400);
+  unusual.design = {3.49, 0.318, 0.00998, 0.0};  // nearly a deadbeat filter
+  unusual.frequency_walk = 0.00157;
+  const auto found = propose_lock_set(unusual);
+  REQUIRE(found.has_value());
+  MESSAGE("margin " << found->margin);
+  CHECK(found->margin > 0.1);
+  CHECK(found->set.noise_deviation == unusual.noise_deviation);
+  CHECK(found->set.frequency_walk == unusual.frequency_walk);
+}
+
 TEST_CASE("without a steady state nothing is proposed") {
   const rigor::UpwardRounding upward;
   LockRequest undriven = request(0, 20.0, 10);

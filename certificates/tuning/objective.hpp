@@ -1,0 +1,85 @@
+// What `veritrack tune` can make best of an extended Kalman filter.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "certificates/sets/assumptions.hpp"
+
+namespace veritrack::certificates {
+
+enum class Objective { long_run, for_ever, radius, noise, slew, lowest_snr, rms, simulated_rms };
+
+/// What is certified of design values, or, where it says so, estimated: for a search, whose result is
+/// certified afterwards. What is not known is as bad as can be.
+struct CertifiedValues {
+  static constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+  // Noise with a bound:
+  double long_run = kInfinite;  ///< |frequency error| in the long run, rad/sample
+  double for_ever = kInfinite;  ///< |frequency error| from the assumed starts on, rad/sample
+  double radius = 0.0;          ///< in frequency, of the certified set, rad/sample
+  double noise = 0.0;           ///< tolerated at a constant frequency, of the amplitude
+  double slew = 0.0;            ///< tolerated without noise, rad/sample per sample
+  double settles = kInfinite;   ///< samples after which `settled_below` of [require] is kept
+
+  // Gaussian noise, estimated from sampled points:
+  double lock_margin = -1.0;      ///< of the inequality behind a probability of losing lock, assumed noise
+  double lowest_snr = kInfinite;  ///< at which the probability can be certified, dB
+  double rms = kInfinite;         ///< of the frequency error in lock, rad/sample
+
+  // Simulated:
+  double simulated_rms = kInfinite;  ///< of the frequency error, rad/sample
+  double simulated_deviation = 0.0;  ///< its standard error
+};
+
+/// With less of it at the sampled points, a probability of losing lock takes too long to be proved.
+inline constexpr double kEnoughMargin = 0.03;
+
+struct ObjectiveWords {
+  Objective objective = Objective::long_run;
+  std::string_view name;   ///< as the command line has it
+  std::string_view words;  ///< what it is, in a sentence
+  bool with_bound = true;  ///< makes sense for noise with a bound
+  bool with_gaussian = false;
+};
+
+inline constexpr std::array<ObjectiveWords, 8> kObjectiveWords{{
+    {Objective::long_run, "long-run", "the certified bound on the frequency error in the long run", true,
+     false},
+    {Objective::for_ever, "for-ever", "the certified bound on the frequency error for ever", true, false},
+    {Objective::radius, "radius", "how far the certified set reaches in frequency", true, false},
+    {Objective::noise, "noise", "the noise that is tolerated at a constant frequency", true, false},
+    {Objective::slew, "slew", "the slew that is tolerated without noise", true, false},
+    {Objective::rms, "rms", "the bound on the root mean square of the frequency error in lock", false, true},
+    {Objective::lowest_snr, "lowest-snr",
+     "the lowest signal-to-noise ratio at which the probability of losing lock can be certified", false,
+     true},
+    {Objective::simulated_rms, "simulated-rms", "the simulated root mean square of the frequency error", true,
+     true},
+}};
+
+[[nodiscard]] const ObjectiveWords& words_of(Objective objective);
+/// Of that name; nothing when there is none.
+[[nodiscard]] std::optional<Objective> objective_called(std::string_view name);
+
+/// The value of an objective: rad/sample, of the amplitude, rad/sample per sample, or dB.
+[[nodiscard]] double value_of(const CertifiedValues& values, Objective objective);
+/// Whether less of it is better.
+[[nodiscard]] bool is_to_be_small(Objective objective);
+/// More is better: a logarithm of the value, of which a factor of e counts 1, as 8.7 dB do. Minus infinity
+/// where nothing is known.
+[[nodiscard]] double merit_of(const CertifiedValues& values, Objective objective);
+/// "0.0021 rad/sample (3.4 Hz)", "16.3 dB": rounded to the side that makes it true.
+[[nodiscard]] std::string shown(const CertifiedValues& values, Objective objective,
+                                const Assumptions& assume);
+
+/// Everything that has to be known to judge values: the objective, and what [require] asks.
+[[nodiscard]] std::set<Objective> needed(Objective objective, const Assumptions& assume,
+                                         const Requirements& require);
+
+}  // namespace veritrack::certificates

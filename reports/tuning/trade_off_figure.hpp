@@ -1,0 +1,13 @@
+// The figure of a tuning: what is made best against how fast the tracker is.
+#pragma once
+
+#include "certificates/document/tuning.hpp"
+#include "reports/figures.hpp"
+
+namespace veritrack::reports {
+
+/// Over the samples until a step of the frequency is followed to within a tenth; what has no value, or no
+/// such response, is counted in the caption. Throws FigureError.
+[[nodiscard]] Figure draw_trade_off(const certificates::TradeOff& trade_off);
+
+}  // namespace veritrack::reports

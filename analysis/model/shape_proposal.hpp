@@ -43,6 +43,7 @@ struct ShapeParameters {
   double lambda = 0.0;         ///< between the square of the rate and 1
   DisturbanceWeights weights;  ///< b, c
   Eigen::MatrixXd source;      ///< W, n x n, positive semidefinite
+  Eigen::VectorXd of_filter;   ///< in place of all these: see filter_proposal.cpp
 };
 
 /// What a shape is worth at the curve.

@@ -45,12 +45,17 @@ struct ModelSets {
   std::optional<ModelLock> gaussian;    ///< for the assumed Gaussian noise
   std::optional<ModelLock> lowest_snr;  ///< for as much Gaussian noise as can be proved
   std::vector<ModelCell> cells;         ///< of `starts`
+  bool bounds_covariance = false;       ///< the tubes do, of a filter
   std::string objection;                ///< why nothing is certified of the assumptions; or empty
 };
 
 /// The tracker of a model on its signal: for proofs, and for proposals. The members refer to the model.
 [[nodiscard]] model::TrackerModel proved_model(const Model& model, const ModelAssumptions& assume);
 [[nodiscard]] model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume);
+
+/// Whether the covariance of a filter is bounded by matrices, so that tubes are those of its estimate alone: at
+/// constant frequencies, with bounded noise, where no start names an entry of the covariance.
+[[nodiscard]] bool bounds_covariance(const Model& model, const ModelTables& tables);
 
 /// The band, rad/sample. Needs the upward rounding mode.
 [[nodiscard]] rigor::Interval band_of(const ModelAssumptions& assume);

@@ -252,7 +252,9 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
   const std::vector<double> lengths = length_bounds(whole, scales);
   const bool is_kept = !with_covariance || [&] {
     const rigor::BallModelScope inner(0, 0);
-    return keeps_covariance(model, place, radius);
+    // A little more, so that another program need not be as sharp.
+    constexpr double kRoom = 1.01;
+    return keeps_covariance(model, place, kRoom * radius);
   }();
   if (is_kept) {
     bounds.steps = lengths;

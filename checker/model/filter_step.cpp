@@ -162,19 +162,34 @@ bool FilterStep::keeps_covariance(double radius) const {
     const PlaceMatrix room =
         is_high ? sum(bound, process_noise_, minus) : sum(process_noise_, bound, minus);
     // F P F' <= (1 + eta) F_0 P F_0' + (1 + 1/eta) spread, and >= (1 - eta) F_0 P F_0' - (1/eta - 1) spread.
-    const double about = std::sqrt(trace_of(spread).constant() / trace_of(carried).constant());
-    for (double eta = std::min(0.9, about * 0.25); eta < (is_high ? 30.0 : 0.95); eta *= 1.3) {
+    const auto left = [&](const PlaceMatrix& of_room, const PlaceMatrix& of_carried,
+                          const PlaceMatrix& of_spread, double eta) {
       const Ball factor = is_high ? -one - Ball(eta) : one - Ball(eta);
-      const Ball of_spread = is_high ? -one - one / Ball(eta) : one - one / Ball(eta);
-      if (certainly_definite(
-              sum(sum(room, carried, BallPolynomial(factor)), spread, BallPolynomial(of_spread)))) {
-        return true;
-      }
-      if (!(eta > 1e-12)) {
-        break;
+      const Ball other = is_high ? -one - one / Ball(eta) : one - one / Ball(eta);
+      return sum(sum(of_room, of_carried, BallPolynomial(factor)), of_spread, BallPolynomial(other));
+    };
+    // In the middle of the part the least eigenvalue is greatest about there: it has one peak.
+    const PlaceMatrix near_room = middle_of(room);
+    const PlaceMatrix near_carried = middle_of(carried);
+    const PlaceMatrix near_spread = middle_of(spread);
+    const PlaceMatrix unit = middle_of(bound);
+    double from = -12.0;
+    double to = is_high ? 4.0 : -0.01;
+    constexpr int kThirds = 24;
+    for (int i = 0; i < kThirds; ++i) {
+      const double first = from + (to - from) / 3.0;
+      const double second = to - (to - from) / 3.0;
+      const auto value = [&](double logarithm) {
+        return near_least_eigenvalue(left(near_room, near_carried, near_spread, std::exp(logarithm)), unit);
+      };
+      if (value(first) < value(second)) {
+        from = first;
+      } else {
+        to = second;
       }
     }
-    return false;
+    const double eta = std::exp(0.5 * (from + to));
+    return eta > 0.0 && (is_high || eta < 1.0) && certainly_definite(left(room, carried, spread, eta));
   };
   return is_kept(high, next_high, true) && is_kept(low, next_low, false);
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
+#include "checker/model/symmetric_matrix.hpp"
 #include "checker/numbers/matrix.hpp"
 
 namespace veritrack::checker {
@@ -156,6 +158,48 @@ PlaceMatrix positive_inverse(const PlaceMatrix& a) {
   result[1][1] = a[0][0] * share;
   result[0][1] = result[1][0] = -(a[1][0] * share);
   return result;
+}
+
+PlaceMatrix middle_of(const PlaceMatrix& a) {
+  PlaceMatrix result = a;
+  for (std::vector<BallPolynomial>& row : result) {
+    for (BallPolynomial& entry : row) {
+      entry = entry.known() ? BallPolynomial(entry.constant()) : BallPolynomial::everything();
+    }
+  }
+  return result;
+}
+
+double near_least_eigenvalue(const PlaceMatrix& a, const PlaceMatrix& unit) {
+  constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  const std::size_t n = a.size();
+  std::vector<std::vector<double>> of_unit(n, std::vector<double>(n, 0.0));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      if (!a[i][j].known() || !unit[i][j].known()) {
+        return kNothing;
+      }
+      of_unit[i][j] = unit[i][j].constant();
+    }
+  }
+  const std::vector<std::vector<double>> x = near_inverse_root(of_unit);
+  if (x.empty()) {
+    return kNothing;
+  }
+  SymmetricMatrix negative(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double entry = 0.0;
+      for (std::size_t k = 0; k <= i; ++k) {
+        for (std::size_t l = 0; l <= j; ++l) {
+          entry += x[i][k] * a[k][l].constant() * x[j][l];
+        }
+      }
+      negative.add(i, j, -entry);
+    }
+  }
+  const double least = -near_largest_eigenvalue(negative);
+  return std::isfinite(least) ? least : kNothing;
 }
 
 bool certainly_definite(const PlaceMatrix& a) {

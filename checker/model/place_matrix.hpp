@@ -25,6 +25,12 @@ std::vector<BallPolynomial> forward(const PlaceMatrix& l, const std::vector<Ball
 /// definite.
 PlaceMatrix positive_inverse(const PlaceMatrix& a);
 
+/// The matrix in the middle of the cell, about: a proposal.
+PlaceMatrix middle_of(const PlaceMatrix& a);
+/// The least eigenvalue of a in the middle of the cell in units of a positive definite matrix, about; minus
+/// infinity when there is none. Not evidence.
+double near_least_eigenvalue(const PlaceMatrix& a, const PlaceMatrix& unit);
+
 /// True only when the symmetric matrix whose lower triangle this is is positive definite for all s and z.
 bool certainly_definite(const PlaceMatrix& a);
 

@@ -44,6 +44,12 @@ Eigen::MatrixXd middle_of(const BallMatrix& matrix) {
   return middle;
 }
 
+bool is_zero(const BallMatrix& matrix) {
+  return std::all_of(matrix.entries().begin(), matrix.entries().end(), [](const BallModel& entry) {
+    return entry.constant() == 0.0 && entry.deviation() == 0.0;
+  });
+}
+
 /// The logarithm of eta, in [-10, highest], for which the least eigenvalue of a(eta) in units of `size` is
 /// largest; in floating point.
 template <typename Matrix>
@@ -117,6 +123,9 @@ BallMatrix spread_of(const JacobianParts& jacobian, const BallMatrix& covariance
   for (std::size_t a = 0; a < jacobian.powers.size(); ++a) {
     BallMatrix sum(n, n);
     for (std::size_t k = 0; k < jacobian.powers[a].size(); ++k) {
+      if (is_zero(jacobian.powers[a][k])) {
+        continue;
+      }
       sum = sum + scaled(congruent(jacobian.powers[a][k], covariance), BallModel(jacobian.weights[a][k]));
     }
     sums.push_back(sum);

@@ -325,11 +325,11 @@ class FilterSearch {
       sizes[i] = std::sqrt(std::max(1e-300, state[place]));
       place += n - i;
     }
-    coordinates_ = {rate * rate, sizes, settings.shape.objective == ShapeObjective::largest_noise ? 0.0 : settings.shape.noise,
-                    settings.shape.objective == ShapeObjective::largest_noise && !(settings.shape.noise > 0.0)};
-    if (settings.shape.objective == ShapeObjective::largest_noise && settings.shape.noise > 0.0) {
-      coordinates_.given_noise = settings.shape.noise;
-    }
+    const bool is_for_noise = settings.shape.objective == ShapeObjective::largest_noise;
+    // The largest reach at a given noise, or the largest noise.
+    coordinates_ = {rate * rate, sizes, settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0)};
+    constexpr int kUsual = 160;
+    evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : kUsual;
   }
 
   [[nodiscard]] const Coordinates& coordinates() const { return coordinates_; }
@@ -403,7 +403,7 @@ class FilterSearch {
       space.step = VectorXd::Constant(best.size(), round == 0 ? 1.0 : 0.6);
       space.lower = VectorXd::Constant(best.size(), -30.0);
       space.upper = VectorXd::Constant(best.size(), 12.0);
-      space.evaluations = 160;
+      space.evaluations = evaluations_;
       space.tolerance = 1e-3;
       const search::BestPoint found =
           search::maximize([this](const VectorXd& x) { return score(x); }, space);
@@ -421,6 +421,7 @@ class FilterSearch {
   const TrackedTone* tone_;
   std::array<NodeCurve, 3> nodes_;
   Coordinates coordinates_;
+  int evaluations_ = 0;  ///< of each round
 };
 
 /// Bounds and shape on a grid of phases at one frequency: a column for each phase, of lower triangles.

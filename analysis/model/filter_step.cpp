@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "analysis/model/covariance_order.hpp"
-#include "analysis/model/disturbance_split.hpp"
 #include "analysis/model/filter_models.hpp"
 #include "analysis/model/map_bound.hpp"
 #include "analysis/model/tube_models.hpp"
@@ -146,7 +145,15 @@ double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& d
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(middle, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
   double best = 0.0;
   double least = std::numeric_limits<double>::infinity();
-  for (const double factor : {1.03, 1.08, 1.15, 1.25, 1.4, 1.6, 1.9, 2.4, 3.2, 4.5, 7.0, 12.0, 30.0, 100.0}) {
+  const auto consider = [&](const Eigen::MatrixXd& gram, double mu) {
+    const double length =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    if (length < least) {
+      least = length;
+      best = mu;
+    }
+  };
+  for (const double factor : {1.04, 1.1, 1.2, 1.35, 1.6, 2.0, 2.7, 4.0, 7.0, 15.0, 60.0}) {
     const double mu = factor * largest + std::numeric_limits<double>::min();
     const Eigen::LLT<Eigen::MatrixXd> root(Eigen::MatrixXd::Identity(n, n) - middle / mu);
     if (root.info() != Eigen::Success) {
@@ -158,18 +165,15 @@ double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& d
       return both;
     };
     const Eigen::MatrixXd x = stacked(of_x, reach_of_x);
-    Eigen::MatrixXd gram = x * x.transpose();
+    const Eigen::MatrixXd gram = x * x.transpose();
     if (is_noisy) {
       const Eigen::MatrixXd v = stacked(of_v, reach_of_v);
       const Eigen::MatrixXd other = v * v.transpose();
-      const double t = proposed_split(gram, other);
-      gram = (gram / t + other / (1.0 - t)).eval();
-    }
-    const double length =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-    if (length < least) {
-      least = length;
-      best = mu;
+      for (const double t : {0.5, 0.68, 0.8, 0.9, 0.96}) {
+        consider(gram / t + other / (1.0 - t), mu);
+      }
+    } else {
+      consider(gram, mu);
     }
   }
   return best;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "checker/model/dependence.hpp"
 #include "checker/model/length_bound.hpp"
 
 namespace veritrack::checker {
@@ -125,7 +126,7 @@ FilterStep::FilterStep(const TrackedModel& model, const PhaseTube& tube, const T
       here_(tube, part, false),
       there_(tube, part, true),
       signal_(signal_later(model, tube, part)) {
-  // H has these values wherever the estimate is: nothing is said unless they are known.
+  // H has these values wherever the estimate is.
   const auto parts = model.recursion->filter_parts(
       std::vector<BallPolynomial>(states_, BallPolynomial::everything()), signal_);
   measured_ = ranges_of(parts.measured);
@@ -141,10 +142,20 @@ PlaceMatrix FilterStep::updated(const PlaceMatrix& predicted) const {
   return sum(predicted, product(product(mirrored(cross), inverse), cross), BallPolynomial(-1.0));
 }
 
-bool FilterStep::keeps_covariance(double radius) const {
-  if (!model_->recursion->has_symmetric_noise()) {
-    return false;
+bool bounds_suit(const ModelRecursion& recursion) {
+  const std::vector<Dependence> any(recursion.filtered(), Dependence::variable());
+  const std::vector<Dependence> samples(recursion.samples(), Dependence::variable());
+  const auto parts = recursion.filter_parts(any, samples);
+  bool is_constant = true;
+  for (const std::vector<Dependence>& row : parts.measured) {
+    for (const Dependence& entry : row) {
+      is_constant = is_constant && !entry.depends;
+    }
   }
+  return is_constant && recursion.has_symmetric_noise();
+}
+
+bool FilterStep::keeps_covariance(double radius) const {
   const PlaceMatrix low = updated(symmetric_of(here_.covariance_low, states_));
   const PlaceMatrix high = updated(symmetric_of(here_.covariance_high, states_));
   const PlaceMatrix next_low = symmetric_of(there_.covariance_low, states_);

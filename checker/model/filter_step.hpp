@@ -13,6 +13,10 @@
 
 namespace veritrack::checker {
 
+/// True only for a filter whose H does not depend on the estimate, and whose Q and R are written as symmetric
+/// matrices: then bounds of the covariance say what they shall.
+bool bounds_suit(const ModelRecursion& recursion);
+
 class FilterStep {
  public:
   /// The second vector of the monomials, which must outlive this, is v if there is noise.

@@ -113,6 +113,11 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
     return false;
   }
   const bool is_filter = bounds_covariance(*set_);
+  if (is_filter && !bounds_suit(recursion)) {
+    objections.emplace_back(
+        "bounds of a covariance are for filters with a linear measurement and symmetric Q and R");
+    return false;
+  }
   const VectorMonomials monomials(is_filter ? recursion.filtered() : recursion.states(),
                                   is_noisy ? recursion.samples() : 0, moves ? 1 : 0);
   const std::vector<Ball> common = common_levels(*set_);

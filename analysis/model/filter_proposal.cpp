@@ -24,7 +24,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Of the bounds, in units of themselves: what they have to spare.
-constexpr double kSlack = 0.01;
+constexpr double kSlack = 0.006;
 
 /// The parts of a filter in doubles.
 class FilterNumbers {
@@ -328,7 +328,8 @@ class FilterSearch {
     const bool is_for_noise = settings.shape.objective == ShapeObjective::largest_noise;
     // The largest reach at a given noise, or the largest noise.
     coordinates_ = {rate * rate, sizes, settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0)};
-    constexpr int kUsual = 160;
+    largest_reach_ = settings.shape.largest_reach;
+    constexpr int kUsual = 180;
     evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : kUsual;
   }
 
@@ -357,7 +358,10 @@ class FilterSearch {
       return -std::numeric_limits<double>::infinity();
     }
     const double goal = coordinates_.finds_noise ? std::log(parameters.noise) : std::log(worth.least_reach);
-    return goal - kPenalty * std::max(0.0, worth.growth - kLargestGrowth) - (worth.growth > 2.0 ? 10.0 : 0.0);
+    // Where errors have to stay below a bound, a larger tube is of no use.
+    const double excess = largest_reach_ > 0.0 ? std::max(0.0, worth.most_reach / largest_reach_ - 0.97) : 0.0;
+    return goal - kPenalty * (std::max(0.0, worth.growth - kLargestGrowth) + excess) -
+           (worth.growth > 2.0 ? 10.0 : 0.0);
   }
   /// The best point found.
   [[nodiscard]] std::optional<VectorXd> run(const VectorXd& nearby) const {
@@ -415,12 +419,13 @@ class FilterSearch {
     return best;
   }
 
-  static constexpr double kLargestGrowth = 0.97;
+  static constexpr double kLargestGrowth = 0.982;
 
  private:
   const TrackedTone* tone_;
   std::array<NodeCurve, 3> nodes_;
   Coordinates coordinates_;
+  double largest_reach_ = 0.0;
   int evaluations_ = 0;  ///< of each round
 };
 

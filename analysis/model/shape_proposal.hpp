@@ -32,6 +32,8 @@ struct ShapeSettings {
   double noise = 0.0;  ///< of the samples together, Euclidean
   double slew = 0.0;   ///< rad/sample per sample
   int harmonics = 16;  ///< of the shape, at most
+  /// Of the tube of a filter whose covariance is bounded, rad/sample; 0: as large as can be.
+  double largest_reach = 0.0;
   /// The largest rate at other frequencies for which the parameters have to do: lambda is above its square.
   double largest_rate = 0.0;
   /// Of shapes in the search; 0 means 300, and 600 for more than 5 states.

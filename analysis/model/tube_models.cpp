@@ -80,6 +80,9 @@ BallModel sum_of(const PhaseSeries& series, const Harmonics& harmonics,
                  const std::vector<BallModel>& powers) {
   BallModel sum;
   for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
+    if (series.coefficients[h].empty()) {
+      continue;  // many series have every second harmonic only
+    }
     const auto [real, imaginary] = coefficient_of(series, h, powers);
     sum = h == 0 ? sum + real : sum + (real * harmonics[h].first - imaginary * harmonics[h].second);
   }

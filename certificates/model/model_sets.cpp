@@ -252,14 +252,14 @@ const ModelSets& model_sets(const Certificate& certificate) {
 }
 
 ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::Deadline& deadline,
-                       const CertifyProgress& progress) {
+                       const CertifyProgress& progress, bool by_structure) {
   const rigor::UpwardRounding upward;
   const ModelAssumptions& assume = tables.assume;
   const Requirements& require = tables.require.sets;
   const Model model = make_model(tables.model, assume.signal);
   const model::TrackerModel tracker = proved_model(model, assume);
   model::TrackedTone tone = proposed_tone(model, assume);
-  tone.filter = bounds_covariance(model, tables) ? tracker.filter : nullptr;
+  tone.filter = by_structure && bounds_covariance(model, tables) ? tracker.filter : nullptr;
   const std::vector<Interval> deviations = start_deviations(model, tables.model, assume.start_within);
   const Interval band = band_of(assume);
   ModelSets sets;
@@ -298,6 +298,9 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   if (slew > 0.0 || require.largest_slew_at_least) {
     tasks.push_back(
         {.name = "slew", .objective = ShapeObjective::largest_slew, .largest_slew = true, .deviations = {}});
+  }
+  if (const auto& required = require.frequency_error_below) {
+    tasks[noise > 0.0 || slew > 0.0 ? 1 : 0].largest_error = required->value.lower();
   }
   if (deadline.is_set() && tasks.size() > 1 && tasks[1].name == "assumed") {
     std::swap(tasks[0], tasks[1]);  // what is required rests on it

@@ -76,8 +76,10 @@ struct SearchedBand {
 [[nodiscard]] const ModelSets& model_sets(const Certificate& certificate);
 
 /// Searches and verifies. `extent`: without what only is told beside the requirements. After the deadline no
-/// more is searched for; what is proved by then is kept.
+/// more is searched for; what is proved by then is kept. `by_structure`: the covariance of a filter is bounded
+/// by matrices where it can be.
 [[nodiscard]] ModelSets certify_sets(const ModelTables& tables, Extent extent,
-                                     const search::Deadline& deadline, const CertifyProgress& progress);
+                                     const search::Deadline& deadline, const CertifyProgress& progress,
+                                     bool by_structure = true);
 
 }  // namespace veritrack::certificates

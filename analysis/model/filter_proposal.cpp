@@ -23,6 +23,13 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// Matrices of a filter of at most ten states without allocations.
+constexpr int kMostStates = 10;
+constexpr int kMostRows = kMostStates + 2;
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
+using Wide = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostStates * kMostStates>;
+
 /// Of the bounds, in units of themselves: what they have to spare.
 constexpr double kSlack = 0.006;
 
@@ -42,15 +49,15 @@ class FilterNumbers {
     weighted_ = noise_.inverse() * measured_;
   }
   [[nodiscard]] Index states() const { return parts_->states; }
-  [[nodiscard]] const MatrixXd& measured() const { return measured_; }
-  [[nodiscard]] const MatrixXd& weighted() const { return weighted_; }  ///< R^-1 H
-  [[nodiscard]] const MatrixXd& process() const { return process_; }
-  [[nodiscard]] MatrixXd jacobian(const VectorXd& estimate) {
+  [[nodiscard]] const Small& measured() const { return measured_; }
+  [[nodiscard]] const Small& weighted() const { return weighted_; }  ///< R^-1 H
+  [[nodiscard]] const Small& process() const { return process_; }
+  [[nodiscard]] Small jacobian(const SmallVector& estimate) {
     std::copy(estimate.begin(), estimate.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(constants_));
     results_.resize(parts_->program.results().size());
     parts_->program.run(std::span<const double>(inputs_), registers_, std::span<double>(results_));
     const Index n = states();
-    MatrixXd f(n, n);
+    Small f(n, n);
     for (Index i = 0; i < n; ++i) {
       for (Index j = 0; j < n; ++j) {
         f(i, j) = results_[static_cast<std::size_t>(n + i * n + j)];
@@ -59,13 +66,13 @@ class FilterNumbers {
     return f;
   }
   /// The change of F along a direction.
-  [[nodiscard]] MatrixXd change(const VectorXd& estimate, const VectorXd& direction) {
+  [[nodiscard]] Small change(const SmallVector& estimate, const SmallVector& direction) {
     constexpr double kPart = 1e-4;
     return (jacobian(estimate + kPart * direction) - jacobian(estimate - kPart * direction)) / (2.0 * kPart);
   }
-  [[nodiscard]] MatrixXd updated(const MatrixXd& predicted) const {
-    const MatrixXd cross = measured_ * predicted;
-    const MatrixXd result =
+  [[nodiscard]] Small updated(const Small& predicted) const {
+    const Small cross = measured_ * predicted;
+    const Small result =
         predicted - cross.transpose() * (cross * measured_.transpose() + noise_).ldlt().solve(cross);
     return 0.5 * (result + result.transpose());
   }
@@ -74,7 +81,7 @@ class FilterNumbers {
   const trackers::FilterParts* parts_;
   std::vector<double> inputs_, registers_, results_;
   std::size_t constants_;
-  MatrixXd measured_, process_, noise_, weighted_;
+  Small measured_, process_, noise_, weighted_;
 };
 
 struct FilterParameters {
@@ -89,8 +96,8 @@ struct FilterParameters {
 
 /// What is carried along.
 struct FilterOnOrbit {
-  MatrixXd low, high;  ///< predicted for this sample
-  MatrixXd shape;      ///< Pi after it
+  Small low, high;  ///< predicted for this sample
+  Small shape;      ///< Pi after it
 };
 
 /// What a step is worth.
@@ -110,7 +117,7 @@ class FilterOrbit {
     estimate_ = at(phase);
     const VectorXd state = state_at(*curve_, phase);
     const Index n = numbers_.states();
-    MatrixXd covariance(n, n);
+    Small covariance(n, n);
     Index place = n;
     for (Index i = 0; i < n; ++i) {
       for (Index j = i; j < n; ++j) {
@@ -124,15 +131,15 @@ class FilterOrbit {
   /// To the next sample; false where bounds or shape are none.
   [[nodiscard]] bool step() {
     const Index n = numbers_.states();
-    const MatrixXd f = numbers_.jacobian(estimate_);
-    const Eigen::LLT<MatrixXd> root(here_.shape);
+    const Small f = numbers_.jacobian(estimate_);
+    const Eigen::LLT<Small> root(here_.shape);
     if (root.info() != Eigen::Success || !(here_.shape.maxCoeff() < 1e12)) {
       return false;
     }
-    const MatrixXd u = root.matrixL();
+    const Small u = root.matrixL();
     changes_.clear();
-    MatrixXd of_high = MatrixXd::Zero(n, n);
-    MatrixXd of_low = MatrixXd::Zero(n, n);
+    Small of_high = Small::Zero(n, n);
+    Small of_low = Small::Zero(n, n);
     for (Index i = 0; i < n; ++i) {
       changes_.push_back(numbers_.change(estimate_, u.col(i)));
       of_high += changes_.back() * updated_high_ * changes_.back().transpose();
@@ -148,16 +155,16 @@ class FilterOrbit {
                                   (1.0 + 1.0 / eta) * of_high);
     next.low = (1.0 - kSlack) * (numbers_.process() + (1.0 - theta) * f * updated_low_ * f.transpose() -
                                  (1.0 / theta - 1.0) * of_low);
-    if (Eigen::LLT<MatrixXd>(next.low).info() != Eigen::Success || !(next.high.maxCoeff() < 1e12)) {
+    if (Eigen::LLT<Small>(next.low).info() != Eigen::Success || !(next.high.maxCoeff() < 1e12)) {
       return false;
     }
     updated_high_ = numbers_.updated(next.high);
     updated_low_ = numbers_.updated(next.low);
-    const MatrixXd middle = 0.5 * (updated_high_ + updated_low_);
+    const Small middle = 0.5 * (updated_high_ + updated_low_);
     delta_ = 0.5 * (updated_high_ - updated_low_);
     gain_ = middle * numbers_.weighted().transpose();
-    contraction_ = (MatrixXd::Identity(n, n) - gain_ * numbers_.measured());
-    const MatrixXd a = contraction_ * f;
+    contraction_ = (Small::Identity(n, n) - gain_ * numbers_.measured());
+    const Small a = contraction_ * f;
     next.shape = a * here_.shape * a.transpose() / parameters_.lambda +
                  parameters_.source * gain_ * gain_.transpose() + parameters_.spread * delta_;
     next.shape.diagonal() += parameters_.process;
@@ -179,51 +186,56 @@ class FilterOrbit {
   /// Of the step that was the last one.
   [[nodiscard]] FilterGrowth growth() const {
     const Index n = numbers_.states();
-    const Eigen::LLT<MatrixXd> root(here_.shape);
+    const Eigen::LLT<Small> root(here_.shape);
     FilterGrowth worst{std::numeric_limits<double>::infinity(), 1.0};
     if (root.info() != Eigen::Success) {
       return worst;
     }
-    const auto in_units = [&](const MatrixXd& x) -> MatrixXd { return root.matrixL().solve(x); };
-    const MatrixXd spread = in_units(in_units(delta_).transpose());
-    const MatrixXd weighted = numbers_.weighted() * delta_ * numbers_.weighted().transpose();
-    const MatrixXd factor = Eigen::LLT<MatrixXd>(weighted).matrixL();
-    const MatrixXd of_x = in_units(contraction_ * jacobian_ * before_);
-    const MatrixXd reach_of_x = -factor.transpose() * numbers_.measured() * jacobian_ * before_;
-    const MatrixXd of_v = in_units(gain_) * parameters_.noise;
-    const MatrixXd reach_of_v = factor.transpose() * parameters_.noise;
-    MatrixXd second(n, n * n);
+    const auto in_units = [&](auto x) {
+      root.matrixL().solveInPlace(x);
+      return x;
+    };
+    const Small spread = in_units(Small(in_units(delta_).transpose()));
+    const Small weighted = numbers_.weighted() * delta_ * numbers_.weighted().transpose();
+    const Small factor = Eigen::LLT<Small>(weighted).matrixL();
+    const Small of_x = in_units(Small(contraction_ * jacobian_ * before_));
+    const Small reach_of_x = -factor.transpose() * numbers_.measured() * jacobian_ * before_;
+    const Small of_v = Small(in_units(gain_) * parameters_.noise);
+    const Small reach_of_v = factor.transpose() * parameters_.noise;
+    Wide second(n, n * n);
     for (Index i = 0; i < n; ++i) {
       second.middleCols(i * n, n) = 0.5 * changes_[static_cast<std::size_t>(i)] * before_;
     }
-    const MatrixXd of_squares = in_units(contraction_ * second);
-    const MatrixXd reach_of_squares = -factor.transpose() * numbers_.measured() * second;
-    const auto largest = [](const MatrixXd& symmetric) {
-      return Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    const Wide of_squares = in_units(Wide(contraction_ * second));
+    const Wide reach_of_squares = -factor.transpose() * numbers_.measured() * second;
+    const auto largest = [](const Small& symmetric) {
+      return Eigen::SelfAdjointEigenSolver<Small>(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
     };
     const double top = largest(spread);
     for (const double share : {1.08, 1.2, 1.4, 1.8, 3.0, 8.0, 40.0}) {
       const double mu = share * top + 1e-300;
-      const Eigen::LLT<MatrixXd> inner(MatrixXd::Identity(n, n) - spread / mu);
-      const auto stacked = [&](const MatrixXd& first, const MatrixXd& below) {
-        MatrixXd both(first.rows() + below.rows(), first.cols());
-        both << inner.matrixL().solve(first), std::sqrt(mu) * below;
+      const Eigen::LLT<Small> inner(Small::Identity(n, n) - spread / mu);
+      const auto stacked = [&](auto first, const auto& below) {
+        inner.matrixL().solveInPlace(first);
+        auto both = first;
+        both.resize(first.rows() + below.rows(), first.cols());
+        both << first, std::sqrt(mu) * below;
         return both;
       };
-      const MatrixXd x = stacked(of_x, reach_of_x);
-      const MatrixXd gram = x * x.transpose();
+      const Small x = stacked(of_x, reach_of_x);
+      const Small gram = x * x.transpose();
       const double alone = std::sqrt(largest(gram));
       double linear = alone;
       if (parameters_.noise > 0.0) {
-        const MatrixXd v = stacked(of_v, reach_of_v);
-        const MatrixXd other = v * v.transpose();
+        const Small v = stacked(of_v, reach_of_v);
+        const Small other = v * v.transpose();
         linear = std::numeric_limits<double>::infinity();
         for (const double t : {0.5, 0.7, 0.82, 0.9, 0.95}) {
-          linear = std::min(linear, std::sqrt(largest(gram / t + other / (1.0 - t))));
+          linear = std::min(linear, std::sqrt(largest(Small(gram / t + other / (1.0 - t)))));
         }
       }
-      const MatrixXd squares = stacked(of_squares, reach_of_squares);
-      const double whole = linear + std::sqrt(largest(squares * squares.transpose()));
+      const Wide squares = stacked(of_squares, reach_of_squares);
+      const double whole = linear + std::sqrt(largest(Small(squares * squares.transpose())));
       if (whole < worst.whole) {
         worst = {whole, alone};
       }
@@ -232,16 +244,16 @@ class FilterOrbit {
   }
 
  private:
-  [[nodiscard]] VectorXd at(double phase) const { return state_at(*curve_, phase).head(numbers_.states()); }
+  [[nodiscard]] SmallVector at(double phase) const { return state_at(*curve_, phase).head(numbers_.states()); }
 
   const TrackedTone* tone_;
   FilterNumbers numbers_;
   const NodeCurve* curve_;
   FilterParameters parameters_;
   double phase_ = 0.0;
-  VectorXd estimate_;
-  MatrixXd updated_low_, updated_high_, delta_, gain_, contraction_, jacobian_, before_;
-  std::vector<MatrixXd> changes_;
+  SmallVector estimate_;
+  Small updated_low_, updated_high_, delta_, gain_, contraction_, jacobian_, before_;
+  std::vector<Small> changes_;
   FilterOnOrbit here_;
 };
 
@@ -293,7 +305,8 @@ FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curve, cons
       growth = std::max(growth, here.whole);
       linear = std::max(linear, here.linear);
       const double reach = orbit.reach();
-      if (!std::isfinite(here.whole) || !std::isfinite(reach)) {
+      constexpr double kFar = 3.0;
+      if (!(here.whole < kFar) || !std::isfinite(reach)) {
         return worth;
       }
       worth.least_reach = std::min(worth.least_reach, reach);
@@ -308,10 +321,10 @@ FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curve, cons
 /// How many samples the shape remembers.
 int memory_of(double rate_squared, const FilterParameters& parameters, double share) {
   const double factor = std::min(0.999, std::max(rate_squared / parameters.lambda, rate_squared));
-  return std::clamp(static_cast<int>(std::ceil(std::log(share) / std::log(factor))), 16, 4000);
+  return std::clamp(static_cast<int>(std::ceil(std::log(share) / std::log(factor))), 12, 4000);
 }
 
-/// The search for parameters that do at all frequencies of the cell.
+/// The search for parameters: at the middle of the cell, and then scaled so that they do at its ends.
 class FilterSearch {
  public:
   FilterSearch(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings, double rate)
@@ -329,16 +342,17 @@ class FilterSearch {
     // The largest reach at a given noise, or the largest noise.
     coordinates_ = {rate * rate, sizes, settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0)};
     largest_reach_ = settings.shape.largest_reach;
-    constexpr int kUsual = 180;
+    constexpr int kUsual = 100;
     evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : kUsual;
   }
 
   [[nodiscard]] const Coordinates& coordinates() const { return coordinates_; }
+  /// At the middle and both ends.
   [[nodiscard]] FilterWorth worth_at(const FilterParameters& parameters, int samples) const {
     std::array<FilterWorth, 3> each;
     tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
       each.at(i) = worth_on_orbit(*tone_, nodes_.at(i), parameters,
-                                  memory_of(coordinates_.rate_squared, parameters, 1e-3), samples);
+                                  memory_of(coordinates_.rate_squared, parameters, 1e-4), samples);
     });
     FilterWorth worth{0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
     for (const FilterWorth& one : each) {
@@ -349,79 +363,163 @@ class FilterSearch {
     }
     return worth;
   }
-  [[nodiscard]] double score(const VectorXd& x) const {
-    constexpr int kSamples = 24;
-    constexpr double kPenalty = 20.0;
-    const FilterParameters parameters = coordinates_.at(x);
-    const FilterWorth worth = worth_at(parameters, kSamples);
-    if (!std::isfinite(worth.growth)) {
-      return -std::numeric_limits<double>::infinity();
-    }
-    const double goal = coordinates_.finds_noise ? std::log(parameters.noise) : std::log(worth.least_reach);
-    // Where errors have to stay below a bound, a larger tube is of no use.
-    const double excess = largest_reach_ > 0.0 ? std::max(0.0, worth.most_reach / largest_reach_ - 0.97) : 0.0;
-    return goal - kPenalty * (std::max(0.0, worth.growth - kLargestGrowth) + excess) -
-           (worth.growth > 2.0 ? 10.0 : 0.0);
-  }
-  /// The best point found.
-  [[nodiscard]] std::optional<VectorXd> run(const VectorXd& nearby) const {
-    VectorXd best;
-    double value = -std::numeric_limits<double>::infinity();
-    const auto consider = [&](const VectorXd& x) {
-      const double here = score(x);
-      if (here > value) {
-        value = here;
-        best = x;
-      }
-    };
-    const bool has_nearby = nearby.size() == coordinates_.size();
-    if (has_nearby) {
-      consider(nearby);
+  /// The point with a larger or smaller scale: of the tube, or of the noise.
+  [[nodiscard]] VectorXd scaled(VectorXd x, double logarithm) const {
+    if (coordinates_.finds_noise) {
+      x[coordinates_.size() - 1] += logarithm;
     } else {
-      for (const double process : {-7.0, -5.0, -3.5, -2.0}) {
-        for (const double source : {-9.0, -6.0, -3.0}) {
-          for (const double eta : {-2.5, -1.5, -0.5}) {
-            for (const double noise : coordinates_.finds_noise ? std::vector{-9.0, -6.5, -4.5} : std::vector{0.0}) {
-              VectorXd x = VectorXd::Constant(coordinates_.size(), process);
-              x[0] = eta;
-              x[1] = eta;
-              x[2] = 0.0;
-              x[3] = source;
-              x[4] = -3.0;
-              if (coordinates_.finds_noise) {
-                x[coordinates_.size() - 1] = noise;
-              }
-              consider(x);
+      x[3] += logarithm;
+      x.segment(5, coordinates_.sizes.size()).array() += logarithm;
+    }
+    return x;
+  }
+  /// The largest scale at which the growth is what it may be; -infinity when there is none nearby.
+  template <typename Worth>
+  [[nodiscard]] double largest_scale(const VectorXd& x, const Worth& worth_of) const {
+    const auto may_be = [&](double logarithm) {
+      const FilterWorth worth = worth_of(coordinates_.at(scaled(x, logarithm)));
+      return worth.growth <= kLargestGrowth && !(largest_reach_ > 0.0 && worth.most_reach > 0.97 * largest_reach_);
+    };
+    constexpr double kStep = 1.2;
+    constexpr int kMostSteps = 9;
+    double low = 0.0;
+    int steps = 0;
+    const bool grows = may_be(0.0);
+    for (double tried = grows ? kStep : -kStep; steps < kMostSteps; ++steps, tried += grows ? kStep : -kStep) {
+      const bool is_possible = may_be(tried);
+      low = is_possible || !grows ? tried : low;
+      if (is_possible != grows) {
+        break;
+      }
+    }
+    if (steps == kMostSteps) {
+      return grows ? low : -std::numeric_limits<double>::infinity();
+    }
+    double high = low + kStep;
+    constexpr int kHalvings = 6;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (may_be(middle) ? low : high) = middle;
+    }
+    return low;
+  }
+  struct Scored {
+    double value = -std::numeric_limits<double>::infinity();
+    VectorXd point;
+  };
+  [[nodiscard]] Scored score(const VectorXd& x) const {
+    constexpr int kSamples = 20;
+    const auto at_middle = [&](const FilterParameters& parameters) {
+      return worth_on_orbit(*tone_, nodes_[1], parameters,
+                            memory_of(coordinates_.rate_squared, parameters, 1e-2), kSamples);
+    };
+    const double logarithm = largest_scale(x, at_middle);
+    if (!std::isfinite(logarithm)) {
+      return {};
+    }
+    Scored scored{0.0, scaled(x, logarithm)};
+    const FilterParameters parameters = coordinates_.at(scored.point);
+    scored.value = std::log(coordinates_.finds_noise ? parameters.noise : at_middle(parameters).least_reach);
+    return scored;
+  }
+  /// The best point found, scaled for the whole cell.
+  [[nodiscard]] std::optional<VectorXd> run(const VectorXd& nearby) const {
+    std::vector<Scored> starts;
+    if (nearby.size() == coordinates_.size()) {
+      starts.push_back(score(nearby));
+    } else {
+      if (!coordinates_.finds_noise) {
+        starts = first_starts();
+      } else {
+        // From tubes without noise, made smaller.
+        std::vector<VectorXd> points;
+        FilterSearch without_noise(*this);
+        without_noise.coordinates_.finds_noise = false;
+        for (const Scored& start : without_noise.best_of(without_noise.first_starts())) {
+          for (const double scale : {-0.5, -1.4, -2.8}) {
+            if (std::isfinite(start.value)) {
+              const VectorXd smaller = without_noise.scaled(start.point, scale);
+              points.emplace_back(coordinates_.size());
+              points.back() << smaller, -6.0;
             }
+          }
+        }
+        starts.assign(points.size(), {});
+        tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) { starts[i] = score(points[i]); });
+      }
+      starts = best_of(std::move(starts));
+    }
+    if (starts.empty() || !std::isfinite(starts.front().value)) {
+      return std::nullopt;
+    }
+    tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) { improve(starts[i], 1.0); });
+    Scored best = *std::max_element(starts.begin(), starts.end(), [](const Scored& a, const Scored& b) {
+      return a.value < b.value;
+    });
+    if (starts.size() > 1) {
+      improve(best, 0.5);
+      improve(best, 0.8);
+    }
+    constexpr int kSamples = 40;
+    const double logarithm = largest_scale(
+        best.point, [&](const FilterParameters& parameters) { return worth_at(parameters, kSamples); });
+    return std::isfinite(logarithm) ? std::optional(scaled(best.point, logarithm)) : std::nullopt;
+  }
+
+  static constexpr double kLargestGrowth = 0.985;
+
+ private:
+  /// Of the reach.
+  [[nodiscard]] std::vector<Scored> first_starts() const {
+    std::vector<VectorXd> points;
+    for (const double source : {-8.0, -4.0, -1.0}) {
+      for (const double eta : {-2.3, -1.0}) {
+        for (const double logit : {0.0, 1.4, 2.6}) {
+          for (const double spread : {-5.0, -2.0}) {
+            // The scale of W is found by itself.
+            constexpr double kProcess = -4.5;
+            VectorXd x = VectorXd::Constant(coordinates_.size(), kProcess);
+            x.head(5) << eta, eta, logit, source, spread;
+            points.push_back(x);
           }
         }
       }
     }
-    if (!std::isfinite(value)) {
-      return std::nullopt;
+    std::vector<Scored> starts(points.size());
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) { starts[i] = score(points[i]); });
+    return starts;
+  }
+  /// The three best ones, the best first.
+  [[nodiscard]] static std::vector<Scored> best_of(std::vector<Scored> starts) {
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Scored& a, const Scored& b) { return a.value > b.value; });
+    constexpr std::size_t kMost = 3;
+    starts.resize(std::min(kMost, starts.size()));
+    return starts;
+  }
+  void improve(Scored& best, double step) const {
+    if (!std::isfinite(best.value)) {
+      return;
     }
-    const int rounds = has_nearby ? 1 : 3;
-    for (int round = 0; round < rounds; ++round) {
-      search::SearchSpace space;
-      space.start = best;
-      space.step = VectorXd::Constant(best.size(), round == 0 ? 1.0 : 0.6);
-      space.lower = VectorXd::Constant(best.size(), -30.0);
-      space.upper = VectorXd::Constant(best.size(), 12.0);
-      space.evaluations = evaluations_;
-      space.tolerance = 1e-3;
-      const search::BestPoint found =
-          search::maximize([this](const VectorXd& x) { return score(x); }, space);
-      if (found.value > value) {
-        value = found.value;
-        best = found.point;
-      }
-    }
-    return best;
+    const rigor::NearestRounding nearest;
+    search::SearchSpace space;
+    space.start = best.point;
+    space.step = VectorXd::Constant(best.point.size(), step);
+    space.lower = VectorXd::Constant(best.point.size(), -30.0);
+    space.upper = VectorXd::Constant(best.point.size(), 12.0);
+    space.evaluations = evaluations_;
+    space.tolerance = 1e-3;
+    (void)search::maximize(
+        [&](const VectorXd& x) {
+          const Scored here = score(x);
+          if (here.value > best.value) {
+            best = here;
+          }
+          return here.value;
+        },
+        space);
   }
 
-  static constexpr double kLargestGrowth = 0.982;
-
- private:
   const TrackedTone* tone_;
   std::array<NodeCurve, 3> nodes_;
   Coordinates coordinates_;
@@ -479,7 +577,7 @@ std::optional<FilterOnGrid> on_grid(const TrackedTone& tone, const NodeCurve& cu
     const FilterOnOrbit& here = orbit.here();
     grid.low.col(j) = triangle_of(here.low);
     grid.high.col(j) = triangle_of(here.high);
-    const MatrixXd root = Eigen::LLT<MatrixXd>(here.shape).matrixL();
+    const MatrixXd root = Eigen::LLT<Small>(here.shape).matrixL();
     grid.shape.col(j) = triangle_of(root);
   });
   const bool all = std::all_of(is_known.begin(), is_known.end(), [](char known) { return known != 0; });
@@ -562,7 +660,7 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
   const rigor::NearestRounding nearest;
   const Index n = tone.filter->states;
   const double rate = proposal.steady_state.rate;
-  if (!(rate < 1.0)) {
+  if (!(rate < 1.0) || n > kMostStates) {
     proposal.outcome = TubeOutcome::no_shape;
     return;
   }

@@ -60,8 +60,9 @@ double best_logarithm(double highest, const Eigen::MatrixXd& size, const Matrix&
     factor.matrixL().solveInPlace(matrix);
     matrix.transposeInPlace();
     factor.matrixL().solveInPlace(matrix);
-    const double least =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
+    const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
+                             .eigenvalues()
+                             .minCoeff();
     return std::isfinite(least) ? -least : std::numeric_limits<double>::max();
   };
   constexpr int kSteps = 20;

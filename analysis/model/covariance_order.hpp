@@ -15,14 +15,15 @@ struct JacobianParts {
 };
 
 /// Of a Jacobian over models in xi, s and z. Needs a scope without a ball, and the upward rounding mode.
-[[nodiscard]] JacobianParts parts_of_jacobian(const std::vector<rigor::BallModel>& jacobian, std::size_t states);
+[[nodiscard]] JacobianParts parts_of_jacobian(const std::vector<rigor::BallModel>& jacobian,
+                                              std::size_t states);
 
 /// sum_a sum_alpha w_alpha A_alpha P A_alpha' / t_a + error^2 |P| I / t_4, sum t = 1: above (F - F_0) P (F -
 /// F_0)' for every xi of the ball, if P is positive semidefinite.
 [[nodiscard]] BallMatrix spread_of(const JacobianParts& jacobian, const BallMatrix& covariance);
 
-/// Whether F P F' + Q < high for every xi of the ball. With any eta > 0, F P F' <= (1 + eta) F_0 P F_0' + (1 +
-/// 1/eta) spread. P is positive semidefinite.
+/// Whether F P F' + Q < high for every xi of the ball. With any eta > 0, F P F' <= (1 + eta) F_0 P F_0' + (1
+/// + 1/eta) spread. P is positive semidefinite.
 [[nodiscard]] bool stays_below(const JacobianParts& jacobian, const BallMatrix& covariance,
                                const BallMatrix& process, const BallMatrix& high);
 /// Whether F P F' + Q > low for every xi: F P F' >= (1 - eta) F_0 P F_0' - (1/eta - 1) spread, 0 < eta < 1.

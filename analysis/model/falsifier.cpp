@@ -175,7 +175,8 @@ TubeAttack attack_tubes(const TrackerModel& model, const TubeSet& set, const Att
     const ProvedTube& proved = set.tubes[number % set.tubes.size()];
     const double frequency = proved.tube.frequency + (2.0 * uniform(engine) - 1.0) * proved.tube.half_width;
     AttackRun run(model, proved.tube, {frequency, kTurn * uniform(engine), set.noise, set.slew});
-    Eigen::VectorXd start = proved.levels.front() * random_direction(engine, static_cast<Eigen::Index>(proved.tube.curve.size()));
+    Eigen::VectorXd start =
+        proved.levels.front() * random_direction(engine, static_cast<Eigen::Index>(proved.tube.curve.size()));
     for (int i = 0; i < settings.ascents; ++i) {
       start = steeper(run, start);
     }

@@ -227,7 +227,7 @@ BallMatrix updated(const BallMatrix& predicted, const FilterNoise& noise) {
 }
 
 trackers::FilterValues<BallModel> parts_at(const TrackerModel& model, const std::vector<BallModel>& estimate,
-                                          const std::vector<BallModel>& samples) {
+                                           const std::vector<BallModel>& samples) {
   std::vector<BallModel> inputs;
   for (const Interval& constant : model.constants) {
     inputs.emplace_back(constant);

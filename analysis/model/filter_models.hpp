@@ -19,7 +19,9 @@ class BallMatrix {
 
   [[nodiscard]] std::size_t rows() const { return entries_.size() / columns_; }
   [[nodiscard]] std::size_t columns() const { return columns_; }
-  [[nodiscard]] rigor::BallModel& operator()(std::size_t i, std::size_t j) { return entries_[i * columns_ + j]; }
+  [[nodiscard]] rigor::BallModel& operator()(std::size_t i, std::size_t j) {
+    return entries_[i * columns_ + j];
+  }
   [[nodiscard]] const rigor::BallModel& operator()(std::size_t i, std::size_t j) const {
     return entries_[i * columns_ + j];
   }
@@ -42,7 +44,8 @@ class BallMatrix {
 /// The lower triangular factor; entries are not known where a pivot can vanish.
 [[nodiscard]] BallMatrix cholesky(const BallMatrix& a);
 /// L^-1 b for a lower triangular L.
-[[nodiscard]] std::vector<rigor::BallModel> solved(const BallMatrix& l, const std::vector<rigor::BallModel>& b);
+[[nodiscard]] std::vector<rigor::BallModel> solved(const BallMatrix& l,
+                                                   const std::vector<rigor::BallModel>& b);
 
 /// Whether a matrix of models in s and z alone is positive definite, in the whole cell. Symmetric: the lower
 /// triangle is read.
@@ -65,7 +68,7 @@ struct FilterNoise {
 
 /// The values of the filter's parts at this estimate with these samples.
 [[nodiscard]] trackers::FilterValues<rigor::BallModel> parts_at(const TrackerModel& model,
-                                                               const std::vector<rigor::BallModel>& estimate,
-                                                               const std::vector<rigor::BallModel>& samples);
+                                                                const std::vector<rigor::BallModel>& estimate,
+                                                                const std::vector<rigor::BallModel>& samples);
 
 }  // namespace veritrack::model

@@ -244,7 +244,9 @@ class FilterOrbit {
   }
 
  private:
-  [[nodiscard]] SmallVector at(double phase) const { return state_at(*curve_, phase).head(numbers_.states()); }
+  [[nodiscard]] SmallVector at(double phase) const {
+    return state_at(*curve_, phase).head(numbers_.states());
+  }
 
   const TrackedTone* tone_;
   FilterNumbers numbers_;
@@ -258,8 +260,8 @@ class FilterOrbit {
 };
 
 /// Parameters as a point: the logarithm of eta, the logits of theta and of lambda between the square of the
-/// rate and 1, the logarithms of b and d, those of W in units of the states, and, when it is searched for, that
-/// of V.
+/// rate and 1, the logarithms of b and d, those of W in units of the states, and, when it is searched for,
+/// that of V.
 struct Coordinates {
   double rate_squared;
   VectorXd sizes;
@@ -289,8 +291,8 @@ struct FilterWorth {
 };
 
 /// Over so many samples of an orbit, after `before`.
-FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curve, const FilterParameters& parameters,
-                           int before, int samples) {
+FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curve,
+                           const FilterParameters& parameters, int before, int samples) {
   FilterOrbit orbit(tone, curve, parameters);
   orbit.begin(0.3);
   FilterWorth worth;
@@ -378,14 +380,16 @@ class FilterSearch {
   [[nodiscard]] double largest_scale(const VectorXd& x, const Worth& worth_of) const {
     const auto may_be = [&](double logarithm) {
       const FilterWorth worth = worth_of(coordinates_.at(scaled(x, logarithm)));
-      return worth.growth <= kLargestGrowth && !(largest_reach_ > 0.0 && worth.most_reach > 0.97 * largest_reach_);
+      return worth.growth <= kLargestGrowth &&
+             !(largest_reach_ > 0.0 && worth.most_reach > 0.97 * largest_reach_);
     };
     constexpr double kStep = 1.2;
     constexpr int kMostSteps = 9;
     double low = 0.0;
     int steps = 0;
     const bool grows = may_be(0.0);
-    for (double tried = grows ? kStep : -kStep; steps < kMostSteps; ++steps, tried += grows ? kStep : -kStep) {
+    for (double tried = grows ? kStep : -kStep; steps < kMostSteps;
+         ++steps, tried += grows ? kStep : -kStep) {
       const bool is_possible = may_be(tried);
       low = is_possible || !grows ? tried : low;
       if (is_possible != grows) {
@@ -445,7 +449,8 @@ class FilterSearch {
           }
         }
         starts.assign(points.size(), {});
-        tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) { starts[i] = score(points[i]); });
+        tbb::parallel_for(std::size_t{0}, points.size(),
+                          [&](std::size_t i) { starts[i] = score(points[i]); });
       }
       starts = best_of(std::move(starts));
     }
@@ -453,9 +458,8 @@ class FilterSearch {
       return std::nullopt;
     }
     tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) { improve(starts[i], 1.0); });
-    Scored best = *std::max_element(starts.begin(), starts.end(), [](const Scored& a, const Scored& b) {
-      return a.value < b.value;
-    });
+    Scored best = *std::max_element(starts.begin(), starts.end(),
+                                    [](const Scored& a, const Scored& b) { return a.value < b.value; });
     if (starts.size() > 1) {
       improve(best, 0.5);
       improve(best, 0.8);
@@ -650,7 +654,10 @@ double mismatch(const MatrixXd& a, const MatrixXd& b) {
   }
   MatrixXd difference = root.matrixL().solve(a - b);
   difference = root.matrixL().solve(difference.transpose()).eval();
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(difference, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs().maxCoeff();
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(difference, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .cwiseAbs()
+      .maxCoeff();
 }
 
 }  // namespace
@@ -719,7 +726,8 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
     double worst = 0.0;
     for (const auto& [z, exact] : judges) {
       for (Index j = 0; j < exact.low.cols(); ++j) {
-        const double phase = 2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(exact.low.cols());
+        const double phase =
+            2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(exact.low.cols());
         const auto of = [&](const Fit& one, bool is_symmetric) {
           return matrix_of_triangle(value_of(one, z, phase), n, is_symmetric);
         };
@@ -727,9 +735,10 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
         const MatrixXd exact_u = matrix_of_triangle(exact.shape.col(j), n, false);
         constexpr double kOfBounds = 0.2 * kSlack;
         constexpr double kOfShape = 0.01;
-        worst = std::max({worst, mismatch(of(fit[0], true), matrix_of_triangle(exact.low.col(j), n, true)) / kOfBounds,
-                          mismatch(of(fit[1], true), matrix_of_triangle(exact.high.col(j), n, true)) / kOfBounds,
-                          mismatch(u * u.transpose(), exact_u * exact_u.transpose()) / kOfShape});
+        worst = std::max(
+            {worst, mismatch(of(fit[0], true), matrix_of_triangle(exact.low.col(j), n, true)) / kOfBounds,
+             mismatch(of(fit[1], true), matrix_of_triangle(exact.high.col(j), n, true)) / kOfBounds,
+             mismatch(u * u.transpose(), exact_u * exact_u.transpose()) / kOfShape});
       }
     }
     proposal.loss = std::min(proposal.loss, worst);

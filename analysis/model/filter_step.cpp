@@ -78,8 +78,9 @@ FilterPlace place_of_filter(const TrackerModel& model, const Tube& tube, const T
   };
   BallMatrix spread = in_units(transposed(in_units(delta)));
   BallMatrix factor = cholesky(congruent(weighted, delta));
-  return {std::move(frame), std::move(noise), std::move(low_here), std::move(high_here), std::move(low_there),
-          std::move(high_there), std::move(gain), std::move(spread), std::move(factor)};
+  return {std::move(frame),     std::move(noise),     std::move(low_here),
+          std::move(high_here), std::move(low_there), std::move(high_there),
+          std::move(gain),      std::move(spread),    std::move(factor)};
 }
 
 /// Whether the bounds are a nonempty range of covariances, and bounds again at the next phase.
@@ -109,12 +110,13 @@ bool keeps_covariance(const TrackerModel& model, const FilterPlace& place, doubl
 /// The coefficients of a class at s = z = 0, a row for each model.
 Eigen::MatrixXd linear_at_middle(const std::vector<BallModel>& vector, int ball, int disturbance) {
   const rigor::BallMonomials& monomials = vector.front().monomials();
-  const rigor::BallMonomials::Class& here =
-      monomials.classes()[monomials.class_of(ball, disturbance, 0, 0)];
-  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(vector.size()), static_cast<Eigen::Index>(here.last - here.first));
+  const rigor::BallMonomials::Class& here = monomials.classes()[monomials.class_of(ball, disturbance, 0, 0)];
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(vector.size()),
+                         static_cast<Eigen::Index>(here.last - here.first));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      matrix(i, j) = vector[static_cast<std::size_t>(i)].coefficients()[here.first + static_cast<std::size_t>(j)];
+      matrix(i, j) =
+          vector[static_cast<std::size_t>(i)].coefficients()[here.first + static_cast<std::size_t>(j)];
     }
   }
   return matrix;
@@ -206,7 +208,8 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
   std::vector<BallModel> samples;
   for (std::size_t c = 0; c < channels; ++c) {
     const BallModel sample = place.frame.next[c].lifted();
-    samples.push_back(is_noisy ? sample + BallModel(noise) * BallModel::disturbance(static_cast<int>(c)) : sample);
+    samples.push_back(is_noisy ? sample + BallModel(noise) * BallModel::disturbance(static_cast<int>(c))
+                               : sample);
   }
   const trackers::FilterValues<BallModel> values = parts_at(model, state, samples);
   const BallMatrix gain = lifted(place.gain);

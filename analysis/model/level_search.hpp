@@ -102,8 +102,8 @@ class LevelSearch {
     LevelQuestion question{radius, noise};
     // What is kept for a radius is kept for smaller ones.
     question.with_covariance = radius > kept_radius_;
-    const bool may = !task_->deadline.is_over() &&
-                     sampled_growth(*model_, proved_.tube, question, kPhases) <= slow_;
+    const bool may =
+        !task_->deadline.is_over() && sampled_growth(*model_, proved_.tube, question, kPhases) <= slow_;
     kept_radius_ = may ? std::max(kept_radius_, radius) : kept_radius_;
     return may;
   }
@@ -179,7 +179,7 @@ class LevelSearch {
   const SetTask* task_;
   ProvedTube proved_;
   std::size_t last_cells_ = 0;  ///< of the last verification that succeeded
-  double kept_radius_ = 0.0;  ///< for which points allow that bounds of a covariance are kept
+  double kept_radius_ = 0.0;    ///< for which points allow that bounds of a covariance are kept
   double slow_ = 1.0;
   double fast_ = 1.0;
 };

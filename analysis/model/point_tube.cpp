@@ -12,7 +12,9 @@ Eigen::VectorXd PointFrame::coordinates(const Eigen::VectorXd& state) const {
 }
 
 PointTube::PointTube(const Tube& tube, double frequency)
-    : tube_(&tube), series_(tube.curve.size() + tube.shape.size() + tube.covariance_low.size() + tube.covariance_high.size()) {
+    : tube_(&tube),
+      series_(tube.curve.size() + tube.shape.size() + tube.covariance_low.size() +
+              tube.covariance_high.size()) {
   move_to(frequency);
 }
 

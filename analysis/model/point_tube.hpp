@@ -15,7 +15,8 @@ namespace veritrack::model {
 struct PointFrame {
   Eigen::VectorXd curve;
   Eigen::MatrixXd shape;  ///< lower triangular
-  /// Of a tube that bounds a covariance: the middle of the bounds of the predicted one; otherwise without rows.
+  /// Of a tube that bounds a covariance: the middle of the bounds of the predicted one; otherwise without
+  /// rows.
   Eigen::MatrixXd covariance;
 
   /// Of a filter with such a tube: the estimate alone.
@@ -43,8 +44,8 @@ class PointTube {
 
   const Tube* tube_;
   double frequency_ = NAN;
-  // Harmonics of the curve, then of the lower triangle of the shape and those of the bounds of a covariance, the
-  // powers of z summed up.
+  // Harmonics of the curve, then of the lower triangle of the shape and those of the bounds of a covariance,
+  // the powers of z summed up.
   std::vector<std::vector<std::complex<double>>> series_;
   std::size_t harmonics_ = 0;
 };

@@ -18,7 +18,8 @@ using rigor::Interval;
 
 std::size_t most_harmonics(const Tube& tube) {
   std::size_t most = 0;
-  for (const std::vector<PhaseSeries>* part : {&tube.curve, &tube.shape, &tube.covariance_low, &tube.covariance_high}) {
+  for (const std::vector<PhaseSeries>* part :
+       {&tube.curve, &tube.shape, &tube.covariance_low, &tube.covariance_high}) {
     for (const PhaseSeries& series : *part) {
       most = std::max(most, series.coefficients.size());
     }
@@ -28,7 +29,8 @@ std::size_t most_harmonics(const Tube& tube) {
 
 std::size_t most_powers(const Tube& tube) {
   std::size_t most = 0;
-  for (const std::vector<PhaseSeries>* part : {&tube.curve, &tube.shape, &tube.covariance_low, &tube.covariance_high}) {
+  for (const std::vector<PhaseSeries>* part :
+       {&tube.curve, &tube.shape, &tube.covariance_low, &tube.covariance_high}) {
     for (const PhaseSeries& series : *part) {
       for (const auto& harmonic : series.coefficients) {
         most = std::max(most, harmonic.size());

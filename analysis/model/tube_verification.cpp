@@ -55,7 +55,8 @@ std::string objection_to_phases(const TrackerModel& model, const Tube& tube) {
   if (!is_periodic(*model.signal, model.constants)) {
     return "the signal is not known to have the period 2 pi in its phase";
   }
-  if (tube.bounds_covariance() && std::any_of(tube.turns.begin(), tube.turns.end(), [](int turns) { return turns != 0; })) {
+  if (tube.bounds_covariance() &&
+      std::any_of(tube.turns.begin(), tube.turns.end(), [](int turns) { return turns != 0; })) {
     return "the estimate of a filter turns";
   }
   for (std::size_t i = 0; i < tube.turns.size(); ++i) {

@@ -82,9 +82,8 @@ class ModelClaims {
       add(claim);
     }
     if (const Scope scope = scope_of({&starts}); scope.is_any && knows_bias()) {
-      Claim claim =
-          told("model/steady-state", words_for(scope.part).constant_tone() +
-                                         ", without noise, " + words_.started_in("starts"));
+      Claim claim = told("model/steady-state", words_for(scope.part).constant_tone() + ", without noise, " +
+                                                   words_.started_in("starts"));
       const std::string low = below(starts.bias.lower());
       const std::string high = above(starts.bias.upper());
       const std::string ripple = above(starts.ripple);
@@ -137,8 +136,7 @@ class ModelClaims {
       decide_size(claim, covers_assumptions() ? deciding_->reach : 0.0, *number,
                   "The certified set reaches {} rad/sample");
     }
-    const std::string settled =
-        words_.constant_tone() + ", without noise, " + words_.started_in("starts");
+    const std::string settled = words_.constant_tone() + ", without noise, " + words_.started_in("starts");
     if (const auto& number = require.bias_below) {
       Claim claim =
           required("model/bias", *number, "", "the mean frequency error is at most {}", frequency_words);

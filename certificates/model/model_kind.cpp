@@ -42,8 +42,8 @@ std::ptrdiff_t required_claims_of(const Certificate& certificate) {
 
 void certify_model(Certificate& certificate, const CertifyProgress& progress) {
   const auto certify = [&](Certificate result, bool by_structure) {
-    result.particulars = certify_sets(model_tables(result.design), result.extent, result.deadline, progress,
-                                      by_structure);
+    result.particulars =
+        certify_sets(model_tables(result.design), result.extent, result.deadline, progress, by_structure);
     add_model_claims(result);
     return result;
   };

@@ -53,8 +53,8 @@ struct ModelSets {
 [[nodiscard]] model::TrackerModel proved_model(const Model& model, const ModelAssumptions& assume);
 [[nodiscard]] model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume);
 
-/// Whether the covariance of a filter is bounded by matrices, so that tubes are those of its estimate alone: at
-/// constant frequencies, with bounded noise, where no start names an entry of the covariance.
+/// Whether the covariance of a filter is bounded by matrices, so that tubes are those of its estimate alone:
+/// at constant frequencies, with bounded noise, where no start names an entry of the covariance.
 [[nodiscard]] bool bounds_covariance(const Model& model, const ModelTables& tables);
 
 /// The band, rad/sample. Needs the upward rounding mode.
@@ -76,8 +76,8 @@ struct SearchedBand {
 [[nodiscard]] const ModelSets& model_sets(const Certificate& certificate);
 
 /// Searches and verifies. `extent`: without what only is told beside the requirements. After the deadline no
-/// more is searched for; what is proved by then is kept. `by_structure`: the covariance of a filter is bounded
-/// by matrices where it can be.
+/// more is searched for; what is proved by then is kept. `by_structure`: the covariance of a filter is
+/// bounded by matrices where it can be.
 [[nodiscard]] ModelSets certify_sets(const ModelTables& tables, Extent extent,
                                      const search::Deadline& deadline, const CertifyProgress& progress,
                                      bool by_structure = true);

@@ -11,7 +11,7 @@ struct Dependence {
 
   Dependence() = default;
   Dependence(const Ball& /*constant*/) {}  // NOLINT(google-explicit-constructor)
-  Dependence(double /*constant*/) {}  // NOLINT(google-explicit-constructor)
+  Dependence(double /*constant*/) {}       // NOLINT(google-explicit-constructor)
   static Dependence variable() {
     Dependence x;
     x.depends = true;

@@ -166,12 +166,12 @@ bool FilterStep::keeps_covariance(double radius) const {
   }
   const VectorMonomials monomials(states_, 0);
   const JacobianForms jacobian(
-      model_->recursion->filter_parts(here_.point(radius, components(monomials)), signal_).jacobian, monomials);
+      model_->recursion->filter_parts(here_.point(radius, components(monomials)), signal_).jacobian,
+      monomials);
   const auto is_kept = [&](const PlaceMatrix& covariance, const PlaceMatrix& bound, bool is_high) {
     const PlaceMatrix carried = congruence(jacobian.constant(), covariance);
     const PlaceMatrix spread = jacobian.spread(covariance);
-    const PlaceMatrix room =
-        is_high ? sum(bound, process_noise_, minus) : sum(process_noise_, bound, minus);
+    const PlaceMatrix room = is_high ? sum(bound, process_noise_, minus) : sum(process_noise_, bound, minus);
     // F P F' <= (1 + eta) F_0 P F_0' + (1 + 1/eta) spread, and >= (1 - eta) F_0 P F_0' - (1/eta - 1) spread.
     const auto left = [&](const PlaceMatrix& of_room, const PlaceMatrix& of_carried,
                           const PlaceMatrix& of_spread, double eta) {
@@ -218,8 +218,8 @@ std::vector<BallPolynomial> FilterStep::map(double radius, double noise) const {
     }
   }
   const PlaceMatrix gain = product(middle, mirrored(weighted_));
-  // P+ = middle + D Y D', D D' = delta, |Y| <= 1: what it does beside the middle is D p with |p| <= |L' i|, L L'
-  // = R^-1 H delta H' R^-1 and i the innovation.
+  // P+ = middle + D Y D', D D' = delta, |Y| <= 1: what it does beside the middle is D p with |p| <= |L' i|, L
+  // L' = R^-1 H delta H' R^-1 and i the innovation.
   const PlaceMatrix reach = root_of(congruence(weighted_, delta));
   std::vector<BallPolynomial> samples = signal_;
   if (noise != 0.0) {

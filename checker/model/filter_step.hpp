@@ -1,9 +1,9 @@
-// One step of an extended Kalman filter in a tube that bounds its covariance, over a part of the tube's phases
-// and frequencies.
+// One step of an extended Kalman filter in a tube that bounds its covariance, over a part of the tube's
+// phases and frequencies.
 //
 // The updated covariance P+ = P - P H' (H P H' + R)^-1 H P grows with the predicted one, P, in the order of
-// symmetric matrices, and the estimate after it is x+ = x^ + P+ H' R^-1 (y - h(x^)). Of P+ it is used only that
-// it is between the updated bounds.
+// symmetric matrices, and the estimate after it is x+ = x^ + P+ H' R^-1 (y - h(x^)). Of P+ it is used only
+// that it is between the updated bounds.
 #pragma once
 
 #include <vector>

@@ -47,7 +47,12 @@ Ball written(const Tree& claim, const char* name) {
 
 ModelClaims::ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
                          const std::map<std::string, TubeSet>& sets, std::int64_t& cells)
-    : tree_(&tree), design_(&design), model_(&model), sets_(&sets), cells_(&cells), words_(tree, std::nullopt, bound_covariance(sets)) {
+    : tree_(&tree),
+      design_(&design),
+      model_(&model),
+      sets_(&sets),
+      cells_(&cells),
+      words_(tree, std::nullopt, bound_covariance(sets)) {
   Objections said_before;  // by the design
   units_ = FrequencyWords(tree.at("assume"), said_before);
 }

@@ -146,13 +146,12 @@ std::vector<BallPolynomial> forward(const PlaceMatrix& l, const std::vector<Ball
 PlaceMatrix positive_inverse(const PlaceMatrix& a) {
   PlaceMatrix result = place_matrix(a.size(), a.size());
   if (a.size() == 1) {
-    result[0][0] =
-        certainly_positive(a[0][0].range()) ? reciprocal(a[0][0]) : BallPolynomial::everything();
+    result[0][0] = certainly_positive(a[0][0].range()) ? reciprocal(a[0][0]) : BallPolynomial::everything();
     return result;
   }
   const BallPolynomial determinant = a[0][0] * a[1][1] - a[1][0] * a[1][0];
-  const bool is_positive = a.size() == 2 && certainly_positive(a[0][0].range()) &&
-                           certainly_positive(determinant.range());
+  const bool is_positive =
+      a.size() == 2 && certainly_positive(a[0][0].range()) && certainly_positive(determinant.range());
   const BallPolynomial share = is_positive ? reciprocal(determinant) : BallPolynomial::everything();
   result[0][0] = a[1][1] * share;
   result[1][1] = a[0][0] * share;

@@ -21,8 +21,8 @@ PlaceMatrix symmetric_of(const std::vector<BallPolynomial>& triangle, std::size_
 PlaceMatrix root_of(const PlaceMatrix& a);
 /// L^-1 b.
 std::vector<BallPolynomial> forward(const PlaceMatrix& l, const std::vector<BallPolynomial>& b);
-/// The inverse of a symmetric matrix of one or two rows; nothing is known of it unless it is certainly positive
-/// definite.
+/// The inverse of a symmetric matrix of one or two rows; nothing is known of it unless it is certainly
+/// positive definite.
 PlaceMatrix positive_inverse(const PlaceMatrix& a);
 
 /// The matrix in the middle of the cell, about: a proposal.

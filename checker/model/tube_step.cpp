@@ -15,7 +15,8 @@ class HarmonicBasis {
  public:
   HarmonicBasis(const PhaseTube& tube, const TubePart& part, bool later) {
     std::size_t most_harmonics = 0;
-    for (const std::vector<PhaseSeries>* list : {&tube.curve, &tube.shape, &tube.covariance_low, &tube.covariance_high}) {
+    for (const std::vector<PhaseSeries>* list :
+         {&tube.curve, &tube.shape, &tube.covariance_low, &tube.covariance_high}) {
       for (const PhaseSeries& series : *list) {
         most_harmonics = std::max(most_harmonics, series.size());
         for (const auto& harmonic : series) {

@@ -49,7 +49,7 @@ struct FrequencyMove {
 /// The curve and the shape over a part of a tube, or where they are a sample later.
 struct TubeOver {
   std::vector<BallPolynomial> curve;
-  std::vector<BallPolynomial> shape;  ///< the lower triangle, row by row
+  std::vector<BallPolynomial> shape;                            ///< the lower triangle, row by row
   std::vector<BallPolynomial> covariance_low, covariance_high;  ///< of a filter: lower triangles
 
   /// `later`: a sample later, at the same frequency or one that it moves to.

@@ -8,9 +8,9 @@
 
 namespace veritrack::trackers {
 
-/// A filter with a linear measurement, y = H x + h_0 + noise, H constant. From the filtered estimate x and the
-/// covariance P: x^ = f(x), P^ = F P F' + Q, then P+ = P^ - P^ H' (H P^ H' + R)^-1 H P^ and x+ = x^ + P+ H'
-/// R^-1 (y - H x^ - h_0).
+/// A filter with a linear measurement, y = H x + h_0 + noise, H constant. From the filtered estimate x and
+/// the covariance P: x^ = f(x), P^ = F P F' + Q, then P+ = P^ - P^ H' (H P^ H' + R)^-1 H P^ and x+ = x^ + P+
+/// H' R^-1 (y - H x^ - h_0).
 struct FilterParts {
   /// Inputs: constants, x, samples. Results: x^ and then, row by row, F, the innovation y - H x^ - h_0, H, Q
   /// and R, of which the last three depend on the constants only.
@@ -32,7 +32,8 @@ struct FilterValues {
 
 /// Runs the program; `inputs` are constants, x and samples.
 template <typename Scalar>
-[[nodiscard]] FilterValues<Scalar> filter_values(const FilterParts& parts, const std::vector<Scalar>& inputs) {
+[[nodiscard]] FilterValues<Scalar> filter_values(const FilterParts& parts,
+                                                 const std::vector<Scalar>& inputs) {
   std::vector<Scalar> registers;
   std::vector<Scalar> results(parts.program.results().size());
   parts.program.run(std::span<const Scalar>(inputs), registers, std::span<Scalar>(results));

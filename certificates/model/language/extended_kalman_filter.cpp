@@ -313,7 +313,7 @@ std::optional<trackers::FilterParts> compile_filter_parts(const FilterModel& mod
   trackers::FilterParts parts{builder.take().program, static_cast<int>(states), static_cast<int>(channels)};
   const std::size_t of_measurement = states + states * states + channels;
   const bool is_linear = !depends_on_inputs(parts.program, static_cast<int>(constants.size()), of_measurement,
-                                           parts.program.results().size());
+                                            parts.program.results().size());
   // Equal formulas are one register.
   const auto is_symmetric = [&](std::size_t first, std::size_t size) {
     const std::vector<int>& results = parts.program.results();

@@ -32,7 +32,8 @@ std::string filter_text(const std::string& measure = "'x1'", const std::string& 
   return "name = 'a'\ntracker = 'model'\n[model]\nsamples = 'y'\nparameters = { q = 0.005, r = 0.01 }\n"
          "frequency = '" +
          frequency +
-         "'\nstart = { x1 = 'A', x2 = 0, w = 'omega', 'P.x1.x1' = 0.01, 'P.x2.x2' = 0.01, 'P.w.w' = 0.01 }\n" +
+         "'\nstart = { x1 = 'A', x2 = 0, w = 'omega', 'P.x1.x1' = 0.01, 'P.x2.x2' = 0.01, 'P.w.w' = 0.01 "
+         "}\n" +
          "[model.ekf]\nstates = ['x1', 'x2', 'w']\npredict = '''\nx1' = cos(w)*x1 - sin(w)*x2\n"
          "x2' = sin(w)*x1 + cos(w)*x2\nw' = w\n'''\nmeasure = " +
          measure + "\nQ = [['q', " + q12 + ", 0], [0, 'q', 0], [0, 0, 'q']]\nR = 'r'\n" + more +
@@ -121,8 +122,9 @@ TEST_CASE("the parts of a filter are those of its recursion") {
     const VectorXd predicted = Eigen::Map<const VectorXd>(parts.predicted.data(), 3);
     const VectorXd h = Eigen::Map<const VectorXd>(parts.measured.data(), 3);
     CHECK((covariance_of(next) - updated).cwiseAbs().maxCoeff() < 1e-13);
-    CHECK((next.head(3) - predicted - updated * h * parts.innovation[0] / parts.noise[0]).cwiseAbs().maxCoeff() <
-          1e-12);
+    CHECK((next.head(3) - predicted - updated * h * parts.innovation[0] / parts.noise[0])
+              .cwiseAbs()
+              .maxCoeff() < 1e-12);
   }
 }
 
@@ -131,9 +133,10 @@ TEST_CASE("only linear measurements, symmetric noise and an estimated frequency 
   CHECK_FALSE(Filter(filter_text("'x1 + 0.1*x1*x2'")).model.filter.has_value());
   CHECK_FALSE(Filter(filter_text("'x1'", "0.001")).model.filter.has_value());
   CHECK_FALSE(Filter(filter_text("'x1'", "0", "", "w + P.w.w")).model.filter.has_value());
-  CHECK_FALSE(Filter(filter_text("'x1'", "0",
-                                 "jacobian = [['cos(w)', '-sin(w)', 0], ['sin(w)', 'cos(w)', 0], [0, 0, 1]]\n"))
-                  .model.filter.has_value());
+  CHECK_FALSE(
+      Filter(filter_text("'x1'", "0",
+                         "jacobian = [['cos(w)', '-sin(w)', 0], ['sin(w)', 'cos(w)', 0], [0, 0, 1]]\n"))
+          .model.filter.has_value());
 }
 
 /// A tube that is proposed once, for noise.
@@ -175,7 +178,8 @@ TEST_CASE("a proved tube of a filter keeps every estimate and covariance in its 
     std::vector<MatrixXd> bounds;
     for (const bool is_high : {false, true}) {
       model::Tube one = tube;
-      (is_high ? one.covariance_low : one.covariance_high) = is_high ? tube.covariance_high : tube.covariance_low;
+      (is_high ? one.covariance_low : one.covariance_high) =
+          is_high ? tube.covariance_high : tube.covariance_low;
       model::PointFrame frame;
       model::PointTube(one, frequency).at(phase, frame);
       bounds.push_back(filter.updated(frame.covariance));
@@ -191,10 +195,11 @@ TEST_CASE("a proved tube of a filter keeps every estimate and covariance in its 
     const MatrixXd root = Eigen::LLT<MatrixXd>(0.5 * (here[1] - here[0])).matrixL();
     const VectorXd u = random_vector(random, 1.0);
     const std::uint64_t kind = random.below(4);
-    const MatrixXd y = kind == 0   ? MatrixXd(MatrixXd::Identity(3, 3))
-                       : kind == 1 ? MatrixXd(-MatrixXd::Identity(3, 3))
-                                   : MatrixXd((kind == 2 ? 1.0 : -1.0) *
-                                              (MatrixXd::Identity(3, 3) - 2.0 * u * u.transpose()));
+    const MatrixXd y =
+        kind == 0 ? MatrixXd(MatrixXd::Identity(3, 3))
+        : kind == 1
+            ? MatrixXd(-MatrixXd::Identity(3, 3))
+            : MatrixXd((kind == 2 ? 1.0 : -1.0) * (MatrixXd::Identity(3, 3) - 2.0 * u * u.transpose()));
     const MatrixXd covariance = 0.5 * (here[0] + here[1]) + root * y * root.transpose();
     const double level = radius * random.uniform(kLeast, 1.0);
     model::PointFrame frame;
@@ -226,8 +231,8 @@ TEST_CASE("wrong bounds of a covariance are not proved") {
   REQUIRE(proposal.tube);
   const double radius = 0.7 * proposal.worth.level;
   const auto is_proved = [&](const model::Tube& tube, double tried, double slew = 0.0) {
-    return model::verify_level(filter.tracker, tube, {tried, 0.0, 1.0, 1.0, slew}, {32, 1, 300, {}}).verdict ==
-           Verdict::proved;
+    return model::verify_level(filter.tracker, tube, {tried, 0.0, 1.0, 1.0, slew}, {32, 1, 300, {}})
+               .verdict == Verdict::proved;
   };
   CHECK(is_proved(*proposal.tube, radius));
   CHECK_FALSE(is_proved(*proposal.tube, radius, 1e-6));
@@ -237,10 +242,10 @@ TEST_CASE("wrong bounds of a covariance are not proved") {
     change(tube);
     return tube;
   };
-  CHECK_FALSE(is_proved(changed([](model::Tube& tube) { std::swap(tube.covariance_low, tube.covariance_high); }),
-                        radius));
-  CHECK_FALSE(
-      is_proved(changed([](model::Tube& tube) { tube.covariance_low = tube.covariance_high; }), 1e-6 * radius));
+  CHECK_FALSE(is_proved(
+      changed([](model::Tube& tube) { std::swap(tube.covariance_low, tube.covariance_high); }), radius));
+  CHECK_FALSE(is_proved(changed([](model::Tube& tube) { tube.covariance_low = tube.covariance_high; }),
+                        1e-6 * radius));
   for (const double factor : {0.5, 2.0}) {
     CHECK_FALSE(is_proved(changed([&](model::Tube& tube) {
                             auto& bound = factor < 1.0 ? tube.covariance_high : tube.covariance_low;

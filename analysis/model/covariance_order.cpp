@@ -144,10 +144,8 @@ BallMatrix spread_of(const JacobianParts& jacobian, const BallMatrix& covariance
   }
   sums.push_back(of_error);
   sizes.push_back(std::sqrt(std::max(0.0, squared.constant())));
-  double total = 0.0;
   for (double& size : sizes) {
     size = std::max(size, 1e-9 * *std::max_element(sizes.begin(), sizes.end()) + 1e-200);
-    total += size;
   }
   // (a + b + ...)^2 <= (sum of the t) (a^2/t_a + b^2/t_b + ...) for any positive t.
   Interval all(0.0);

@@ -198,7 +198,10 @@ double near_least_eigenvalue(const PlaceMatrix& a, const PlaceMatrix& unit) {
     }
   }
   const double least = -near_largest_eigenvalue(negative);
-  return std::isfinite(least) ? least : kNothing;
+  if (!std::isfinite(least)) {
+    return kNothing;
+  }
+  return least;
 }
 
 bool certainly_definite(const PlaceMatrix& a) {

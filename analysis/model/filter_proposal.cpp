@@ -223,7 +223,9 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
     std::array<Fit, 3> fit{fit_of(low, harmonics, 1.0), fit_of(high, harmonics, 1.0),
                            fit_of(shape, harmonics, scale)};
     double worst = 0.0;
-    for (const auto& [z, exact] : judges) {
+    for (const auto& judge : judges) {
+      const double z = judge.first;
+      const FilterOnGrid& exact = judge.second;
       for (Index j = 0; j < exact.low.cols(); ++j) {
         const double phase =
             2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(exact.low.cols());

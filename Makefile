@@ -7,13 +7,16 @@ MAKEFLAGS += --no-print-directory
 
 BUILD_PACKAGES := g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev coinor-libipopt-dev libnlopt-cxx-dev \
   libmpfr-dev nettle-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox \
-  libflint-arb-dev libflint-dev tao-pegtl-dev libsndfile1-dev
+  libflint-arb-dev libflint-dev tao-pegtl-dev libsndfile1-dev libcmark-gfm-dev libcmark-gfm-extensions-dev \
+  libkainjow-mustache-dev libpugixml-dev libjs-katex
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
 TEST_PACKAGES  := doctest-dev python3-jsonschema python3-yaml clang git
 LINT_PACKAGES  := clang clang-format clang-tidy git
 FUZZ_PACKAGES  := clang libclang-rt-14-dev doctest-dev
 PROOF_PACKAGES := coq libcoq-interval libcoq-coquelicot
 BENCH_PACKAGES := libbenchmark-dev libmpfi-dev
+# a browser for the pages, LaTeX for the tables, and npm for what tests/pages/package.json names (node's own where it is)
+PAGE_PACKAGES  := chromium texlive-latex-recommended $(if $(shell command -v npm),,npm)
 # dpkg-shlibdeps, which finds what the package needs
 DEB_PACKAGES   := dpkg-dev file
 
@@ -31,7 +34,7 @@ VERIFY_DESIGNS ?= $(shell scripts/one-of-each-kind) $(addprefix designs/models/,
 PROOF_DESIGNS  ?= designs/praly-section-v-proved-ell.toml designs/la-scala-1994-figure-3.5.toml \
   designs/bittanti-savaresi-2000-example-1.toml
 
-.PHONY: certificate verify proofs test lint format sanitize fuzz mutation bench deb clean
+.PHONY: certificate verify proofs pages test lint format sanitize fuzz mutation bench deb clean
 
 certificate:
 	@scripts/install-packages $(BUILD_PACKAGES)
@@ -53,6 +56,13 @@ proofs:
 	@cmake --build --preset release --parallel $(JOBS) --target veritrack >&2
 	@scripts/proofs "$(CURDIR)/build/release/veritrack" $(PROOF_DESIGNS)
 	@VERITRACK="$(CURDIR)/build/release/veritrack" python3 -B tests/cli/proofs_test.py
+
+# Pages in a browser, formulas rendered, tables through LaTeX: minutes, and large packages.
+pages:
+	@scripts/install-packages $(BUILD_PACKAGES) $(PAGE_PACKAGES)
+	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
+	@cmake --build --preset release --parallel $(JOBS) --target veritrack >&2
+	@scripts/test-pages build/release/veritrack
 
 test:
 	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES)
@@ -112,4 +122,4 @@ deb:
 	@ls build/release/packages/*.deb
 
 clean:
-	rm -rf build certificates-out tracks-out
+	rm -rf build certificates-out maps-out tracks-out tests/pages/node_modules

@@ -19,6 +19,7 @@ namespace rigor = veritrack::rigor;
 constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
     {"certify",
      "  veritrack certify my-design.toml\n"
+     "  veritrack certify my-design.toml --html --csv --latex\n"
      "  veritrack certify my-design.toml --out results/run-7 --coq"},
     {"check",
      "  veritrack check my-design.toml\n"
@@ -29,7 +30,7 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
      "  veritrack diff old.toml new.toml"},
     {"map",
      "  veritrack map my-design.toml\n"
-     "  veritrack map my-design.toml --frequency 0.5 --phase 1 --noise"},
+     "  veritrack map my-design.toml --frequency 0.5 --phase 1 --noise --html"},
     {"show",
      "  veritrack show my-loop.toml\n"
      "  veritrack show my-loop.toml --language c > tracker.c"},
@@ -54,6 +55,14 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
     {"manual", "  veritrack manual | man -l -"},
 }};
 
+/// --html, and for a document with tables and figures --csv and --latex.
+void add_renderings(CLI::App& command, const std::string& page, veritrack::reports::page::Renderings& into) {
+  command.add_flag("--html", into.html,
+                   "also write " + page + ", one page with everything in it, which fetches nothing");
+  command.add_flag("--csv", into.csv, "also write the data of every figure as CSV, beside it");
+  command.add_flag("--latex", into.latex, "also write the tables of the document for LaTeX");
+}
+
 void add_examples(CLI::App& app) {
   for (const auto& [command, examples] : kExamples) {
     app.get_subcommand(command)->footer(std::string("Examples:\n") + examples);
@@ -70,6 +79,8 @@ void add_commands(CLI::App& app, Arguments& into) {
                       "folder for the certificate (default: certificates-out/<name of the design file>)");
   certify->add_flag("--coq", into.certify.coq,
                     "also write certificate.v, proofs that the proof assistant Coq can check (make proofs)");
+
+  add_renderings(*certify, "certificate.html", into.certify.renderings);
 
   // Not CLI::Range, which lets pass what is not a number.
   const auto seconds = [](const std::string& text) {
@@ -138,6 +149,9 @@ void add_commands(CLI::App& app, Arguments& into) {
       ->check(CLI::Range(1, 200));
   map->add_flag("--noise", into.map.request.with_noise,
                 "with the noise of [assume], for quadrature-ekf with its slew, too; otherwise without any");
+
+  map->add_flag("--html", into.map.request.html,
+                "also write map.html, one page on which each cell of the map tells its values");
 
   CLI::App* show = app.add_subcommand(
       "show", "print the recursion of a tracker that is given as a model, or code that computes the same");
@@ -208,6 +222,7 @@ void add_commands(CLI::App& app, Arguments& into) {
                         "folder for the report (default: reports-out/<name of the report>)");
   reproduce->add_option("--seeds", into.reproduce.seeds, "noise seeds (default: those of docs/reports)")
       ->check(CLI::Range(1, 100000));
+  add_renderings(*reproduce, "report.html", into.reproduce.renderings);
 
   CLI::App* explain = app.add_subcommand(
       "explain", "what a claim of a certificate or a key of a design file means; alone, a list of them");

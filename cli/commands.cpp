@@ -71,7 +71,7 @@ ExitStatus run_certify(const CertifyOptions& options) {
     certificate.formal_proofs = certificates::coq_proofs(certificate);
   }
   const reports::CertificateFiles files =
-      reports::write_certificate_files(certificate, directory, options.design);
+      reports::write_certificate_files(certificate, directory, options.design, options.renderings);
   if (by_name) {
     mark_folder(directory, options.design);
   }
@@ -170,8 +170,9 @@ ExitStatus run_reproduce(const ReproduceOptions& options) {
   const bool limits = options.report == kLimitReport;
   const int published_seeds = limits ? 1000 : 200;
   const int seeds = options.seeds > 0 ? options.seeds : published_seeds;
-  const std::filesystem::path document = limits ? reports::write_limit_report(seeds, directory)
-                                                : reports::write_example_report(seeds, directory);
+  const std::filesystem::path document =
+      limits ? reports::write_limit_report(seeds, directory, options.renderings)
+             : reports::write_example_report(seeds, directory, options.renderings);
   fmt::print("{}\n", document.string());
   return all_proved;
 }

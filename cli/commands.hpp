@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/page/renderings.hpp"
 #include "reports/tracker_reports.hpp"
 
 namespace veritrack::cli {
@@ -19,6 +20,7 @@ struct CertifyOptions {
   std::string design;
   std::string directory;
   bool coq = false;
+  reports::page::Renderings renderings;
   double seconds = 0.0;  ///< after which the search ends; 0: never
   bool quiet = false;    ///< no progress on standard error
 };
@@ -82,6 +84,7 @@ struct TrackOptions {
 };
 
 struct ReproduceOptions {
+  reports::page::Renderings renderings;
   std::string report = kExampleReport;
   std::string directory;
   int seeds = 0;  ///< 0: the number used for the report in docs/reports

@@ -17,6 +17,7 @@
 
 #include "analysis/rigor/versions.hpp"
 #include "certificates/design/toml_source.hpp"
+#include "reports/page/assets.hpp"
 
 namespace veritrack::cli {
 
@@ -65,6 +66,9 @@ std::string version_text() {
   text += compiled("toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH));
   text += compiled("PEGTL", TAO_PEGTL_VERSION);
   text += compiled("CLI11", CLI11_VERSION);
+  for (const auto& [name, version] : reports::page::page_versions()) {
+    text += compiled(name, version);
+  }
   text.pop_back();
   return text;
 }

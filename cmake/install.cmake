@@ -27,6 +27,7 @@ install(FILES "${veritrack_manual}/_veritrack" DESTINATION "${CMAKE_INSTALL_DATA
 install(FILES "${veritrack_manual}/veritrack.fish" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d"
         COMPONENT programs)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT programs)
+install(FILES reports/page/katex-licence.txt DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT programs)
 install(FILES README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT programs)
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT programs)
 install(DIRECTORY designs DESTINATION "${CMAKE_INSTALL_DATADIR}/veritrack" COMPONENT programs)

@@ -1,5 +1,8 @@
 #include "reports/certificate_files.hpp"
 
+#include <fmt/format.h>
+
+#include <utility>
 #include <vector>
 
 #include "certificates/document/json.hpp"
@@ -37,24 +40,30 @@ Drawing draw(const certificates::Certificate& certificate, std::string& missing)
 
 CertificateFiles write_certificate_files(const certificates::Certificate& certificate,
                                          const std::filesystem::path& directory,
-                                         const std::filesystem::path& design) {
+                                         const std::filesystem::path& design,
+                                         const page::Renderings& renderings) {
   CertificateFiles written{directory / "certificate.md", {}};
+  page::Document document{"certificate", {}};
+  document.figure_folder = "figures/";
   certificates::MarkdownOptions options;
   certificates::OutputFiles files;
   files.keep(design);
-  const Drawing drawing = draw(certificate, written.missing_figures);
+  Drawing drawing = draw(certificate, written.missing_figures);
   for (const Figure& figure : drawing.figures) {
-    const std::string path = "figures/" + figure.file;
-    files.stage(directory / path, figure.svg);
-    options.figures.push_back({path, figure.title, figure.caption});
+    options.figures.push_back({document.figure_folder + figure.file, figure.title, figure.caption});
   }
+  document.figures = std::move(drawing.figures);
   options.drawn_with = drawing.drawn_with;
   const std::string json = certificates::to_json(certificate);
   options.certificate_sha256 = certificates::sha256(json);
-  files.stage(written.document, certificates::to_markdown(certificate, options));
-  if (const std::string published = certificates::to_published_markdown(certificate, options);
-      !published.empty()) {
-    files.stage(directory / "published-theorems.md", published);
+  document.markdown = certificates::to_markdown(certificate, options);
+  document.appendix = certificates::to_published_markdown(certificate, options);
+  document.how_to_check = fmt::format(
+      "veritrack-verify certificate.json --design {} --markdown certificate.md{}", certificate.design_file,
+      document.appendix.empty() ? "" : " --markdown published-theorems.md");
+  stage_document(files, directory, document, renderings);
+  if (!document.appendix.empty()) {
+    files.stage(directory / "published-theorems.md", document.appendix);
   }
   files.stage(directory / "certificate.json", json);
   files.stage(directory / "report.json", certificates::to_report_json(certificate));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/output_files.hpp"
@@ -39,13 +40,18 @@ struct Panel {
   ExampleRun run;
 };
 
-std::string data_of(const std::string& name, const ExampleRun& run) {
-  std::string block = fmt::format("${} << END\n", name);
-  for (std::size_t i = 0; i < run.frequency.size(); ++i) {
-    block += fmt::format("{} {:.6g} {:.6g} {:.6g}\n", i + 1, run.true_frequency[i], run.frequency[i],
-                         run.quadrature[i]);
+/// The runs of the panels; each is an index.
+FigureTable table_of(const std::vector<Panel>& panels) {
+  FigureTable table("runs", {"panel", "sample", "frequency of the signal [rad/sample]",
+                             "estimated frequency [rad/sample]", "estimated quadrature part [signal units]"});
+  for (const Panel& panel : panels) {
+    for (std::size_t i = 0; i < panel.run.frequency.size(); ++i) {
+      table.add({panel.title, static_cast<double>(i + 1), panel.run.true_frequency[i], panel.run.frequency[i],
+                 panel.run.quadrature[i]});
+    }
+    table.next_index();
   }
-  return block + "END\n";
+  return table;
 }
 
 std::string preamble(std::size_t panels) {
@@ -53,52 +59,53 @@ std::string preamble(std::size_t panels) {
 }
 
 /// Panels one above the other: the true frequency broad and grey, the estimate thin and black.
-std::string draw_panels(const std::vector<Panel>& panels) {
-  std::string script = preamble(panels.size());
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    script += data_of(fmt::format("panel{}", i), panels[i].run);
-  }
+Figure draw_panels(const char* file, const char* title, const std::vector<Panel>& panels) {
+  FigureTable table = table_of(panels);
+  std::string script = preamble(panels.size()) + table.block();
   script += fmt::format("set multiplot layout {},1\nset yrange [-0.5:3.2]\n", panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) {
     script += fmt::format(
-        "set title '{}'\nset ylabel 'rad/sample'\n{}"
-        "plot $panel{} using 1:2 with lines lw 3 lc rgb '#aaaaaa', '' using 1:3 with lines lw 1 lc rgb "
-        "'#000000'\n",
-        panels[i].title, i + 1 == panels.size() ? "set xlabel 'sample t'\n" : "", i);
+        "set title '{0}'\nset ylabel 'rad/sample'\n{2}"
+        "plot $runs index {1} using 2:3 with lines lw 3 lc rgb '#aaaaaa', '' index {1} using 2:4 with lines "
+        "lw 1 lc rgb '#000000'\n",
+        panels[i].title, i, i + 1 == panels.size() ? "set xlabel 'sample t'\n" : "");
   }
-  return run_gnuplot(script + "unset multiplot\n");
+  return {file, {}, run_gnuplot(script + "unset multiplot\n"), title, {std::move(table)}};
 }
 
 /// The estimate of the frequency and of the quadrature part of one run.
-std::string draw_failure(const ExampleRun& run) {
-  std::string script = preamble(2) + data_of("run", run);
+Figure draw_failure(const char* file, const char* title, const ExampleRun& run) {
+  FigureTable table = table_of({{"near zero", run}});
+  std::string script = preamble(2) + table.block();
   script +=
       "set multiplot layout 2,1\nset yrange [-0.5:3.2]\nset title 'frequency'\nset ylabel 'rad/sample'\n"
-      "plot $run using 1:2 with lines lw 3 lc rgb '#aaaaaa', '' using 1:3 with lines lw 1 lc rgb '#000000'\n"
+      "plot $runs using 2:3 with lines lw 3 lc rgb '#aaaaaa', '' using 2:4 with lines lw 1 lc rgb '#000000'\n"
       "set autoscale y\nset title 'estimate of the quadrature part'\nset ylabel 'signal units'\n"
-      "set xlabel 'sample t'\nplot $run using 1:4 with lines lw 1 lc rgb '#000000'\nunset multiplot\n";
-  return run_gnuplot(script);
+      "set xlabel 'sample t'\nplot $runs using 2:5 with lines lw 1 lc rgb '#000000'\nunset multiplot\n";
+  return {file, {}, run_gnuplot(script), title, {std::move(table)}};
 }
 
 /// How far two runs are apart in frequency, logarithmic.
-std::string draw_difference(const std::vector<Panel>& others, const ExampleRun& run) {
-  std::string script = preamble(1);
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    script += fmt::format("$other{} << END\n", i);
+Figure draw_difference(const char* file, const char* title, const std::vector<Panel>& others,
+                       const ExampleRun& run) {
+  FigureTable table("differences", {"run", "sample", "difference of the frequency estimates [rad/sample]"});
+  for (const Panel& other : others) {
     for (std::size_t t = 0; t < run.frequency.size(); ++t) {
-      const double difference = std::fabs(others[i].run.frequency[t] - run.frequency[t]);
-      script += fmt::format("{} {:.6g}\n", t + 1, std::max(difference, 1e-17));
+      const double difference = std::fabs(other.run.frequency[t] - run.frequency[t]);
+      table.add({other.title, static_cast<double>(t + 1), std::max(difference, 1e-17)});
     }
-    script += "END\n";
+    table.next_index();
   }
+  std::string script = preamble(1) + table.block();
   script +=
       "set key outside top center horizontal\nset logscale y\nset yrange [1e-17:1]\nset xrange [0:300]\n"
       "set format y '10^{%L}'\nset xlabel 'sample t'\nset ylabel 'rad/sample'\nplot ";
   for (std::size_t i = 0; i < others.size(); ++i) {
-    script += fmt::format("{}$other{} using 1:2 with lines lw 1.4 dt {} lc rgb '#000000' title '{}'",
-                          i == 0 ? "" : ", ", i, i + 1, others[i].title);
+    script +=
+        fmt::format("{}$differences index {} using 2:3 with lines lw 1.4 dt {} lc rgb '#000000' title '{}'",
+                    i == 0 ? "" : ", ", i, i + 1, others[i].title);
   }
-  return run_gnuplot(script + "\n");
+  return {file, {}, run_gnuplot(script + "\n"), title, {std::move(table)}};
 }
 
 std::string rate_table(const std::vector<StartRates>& rates) {
@@ -222,29 +229,34 @@ std::string reading_sentence(const std::vector<StartRates>& rates) {
       printed.empty() ? "1, 1, 1" : "0, 0, 1", criterion);
 }
 
-std::filesystem::path write_example_report(int seeds, const std::filesystem::path& directory) {
+std::filesystem::path write_example_report(int seeds, const std::filesystem::path& directory,
+                                           const page::Renderings& renderings) {
   const auto run = [](const ExampleSetting& setting) { return run_example(setting, kDrawnSeed); };
   const std::uint64_t figure_3_seed = seed_of_figure_3(seeds);
   const auto run_2 = [&](double lambda) { return run_example(drawn_example_2(lambda), figure_3_seed); };
   constexpr auto kIdentity = ProcessNoiseReading::identity;
-  certificates::OutputFiles files;
-  files.stage(directory / "figures/figure-2.svg",
-              draw_panels({{"(a) ε = 0.05", run(drawn(Example::one, kIdentity, 0.005, 0.01, 0.05))},
-                           {"(b) ε = 0", run(drawn(Example::one, kIdentity, 0.005, 0.01, 0.0))}}));
-  files.stage(
-      directory / "figures/figure-3.svg",
-      draw_panels({{"(a) λ = 0", run_2(0.0)}, {"(b) λ = 1", run_2(1.0)}, {"(c) λ = 10", run_2(10.0)}}));
-  files.stage(directory / "figures/near-zero.svg",
-              draw_failure(run(drawn(Example::one, ProcessNoiseReading::frequency_only, 0.005, 0.01, 0.0))));
   const auto scaled = [&](double factor) {
     return run(drawn(Example::one, kIdentity, factor * 0.005, factor * 0.01, 0.0));
   };
-  files.stage(directory / "figures/start-influence.svg",
-              draw_difference({{"α = 2", scaled(2.0)}, {"α = 100", scaled(100.0)}}, scaled(1.0)));
-  std::filesystem::path path = directory / "report.md";
-  files.stage(path, document(simulate_published_examples(seeds), seeds, figure_3_seed));
+  page::Document report{"report", document(simulate_published_examples(seeds), seeds, figure_3_seed)};
+  report.figure_folder = "figures/";
+  report.figures = {
+      draw_panels("figure-2.svg", "Two panels: the estimate over 1000 samples, with and without leak",
+                  {{"(a) ε = 0.05", run(drawn(Example::one, kIdentity, 0.005, 0.01, 0.05))},
+                   {"(b) ε = 0", run(drawn(Example::one, kIdentity, 0.005, 0.01, 0.0))}}),
+      draw_panels("figure-3.svg", "Three panels: the estimate for lambda = 0, 1 and 10",
+                  {{"(a) λ = 0", run_2(0.0)}, {"(b) λ = 1", run_2(1.0)}, {"(c) λ = 10", run_2(10.0)}}),
+      draw_failure("near-zero.svg", "The frequency estimate near zero, the quadrature part large",
+                   run(drawn(Example::one, ProcessNoiseReading::frequency_only, 0.005, 0.01, 0.0))),
+      draw_difference("start-influence.svg", "The difference of the estimates falls below rounding",
+                      {{"α = 2", scaled(2.0)}, {"α = 100", scaled(100.0)}}, scaled(1.0))};
+  for (Figure& figure : report.figures) {
+    figure = with_title(std::move(figure));
+  }
+  certificates::OutputFiles files;
+  stage_document(files, directory, report, renderings);
   files.commit();
-  return path;
+  return directory / "report.md";
 }
 
 }  // namespace veritrack::reports

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/single_channel/published_examples.hpp"
+#include "reports/page/renderings.hpp"
 
 namespace veritrack::reports {
 
@@ -25,6 +26,7 @@ struct StartRates {
 
 /// report.md and its figures into `directory`, whole or not at all. Returns the path of the document. Throws
 /// FigureError, and InputError when files cannot be written.
-std::filesystem::path write_example_report(int seeds, const std::filesystem::path& directory);
+std::filesystem::path write_example_report(int seeds, const std::filesystem::path& directory,
+                                           const page::Renderings& renderings = {});
 
 }  // namespace veritrack::reports

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "certificates/document/certificate.hpp"
+#include "reports/figure_table.hpp"
 
 namespace veritrack::reports {
 
@@ -14,6 +15,8 @@ struct Figure {
   std::string svg;
   std::string title =
       {};  ///< what it shows, in a few words: the title of the SVG, and the text instead of it
+  std::vector<FigureTable> data = {};  ///< the numbers in it
+  std::string values = {};  ///< of a map, what is under the pointer: JSON (map_values.hpp); or none
 };
 
 /// The figure with its title inside the SVG, in place of gnuplot's own name.

@@ -65,17 +65,32 @@ std::string random_walk_panel(const std::vector<limits::RandomWalkSeries>& study
   return blocks + fmt::format("set title '{}'\nplot {}\n", panel_title(channels), plots);
 }
 
-std::string over_time_panel(const std::vector<limits::ErrorOverTime>& study, Channels channels) {
+/// The bounds after so many samples of a constant frequency.
+struct BoundsAt {
+  int samples;
+  double bound, start_unknown;
+};
+
+std::vector<BoundsAt> bounds_over_time(Channels channels) {
   const limits::TrackingModel model = limits::constant_frequency_model(channels, limits::kOverTimeDecibels);
-  const std::string suffix = channels == Channels::single ? "1" : "2";
-  std::string blocks = "$bound" + suffix + " << END\n";
   const std::vector<double> bounds = limits::posterior_frequency_bounds(model, limits::kLateSample);
+  std::vector<BoundsAt> all;
+  all.reserve(bounds.size());
   for (int n = 4; n <= limits::kLateSample; ++n) {
     const double tone =
         channels == Channels::quadrature
             ? limits::complex_tone_bound(model.noise_variance, n)
             : limits::real_tone_bound(model.noise_variance, limits::kMeanFrequency, limits::kMeanPhase, n);
-    blocks += fmt::format("{} {:.6g} {:.6g}\n", n, bounds[static_cast<std::size_t>(n - 1)], tone);
+    all.push_back({n, bounds[static_cast<std::size_t>(n - 1)], tone});
+  }
+  return all;
+}
+
+std::string over_time_panel(const std::vector<limits::ErrorOverTime>& study, Channels channels) {
+  const std::string suffix = channels == Channels::single ? "1" : "2";
+  std::string blocks = "$bound" + suffix + " << END\n";
+  for (const BoundsAt& at : bounds_over_time(channels)) {
+    blocks += fmt::format("{} {:.6g} {:.6g}\n", at.samples, at.bound, at.start_unknown);
   }
   blocks += "END\n";
   std::string plots = fmt::format(
@@ -100,6 +115,46 @@ std::string over_time_panel(const std::vector<limits::ErrorOverTime>& study, Cha
   return blocks + fmt::format("set title '{}'\nplot {}\n", panel_title(channels), plots);
 }
 
+std::string name_of(Channels channels) {
+  return channels == Channels::quadrature ? "quadrature" : "single channel";
+}
+
+FigureTable table_of_walks(const std::vector<limits::RandomWalkSeries>& study) {
+  FigureTable table("walks",
+                    {"tracker", "walk variance [(rad/sample)^2]", "q1/q2 [1]", "signal-to-noise ratio [dB]",
+                     "bound [(rad/sample)^2]", "mean square error, simulated [(rad/sample)^2]"});
+  for (const limits::RandomWalkSeries& series : study) {
+    for (const limits::LimitPoint& point : series.points) {
+      table.add({name_of(series.channels), series.walk_variance, series.q1_share, point.decibels, point.bound,
+                 point.error});
+    }
+  }
+  return table;
+}
+
+FigureTable table_of_errors(const std::vector<limits::ErrorOverTime>& study) {
+  FigureTable table("errors", {"tracker", "q2 [(rad/sample)^2]", "samples",
+                               "mean square error, simulated [(rad/sample)^2]"});
+  for (const limits::ErrorOverTime& series : study) {
+    for (std::size_t k = 3; k < series.mean_square.size(); ++k) {
+      table.add(
+          {name_of(series.channels), series.tracker_q2, static_cast<double>(k + 1), series.mean_square[k]});
+    }
+  }
+  return table;
+}
+
+FigureTable table_of_bounds() {
+  FigureTable table(
+      "bounds", {"tracker", "samples", "bound [(rad/sample)^2]", "bound, start unknown [(rad/sample)^2]"});
+  for (const Channels channels : {Channels::quadrature, Channels::single}) {
+    for (const BoundsAt& at : bounds_over_time(channels)) {
+      table.add({name_of(channels), static_cast<double>(at.samples), at.bound, at.start_unknown});
+    }
+  }
+  return table;
+}
+
 template <typename Panel>
 std::string draw_panels(std::string script, const Panel& panel) {
   const std::string above = panel(Channels::quadrature);
@@ -110,15 +165,23 @@ std::string draw_panels(std::string script, const Panel& panel) {
 
 }  // namespace
 
-std::string draw_random_walks(const std::vector<limits::RandomWalkSeries>& study) {
-  return draw_panels(preamble("signal-to-noise ratio, dB") + "set xrange [-0.5:30.5]\nset xtics 3\n",
-                     [&](Channels channels) { return random_walk_panel(study, channels); });
+Figure draw_random_walks(const std::vector<limits::RandomWalkSeries>& study) {
+  return {"random-walk.svg",
+          {},
+          draw_panels(preamble("signal-to-noise ratio, dB") + "set xrange [-0.5:30.5]\nset xtics 3\n",
+                      [&](Channels channels) { return random_walk_panel(study, channels); }),
+          "Error of the two trackers and the bound over the signal-to-noise ratio",
+          {table_of_walks(study)}};
 }
 
-std::string draw_errors_over_time(const std::vector<limits::ErrorOverTime>& study) {
-  return draw_panels(
-      preamble("samples since the start") + "set logscale x\nset xrange [4:1000]\nset yrange [1e-11:1e-2]\n",
-      [&](Channels channels) { return over_time_panel(study, channels); });
+Figure draw_errors_over_time(const std::vector<limits::ErrorOverTime>& study) {
+  return {"constant.svg",
+          {},
+          draw_panels(preamble("samples since the start") +
+                          "set logscale x\nset xrange [4:1000]\nset yrange [1e-11:1e-2]\n",
+                      [&](Channels channels) { return over_time_panel(study, channels); }),
+          "Error of the two trackers and the bound over the number of samples",
+          {table_of_errors(study), table_of_bounds()}};
 }
 
 }  // namespace veritrack::reports

@@ -242,15 +242,17 @@ std::string limit_document(const LimitStudy& study) {
   return text;
 }
 
-std::filesystem::path write_limit_report(int runs, const std::filesystem::path& directory) {
+std::filesystem::path write_limit_report(int runs, const std::filesystem::path& directory,
+                                         const page::Renderings& renderings) {
   const LimitStudy study = simulate_limits(runs);
+  page::Document document{"report", limit_document(study)};
+  document.figure_folder = "figures/";
+  document.figures = {with_title(draw_random_walks(study.random_walks)),
+                      with_title(draw_errors_over_time(study.over_time))};
   certificates::OutputFiles files;
-  files.stage(directory / "figures/random-walk.svg", draw_random_walks(study.random_walks));
-  files.stage(directory / "figures/constant.svg", draw_errors_over_time(study.over_time));
-  std::filesystem::path path = directory / "report.md";
-  files.stage(path, limit_document(study));
+  stage_document(files, directory, document, renderings);
   files.commit();
-  return path;
+  return directory / "report.md";
 }
 
 }  // namespace veritrack::reports

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/limits/limit_study.hpp"
+#include "reports/page/renderings.hpp"
 
 namespace veritrack::reports {
 
@@ -22,8 +23,9 @@ struct LimitStudy {
 /// The document, without its figures.
 [[nodiscard]] std::string limit_document(const LimitStudy& study);
 
-/// report.md and its figures into `directory`, whole or not at all. Returns the path of the document. Throws
-/// FigureError, and OutputError when files cannot be written.
-std::filesystem::path write_limit_report(int runs, const std::filesystem::path& directory);
+/// report.md, its figures and what is asked for into `directory`, whole or not at all. Returns the path of
+/// the document. Throws FigureError, and OutputError when files cannot be written.
+std::filesystem::path write_limit_report(int runs, const std::filesystem::path& directory,
+                                         const page::Renderings& renderings = {});
 
 }  // namespace veritrack::reports

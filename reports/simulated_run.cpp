@@ -1,5 +1,7 @@
 #include "reports/simulated_run.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "reports/gnuplot.hpp"
@@ -28,9 +30,13 @@ std::string over_samples(std::size_t height) {
 
 Figure frequency_figure(const certificates::Certificate& certificate) {
   std::string script = over_samples(340);
-  script += data_block(certificate, [](const theorems::TrajectoryRecord& record) {
-    return std::array{record.true_state[2], record.filtered_state[2]};
-  });
+  FigureTable run = table_of_run(
+      certificate,
+      {"frequency of the signal [rad/sample]", "frequency of the tracker, simulated [rad/sample]"},
+      [](const theorems::TrajectoryRecord& record) {
+        return std::array{record.true_state[2], record.filtered_state[2]};
+      });
+  script += run.block();
   script +=
       "set ylabel 'frequency, rad/sample'\n"
       "set offsets 0, 0, graph 0.08, graph 0.08\n"
@@ -41,7 +47,9 @@ Figure frequency_figure(const certificates::Certificate& certificate) {
           "Frequency of the signal (broad, light) and of the tracker (thin), rad/sample, along the "
           "simulated run." +
               stride_remark(certificate),
-          run_gnuplot(script), "Frequency of signal and tracker along the simulated run"};
+          run_gnuplot(script),
+          "Frequency of signal and tracker along the simulated run",
+          {std::move(run)}};
 }
 
 }  // namespace veritrack::reports

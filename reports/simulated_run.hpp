@@ -1,11 +1,10 @@
 // Pieces of the figures along a certificate's simulated run.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "certificates/document/certificate.hpp"
 #include "reports/figures.hpp"
@@ -24,19 +23,21 @@ namespace veritrack::reports {
 /// The tracker's frequency beside the true one. Throws FigureError.
 [[nodiscard]] Figure frequency_figure(const certificates::Certificate& certificate);
 
-/// A gnuplot data block $run: step, then the columns that `values` gives of a theorems::TrajectoryRecord.
+/// The table `run`: the sample, then the columns that `values` gives of a theorems::TrajectoryRecord.
 template <typename Values>
-[[nodiscard]] std::string data_block(const certificates::Certificate& certificate, Values values) {
-  std::string block = "$run << END\n";
+[[nodiscard]] FigureTable table_of_run(const certificates::Certificate& certificate,
+                                       std::vector<std::string> columns, Values values) {
+  columns.insert(columns.begin(), "sample");
+  FigureTable table("run", std::move(columns));
   const theorems::Trajectory& trajectory = certificate.simulation.trajectory;
   for (std::size_t k = 0; k < trajectory.size(); k += stride(certificate)) {
-    block += std::to_string(k);
+    std::vector<FigureTable::Cell> row{static_cast<double>(k)};
     for (const double value : values(trajectory[k])) {
-      block += std::isfinite(value) ? fmt::format(" {:.9g}", value) : " NaN";
+      row.emplace_back(value);
     }
-    block += '\n';
+    table.add(std::move(row));
   }
-  return block + "END\n";
+  return table;
 }
 
 }  // namespace veritrack::reports

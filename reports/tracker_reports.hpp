@@ -22,6 +22,7 @@ struct MapRequest {
   std::optional<double> x_range, y_range;  ///< by how much at most
   std::optional<int> cells;                ///< in each direction
   bool with_noise = false;                 ///< with the noise (and slew) of [assume]; otherwise without
+  bool html = false;                       ///< map.html, too
 };
 
 /// The files of a map, or why there are none.

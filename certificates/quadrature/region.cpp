@@ -1,9 +1,13 @@
 #include "certificates/quadrature/region.hpp"
 
+#include <fmt/format.h>
+
 #include "analysis/quadrature/capture/capture_starts.hpp"
 #include "analysis/quadrature/capture/capture_target.hpp"
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 #include "certificates/quadrature/guarantee.hpp"
+#include "certificates/quadrature/start_covariance.hpp"
+#include "certificates/sets/guarantee_sentence.hpp"
 
 namespace veritrack::certificates {
 
@@ -16,6 +20,27 @@ std::function<bool(const quadrature::RegionProgress&)> region_progress(const Cer
     }
     return true;
   };
+}
+
+std::string region_statement(const Design& design, const RegionRequest& request) {
+  const QuadratureEkfTables& tables = quadrature_tables(design);
+  StartCovarianceText covariance;
+  {
+    const rigor::NearestRounding nearest;
+    covariance = start_covariance_text(tables);
+  }
+  const rigor::UpwardRounding upward;
+  const GuaranteeTerms terms{
+      tables.assume,   tables.require, false, true, covariance_words(covariance, std::nullopt),
+      kDoublePrecision};
+  return fmt::format(
+      "{}{}, started with a frequency error and a phase error that lie in a cell that is proved to be "
+      "captured, "
+      "within {} of the amplitude {}, the tracker is in the certified set after at most as many samples as "
+      "the "
+      "cell says, and never leaves it.",
+      tone(terms, false), request.with_noise ? assumed_disturbance(terms) : disturbance_of("", ""),
+      tables.assume.initial_amplitude_error.text, terms.covariance);
 }
 
 RegionResult prove_region_of_attraction(const Design& design, const RegionRequest& request,

@@ -39,6 +39,10 @@ struct RegionResult {
 [[nodiscard]] RegionResult prove_region_of_attraction(const Design& design, const RegionRequest& request,
                                                       const CertifyProgress& progress = {});
 
+/// What is proved of the starts in the cells that are PROVED, as one sentence with all its hypotheses;
+/// without the verdict.
+[[nodiscard]] std::string region_statement(const Design& design, const RegionRequest& request);
+
 /// Tells `progress`, when there is one, and never asks to stop. Refers to it: must not outlive it.
 [[nodiscard]] std::function<bool(const quadrature::RegionProgress&)> region_progress(
     const CertifyProgress& progress);

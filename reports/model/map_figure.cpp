@@ -7,7 +7,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "certificates/document/markdown_text.hpp"
 #include "reports/gnuplot.hpp"
+#include "reports/page/map_values.hpp"
 
 namespace veritrack::reports {
 
@@ -39,6 +41,41 @@ std::string map_cells(std::string_view name, const ModelMap& map, const Choice& 
   return block + (is_any ? "" : "NaN NaN NaN NaN NaN NaN\n") + "END\n";
 }
 
+/// Where the axes are in the picture, of this size.
+constexpr page::PlotPlace kPlace{0.11, 0.97, 0.24, 0.97};
+constexpr std::size_t kWidth = 820;
+constexpr std::size_t kHeight = 600;
+
+/// "rad" with a space before it; nothing when the state has no unit.
+std::string unit_of(const MappedState& state) {
+  return state.unit.empty() ? "" : " " + state.unit;
+}
+
+/// What each cell says, for a page.
+std::string values_of(const ModelMap& map) {
+  enum Kind : std::size_t { proved, simulated_only, lost };
+  page::MapValues values;
+  values.x = {map.grid.x.front(), map.grid.x.back()};
+  values.y = {map.grid.y.front(), map.grid.y.back()};
+  values.sentence = fmt::format(
+      "Starts that deviate by {{x0}} to {{x1}}{} in {} and by {{y0}} to {{y1}}{} in {}: {{kind}}.",
+      unit_of(map.x), map.x.name, unit_of(map.y), map.y.name);
+  values.kinds = {"proved to be in the certified set after at most {samples} samples, at every phase",
+                  "not proved; in simulation the one in the middle locks at each phase",
+                  "not proved; in simulation the one in the middle does not lock, at some phase"};
+  for (std::size_t row = 0; row < map.grid.rows(); ++row) {
+    for (std::size_t column = 0; column < map.grid.columns(); ++column) {
+      const std::size_t cell = map.grid.cell(column, row);
+      const Kind kind = map.cells[cell].is_proved   ? proved
+                        : map.simulated.locks(cell) ? simulated_only
+                                                    : lost;
+      values.cells.push_back({map.grid.x[column], map.grid.x[column + 1], map.grid.y[row],
+                              map.grid.y[row + 1], 0.0, 0.0, kind, map.cells[cell].samples});
+    }
+  }
+  return map_values_json(values, kPlace, kWidth, kHeight);
+}
+
 /// "deviation of theta at the start, rad".
 std::string axis_of(const MappedState& state) {
   return fmt::format("deviation of {} at the start{}{}", state.name, state.unit.empty() ? "" : ", ",
@@ -51,7 +88,8 @@ std::string caption_of(const ModelMap& map) {
       "signal. Grey: proved, the darker the sooner; hatched: in simulation only; dotted: not in simulation, "
       "at "
       "some phase. The line is the edge of the certified set. Proved: {} of {} cells.",
-      labelled(map.x), labelled(map.y), map.proved(), map.cells.size());
+      certificates::markdown::escaped(labelled(map.x)), certificates::markdown::escaped(labelled(map.y)),
+      map.proved(), map.cells.size());
 }
 
 }  // namespace
@@ -81,12 +119,13 @@ std::vector<std::size_t> capture_steps(const ModelMap& map) {
 }
 
 Figure draw_model_map(const ModelMap& map) {
-  std::string script = gnuplot_style(600) + fmt::format(
-                                                "set tics out\nunset grid\nset key maxrows 3 width -2\n"
-                                                "set xlabel '{}'\nset ylabel '{}'\n"
-                                                "set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n",
-                                                axis_of(map.x), axis_of(map.y), map.grid.x.front(),
-                                                map.grid.x.back(), map.grid.y.front(), map.grid.y.back());
+  std::string script = gnuplot_style(kHeight) + kPlace.margins() +
+                       fmt::format(
+                           "set tics out\nunset grid\n"
+                           "set xlabel {}\nset ylabel {}\n"
+                           "set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n",
+                           gnuplot_text(axis_of(map.x)), gnuplot_text(axis_of(map.y)), map.grid.x.front(),
+                           map.grid.x.back(), map.grid.y.front(), map.grid.y.back());
   const std::vector<std::size_t> steps = capture_steps(map);
   std::string plot = "plot ";
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -117,7 +156,8 @@ Figure draw_model_map(const ModelMap& map) {
   plot +=
       "$edge using 1:2 with lines lw 4 lc rgb '#ffffff' notitle, '' using 1:2 with lines lw 1.6 lc rgb "
       "'#000000' title 'edge of the certified set'\n";
-  return {"region.svg", caption_of(map), run_gnuplot(script + plot), "Map of the starts that lock"};
+  return {"region.svg", caption_of(map), run_gnuplot(script + plot), "Map of the starts that lock",
+          {},           values_of(map)};
 }
 
 }  // namespace veritrack::reports

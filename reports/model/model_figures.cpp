@@ -25,29 +25,35 @@ using certificates::ModelCell;
 using certificates::ModelSet;
 using model::ProvedTube;
 
-/// A value over each cell of frequencies, as a data block: two lines a cell.
-template <typename Values>
-std::string block_of_cells(const char* name, const std::vector<ModelCell>& cells, const FrequencyUnits& units,
-                           const Values& values) {
-  std::string text = fmt::format("${} << END\n", name);
+/// "frequency of the signal [Hz]", and the like.
+std::string in_unit(const char* quantity, const FrequencyUnits& units) {
+  return fmt::format("{} [{}]", quantity, units.drawn_unit());
+}
+
+/// What is proved of bias and ripple over each cell of frequencies: a row for each of its ends.
+FigureTable table_of_cells(const std::vector<ModelCell>& cells, const FrequencyUnits& units) {
+  FigureTable table("cells", {in_unit("frequency of the signal", units), in_unit("bias, at least", units),
+                              in_unit("bias, at most", units), in_unit("ripple, at most", units)});
   for (const ModelCell& cell : cells) {
     for (const double place : {cell.low, cell.high}) {
-      text += fmt::format("{:.9g} {}\n", units.drawn(place), values(cell));
+      table.add({units.drawn(place), units.drawn(cell.bias.lower()), units.drawn(cell.bias.upper()),
+                 units.drawn(cell.ripple)});
     }
   }
-  return text + "0 NaN NaN\nEND\n";  // gnuplot refuses an empty block
+  return table;
 }
 
 /// The mean and the range of the frequency error on the curve of a tube, in floating point, over its
-/// frequencies: "frequency mean range" a line.
-std::string block_on_curve(const model::TrackerModel& tracker, const std::vector<ProvedTube>& tubes,
+/// frequencies.
+FigureTable table_on_curve(const model::TrackerModel& tracker, const std::vector<ProvedTube>& tubes,
                            const FrequencyUnits& units) {
   constexpr int kPhases = 256;
   constexpr std::size_t kPlaces = 60;
   const std::size_t each = std::max<std::size_t>(2, kPlaces / tubes.size());
   model::PointTracker points(tracker);
   model::PointFrame frame;
-  std::string text = "$curve << END\n";
+  FigureTable table("curve", {in_unit("frequency of the signal", units), in_unit("bias, not proved", units),
+                              in_unit("ripple, not proved", units)});
   for (const ProvedTube& proved : tubes) {
     for (std::size_t i = 0; i <= each; ++i) {
       const double z = 2.0 * static_cast<double>(i) / static_cast<double>(each) - 1.0;
@@ -63,11 +69,10 @@ std::string block_on_curve(const model::TrackerModel& tracker, const std::vector
         least = std::min(least, error);
         most = std::max(most, error);
       }
-      text += fmt::format("{:.9g} {:.9g} {:.9g}\n", units.drawn(frequency), units.drawn(sum / kPhases),
-                          units.drawn(most - least));
+      table.add({units.drawn(frequency), units.drawn(sum / kPhases), units.drawn(most - least)});
     }
   }
-  return text + "END\n";
+  return table;
 }
 
 Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::TrackerModel& tracker,
@@ -75,26 +80,22 @@ Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::
   const rigor::NearestRounding nearest;
   const std::string unit = units.drawn_unit();
   std::string script = gnuplot_style(520);
-  script += block_of_cells("bias", sets.cells, units, [&](const ModelCell& cell) {
-    return fmt::format("{:.9g} {:.9g}", units.drawn(cell.bias.lower()), units.drawn(cell.bias.upper()));
-  });
-  script += block_of_cells("ripple", sets.cells, units, [&](const ModelCell& cell) {
-    return fmt::format("{:.9g} NaN", units.drawn(cell.ripple));
-  });
-  script += block_on_curve(tracker, sets.starts.tubes.tubes, units);
+  FigureTable cells = table_of_cells(sets.cells, units);
+  FigureTable curve = table_on_curve(tracker, sets.starts.tubes.tubes, units);
+  script += cells.block() + curve.block();
   script += fmt::format(
       "set xrange [{:.9g}:{:.9g}]\n"
       "set lmargin 13\nset rmargin 3\nset format y '%.3g'\n"
       "set multiplot layout 2,1\n"
       "set offsets 0, 0, graph 0.1, graph 0.1\n"
       "set ylabel 'bias, {}' offset -1.5\n"
-      "plot $bias using 1:2:3 with filledcurves fc rgb '#d0d0d0' title 'bias, proved to be between', "
+      "plot $cells using 1:2:3 with filledcurves fc rgb '#d0d0d0' title 'bias, proved to be between', "
       "'' using 1:2 with lines lw 1 lc rgb '#888888' notitle, '' using 1:3 with lines lw 1 lc rgb '#888888' "
       "notitle, $curve using 1:2 with lines lw 1.6 dt 2 lc rgb '#000000' title 'computed, not proved'\n"
       "set yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n"
       "set xlabel 'frequency of the signal, {}'\n"
       "set ylabel 'ripple, {}' offset -1.5\n"
-      "plot $ripple using 1:2 with lines lw 1.6 lc rgb '#000000' title 'ripple, proved to be at most', "
+      "plot $cells using 1:4 with lines lw 1.6 lc rgb '#000000' title 'ripple, proved to be at most', "
       "$curve using 1:3 with lines lw 1.6 dt 2 lc rgb '#000000' title 'computed, not proved'\n"
       "unset multiplot\n",
       units.drawn(sets.cells.front().low), units.drawn(sets.cells.back().high), unit, unit, unit);
@@ -104,21 +105,20 @@ Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::
                       "band, the ripple to be below the solid line; the dashed lines are computed from the "
                       "curve of the certificate in floating point and are not proved.",
                       unit),
-          run_gnuplot(script), "Bias and ripple over the frequency of the signal"};
+          run_gnuplot(script),
+          "Bias and ripple over the frequency of the signal",
+          {std::move(cells), std::move(curve)}};
 }
 
-/// How far each tube of a set reaches, proved as for the whole set.
-std::string block_of_reach(const std::string& name, const ModelSet& set, const model::TrackerModel& tracker,
-                           const FrequencyUnits& units) {
-  std::string text = fmt::format("${} << END\n", name);
+/// Adds how far each tube of a set reaches, proved as for the whole set.
+void add_reach(const std::string& name, const ModelSet& set, const model::TrackerModel& tracker,
+               const FrequencyUnits& units, FigureTable& table) {
   for (const ProvedTube& proved : set.tubes.tubes) {
     const double reach = 0.999 * bound_reach(tracker, proved.tube, proved.levels.front(), {});
     for (const double z : {-1.0, 1.0}) {
-      text += fmt::format("{:.9g} {:.9g}\n", units.drawn(proved.tube.frequency + z * proved.tube.half_width),
-                          units.drawn(reach));
+      table.add({name, units.drawn(proved.tube.frequency + z * proved.tube.half_width), units.drawn(reach)});
     }
   }
-  return text + "END\n";
 }
 
 Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& sets,
@@ -140,18 +140,23 @@ Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& 
                            "[{:.9g}:{:.9g}]\nset yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n",
                            units.drawn_unit(), units.drawn_unit(), units.drawn(lowest), units.drawn(highest));
   std::string plot;
+  FigureTable table(
+      "reach", {"certified set", in_unit("frequency of the signal", units), in_unit("reach, proved", units)});
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    const std::string name = fmt::format("set{}", i);
-    script += block_of_reach(name, *sets[i].second, tracker, units);
-    plot += fmt::format("{}${} using 1:2 with lines {} title '{}'", i == 0 ? "plot " : ", ", name,
+    add_reach(sets[i].first, *sets[i].second, tracker, units, table);
+    table.next_index();
+    plot += fmt::format("{}$reach index {} using 2:3 with lines {} title '{}'", i == 0 ? "plot " : ", ", i,
                         kStyles.at(i), sets[i].first);
   }
+  script += table.block();
   return {"reach.svg",
           fmt::format("How far the certified sets reach, {}, against the frequency of the signal: at every "
                       "phase a set contains states with a frequency error of that size. Proved for each cell "
                       "of frequencies.",
                       units.drawn_unit()),
-          run_gnuplot(script + plot + "\n"), "How far the certified sets reach"};
+          run_gnuplot(script + plot + "\n"),
+          "How far the certified sets reach",
+          {std::move(table)}};
 }
 
 }  // namespace

@@ -7,12 +7,14 @@
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/document/markdown.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/output_files.hpp"
 #include "certificates/model/model_design.hpp"
 #include "certificates/model/model_json.hpp"
 #include "certificates/sets/frequency_units.hpp"
 #include "reports/model/map_figure.hpp"
+#include "reports/page/renderings.hpp"
 
 namespace veritrack::reports {
 
@@ -131,8 +133,9 @@ std::string model_map_document(const certificates::Design& design, const ModelMa
                                   share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size());
   title += fmt::format("Which starts of {} lock at {}.\n\n", markdown::escaped(design.name),
                        frequency_of(map, units));
-  return title + statement(tables, map, units) + fmt::format("![{}]({})\n\n", figure.caption, figure.file) +
-         cells_section(map) + hypotheses_section(tables, map);
+  return title + statement(tables, map, units) +
+         certificates::picture({figure.file, figure.title, figure.caption}) + cells_section(map) +
+         hypotheses_section(tables, map);
 }
 
 std::string model_map_cells(const ModelMap& map) {
@@ -191,16 +194,17 @@ MapResult write_model_map(const certificates::Design& design, const MapRequest& 
   }
   const ModelMap& map = *result.found;
   const Figure figure = with_title(draw_model_map(map));
-  std::filesystem::path document = directory / "map.md";
+  page::Document document{"map", model_map_document(design, map, figure)};
+  document.figures = {figure};
   certificates::OutputFiles files;
-  files.stage(document, model_map_document(design, map, figure));
-  files.stage(directory / figure.file, figure.svg);
+  stage_document(files, directory, document, {request.html, false, false});
   files.stage(directory / "region.csv", model_map_cells(map));
   files.stage(directory / "map.json", model_map_json(design, map));
   files.commit();
-  return {document, fmt::format("{} of the starts are PROVED to lock, {} of {} cells; {} lock in simulation",
-                                share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size(),
-                                map.proved() + map.simulated_only())};
+  return {directory / "map.md",
+          fmt::format("{} of the starts are PROVED to lock, {} of {} cells; {} lock in simulation",
+                      share_of(map.proved(), map.cells.size()), map.proved(), map.cells.size(),
+                      map.proved() + map.simulated_only())};
 }
 
 }  // namespace veritrack::reports

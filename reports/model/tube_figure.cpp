@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "analysis/model/falsifier.hpp"
 #include "analysis/rigor/decimal.hpp"
@@ -60,21 +62,26 @@ class TubeSection {
   double frequency_;
 };
 
-/// "phase lower upper of R_0 lower upper of R_m" a line, phases in turns.
-std::string envelope_block(TubeSection& section, const ProvedTube& proved, const FrequencyUnits& units) {
+/// The ends of the tube and of its lowest level over the phase, in turns.
+FigureTable table_of_envelope(TubeSection& section, const ProvedTube& proved, const FrequencyUnits& units) {
   constexpr int kPhases = 120;
-  std::string text = "$envelope << END\n";
+  const std::string unit = units.drawn_unit();
+  FigureTable table(
+      "envelope", {"phase of the signal [turns]", fmt::format("frequency error, whole tube, low [{}]", unit),
+                   fmt::format("frequency error, whole tube, high [{}]", unit),
+                   fmt::format("frequency error, lowest level, low [{}]", unit),
+                   fmt::format("frequency error, lowest level, high [{}]", unit)});
   for (int j = 0; j <= kPhases; ++j) {
     const double phase = kFullTurn * j / kPhases;
     const Eigen::VectorXd direction = section.steepest(phase, proved.levels.front());
-    text += fmt::format("{:.6g}", static_cast<double>(j) / kPhases);
+    std::vector<FigureTable::Cell> row{static_cast<double>(j) / kPhases};
     for (const double radius : {proved.levels.front(), proved.levels.back()}) {
-      text += fmt::format(" {:.9g} {:.9g}", units.drawn(section.error(phase, -radius * direction)),
-                          units.drawn(section.error(phase, radius * direction)));
+      row.emplace_back(units.drawn(section.error(phase, -radius * direction)));
+      row.emplace_back(units.drawn(section.error(phase, radius * direction)));
     }
-    text += "\n";
+    table.add(std::move(row));
   }
-  return text + "END\n";
+  return table;
 }
 
 /// "for noise of at most 0.02 signal units".
@@ -89,9 +96,9 @@ std::string tube_disturbances(const model::TubeSet& set, const FrequencyUnits& u
   return text;
 }
 
-/// "phase error" a line, phases in turns; a turn is a line of the picture, from edge to edge.
-std::string lines_of(const std::vector<model::AttackedSample>& run, const FrequencyUnits& units) {
-  std::string text;
+/// Adds the run, phases in turns; a turn is a line of the picture, from edge to edge.
+void add_run(double number, const std::vector<model::AttackedSample>& run, const FrequencyUnits& units,
+             FigureTable& table) {
   double last_place = 0.0;
   double last_error = 0.0;
   for (std::size_t k = 0; k < run.size(); ++k) {
@@ -100,13 +107,15 @@ std::string lines_of(const std::vector<model::AttackedSample>& run, const Freque
     const double edge = std::floor(place);
     if (k > 0 && last_place < edge) {
       const double between = last_error + (error - last_error) * (edge - last_place) / (place - last_place);
-      text += fmt::format("1 {0:.7g}\n\n0 {0:.7g}\n", between);
+      table.add({number, 1.0, between});
+      table.gap();
+      table.add({number, 0.0, between});
     }
-    text += fmt::format("{:.5f} {:.7g}\n", place - edge, error);
+    table.add({number, place - edge, error});
     last_place = place;
     last_error = error;
   }
-  return text + "\n";
+  table.gap();
 }
 
 }  // namespace
@@ -121,32 +130,32 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
 
   constexpr int kStarts = 4;
   constexpr int kSamples = 2000;
-  std::string script = envelope_block(section, proved, units);
-  std::string starts = "$starts << END\n";
-  std::string errors = "$errors << END\n";
+  const std::string unit = units.drawn_unit();
+  const std::string error_column = fmt::format("frequency error, simulated [{}]", unit);
+  FigureTable envelope = table_of_envelope(section, proved, units);
+  FigureTable starts("starts", {"run", "phase of the signal [turns]", error_column});
+  FigureTable errors("errors", {"run", "phase of the signal [turns]", error_column});
   for (int i = 0; i < kStarts; ++i) {
     const double phase = kFullTurn * (i + 0.5) / kStarts;
     const double radius = i % 2 == 0 ? proved.levels.front() : -proved.levels.front();
     const auto run = simulate_attack(tracker, proved.tube, {frequency, phase, set.noise, 0.0},
                                      radius * section.steepest(phase, proved.levels.front()), kSamples);
-    errors += lines_of(run, units);
-    starts += fmt::format("{:.5f} {:.7g}\n", phase / kFullTurn, units.drawn(run.front().frequency_error));
+    add_run(i + 1, run, units, errors);
+    starts.add({static_cast<double>(i + 1), phase / kFullTurn, units.drawn(run.front().frequency_error)});
   }
-  script += starts + "END\n" + errors + "END\n";
-  const std::string unit = units.drawn_unit();
-  script = gnuplot_style(440) +
-           fmt::format(
-               "set xlabel 'phase of the signal, turns'\nset ylabel 'frequency error, {}'\n"
-               "set xrange [0:1]\nset xtics 0.25\n"
-               "set offsets 0, 0, graph 0.06, graph 0.06\n",
-               unit) +
-           script +
-           "plot $errors using 1:2 with lines lw 0.7 lc rgb '#888888' title 'simulated', "
-           "$starts using 1:2 with points pt 7 ps 0.7 lc rgb '#000000' title 'starts', "
-           "$envelope using 1:2 with lines lw 2 lc rgb '#000000' title 'whole tube', "
-           "'' using 1:3 with lines lw 2 lc rgb '#000000' notitle, "
-           "'' using 1:4 with lines lw 2 dt 2 lc rgb '#000000' title 'lowest level', "
-           "'' using 1:5 with lines lw 2 dt 2 lc rgb '#000000' notitle\n";
+  const std::string script = gnuplot_style(440) +
+                             fmt::format(
+                                 "set xlabel 'phase of the signal, turns'\nset ylabel 'frequency error, {}'\n"
+                                 "set xrange [0:1]\nset xtics 0.25\n"
+                                 "set offsets 0, 0, graph 0.06, graph 0.06\n",
+                                 unit) +
+                             envelope.block() + starts.block() + errors.block() +
+                             "plot $errors using 2:3 with lines lw 0.7 lc rgb '#888888' title 'simulated', "
+                             "$starts using 2:3 with points pt 7 ps 0.7 lc rgb '#000000' title 'starts', "
+                             "$envelope using 1:2 with lines lw 2 lc rgb '#000000' title 'whole tube', "
+                             "'' using 1:3 with lines lw 2 lc rgb '#000000' notitle, "
+                             "'' using 1:4 with lines lw 2 dt 2 lc rgb '#000000' title 'lowest level', "
+                             "'' using 1:5 with lines lw 2 dt 2 lc rgb '#000000' notitle\n";
   return {
       "tube.svg",
       fmt::format(
@@ -158,7 +167,9 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
           set.noise > 0.0
               ? ", with the noise that pushes outward most at every sample, at a constant frequency"
               : ""),
-      run_gnuplot(script), "The certified tube, with simulated runs"};
+      run_gnuplot(script),
+      "The certified tube, with simulated runs",
+      {std::move(envelope), std::move(starts), std::move(errors)}};
 }
 
 }  // namespace veritrack::reports

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
@@ -49,83 +53,134 @@ struct LockCurves {
   double required = 0.0;  ///< probability within them
 };
 
-std::string over_decibels(const LockCurves& curves) {
+/// A figure: the picture and its numbers.
+struct Drawn {
+  std::string svg;
+  std::vector<FigureTable> data;
+};
+
+Drawn over_decibels(const LockCurves& curves) {
   const double rate = curves.required / curves.samples;
   const double right = std::max({curves.lowest.decibels, curves.union_bound.value_or(0.0),
                                  curves.assumed ? curves.assumed->decibels : 0.0}) +
                        3.0;
   std::string script = gnuplot_style(420);
-  script += "$simulated << END\n";
+  const std::vector<std::string> columns{"signal-to-noise ratio [dB]",
+                                         "probability of losing lock [per sample]"};
+  FigureTable simulated("simulated", columns);
   for (const quadrature::LossRate& counted : curves.simulated.rates) {
     if (counted.losses > 0) {
-      script += fmt::format("{} {:.6g}\n", counted.decibels, counted.rate());
+      simulated.add({counted.decibels, counted.rate()});
     }
   }
-  script += "NaN NaN\nEND\n$certified << END\n";
-  script += fmt::format("{0:.6g} 1\n{0:.6g} {1:.6g}\n{2:.6g} {1:.6g}\nEND\n$places << END\n{0:.6g} {1:.6g}\n",
-                        curves.lowest.decibels, curves.lowest.probability / curves.samples, right);
+  const double certified_rate = curves.lowest.probability / curves.samples;
+  FigureTable certified("certified", columns);
+  certified.add({curves.lowest.decibels, 1.0});
+  certified.add({curves.lowest.decibels, certified_rate});
+  certified.add({right, certified_rate});
+  FigureTable places("places", columns);
+  places.add({curves.lowest.decibels, certified_rate});
   if (curves.assumed) {
-    script += fmt::format("{:.6g} {:.6g}\n", curves.assumed->decibels,
-                          curves.assumed->probability / curves.samples);
+    places.add({curves.assumed->decibels, curves.assumed->probability / curves.samples});
   }
+  FigureTable curve("curves", {"signal-to-noise ratio [dB]", "simulated, extrapolated [per sample]",
+                               "union bound for bounded noise [per sample]"});
+  constexpr int kPlaces = 400;
+  constexpr double kLeft = -4.0;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double x = kLeft + (right - kLeft) * i / kPlaces;
+    const auto& law = curves.simulated.law;
+    // |v| exceeds V in a sample with exp(-V^2/(2 sigma^2)).
+    curve.add({x, law ? std::exp(law->intercept + law->slope * 2.0 * std::pow(10.0, x / 10.0)) : std::nan(""),
+               curves.union_bound
+                   ? std::exp(std::log(rate) * std::pow(10.0, (x - *curves.union_bound) / 10.0))
+                   : std::nan("")});
+  }
+  script += simulated.block() + certified.block() + places.block() + curve.block();
   script += fmt::format(
-      "END\nset xlabel 'signal-to-noise ratio, dB'\nset ylabel 'probability of losing lock, per sample'\n"
+      "set xlabel 'signal-to-noise ratio, dB'\nset ylabel 'probability of losing lock, per sample'\n"
       "set logscale y\nunset mytics\nset format y '10^{{%L}}'\nset xrange [-4:{:.6g}]\n"
-      "set yrange [{:.6g}:1]\nset key maxcols 2\nset samples 1000\n"
+      "set yrange [{:.6g}:1]\nset key maxcols 2\n"
       "plot $certified using 1:2 with lines lw 3 lc rgb '#000000' title 'certified', "
       "$places using 1:2 with points pt 7 ps 0.9 lc rgb '#000000' notitle, "
       "$simulated using 1:2 with points pt 6 ps 0.8 lw 1.4 lc rgb '#000000' title 'simulated', ",
       right, 1e-3 * rate);
   if (curves.simulated.law) {
-    script += fmt::format(
-        "exp({:.9g} + ({:.9g}) * 2 * 10**(x / 10)) with lines lw 1.4 dt '-' lc rgb '#000000' title "
-        "'simulated, extrapolated', ",
-        curves.simulated.law->intercept, curves.simulated.law->slope);
+    script += "$curves using 1:2 with lines lw 1.4 dt '-' lc rgb '#000000' title 'simulated, extrapolated', ";
   }
   if (curves.union_bound) {
-    // |v| exceeds V in a sample with exp(-V^2/(2 sigma^2)).
-    script += fmt::format(
-        "exp(({:.9g}) * 10**((x - ({:.9g})) / 10)) with lines lw 1.8 dt '-.' lc rgb '#666666' title 'union "
-        "bound for bounded noise', ",
-        std::log(rate), *curves.union_bound);
+    script +=
+        "$curves using 1:3 with lines lw 1.8 dt '-.' lc rgb '#666666' title 'union bound for bounded "
+        "noise', ";
   }
   script += fmt::format("{:.6g} with lines lw 1 dt '.' lc rgb '#000000' title 'required'\n", rate);
-  return run_gnuplot(script);
+  return {run_gnuplot(script),
+          {std::move(simulated), std::move(certified), std::move(places), std::move(curve)}};
 }
 
-std::string over_sample_numbers(const LockCurves& curves) {
-  std::string script = gnuplot_style(400);
-  const double last = 1e3 * curves.samples;
-  const auto certified = [&](const CertifiedLock& lock, const char* style) {
-    return fmt::format("{:.9g} + {:.9g} * x with lines {} title 'certified at {:.4g} dB', ", lock.at_once,
-                       (lock.probability - lock.at_once) / curves.samples, style, lock.decibels);
+/// A probability over the number of samples.
+struct Growth {
+  std::string title, style;
+  std::function<double(double samples)> probability;
+};
+
+std::vector<Growth> growths(const LockCurves& curves) {
+  std::vector<Growth> all;
+  const auto add_certified = [&](const CertifiedLock& lock, const char* style) {
+    const double rate = (lock.probability - lock.at_once) / curves.samples;
+    all.push_back({fmt::format("certified at {:.4g} dB", lock.decibels), style,
+                   [=](double samples) { return lock.at_once + rate * samples; }});
   };
-  script += fmt::format(
-      "set xlabel 'samples'\nset ylabel 'probability of losing lock'\nset logscale xy\nunset mxtics\n"
-      "unset mytics\nset format xy '10^{{%L}}'\nset xrange [1:{:.6g}]\nset yrange [{:.6g}:1]\n"
-      "set key maxcols 2\nplot ",
-      last, 1e-6 * curves.required);
   if (curves.assumed && std::fabs(curves.assumed->decibels - curves.lowest.decibels) > 0.1) {
-    script += certified(*curves.assumed, "lw 5 lc rgb '#bbbbbb'");
+    add_certified(*curves.assumed, "lw 5 lc rgb '#bbbbbb'");
   }
-  script += certified(curves.lowest, "lw 1.8 lc rgb '#000000'");
+  add_certified(curves.lowest, "lw 1.8 lc rgb '#000000'");
+  const double required_rate = curves.required / curves.samples;
   if (curves.simulated.law) {
     for (const double more : {0.0, 1.0}) {
-      const double decibels =
-          curves.simulated.law->decibels_of(curves.required / curves.samples) - 1.0 + more;
-      script += fmt::format(
-          "1 - exp(-{:.9g} * x) with lines lw 1.6 dt {} lc rgb '#000000' title 'simulated, extrapolated, at "
-          "{:.2g} dB', ",
-          curves.simulated.law->rate_at(decibels), more > 0.0 ? "'-'" : "'.'", decibels);
+      const double decibels = curves.simulated.law->decibels_of(required_rate) - 1.0 + more;
+      const double rate = curves.simulated.law->rate_at(decibels);
+      all.push_back({fmt::format("simulated, extrapolated, at {:.2g} dB", decibels),
+                     fmt::format("lw 1.6 dt {} lc rgb '#000000'", more > 0.0 ? "'-'" : "'.'"),
+                     [=](double samples) { return -std::expm1(-rate * samples); }});
     }
   }
   if (curves.union_bound) {
-    script += fmt::format(
-        "{:.9g} * x with lines lw 1.8 dt '-.' lc rgb '#666666' title 'union bound at {:.3g} dB', ",
-        curves.required / curves.samples, *curves.union_bound);
+    all.push_back({fmt::format("union bound at {:.3g} dB", *curves.union_bound),
+                   "lw 1.8 dt '-.' lc rgb '#666666'",
+                   [=](double samples) { return required_rate * samples; }});
   }
-  script += "NaN notitle\n";
-  return run_gnuplot(script);
+  return all;
+}
+
+Drawn over_sample_numbers(const LockCurves& curves) {
+  const double last = 1e3 * curves.samples;
+  const std::vector<Growth> all = growths(curves);
+  std::vector<std::string> columns{"samples"};
+  std::string plot = "plot ";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    columns.push_back(all[i].title + " [probability]");
+    plot += fmt::format("{}$growth using 1:{} with lines {} title '{}'", i == 0 ? "" : ", ", i + 2,
+                        all[i].style, all[i].title);
+  }
+  FigureTable table("growth", std::move(columns));
+  constexpr int kPlaces = 200;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double samples = std::pow(last, static_cast<double>(i) / kPlaces);
+    std::vector<FigureTable::Cell> row{samples};
+    for (const Growth& one : all) {
+      row.emplace_back(one.probability(samples));
+    }
+    table.add(std::move(row));
+  }
+  const std::string script =
+      gnuplot_style(400) + table.block() +
+      fmt::format(
+          "set xlabel 'samples'\nset ylabel 'probability of losing lock'\nset logscale xy\nunset mxtics\n"
+          "unset mytics\nset format xy '10^{{%L}}'\nset xrange [1:{:.6g}]\nset yrange [{:.6g}:1]\n"
+          "set key maxcols 2\n{}\n",
+          last, 1e-6 * curves.required, plot);
+  return {run_gnuplot(script), {std::move(table)}};
 }
 
 }  // namespace
@@ -146,17 +201,21 @@ std::vector<Figure> draw_lock_figures(const Certificate& certificate) {
       particulars.union_bound_snr,
       tables.assume.samples.value().nearest,
       required ? required->nearest : 1e-6};
-  return {{"lock-snr.svg",
-           "Probability of losing lock per sample (within the assumed samples, divided by their number) over "
-           "the signal-to-noise ratio: certified from the lowest ratio on (black; dots where a set is in the "
-           "certificate); counted in simulation (circles) and extrapolated with log rate linear in 1/sigma^2 "
-           "(dashed), which proves nothing; and what the certificate for bounded noise would give, by the "
-           "probability that its noise is exceeded (grey).",
-           over_decibels(curves), "Probability of losing lock over the signal-to-noise ratio"},
-          {"lock-samples.svg",
-           "Probability of losing lock within so many samples, each at a ratio of its own: certified, "
-           "simulated and extrapolated, which proves nothing, and by the union bound.",
-           over_sample_numbers(curves), "Probability of losing lock within so many samples"}};
+  Drawn decibels = over_decibels(curves);
+  Drawn samples = over_sample_numbers(curves);
+  return {
+      {"lock-snr.svg",
+       "Probability of losing lock per sample (within the assumed samples, divided by their number) over "
+       "the signal-to-noise ratio: certified from the lowest ratio on (black; dots where a set is in the "
+       "certificate); counted in simulation (circles) and extrapolated with log rate linear in 1/sigma^2 "
+       "(dashed), which proves nothing; and what the certificate for bounded noise would give, by the "
+       "probability that its noise is exceeded (grey).",
+       std::move(decibels.svg), "Probability of losing lock over the signal-to-noise ratio",
+       std::move(decibels.data)},
+      {"lock-samples.svg",
+       "Probability of losing lock within so many samples, each at a ratio of its own: certified, "
+       "simulated and extrapolated, which proves nothing, and by the union bound.",
+       std::move(samples.svg), "Probability of losing lock within so many samples", std::move(samples.data)}};
 }
 
 }  // namespace veritrack::reports

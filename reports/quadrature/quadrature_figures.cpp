@@ -90,15 +90,28 @@ std::vector<Level> error_levels(const Certificate& certificate) {
   return levels;
 }
 
+/// The lines for the file of data.
+FigureTable table_of_levels(const std::vector<Level>& levels) {
+  FigureTable table("levels", {"line", "value [rad/sample]"});
+  for (const Level& level : levels) {
+    table.add({level.title, level.value});
+  }
+  return table;
+}
+
 Figure error_figure(const Certificate& certificate) {
   const double amplitude = certificates::quadrature_tables(certificate.design).assume.amplitude.nearest;
   std::string script = over_samples(420);
-  script += data_block(certificate, [amplitude](const TrajectoryRecord& record) {
-    const auto positive = [](double value) { return value > 0.0 ? value : std::nan(""); };
-    Eigen::Vector3d error = record.true_state - record.filtered_state;
-    error.head<2>() /= amplitude;
-    return std::array{positive(std::fabs(error[2])), positive(error.norm())};
-  });
+  FigureTable run = table_of_run(
+      certificate,
+      {"frequency error, simulated [rad/sample]", "whole error, simulated [relative and rad/sample]"},
+      [amplitude](const TrajectoryRecord& record) {
+        const auto positive = [](double value) { return value > 0.0 ? value : std::nan(""); };
+        Eigen::Vector3d error = record.true_state - record.filtered_state;
+        error.head<2>() /= amplitude;
+        return std::array{positive(std::fabs(error[2])), positive(error.norm())};
+      });
+  script += run.block();
   script +=
       "set ylabel 'error'\n"
       "set logscale y\n"
@@ -115,6 +128,7 @@ Figure error_figure(const Certificate& certificate) {
     const double error = std::fabs(record.true_state[2] - record.filtered_state[2]);
     largest = std::isfinite(error) ? std::max(largest, error) : largest;
   }
+  FigureTable table = table_of_levels(levels);
   const std::string small = words_for_small(levels, largest);
   for (const Level& level : levels) {
     script += fmt::format(", {:.9g} with lines {} title '{}'", level.value, level.style, level.title);
@@ -128,24 +142,37 @@ Figure error_figure(const Certificate& certificate) {
         " The black lines are bounds: of the frequency error, and of the start error that Theorem 2.9 admits "
         "by its condition (2.45).";
   }
-  return {"error.svg", caption + small + stride_remark(certificate), run_gnuplot(script),
-          "Error along the simulated run, with its bounds"};
+  return {"error.svg",
+          caption + small + stride_remark(certificate),
+          run_gnuplot(script),
+          "Error along the simulated run, with its bounds",
+          {std::move(run), std::move(table)}};
+}
+
+FigureTable table_of_tube(const certificates::FrequencyErrorTube& tube) {
+  std::vector<std::string> columns{"sample", "certified bound of |frequency error| [rad/sample]"};
+  for (std::size_t i = 0; i < tube.runs.size(); ++i) {
+    columns.push_back(fmt::format("|frequency error|, simulated run {} [rad/sample]", i + 1));
+  }
+  FigureTable table("tube", std::move(columns));
+  for (std::size_t k = 0; k < tube.bound.size(); ++k) {
+    std::vector<FigureTable::Cell> row{static_cast<double>(k), tube.bound[k]};
+    for (const std::vector<double>& run : tube.runs) {
+      // What rounding leaves of an error that is gone is not worth a decade of the picture.
+      row.emplace_back(run[k] > 1e-3 * tube.bound.back() ? run[k] : std::nan(""));
+    }
+    table.add(std::move(row));
+  }
+  return table;
 }
 
 /// The runs in grey, thin, under the bound, black and broad.
 Figure tube_figure(const Certificate& certificate, const certificates::FrequencyErrorTube& tube) {
   std::string script = over_samples(380);
-  script += "$tube << END\n";
-  for (std::size_t k = 0; k < tube.bound.size(); ++k) {
-    script += fmt::format("{} {:.9g}", k, tube.bound[k]);
-    for (const std::vector<double>& run : tube.runs) {
-      // What rounding leaves of an error that is gone is not worth a decade of the picture.
-      script += run[k] > 1e-3 * tube.bound.back() ? fmt::format(" {:.9g}", run[k]) : " NaN";
-    }
-    script += '\n';
-  }
+  FigureTable table = table_of_tube(tube);
+  std::vector<Level> levels;
+  script += table.block();
   script +=
-      "END\n"
       "set ylabel '|frequency error|, rad/sample'\n"
       "set logscale y\n"
       "unset mytics\n"
@@ -160,15 +187,18 @@ Figure tube_figure(const Certificate& certificate, const certificates::Frequency
       "keyentry with lines {} title 'simulated runs'",
       line::kCertified, tube.from_assumed_starts ? "assumed starts" : "the whole set", line::kSimulated);
   if (!tube.bound_of_assumed_starts.empty()) {
+    levels.push_back({"certified, assumed starts", tube.bound_of_assumed_starts.front()});
     script += fmt::format(", {:.9g} with lines {} title 'certified, assumed starts'",
                           tube.bound_of_assumed_starts.front(), line::kAssumed);
   }
   if (const auto& required =
           certificates::quadrature_tables(certificate.design).require.frequency_error_below) {
+    levels.push_back({"required", required->nearest});
     script += fmt::format(", {:.9g} with lines {} title 'required'", required->nearest, line::kRequired);
   }
   const auto long_run = long_run_bound(certificate);
   if (long_run) {
+    levels.push_back({"certified, in the long run", *long_run});
     script +=
         fmt::format(", {:.9g} with lines {} title 'certified, in the long run'", *long_run, line::kLongRun);
   }
@@ -182,7 +212,9 @@ Figure tube_figure(const Certificate& certificate, const certificates::Frequency
           "disturbances and with noise and slew that increase the errors. The runs prove nothing.",
           tube.from_assumed_starts ? "within the assumed errors" : "in the certified set",
           long_run ? ", the bound that it approaches in the long run (dash-dotted)" : ""),
-      run_gnuplot(script), "Frequency error: certified bound and simulated runs"};
+      run_gnuplot(script),
+      "Frequency error: certified bound and simulated runs",
+      {std::move(table), table_of_levels(levels)}};
 }
 
 }  // namespace

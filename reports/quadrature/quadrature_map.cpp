@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "certificates/document/markdown.hpp"
+#include "certificates/document/markdown_text.hpp"
 #include "certificates/document/output_files.hpp"
-#include "certificates/quadrature/region.hpp"
+#include "reports/page/renderings.hpp"
 #include "reports/quadrature/region_map.hpp"
 
 namespace veritrack::reports {
@@ -25,30 +29,78 @@ std::string cells_csv(const quadrature::Region& region) {
   return text;
 }
 
-std::filesystem::path write_files(const certificates::RegionOfAttraction& region,
-                                  const std::filesystem::path& directory) {
-  std::filesystem::path picture = directory / "region.svg";
-  certificates::OutputFiles files;
-  files.stage(picture, with_title(draw_region_map(region.region, region.basin)).svg);
-  files.stage(directory / "region.csv", cells_csv(region.region));
-  files.commit();
-  return picture;
+/// How many cells have that verdict.
+std::size_t count(const quadrature::Region& region, rigor::Verdict verdict) {
+  return static_cast<std::size_t>(
+      std::count_if(region.cells.begin(), region.cells.end(),
+                    [&](const quadrature::RegionCell& cell) { return cell.verdict == verdict; }));
+}
+
+std::string sentence_of(const certificates::RegionOfAttraction& found) {
+  return fmt::format("{} of the simulated basin is proved to be captured, {} cells",
+                     percent(found.shares.proved), found.region.cells.size());
 }
 
 }  // namespace
 
+std::string quadrature_map_document(const certificates::Design& design,
+                                    const certificates::RegionRequest& request,
+                                    const certificates::RegionOfAttraction& found, const Figure& figure) {
+  namespace markdown = certificates::markdown;
+  using rigor::Verdict;
+  const quadrature::Region& region = found.region;
+  const std::size_t proved = count(region, Verdict::proved);
+  std::string text = fmt::format("# {}\n\nWhich starts of {} are captured.\n\n", sentence_of(found),
+                                 markdown::escaped(design.name));
+  text += proved > 0 ? fmt::format("{}: {}\n\n", markdown::verdict(Verdict::proved),
+                                   certificates::region_statement(design, request))
+                     : "No cell is proved: nothing is said about these starts.\n\n";
+  text += certificates::picture({figure.file, figure.title, figure.caption});
+  text +=
+      "## The cells\n\n" +
+      markdown::table({"Shown", "Meaning", "Cells"},
+                      {{"blue", "proved: every start in the cell is captured", std::to_string(proved)},
+                       {"hatched",
+                        "proved: the starts in the cell, or at least the one in its middle, lock at a wrong "
+                        "frequency, a multiple of 2π rad/sample away",
+                        std::to_string(count(region, Verdict::refuted))},
+                       {"light", "undecided", std::to_string(count(region, Verdict::undecided))}});
+  return text + fmt::format(
+                    "\nThe map goes to ±{:.4g} rad/sample and ±{:.4g} rad. The outline, the basin, is "
+                    "simulated without "
+                    "noise, and proves nothing.\n\n## What is proved, and what is not\n\n"
+                    "- Every frequency up to pi rad/sample, {}.\n"
+                    "- Amplitude and initial covariance are as the sentence says.\n"
+                    "- A start that is undecided may be captured or not.\n"
+                    "- The proof: Taylor models in the start, followed sample by sample in outward-rounded "
+                    "arithmetic, "
+                    "into the set of `veritrack certify`. `veritrack-verify` does not check maps.\n\n"
+                    "`region.csv` has a line for each cell.\n",
+                    request.frequency_error, request.phase_error,
+                    request.with_noise
+                        ? "any noise and any change of frequency within the assumed bounds"
+                        : "constant and without noise; with --noise the assumed noise and slew are "
+                          "part of the proof");
+}
+
 MapResult write_quadrature_map(const certificates::Design& design, const MapRequest& request,
                                const std::filesystem::path& directory,
                                const certificates::CertifyProgress& progress) {
-  const certificates::RegionResult result = certificates::prove_region_of_attraction(
-      design, {request.frequency_error.value_or(1.0), request.phase_error.value_or(1.5), request.with_noise},
-      progress);
+  const certificates::RegionRequest region{request.frequency_error.value_or(1.0),
+                                           request.phase_error.value_or(1.5), request.with_noise};
+  const certificates::RegionResult result =
+      certificates::prove_region_of_attraction(design, region, progress);
   if (!result.found) {
     return {std::nullopt, result.reason};
   }
-  return {write_files(*result.found, directory),
-          fmt::format("{:.1f} % of the simulated basin is proved to be captured, {} cells",
-                      100.0 * result.found->shares.proved, result.found->region.cells.size())};
+  const Figure figure = with_title(draw_region_map(result.found->region, result.found->basin));
+  page::Document document{"map", quadrature_map_document(design, region, *result.found, figure)};
+  document.figures = {figure};
+  certificates::OutputFiles files;
+  stage_document(files, directory, document, {request.html, false, false});
+  files.stage(directory / "region.csv", cells_csv(result.found->region));
+  files.commit();
+  return {directory / "map.md", sentence_of(*result.found)};
 }
 
 }  // namespace veritrack::reports

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "reports/gnuplot.hpp"
+#include "reports/quadrature/region_values.hpp"
 
 namespace veritrack::reports {
 
@@ -136,14 +137,6 @@ std::string outline(const SimulatedBasin& basin) {
   return block + "NaN NaN\nEND\n";
 }
 
-/// A percentage that never says 100 (or 0) unless it is all (or nothing).
-std::string percent(double share) {
-  if (share > 0.0 && share < 1.0) {
-    return fmt::format("{:.1f} %", std::clamp(100.0 * share, 0.1, 99.9));
-  }
-  return share >= 1.0 ? "100 %" : "0 %";
-}
-
 std::string caption(const Region& region, const SimulatedBasin& basin) {
   const BasinShares shares = shares_of_basin(region, basin);
   if (shares.points == 0) {
@@ -172,13 +165,19 @@ std::vector<MapRectangle> joined(std::vector<MapRectangle> rectangles) {
   return rectangles;
 }
 
+std::string percent(double share) {
+  if (share > 0.0 && share < 1.0) {
+    return fmt::format("{:.1f} %", std::clamp(100.0 * share, 0.1, 99.9));
+  }
+  return share >= 1.0 ? "100 %" : "0 %";
+}
+
 Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
-  std::string script = gnuplot_style(560) +
+  std::string script = gnuplot_style(kRegionHeight) + kRegionPlace.margins() +
                        "set tics out\n"
                        "unset grid\n"
                        "set xlabel 'frequency error at the start, rad/sample'\n"
-                       "set ylabel 'phase error at the start, rad'\n"
-                       "set key maxcols 2\n";
+                       "set ylabel 'phase error at the start, rad'\n";
   script +=
       fmt::format("set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n", basin.frequency_error.lower(),
                   basin.frequency_error.upper(), basin.phase_error.lower(), basin.phase_error.upper());
@@ -219,8 +218,12 @@ Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
   key("fillcolor rgb '#000000' fs pattern 4 noborder", "proved to lock at a wrong frequency");
   key(fmt::format("fillcolor rgb '{}' fs solid 1.0 border lc rgb '#888888'", kLight), "undecided");
   script += '\n';
-  return {"region.svg", caption(region, basin), run_gnuplot(script),
-          "Region of attraction: starts that are captured"};
+  return {"region.svg",
+          caption(region, basin),
+          run_gnuplot(script),
+          "Region of attraction: starts that are captured",
+          {table_of_region(region)},
+          region_values(region, basin)};
 }
 
 }  // namespace veritrack::reports

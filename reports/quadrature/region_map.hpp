@@ -2,6 +2,7 @@
 // drawn to be read in grey: proved dark, refuted hatched, undecided light.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "analysis/quadrature/capture/capture_basin.hpp"
@@ -19,6 +20,9 @@ struct MapRectangle {
 /// The same area by fewer rectangles: neighbours that share a whole side are joined, again and again. Does
 /// not depend on the order of the rectangles.
 [[nodiscard]] std::vector<MapRectangle> joined(std::vector<MapRectangle> rectangles);
+
+/// A percentage that never says 100 (or 0) unless it is all (or nothing).
+[[nodiscard]] std::string percent(double share);
 
 /// The map, with the outline of the simulated basin and, in the caption, the share of it that is proved.
 /// Where cells of several amplitude errors lie on top of each other the weakest verdict is seen. Throws

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -43,37 +44,32 @@ Figure bias_figure(const std::vector<Derivation>& biases) {
   const bool is_zero = std::all_of(biases.begin(), biases.end(), [](const Derivation& bias) {
     return value_of(bias, "min_error").lower() == 0.0 && value_of(bias, "max_error").upper() == 0.0;
   });
-  script += "$bias << END\n";
-  for (const Derivation& bias : biases) {
-    script += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", midpoint(value_of(bias, "frequency")),
-                          midpoint(value_of(bias, "mean_bias")), value_of(bias, "min_error").lower(),
-                          value_of(bias, "max_error").upper());
-  }
-  script += "END\n$quadrature << END\n";
+  FigureTable table(
+      "bias", {"frequency of the tone [rad/sample]", "mean bias [rad/sample]", "least error [rad/sample]",
+               "largest error [rad/sample]", "bias of the quadrature tracker [rad/sample]"});
   for (const Derivation& bias : biases) {
     const theorems::Quantity& quadrature = find_quantity(bias, "quadrature_bias");
-    if (!quadrature.not_applicable) {
-      script +=
-          fmt::format("{:.9g} {:.9g}\n", midpoint(value_of(bias, "frequency")), midpoint(quadrature.value));
-    }
+    table.add({midpoint(value_of(bias, "frequency")), midpoint(value_of(bias, "mean_bias")),
+               value_of(bias, "min_error").lower(), value_of(bias, "max_error").upper(),
+               quadrature.not_applicable ? std::nan("") : midpoint(quadrature.value)});
   }
-  script += "0 NaN\n";  // gnuplot refuses an empty block
-  script +=
-      "END\n"
-      "set offsets graph 0.05, graph 0.05, graph 0.08, graph 0.08\n";
+  script += table.block();
+  script += "set offsets graph 0.05, graph 0.05, graph 0.08, graph 0.08\n";
   script += is_zero ? "set yrange [-1:1]\nunset ytics\nset ytics ('0' 0)\n" : "";
   script +=
       "plot 0 with lines lw 0.8 lc rgb '#888888' notitle, "
       "$bias using 1:2:3:4 with yerrorbars lw 1.6 pt 0 lc rgb '#888888' title 'ripple', "
       "'' using 1:2 with linespoints lw 1.4 pt 7 ps 0.6 lc rgb '#000000' title 'mean bias', "
-      "$quadrature using 1:2 with linespoints lw 1.4 dt 2 pt 6 ps 0.7 lc rgb '#000000' title 'quadrature "
+      "'' using 1:5 with linespoints lw 1.4 dt 2 pt 6 ps 0.7 lc rgb '#000000' title 'quadrature "
       "tracker'\n";
   return {
       "bias.svg",
       "Steady-state error of the frequency estimate on a noise-free tone, rad/sample, against the frequency "
       "of the tone: mean over the phase (black) and the range of the ripple (grey bars). The enclosures of "
       "all of them are narrower than the lines.",
-      run_gnuplot(script), "Bias and ripple over the frequency of the tone"};
+      run_gnuplot(script),
+      "Bias and ripple over the frequency of the tone",
+      {std::move(table)}};
 }
 
 /// |G| of the frozen filter over cells of the frequency axis: each cell drawn from its lower to its upper
@@ -84,19 +80,19 @@ Figure response_figure(const Derivation& filter) {
   const single_channel::FrozenGain<Interval> gain{value_of(filter, "gain_1"), value_of(filter, "gain_2"),
                                                   value_of(filter, "zero_angle")};
   std::string script = preamble(360, "frequency, rad/sample", "|G|");
-  script += "$response << END\n";
+  FigureTable table("response", {"frequency [rad/sample]", "|G| from below [1]", "|G| from above [1]"});
   constexpr double kFloor = 1e-3;  // of the drawing; |G| has zeros
   for (int i = 0; i < kCells; ++i) {
     const double left = rigor::pi().upper() * i / kCells;
     const double right = rigor::pi().upper() * (i + 1) / kCells;
     const Interval magnitude = single_channel::response_magnitude(gain, Interval::from_bounds(left, right));
     if (rigor::is_finite(magnitude)) {
-      script += fmt::format("{:.9g} {:.9g} {:.9g}\n", 0.5 * (left + right),
-                            std::max(magnitude.lower(), kFloor), std::max(magnitude.upper(), kFloor));
+      table.add(
+          {0.5 * (left + right), std::max(magnitude.lower(), kFloor), std::max(magnitude.upper(), kFloor)});
     }
   }
+  script += table.block();
   script += fmt::format(
-      "END\n"
       "set logscale y\n"
       "set yrange [{}:*]\n"
       "set xrange [0:3.15]\n"
@@ -108,7 +104,9 @@ Figure response_figure(const Derivation& filter) {
       "Response of the filter with frozen frequency and gain, from the measurement to the innovation, "
       "logarithmic, as an enclosure over 400 cells. Its zero is at the frozen frequency. It is cut off at "
       "0.001.",
-      run_gnuplot(script), "Response of the filter with frozen frequency"};
+      run_gnuplot(script),
+      "Response of the filter with frozen frequency",
+      {std::move(table)}};
 }
 
 }  // namespace

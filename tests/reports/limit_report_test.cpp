@@ -20,8 +20,8 @@ TEST_CASE("the report of a few runs: the same twice, with a table for every walk
     CHECK(document.find(words) != std::string::npos);
   }
   CHECK(document.find("nan") == std::string::npos);
-  CHECK(draw_random_walks(study.random_walks).find("</svg>") != std::string::npos);
-  CHECK(draw_errors_over_time(study.over_time).find("</svg>") != std::string::npos);
+  CHECK(draw_random_walks(study.random_walks).svg.find("</svg>") != std::string::npos);
+  CHECK(draw_errors_over_time(study.over_time).svg.find("</svg>") != std::string::npos);
 }
 
 TEST_CASE("what the report says of thresholds and lost runs is what was simulated") {

@@ -145,6 +145,16 @@ TEST_CASE("the figure has shades for proved cells, all below a round number of s
   CHECK(figure.svg == draw_model_map(map).svg);
 }
 
+TEST_CASE("a unit is whatever the design says, and nothing but a text") {
+  ModelMap map = small_map();
+  map.y.unit = "m'; print 'said'; # <b> *x*";
+  const Figure figure = draw_model_map(map);
+  CHECK(figure.svg.find("m'; print 'said'; # &lt;b>") != std::string::npos);
+  CHECK(figure.svg.find("\nsaid") == std::string::npos);
+  CHECK(figure.caption.find("\\<b\\> \\*x\\*") != std::string::npos);
+  CHECK(figure.values.find("m'; print 'said'; # <b> *x* in w: {kind}.") != std::string::npos);
+}
+
 TEST_CASE("cells as a table and as numbers") {
   const ModelMap& map = small_map();
   const std::string table = model_map_cells(map);

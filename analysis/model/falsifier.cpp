@@ -51,7 +51,7 @@ class AttackRun {
     frequency_ = tone_.frequency;
     tubes_.front().move_to(frequency_);
     tubes_.front().at(phase_, frame_);
-    state_ = frame_.state(coordinates);
+    state_ = tracker_.state(frame_, coordinates);
     level_ = coordinates.norm();
   }
   /// The coordinates after the next sample, under the worst disturbances.
@@ -175,7 +175,8 @@ TubeAttack attack_tubes(const TrackerModel& model, const TubeSet& set, const Att
     const ProvedTube& proved = set.tubes[number % set.tubes.size()];
     const double frequency = proved.tube.frequency + (2.0 * uniform(engine) - 1.0) * proved.tube.half_width;
     AttackRun run(model, proved.tube, {frequency, kTurn * uniform(engine), set.noise, set.slew});
-    Eigen::VectorXd start = proved.levels.front() * random_direction(engine, model.recursion->states);
+    Eigen::VectorXd start =
+        proved.levels.front() * random_direction(engine, static_cast<Eigen::Index>(proved.tube.curve.size()));
     for (int i = 0; i < settings.ascents; ++i) {
       start = steeper(run, start);
     }

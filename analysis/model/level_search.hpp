@@ -97,10 +97,15 @@ class LevelSearch {
                                               : worth.level;
   }
 
-  [[nodiscard]] bool may_hold(double radius, double noise) const {
+  [[nodiscard]] bool may_hold(double radius, double noise) {
     constexpr int kPhases = 24;
-    return !task_->deadline.is_over() &&
-           sampled_growth(*model_, proved_.tube, {radius, noise}, kPhases) <= slow_;
+    LevelQuestion question{radius, noise};
+    // What is kept for a radius is kept for smaller ones.
+    question.with_covariance = radius > kept_radius_;
+    const bool may =
+        !task_->deadline.is_over() && sampled_growth(*model_, proved_.tube, question, kPhases) <= slow_;
+    kept_radius_ = may ? std::max(kept_radius_, radius) : kept_radius_;
+    return may;
   }
 
   bool proves(double radius, double noise) {
@@ -146,13 +151,17 @@ class LevelSearch {
       const double next = step.factor * radius;
       // Points are cheap, and where they fail nothing is verified.
       constexpr int kPhases = 16;
+      LevelQuestion below{next, noise};
+      below.with_covariance = false;  // shown with the largest radius
       if (task_->deadline.is_over() ||
-          !(sampled_growth(*model_, proved_.tube, {next, noise}, kPhases) <= with_room(step.shrinking))) {
+          !(sampled_growth(*model_, proved_.tube, below, kPhases) <= with_room(step.shrinking))) {
         return false;
       }
       // What is verified is from this number up.
       const double scale = next / radius;
-      if (!holds({radius, noise, scale * (1.0 - 1e-12), step.shrinking})) {
+      LevelQuestion between{radius, noise, scale * (1.0 - 1e-12), step.shrinking};
+      between.with_covariance = false;
+      if (!holds(between)) {
         return false;
       }
       if (is_first) {
@@ -170,6 +179,7 @@ class LevelSearch {
   const SetTask* task_;
   ProvedTube proved_;
   std::size_t last_cells_ = 0;  ///< of the last verification that succeeded
+  double kept_radius_ = 0.0;    ///< for which points allow that bounds of a covariance are kept
   double slow_ = 1.0;
   double fast_ = 1.0;
 };

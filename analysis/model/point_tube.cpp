@@ -3,15 +3,18 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <span>
+#include <stdexcept>
 
 namespace veritrack::model {
 
 Eigen::VectorXd PointFrame::coordinates(const Eigen::VectorXd& state) const {
-  return shape.triangularView<Eigen::Lower>().solve(state - curve);
+  return shape.triangularView<Eigen::Lower>().solve(state.head(curve.size()) - curve);
 }
 
 PointTube::PointTube(const Tube& tube, double frequency)
-    : tube_(&tube), series_(tube.curve.size() + tube.shape.size()) {
+    : tube_(&tube),
+      series_(tube.curve.size() + tube.shape.size() + tube.covariance_low.size() +
+              tube.covariance_high.size()) {
   move_to(frequency);
 }
 
@@ -22,8 +25,7 @@ void PointTube::move_to(double frequency) {
   frequency_ = frequency;
   const double z = (frequency - tube_->frequency) / tube_->half_width;
   for (std::size_t i = 0; i < series_.size(); ++i) {
-    const std::size_t states = tube_->curve.size();
-    const PhaseSeries& series = i < states ? tube_->curve[i] : tube_->shape[i - states];
+    const PhaseSeries& series = series_of(i);
     series_[i].resize(series.coefficients.size());
     for (std::size_t h = 0; h < series_[i].size(); ++h) {
       double real = 0.0;
@@ -36,6 +38,17 @@ void PointTube::move_to(double frequency) {
     }
     harmonics_ = std::max(harmonics_, series_[i].size());
   }
+}
+
+const PhaseSeries& PointTube::series_of(std::size_t number) const {
+  for (const std::vector<PhaseSeries>* part :
+       {&tube_->curve, &tube_->shape, &tube_->covariance_low, &tube_->covariance_high}) {
+    if (number < part->size()) {
+      return (*part)[number];
+    }
+    number -= part->size();
+  }
+  throw std::logic_error("no such series of a tube");
 }
 
 void PointTube::at(double phase, PointFrame& frame) const {
@@ -65,6 +78,19 @@ void PointTube::at(double phase, PointFrame& frame) const {
       frame.shape(i, j) = value();
     }
   }
+  if (!tube_->bounds_covariance()) {
+    return;
+  }
+  frame.covariance.setZero(states, states);
+  for (int bound = 0; bound < 2; ++bound) {
+    for (Eigen::Index i = 0; i < states; ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        const double half = 0.5 * value();
+        frame.covariance(i, j) += half;
+        frame.covariance(j, i) += i == j ? 0.0 : half;
+      }
+    }
+  }
 }
 
 PointTracker::PointTracker(const TrackerModel& model) : model_(&model) {
@@ -85,6 +111,33 @@ Eigen::VectorXd PointTracker::samples(double phase) {
   model_->signal->run(std::span<const double>(signal_inputs_), registers_,
                       std::span(values.data(), static_cast<std::size_t>(values.size())));
   return values;
+}
+
+Eigen::VectorXd PointTracker::state(const PointFrame& frame, const Eigen::VectorXd& coordinates) {
+  const Eigen::VectorXd estimate = frame.state(coordinates);
+  if (frame.covariance.size() == 0) {
+    return estimate;
+  }
+  const Eigen::Index n = estimate.size();
+  std::vector<double> inputs(step_inputs_.begin(),
+                             step_inputs_.begin() + static_cast<std::ptrdiff_t>(model_->constants.size()));
+  inputs.resize(inputs.size() + static_cast<std::size_t>(n + channels()), 1.0);
+  const auto values = trackers::filter_values(*model_->filter, inputs);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::MatrixXd measured = Eigen::Map<const RowMajor>(values.measured.data(), channels(), n);
+  const Eigen::MatrixXd noise = Eigen::Map<const RowMajor>(values.noise.data(), channels(), channels());
+  const Eigen::MatrixXd cross = measured * frame.covariance;
+  const Eigen::MatrixXd updated =
+      frame.covariance - cross.transpose() * (cross * measured.transpose() + noise).ldlt().solve(cross);
+  Eigen::VectorXd result(states());
+  result.head(n) = estimate;
+  Eigen::Index place = n;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = i; j < n; ++j) {
+      result[place++] = updated(i, j);
+    }
+  }
+  return result;
 }
 
 Eigen::VectorXd PointTracker::next(const Eigen::VectorXd& state, const Eigen::VectorXd& samples) {

@@ -15,11 +15,15 @@ namespace veritrack::model {
 struct PointFrame {
   Eigen::VectorXd curve;
   Eigen::MatrixXd shape;  ///< lower triangular
+  /// Of a tube that bounds a covariance: the middle of the bounds of the predicted one; otherwise without
+  /// rows.
+  Eigen::MatrixXd covariance;
 
+  /// Of a filter with such a tube: the estimate alone.
   [[nodiscard]] Eigen::VectorXd state(const Eigen::VectorXd& coordinates) const {
     return curve + shape * coordinates;
   }
-  /// xi with state = C + U xi.
+  /// xi with state = C + U xi. Of a filter, the covariance is left aside.
   [[nodiscard]] Eigen::VectorXd coordinates(const Eigen::VectorXd& state) const;
 };
 
@@ -36,9 +40,12 @@ class PointTube {
   void at(double phase, PointFrame& frame) const;
 
  private:
+  [[nodiscard]] const PhaseSeries& series_of(std::size_t number) const;
+
   const Tube* tube_;
   double frequency_ = NAN;
-  // Harmonics of the curve and then of the lower triangle of the shape, the powers of z summed up.
+  // Harmonics of the curve, then of the lower triangle of the shape and those of the bounds of a covariance,
+  // the powers of z summed up.
   std::vector<std::vector<std::complex<double>>> series_;
   std::size_t harmonics_ = 0;
 };
@@ -53,6 +60,9 @@ class PointTracker {
   [[nodiscard]] int channels() const { return model_->recursion->samples; }
   /// The samples at this phase, without noise.
   [[nodiscard]] Eigen::VectorXd samples(double phase);
+  /// The state at these coordinates; of a filter with a tube that bounds the covariance, with the covariance
+  /// that the middle of its bounds leads to.
+  [[nodiscard]] Eigen::VectorXd state(const PointFrame& frame, const Eigen::VectorXd& coordinates);
   /// The next state.
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& state, const Eigen::VectorXd& samples);
   /// The estimated frequency, rad/sample.

@@ -17,6 +17,7 @@ BandSettings settings_of(const SetTask& task, double low, double high) {
   settings.tube.shape.start = task.deviations;
   settings.tube.shape.noise = task.noise;
   settings.tube.shape.slew = task.slew;
+  settings.tube.shape.largest_reach = task.largest_error;
   settings.tube.steady_state.largest_mean_error = std::max(0.5 * (high - low), 0.05 * low);
   return settings;
 }

@@ -32,6 +32,8 @@ struct ShapeSettings {
   double noise = 0.0;  ///< of the samples together, Euclidean
   double slew = 0.0;   ///< rad/sample per sample
   int harmonics = 16;  ///< of the shape, at most
+  /// Of the tube of a filter whose covariance is bounded, rad/sample; 0: as large as can be.
+  double largest_reach = 0.0;
   /// The largest rate at other frequencies for which the parameters have to do: lambda is above its square.
   double largest_rate = 0.0;
   /// Of shapes in the search; 0 means 300, and 600 for more than 5 states.
@@ -43,6 +45,7 @@ struct ShapeParameters {
   double lambda = 0.0;         ///< between the square of the rate and 1
   DisturbanceWeights weights;  ///< b, c
   Eigen::MatrixXd source;      ///< W, n x n, positive semidefinite
+  Eigen::VectorXd of_filter;   ///< in place of all these: see filter_proposal.cpp
 };
 
 /// What a shape is worth at the curve.

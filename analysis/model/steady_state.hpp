@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/model/step_derivatives.hpp"
+#include "trackers/model/filter_parts.hpp"
 
 namespace veritrack::model {
 
@@ -21,6 +22,8 @@ struct TrackedTone {
   double amplitude = 1.0;
   StartState start;
   std::vector<std::string> names = {};  ///< of the states, for messages; or empty
+  /// Of a filter, of which tubes are to bound the covariance; or none.
+  const trackers::FilterParts* filter = nullptr;
 };
 
 enum class SteadyStateOutcome {

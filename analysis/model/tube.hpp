@@ -45,6 +45,12 @@ struct Tube {
   std::vector<int> turns;   ///< how often a state turns while the phase turns once: 0 unless it is an angle
   std::vector<PhaseSeries> curve;  ///< one for each state
   std::vector<PhaseSeries> shape;  ///< the lower triangle of U, row by row
+  /// Of an extended Kalman filter, whose curve and shape are those of the estimate alone: lower and upper
+  /// bounds, in the order of symmetric matrices, of the covariance that is predicted for the sample at phi;
+  /// lower triangles, row by row. Otherwise empty (docs/model-proof.md, section 13).
+  std::vector<PhaseSeries> covariance_low, covariance_high;
+
+  [[nodiscard]] bool bounds_covariance() const { return !covariance_high.empty(); }
 };
 
 /// The signal: sample c is the sum over h of coefficients[c][h] amplitude exp(i h phi), real part.

@@ -45,7 +45,7 @@ void for_each_cell(const TrackerModel& model, const Tube& tube, const ErrorGrid&
   require_sizes(model, tube);
   const auto cells = static_cast<std::size_t>(grid.phases) * static_cast<std::size_t>(grid.frequencies);
   tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t number) {
-    const rigor::BallModelScope scope(model.recursion->states, 0);
+    const rigor::BallModelScope scope(static_cast<int>(tube.curve.size()), 0);
     work(number, frame_of(model, tube, cell_of(grid, number), FrameParts::here));
   });
 }
@@ -62,7 +62,7 @@ struct CellErrors {
 
 BallModel frequency_error(const TrackerModel& model, const CellFrame& frame,
                           const std::vector<BallModel>& state) {
-  return run(model, model.recursion->frequency, state).front() - frame.frequency;
+  return frequency_of(model, state) - frame.frequency;
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ using rigor::Interval;
 
 std::size_t most_harmonics(const Tube& tube) {
   std::size_t most = 0;
-  for (const std::vector<PhaseSeries>* part : {&tube.curve, &tube.shape}) {
+  for (const std::vector<PhaseSeries>* part :
+       {&tube.curve, &tube.shape, &tube.covariance_low, &tube.covariance_high}) {
     for (const PhaseSeries& series : *part) {
       most = std::max(most, series.coefficients.size());
     }
@@ -28,7 +29,8 @@ std::size_t most_harmonics(const Tube& tube) {
 
 std::size_t most_powers(const Tube& tube) {
   std::size_t most = 0;
-  for (const std::vector<PhaseSeries>* part : {&tube.curve, &tube.shape}) {
+  for (const std::vector<PhaseSeries>* part :
+       {&tube.curve, &tube.shape, &tube.covariance_low, &tube.covariance_high}) {
     for (const PhaseSeries& series : *part) {
       for (const auto& harmonic : series.coefficients) {
         most = std::max(most, harmonic.size());
@@ -80,6 +82,9 @@ BallModel sum_of(const PhaseSeries& series, const Harmonics& harmonics,
                  const std::vector<BallModel>& powers) {
   BallModel sum;
   for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
+    if (series.coefficients[h].empty()) {
+      continue;  // many series have every second harmonic only
+    }
     const auto [real, imaginary] = coefficient_of(series, h, powers);
     sum = h == 0 ? sum + real : sum + (real * harmonics[h].first - imaginary * harmonics[h].second);
   }
@@ -121,6 +126,12 @@ TubeHere tube_at(const Tube& tube, const BallModel& phase, const BallModel& z) {
   }
   for (const PhaseSeries& entry : tube.shape) {
     here.shape.push_back(sum_of(entry, harmonics, powers));
+  }
+  for (const PhaseSeries& entry : tube.covariance_low) {
+    here.covariance_low.push_back(sum_of(entry, harmonics, powers));
+  }
+  for (const PhaseSeries& entry : tube.covariance_high) {
+    here.covariance_high.push_back(sum_of(entry, harmonics, powers));
   }
   return here;
 }
@@ -228,9 +239,23 @@ std::vector<BallModel> run(const TrackerModel& model, const trackers::StraightLi
   return results;
 }
 
-void require_sizes(const TrackerModel& model, const Tube& tube) {
+BallModel frequency_of(const TrackerModel& model, std::vector<BallModel> state) {
   const auto states = static_cast<std::size_t>(model.recursion->states);
-  if (tube.curve.size() != states || tube.turns.size() != states ||
+  while (state.size() < states) {
+    state.emplace_back(Interval::empty());
+  }
+  return run(model, model.recursion->frequency, state).front();
+}
+
+void require_sizes(const TrackerModel& model, const Tube& tube) {
+  const bool is_filter = tube.bounds_covariance();
+  if (is_filter && model.filter == nullptr) {
+    throw std::invalid_argument("a tube that bounds a covariance, of a tracker without one");
+  }
+  const auto states = static_cast<std::size_t>(is_filter ? model.filter->states : model.recursion->states);
+  const std::size_t entries = is_filter ? states * (states + 1) / 2 : 0;
+  if (tube.covariance_low.size() != entries || tube.covariance_high.size() != entries ||
+      tube.curve.size() != states || tube.turns.size() != states ||
       tube.shape.size() != states * (states + 1) / 2 || !(tube.half_width > 0.0) ||
       model.constants.size() != static_cast<std::size_t>(model.recursion->constants) ||
       model.signal->results().size() != static_cast<std::size_t>(model.recursion->samples)) {

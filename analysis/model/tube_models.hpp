@@ -14,6 +14,8 @@ namespace veritrack::model {
 struct TubeHere {
   std::vector<rigor::BallModel> curve;
   std::vector<rigor::BallModel> shape;  ///< the lower triangle, row by row
+  /// Bounds of a filter's predicted covariance, lower triangles; or empty.
+  std::vector<rigor::BallModel> covariance_low, covariance_high;
 };
 
 /// The phase, rad, and the place z in the band of the tube, over a cell.
@@ -67,6 +69,9 @@ enum class FrameParts { here, with_samples, with_next };
 [[nodiscard]] std::vector<rigor::BallModel> run(const TrackerModel& model,
                                                 const trackers::StraightLineProgram& program,
                                                 const std::vector<rigor::BallModel>& inputs);
+
+/// The estimated frequency at a state, rad/sample. Of a filter, the covariance is not known.
+[[nodiscard]] rigor::BallModel frequency_of(const TrackerModel& model, std::vector<rigor::BallModel> state);
 
 /// Throws std::invalid_argument when sizes do not fit.
 void require_sizes(const TrackerModel& model, const Tube& tube);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "analysis/model/filter_proposal.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
@@ -203,6 +204,10 @@ TubeProposal propose_tube(const TrackedTone& tone, double frequency, double half
   proposal.curve_error = curve->frequency_error;
   proposal.outcome = TubeOutcome::cell_too_wide;
   if (!(curve->frequency_error <= settings.largest_curve_error)) {
+    return proposal;
+  }
+  if (tone.filter != nullptr) {
+    propose_filter_tube(tone, *curve, settings, nearby, proposal);
     return proposal;
   }
   const PhaseGrid grid(grid_harmonics(tone, curve->at(0.0)));

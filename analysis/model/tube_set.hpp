@@ -28,12 +28,15 @@ struct ProvedTube {
 struct SetTask {
   std::string name;
   ShapeObjective objective = ShapeObjective::largest_starts;
-  double noise = 0.0;              ///< V, signal units
-  double slew = 0.0;               ///< W, rad/sample per sample
-  bool largest_noise = false;      ///< search for the largest V, at a constant frequency
-  bool largest_slew = false;       ///< search for the largest W, with the V that is given
-  bool with_curve = false;         ///< levels down to what the curve is known to, for the bias
-  Eigen::VectorXd deviations;      ///< of starts, one for each state; or empty
+  double noise = 0.0;          ///< V, signal units
+  double slew = 0.0;           ///< W, rad/sample per sample
+  bool largest_noise = false;  ///< search for the largest V, at a constant frequency
+  bool largest_slew = false;   ///< search for the largest W, with the V that is given
+  bool with_curve = false;     ///< levels down to what the curve is known to, for the bias
+  Eigen::VectorXd deviations;  ///< of starts, one for each state; or empty
+  /// The frequency error that is asked for, rad/sample, or 0: of a filter whose covariance is bounded, tubes
+  /// are no larger. (Others have levels that are as good.)
+  double largest_error = 0.0;
   search::Deadline deadline = {};  ///< after which nothing more is proved
 };
 

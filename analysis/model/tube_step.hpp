@@ -14,6 +14,7 @@
 #include "analysis/model/tube.hpp"
 #include "analysis/rigor/ball_model.hpp"
 #include "analysis/rigor/interval.hpp"
+#include "trackers/model/filter_parts.hpp"
 #include "trackers/model/model_tracker.hpp"
 
 namespace veritrack::model {
@@ -24,6 +25,8 @@ struct TrackerModel {
   const trackers::StraightLineProgram* signal = nullptr;  ///< inputs: constants, amplitude, phase
   std::vector<rigor::Interval> constants;
   rigor::Interval amplitude;
+  /// Of an extended Kalman filter that can be taken to its parts: for tubes that bound the covariance.
+  const trackers::FilterParts* filter = nullptr;
 };
 
 /// A part of a tube: phases 2 pi (turn - half_turn) to 2 pi (turn + half_turn), and z - half_z to z + half_z

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/model/angle_check.hpp"
+#include "analysis/model/filter_step.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
@@ -36,6 +37,14 @@ bool holds(const StepBounds& bounds, const LevelQuestion& question, const std::v
   return true;
 }
 
+StepBounds bounds_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                     const LevelQuestion& question, const std::vector<double>& scales) {
+  return tube.bounds_covariance()
+             ? bound_filter_step(model, tube, cell, question.radius, question.noise, scales,
+                                 question.with_covariance)
+             : bound_step(model, tube, cell, question.radius, question.noise, scales, question.slew);
+}
+
 }  // namespace
 
 std::string objection_to_phases(const TrackerModel& model, const Tube& tube) {
@@ -45,6 +54,10 @@ std::string objection_to_phases(const TrackerModel& model, const Tube& tube) {
   }
   if (!is_periodic(*model.signal, model.constants)) {
     return "the signal is not known to have the period 2 pi in its phase";
+  }
+  if (tube.bounds_covariance() &&
+      std::any_of(tube.turns.begin(), tube.turns.end(), [](int turns) { return turns != 0; })) {
+    return "the estimate of a filter turns";
   }
   for (std::size_t i = 0; i < tube.turns.size(); ++i) {
     if (tube.turns[i] != 0 && !model.recursion->is_angle[i]) {
@@ -72,6 +85,10 @@ LevelResult verify_level(const TrackerModel& model, const Tube& tube, const Leve
                            question.least_scale <= 1.0 && question.shrinking > 0.0 &&
                            question.shrinking <= 1.0 && question.slew >= 0.0 &&
                            std::isfinite(question.slew) && is_grid(budget);
+  if (tube.bounds_covariance() && question.slew != 0.0) {
+    result.reason = "bounds of a covariance are for constant frequencies";
+    return result;
+  }
   if (!is_question) {
     result.reason = "no radius, noise, slew or budget that could be verified";
     return result;
@@ -81,8 +98,7 @@ LevelResult verify_level(const TrackerModel& model, const Tube& tube, const Leve
     scales.push_back(question.least_scale);
   }
   const auto ask = [&](const TubeCell& cell) -> CellAnswer {
-    const StepBounds bounds =
-        bound_step(model, tube, cell, question.radius, question.noise, scales, question.slew);
+    const StepBounds bounds = bounds_of(model, tube, cell, question, scales);
     return {holds(bounds, question, scales), bounds.frequency_error, bounds.by_phase, bounds.by_frequency};
   };
   const CoverResult cover = cover_cells(ask, budget);
@@ -104,8 +120,7 @@ double sampled_growth(const TrackerModel& model, const Tube& tube, const LevelQu
   tbb::parallel_for(std::size_t{0}, growths.size(), [&](std::size_t number) {
     const std::size_t phase = number / kPlaces.size();
     const TubeCell point{static_cast<double>(phase) / phases, 0.0, kPlaces.at(number % kPlaces.size()), 0.0};
-    const double step =
-        bound_step(model, tube, point, question.radius, question.noise, {1.0}, question.slew).steps.front();
+    const double step = bounds_of(model, tube, point, question, {1.0}).steps.front();
     growths[number] = std::isfinite(step) ? step / question.radius : std::numeric_limits<double>::infinity();
   });
   return *std::max_element(growths.begin(), growths.end());

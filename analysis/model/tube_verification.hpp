@@ -21,6 +21,9 @@ struct LevelQuestion {
   double shrinking = 1.0;
   /// W: from one sample to the next the frequency moves by at most this, rad/sample.
   double slew = 0.0;
+  /// Of a filter: that the bounds of the covariance are kept is shown, too. It is enough to do so for the
+  /// largest radius.
+  bool with_covariance = true;
 };
 
 struct LevelResult {

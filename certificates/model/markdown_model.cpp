@@ -130,7 +130,7 @@ std::string recursion_section(const Certificate& certificate, const Model& model
          markdown::fenced(recursion_text(model, certificate.design.name, CodeLanguage::formulas), "") + "\n";
 }
 
-std::string coverage_section(const ModelTables& tables) {
+std::string coverage_section(const ModelTables& tables, bool bounds_covariance) {
   const bool moves = tables.assume.slew.value.upper() > 0.0;
   const bool is_gaussian = tables.assume.gaussian.has_value();
   return fmt::format(
@@ -144,7 +144,7 @@ std::string coverage_section(const ModelTables& tables) {
       "- The frequency {}. A mean is the mean over the phase of the signal.\n"
       "- The certified sets are the tubes in `certificate.json`. \"Started in the set\" refers to them by "
       "name: `starts`, for large starts without noise, or `assumed`, for the assumed noise and slew{}. How "
-      "the tracker gets there from another start is not covered.\n"
+      "the tracker gets there from another start is not covered.{}\n"
       "- UNDECIDED refutes nothing: another set may exist.\n"
       "- The proof is in `docs/model-proof.md` of the program's sources. Every bound was computed with "
       "outward rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
@@ -153,7 +153,13 @@ std::string coverage_section(const ModelTables& tables) {
       moves
           ? "stays in the band and changes by no more than assumed, or is constant where a statement says so"
           : "is constant",
-      is_gaussian ? "; `gaussian` and `lowest-snr`, for Gaussian noise" : "");
+      is_gaussian ? "; `gaussian` and `lowest-snr`, for Gaussian noise" : "",
+      bounds_covariance
+          ? " \"A covariance between its bounds\": the set has a lower and an upper bound, in the order of "
+            "symmetric matrices, of the filter's covariance after the sample at each phase of the signal; "
+            "the "
+            "covariance at the start is one of these, and every later one is then."
+          : "");
 }
 
 }  // namespace
@@ -177,7 +183,8 @@ std::string model_sections(const Certificate& certificate, const MarkdownOptions
   const Model model = make_model(tables.model, tables.assume.signal);
   return design_section(certificate, tables, model) + model_lock_section(certificate) +
          model_sets_section(certificate, model, options) + model_bias_section(certificate, options) +
-         recursion_section(certificate, model) + coverage_section(tables);
+         recursion_section(certificate, model) +
+         coverage_section(tables, model_sets(certificate).bounds_covariance);
 }
 
 }  // namespace veritrack::certificates

@@ -207,7 +207,14 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
       "is divided into cells of frequencies, each with its own tube. A tube is divided into nested levels, "
       "from the whole tube to its core; the errors shrink from level to level. The last column says how far "
       "the tube reaches: at every phase it contains states with a frequency error of that size, in both "
-      "directions.\n\n";
+      "directions.";
+  text +=
+      sets.bounds_covariance
+          ? " The ellipsoids are those of the filter's estimate. Its covariance is between two matrices at "
+            "every phase: a start in the set has such a covariance, and with each of them the errors shrink "
+            "as "
+            "much as is said.\n\n"
+          : "\n\n";
   const std::vector<NamedSet> all = named_sets(sets, assume);
   std::vector<std::vector<std::string>> rows;
   std::string meanings;

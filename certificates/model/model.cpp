@@ -278,6 +278,14 @@ Model make_model(const ModelTable& table, const std::vector<SourceText>& signal)
   for (const std::string& state : model.states) {
     model.recursion.is_angle.push_back(std::find(angles.begin(), angles.end(), state) != angles.end());
   }
+  if (recipe.filter && angles.empty()) {
+    const int estimates = constants + static_cast<int>(recipe.filter->states.size());
+    const bool reads_covariance = language::depends_on_inputs(model.frequency.program, estimates, 0,
+                                                              model.frequency.program.results().size());
+    model.filter = reads_covariance ? std::nullopt
+                                    : language::compile_filter_parts(*recipe.filter, model.constants,
+                                                                     model.samples, recipe.position);
+  }
   return model;
 }
 

@@ -1,11 +1,13 @@
 // A tracker that a user has written down, made ready to run.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "certificates/model/language/compiler.hpp"
 #include "certificates/model/model_design.hpp"
+#include "trackers/model/filter_parts.hpp"
 #include "trackers/model/model_tracker.hpp"
 
 namespace veritrack::certificates {
@@ -18,6 +20,8 @@ struct Model {
   std::vector<std::string> samples;
   std::vector<std::string> states;
   trackers::Recursion recursion;
+  /// Of a filter with a linear measurement, whose frequency is a formula of the estimate.
+  std::optional<trackers::FilterParts> filter;
   language::CompiledProgram step;           ///< of the recursion, with places and names
   language::CompiledProgram frequency;      ///< likewise
   trackers::StraightLineProgram start{0};   ///< inputs A, omega: the state where a search begins

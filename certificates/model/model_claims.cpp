@@ -43,7 +43,7 @@ class ModelClaims {
       : certificate_(&certificate),
         tables_(&model_tables(certificate.design)),
         sets_(&model_sets(certificate)),
-        words_(*tables_),
+        words_(words_for(std::nullopt)),
         units_(tables_->assume.sample_rate),
         deciding_(sets_->assumed ? &*sets_->assumed : &sets_->starts) {}
 
@@ -52,7 +52,7 @@ class ModelClaims {
       add_lock_claims(*certificate_);
     }
     if (const Scope scope = scope_of({deciding_}); scope.is_any && keeps_starts() && !is_gaussian()) {
-      const ModelWords words(*tables_, scope.part);
+      const ModelWords words = words_for(scope.part);
       Claim claim = told("model/guarantee", words.assumed_tone() + words.noise() +
                                                 words.start(sets_->assumed ? "assumed" : "starts"));
       const std::string bound = above(deciding_->frequency_error);
@@ -70,7 +70,7 @@ class ModelClaims {
     const ModelSet& starts = sets_->starts;
     if (const Scope scope = sets_->noise ? scope_of({&starts, &*sets_->noise}) : Scope{};
         scope.is_any && starts.reach > 0.0) {
-      Claim claim = told("model/limits", ModelWords(*tables_, scope.part).constant_tone());
+      Claim claim = told("model/limits", words_for(scope.part).constant_tone());
       const std::string noise = below(sets_->noise->tubes.noise);
       const std::string reach = below(starts.reach);
       claim.values = {{"noise", noise}, {"reach", reach}};
@@ -82,9 +82,8 @@ class ModelClaims {
       add(claim);
     }
     if (const Scope scope = scope_of({&starts}); scope.is_any && knows_bias()) {
-      Claim claim =
-          told("model/steady-state", ModelWords(*tables_, scope.part).constant_tone() +
-                                         ", without noise, started in the set \"starts\" of the certificate");
+      Claim claim = told("model/steady-state", words_for(scope.part).constant_tone() + ", without noise, " +
+                                                   words_.started_in("starts"));
       const std::string low = below(starts.bias.lower());
       const std::string high = above(starts.bias.upper());
       const std::string ripple = above(starts.ripple);
@@ -137,8 +136,7 @@ class ModelClaims {
       decide_size(claim, covers_assumptions() ? deciding_->reach : 0.0, *number,
                   "The certified set reaches {} rad/sample");
     }
-    const std::string settled =
-        words_.constant_tone() + ", without noise, started in the set \"starts\" of the certificate";
+    const std::string settled = words_.constant_tone() + ", without noise, " + words_.started_in("starts");
     if (const auto& number = require.bias_below) {
       Claim claim =
           required("model/bias", *number, "", "the mean frequency error is at most {}", frequency_words);
@@ -167,6 +165,10 @@ class ModelClaims {
   }
 
  private:
+  /// For a part of the band.
+  [[nodiscard]] ModelWords words_for(std::optional<BandPart> part) const {
+    return ModelWords(*tables_, std::move(part), sets_->bounds_covariance);
+  }
   static Claim told(const char* id, const std::string& hypotheses) {
     Claim claim;
     claim.id = id;

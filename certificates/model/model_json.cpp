@@ -1,5 +1,7 @@
 #include "certificates/model/model_json.hpp"
 
+#include <utility>
+
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/assumptions_json.hpp"
@@ -106,6 +108,15 @@ Json tube_json(const model::ProvedTube& proved) {
   }
   for (const model::PhaseSeries& series : tube.shape) {
     json["shape"].push_back(series_json(series));
+  }
+  if (tube.bounds_covariance()) {
+    for (const auto& [name, bound] : {std::pair("covariance_low", &tube.covariance_low),
+                                      std::pair("covariance_high", &tube.covariance_high)}) {
+      json[name] = Json::array();
+      for (const model::PhaseSeries& series : *bound) {
+        json[name].push_back(series_json(series));
+      }
+    }
   }
   return json;
 }

@@ -92,7 +92,10 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
   for (const model::ProvedTube& proved : set.tubes.tubes) {
     const double radius = proved.levels.front();
     const double reach = model::bound_reach(tracker, proved.tube, radius, grid) * 0.999;
-    const double start = model::bound_start(tracker, proved.tube, deviations, grid);
+    // Of a filter whose covariance is bounded, those of the estimate.
+    const std::vector<Interval> of_tube(
+        deviations.begin(), deviations.begin() + static_cast<std::ptrdiff_t>(proved.tube.curve.size()));
+    const double start = model::bound_start(tracker, proved.tube, of_tube, grid);
     constexpr model::ErrorGrid kFine{128, 16};  // the bias changes with the frequency
     const model::TubeErrors settled =
         model::bound_errors(tracker, proved.tube, proved.levels.back(), cells != nullptr ? kFine : grid);
@@ -169,7 +172,17 @@ model::TrackerModel proved_model(const Model& model, const ModelAssumptions& ass
     tracker.constants.push_back(constant.value);
   }
   tracker.amplitude = assume.amplitude.value;
+  tracker.filter = model.filter ? &*model.filter : nullptr;
   return tracker;
+}
+
+bool bounds_covariance(const Model& model, const ModelTables& tables) {
+  const ModelAssumptions& assume = tables.assume;
+  const bool names_covariance =
+      std::any_of(assume.start_within.begin(), assume.start_within.end(),
+                  [](const NamedText& entry) { return entry.name.text.starts_with("P."); });
+  return model.filter && !assume.gaussian && !names_covariance && !(assume.slew.value.upper() > 0.0) &&
+         !tables.require.sets.largest_slew_at_least;
 }
 
 model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume) {
@@ -239,16 +252,18 @@ const ModelSets& model_sets(const Certificate& certificate) {
 }
 
 ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::Deadline& deadline,
-                       const CertifyProgress& progress) {
+                       const CertifyProgress& progress, bool by_structure) {
   const rigor::UpwardRounding upward;
   const ModelAssumptions& assume = tables.assume;
   const Requirements& require = tables.require.sets;
   const Model model = make_model(tables.model, assume.signal);
   const model::TrackerModel tracker = proved_model(model, assume);
-  const model::TrackedTone tone = proposed_tone(model, assume);
+  model::TrackedTone tone = proposed_tone(model, assume);
+  tone.filter = by_structure && bounds_covariance(model, tables) ? tracker.filter : nullptr;
   const std::vector<Interval> deviations = start_deviations(model, tables.model, assume.start_within);
   const Interval band = band_of(assume);
   ModelSets sets;
+  sets.bounds_covariance = tone.filter != nullptr;
   sets.starts.frequency_error = sets.starts.settled_error = INFINITY;
   const SearchedBand searched = searched_band(band, model.samples.size());
   if (!(searched.low < searched.high)) {
@@ -283,6 +298,9 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   if (slew > 0.0 || require.largest_slew_at_least) {
     tasks.push_back(
         {.name = "slew", .objective = ShapeObjective::largest_slew, .largest_slew = true, .deviations = {}});
+  }
+  if (const auto& required = require.frequency_error_below) {
+    tasks[noise > 0.0 || slew > 0.0 ? 1 : 0].largest_error = required->value.lower();
   }
   if (deadline.is_set() && tasks.size() > 1 && tasks[1].name == "assumed") {
     std::swap(tasks[0], tasks[1]);  // what is required rests on it

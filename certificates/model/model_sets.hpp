@@ -45,12 +45,17 @@ struct ModelSets {
   std::optional<ModelLock> gaussian;    ///< for the assumed Gaussian noise
   std::optional<ModelLock> lowest_snr;  ///< for as much Gaussian noise as can be proved
   std::vector<ModelCell> cells;         ///< of `starts`
+  bool bounds_covariance = false;       ///< the tubes do, of a filter
   std::string objection;                ///< why nothing is certified of the assumptions; or empty
 };
 
 /// The tracker of a model on its signal: for proofs, and for proposals. The members refer to the model.
 [[nodiscard]] model::TrackerModel proved_model(const Model& model, const ModelAssumptions& assume);
 [[nodiscard]] model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume);
+
+/// Whether the covariance of a filter is bounded by matrices, so that tubes are those of its estimate alone:
+/// at constant frequencies, with bounded noise, where no start names an entry of the covariance.
+[[nodiscard]] bool bounds_covariance(const Model& model, const ModelTables& tables);
 
 /// The band, rad/sample. Needs the upward rounding mode.
 [[nodiscard]] rigor::Interval band_of(const ModelAssumptions& assume);
@@ -71,8 +76,10 @@ struct SearchedBand {
 [[nodiscard]] const ModelSets& model_sets(const Certificate& certificate);
 
 /// Searches and verifies. `extent`: without what only is told beside the requirements. After the deadline no
-/// more is searched for; what is proved by then is kept.
+/// more is searched for; what is proved by then is kept. `by_structure`: the covariance of a filter is
+/// bounded by matrices where it can be.
 [[nodiscard]] ModelSets certify_sets(const ModelTables& tables, Extent extent,
-                                     const search::Deadline& deadline, const CertifyProgress& progress);
+                                     const search::Deadline& deadline, const CertifyProgress& progress,
+                                     bool by_structure = true);
 
 }  // namespace veritrack::certificates

@@ -17,8 +17,10 @@ namespace veritrack::certificates {
 class ModelWords {
  public:
   /// `part`: of the band, to which statements are limited; none for the whole band.
-  explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt)
-      : assume_(&tables.assume), part_(std::move(part)) {}
+  /// `bounds_covariance`: the sets are those of a filter's estimate, with bounds of its covariance.
+  explicit ModelWords(const ModelTables& tables, std::optional<BandPart> part = std::nullopt,
+                      bool bounds_covariance = false)
+      : assume_(&tables.assume), part_(std::move(part)), bounds_covariance_(bounds_covariance) {}
 
   [[nodiscard]] std::string unit() const { return assume_->frequency_in_hertz ? "Hz" : "rad/sample"; }
   [[nodiscard]] std::string tone_with(const std::string& frequency) const {
@@ -51,9 +53,13 @@ class ModelWords {
   /// The assumed start, in the set of that name.
   [[nodiscard]] std::string start(const std::string& set) const {
     if (assume_->start_within.empty()) {
-      return ", started in the set \"" + set + "\" of the certificate";
+      return ", " + started_in(set);
     }
-    return start_within(set);
+    return start_within(set) + covariance();
+  }
+  /// A start in the set of that name.
+  [[nodiscard]] std::string started_in(const std::string& set) const {
+    return "started in the set \"" + set + "\" of the certificate" + covariance();
   }
   /// The same, for statements that depend on how far inside a start is.
   [[nodiscard]] std::string start_inside(const std::string& set) const {
@@ -63,6 +69,9 @@ class ModelWords {
   }
 
  private:
+  [[nodiscard]] std::string covariance() const {
+    return bounds_covariance_ ? ", with a covariance between its bounds" : "";
+  }
   [[nodiscard]] std::string rate() const {
     return assume_->sample_rate ? fmt::format(" at {} samples per second", assume_->sample_rate->text) : "";
   }
@@ -77,6 +86,7 @@ class ModelWords {
 
   const ModelAssumptions* assume_;
   std::optional<BandPart> part_;
+  bool bounds_covariance_ = false;
 };
 
 }  // namespace veritrack::certificates

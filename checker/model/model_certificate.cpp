@@ -1,6 +1,7 @@
 #include "checker/model/model_certificate.hpp"
 
 #include <map>
+#include <optional>
 #include <set>
 
 #include "checker/model/gaussian_drift.hpp"
@@ -17,9 +18,10 @@ std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedMod
                                              Verification& result) {
   std::map<std::string, TubeSet> sets;
   std::set<std::string> names;
+  std::optional<bool> is_filter;
   for (const Tree& tree : tubes.elements()) {
     Objections objections;
-    TubeSet set = read_tube_set(tree, model.recursion->states(), objections);
+    TubeSet set = read_tube_set(tree, model.recursion->states(), objections, model.recursion->filtered());
     const bool is_known = set.gaussian ? set.name == "gaussian" || set.name == "lowest-snr"
                                        : set.name == "starts" || set.name == "assumed" ||
                                              set.name == "noise" || set.name == "slew";
@@ -27,6 +29,10 @@ std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedMod
       objections.emplace_back(is_known ? "a second set of this name" : kUnknown);
     }
     check_order(set, objections);
+    is_filter = is_filter.value_or(bounds_covariance(set));
+    if (bounds_covariance(set) != *is_filter) {
+      objections.emplace_back("some sets bound a covariance, and others do not");
+    }
     if (objections.empty()) {
       // They object themselves where they fail.
       (void)(set.gaussian ? is_seldom_left(model, set, result.cells, objections)

@@ -23,7 +23,11 @@ const std::string kSteadyState = "model/steady-state";
 const std::string kLosingLock = "model/probability-of-losing-lock";
 const std::string kLock = "model/losing-lock";
 const std::string kLowestSnr = "model/lowest-snr";
-const std::string kSettled = ", without noise, started in the set \"starts\" of the certificate";
+
+/// Whether the sets bound a covariance: all or none do (model_certificate.cpp).
+bool bound_covariance(const std::map<std::string, TubeSet>& sets) {
+  return !sets.empty() && bounds_covariance(sets.begin()->second);
+}
 
 std::size_t first_level(const PhaseTube& /*tube*/) {
   return 0;
@@ -43,7 +47,12 @@ Ball written(const Tree& claim, const char* name) {
 
 ModelClaims::ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
                          const std::map<std::string, TubeSet>& sets, std::int64_t& cells)
-    : tree_(&tree), design_(&design), model_(&model), sets_(&sets), cells_(&cells), words_(tree) {
+    : tree_(&tree),
+      design_(&design),
+      model_(&model),
+      sets_(&sets),
+      cells_(&cells),
+      words_(tree, std::nullopt, bound_covariance(sets)) {
   Objections said_before;  // by the design
   units_ = FrequencyWords(tree.at("assume"), said_before);
 }
@@ -214,12 +223,12 @@ Claim ModelClaims::long_run(const std::string& id) const {
   Claim found;
   if (id == kBias) {
     const Ball& most = design_->bias->value;
-    found.statement = words_.constant_tone() + kSettled +
+    found.statement = words_.constant_tone() + ", without noise, " + words_.started_in("starts") +
                       ", the mean over the phase of the frequency error in the long run is at most " +
                       design_->bias->text + " in absolute value.";
     found.verdict = proved_if(set != nullptr && of(*set).mean_error_is_between(-most, most));
   } else {
-    found.statement = words_.constant_tone() + kSettled +
+    found.statement = words_.constant_tone() + ", without noise, " + words_.started_in("starts") +
                       ", the frequency error in the long run varies by at most " + design_->ripple->text +
                       " over the phase.";
     found.verdict = proved_if(set != nullptr && of(*set).error_varies_by_at_most(design_->ripple->value));
@@ -288,7 +297,7 @@ Claim ModelClaims::told_lock(const Tree& claim) const {
 
 Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   const TubeSet* set = deciding_set(part);
-  const ModelWords words(*tree_, part);
+  const ModelWords words(*tree_, part, bound_covariance(*sets_));
   const Ball bound = written(claim, "frequency_error");
   Claim found;
   found.is_summary = true;
@@ -310,7 +319,7 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
 Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
   const TubeSet* noise = find("noise", part);
   const TubeSet* starts = find("starts", part);
-  const ModelWords words(*tree_, part);
+  const ModelWords words(*tree_, part, bound_covariance(*sets_));
   Claim found;
   found.is_summary = true;
   found.statement = words.constant_tone() + ", the tracker tolerates noise up to " +
@@ -326,10 +335,10 @@ Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
 
 Claim ModelClaims::steady_state(const Tree& claim, const Part& part) const {
   const TubeSet* set = settling_set(part);
-  const ModelWords words(*tree_, part);
+  const ModelWords words(*tree_, part, bound_covariance(*sets_));
   Claim found;
   found.is_summary = true;
-  found.statement = words.constant_tone() + kSettled +
+  found.statement = words.constant_tone() + ", without noise, " + words.started_in("starts") +
                     ", the mean over the phase of the frequency error in the long run is between " +
                     units_.between(claim.at("bias_low").text(), claim.at("bias_high").text()) +
                     ", and the error varies by at most " + units_.at_most(claim.at("ripple").text()) +

@@ -221,9 +221,13 @@ std::string ModelWords::start_inside(const std::string& set) const {
 std::string ModelWords::assumed_start(const std::string& set) const {
   const Tree* start = assume().find("start_within");
   if (start == nullptr) {
-    return ", started in the set \"" + set + "\" of the certificate";
+    return ", " + started_in(set);
   }
-  return start_within(set);
+  return start_within(set) + covariance();
+}
+
+std::string ModelWords::started_in(const std::string& set) const {
+  return "started in the set \"" + set + "\" of the certificate" + covariance();
 }
 
 std::string ModelWords::start_within(const std::string& set) const {

@@ -54,8 +54,10 @@ struct BandPart {
 class ModelWords {
  public:
   /// `part`: of the band, to which the sentences are limited; none for the whole band.
-  explicit ModelWords(const Tree& design, std::optional<BandPart> part = std::nullopt)
-      : design_(&design), part_(std::move(part)) {}
+  /// `bounds_covariance`: the sets are those of a filter's estimate, with bounds of its covariance.
+  explicit ModelWords(const Tree& design, std::optional<BandPart> part = std::nullopt,
+                      bool bounds_covariance = false)
+      : design_(&design), part_(std::move(part)), bounds_covariance_(bounds_covariance) {}
 
   /// "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.2, 0.5] rad/sample".
   [[nodiscard]] std::string constant_tone() const { return tone("any constant frequency in " + band()); }
@@ -65,6 +67,8 @@ class ModelWords {
   [[nodiscard]] std::string assumed_tone(bool moves) const;
   [[nodiscard]] std::string assumed_noise(bool is_noisy) const;
   [[nodiscard]] std::string assumed_start(const std::string& set) const;
+  /// A start in the set of that name.
+  [[nodiscard]] std::string started_in(const std::string& set) const;
   /// The same, for statements that depend on how far inside a start is.
   [[nodiscard]] std::string start_inside(const std::string& set) const;
   /// ", with Gaussian measurement noise of mean zero, ...": the assumed noise, or with this SNR in dB.
@@ -77,9 +81,13 @@ class ModelWords {
   [[nodiscard]] const Tree& assume() const { return design_->at("assume"); }
   [[nodiscard]] std::string tone(const std::string& frequency) const;
   [[nodiscard]] std::string band() const;
+  [[nodiscard]] std::string covariance() const {
+    return bounds_covariance_ ? ", with a covariance between its bounds" : "";
+  }
 
   const Tree* design_;
   std::optional<BandPart> part_;
+  bool bounds_covariance_ = false;
 };
 
 }  // namespace veritrack::checker

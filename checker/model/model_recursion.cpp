@@ -210,6 +210,14 @@ void ModelRecursion::read_filter(const Tree& filter) {
   }
   process_noise_ = looked_up_matrix(filter.at("Q"), filtered_, {});
   measurement_noise_ = looked_up_matrix(filter.at("R"), measure_.size(), {});
+  is_symmetric_ = true;
+  for (const Tree* matrix : {&filter.at("Q"), &filter.at("R")}) {
+    for (std::size_t i = 0; i < matrix->elements().size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        is_symmetric_ = is_symmetric_ && matrix->at(i).at(j).text() == matrix->at(j).at(i).text();
+      }
+    }
+  }
   if (const Tree* jacobian = filter.find("jacobian")) {
     jacobian_ = looked_up_matrix(*jacobian, filtered_, estimated);
   }

@@ -37,6 +37,23 @@ class ModelRecursion {
                                          const std::vector<Scalar>& sample) const {
     return filtered_ == 0 ? next_of_step(state, sample) : next_of_filter(state, sample);
   }
+  /// How many states a filter estimates; 0 when the tracker is none.
+  [[nodiscard]] std::size_t filtered() const { return filtered_; }
+  /// Whether Q and R are written as symmetric matrices.
+  [[nodiscard]] bool has_symmetric_noise() const { return is_symmetric_; }
+  /// Of a filter at an estimate, with a sample.
+  template <typename Scalar>
+  struct FilterParts {
+    std::vector<Scalar> predicted;                   ///< x^ = f(x)
+    std::vector<std::vector<Scalar>> jacobian;       ///< F
+    std::vector<Scalar> innovation;                  ///< sample - h(x^)
+    std::vector<std::vector<Scalar>> measured;       ///< H at x^
+    std::vector<std::vector<Scalar>> process_noise;  ///< Q
+    std::vector<std::vector<Scalar>> noise;          ///< R
+  };
+  template <typename Scalar>
+  [[nodiscard]] FilterParts<Scalar> filter_parts(const std::vector<Scalar>& estimate,
+                                                 const std::vector<Scalar>& sample) const;
   /// The estimated frequency, rad/sample.
   template <typename Scalar>
   [[nodiscard]] Scalar frequency(const std::vector<Scalar>& state) const {
@@ -109,11 +126,61 @@ class ModelRecursion {
   std::vector<Formula> signal_;
   // Of a filter: how many states it estimates (0 for none), and its formulas of these.
   std::size_t filtered_ = 0;
+  bool is_symmetric_ = false;
   std::vector<Formula> measure_;
   Matrix process_noise_, measurement_noise_, jacobian_;
 };
 
 // ---- how
+
+template <typename Scalar>
+ModelRecursion::FilterParts<Scalar> ModelRecursion::filter_parts(const std::vector<Scalar>& estimate,
+                                                                 const std::vector<Scalar>& sample) const {
+  const std::size_t n = filtered_;
+  const auto jets = [&](const std::vector<Scalar>& values) {
+    std::vector<Jet<Scalar>> list;
+    for (std::size_t i = 0; i < n; ++i) {
+      list.push_back(Jet<Scalar>::variable(values[i], i, n));
+    }
+    return list;
+  };
+  const auto values = [&](const Matrix& formulas, const std::vector<Scalar>& variables) {
+    std::vector<std::vector<Scalar>> rows;
+    for (const std::vector<Formula>& row : formulas) {
+      rows.emplace_back();
+      for (const Formula& formula : row) {
+        rows.back().push_back(value(formula, variables));
+      }
+    }
+    return rows;
+  };
+  FilterParts<Scalar> parts;
+  const std::vector<Jet<Scalar>> predicted = results(jets(estimate));
+  for (const Jet<Scalar>& each : predicted) {
+    parts.predicted.push_back(each.value);
+  }
+  if (jacobian_.empty()) {
+    for (const Jet<Scalar>& each : predicted) {
+      parts.jacobian.emplace_back();
+      for (std::size_t j = 0; j < n; ++j) {
+        parts.jacobian.back().push_back(each.slope(j));
+      }
+    }
+  } else {
+    parts.jacobian = values(jacobian_, estimate);
+  }
+  for (std::size_t c = 0; c < sample.size(); ++c) {
+    const Jet<Scalar> measured = value(measure_[c], jets(parts.predicted));
+    parts.innovation.push_back(sample[c] - measured.value);
+    parts.measured.emplace_back();
+    for (std::size_t k = 0; k < n; ++k) {
+      parts.measured.back().push_back(measured.slope(k));
+    }
+  }
+  parts.process_noise = values(process_noise_, {});
+  parts.noise = values(measurement_noise_, {});
+  return parts;
+}
 
 template <typename Scalar>
 std::vector<Scalar> ModelRecursion::next_of_filter(const std::vector<Scalar>& state,

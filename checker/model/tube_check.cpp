@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checker/model/filter_step.hpp"
 #include "checker/model/length_bound.hpp"
 #include "checker/model/tube_borders.hpp"
 #include "checker/model/turn_count.hpp"
@@ -39,6 +40,31 @@ bool shrinks(const LengthBound& step, const PhaseTube& tube, std::size_t j, doub
   return shrinks_to(nearer, between, between) && shrinks_to(nearer, low_end, between);
 }
 
+/// Of a filter: with the largest radius also that the bounds of the covariance are kept.
+PartAnswer ask_of_filter(const PhaseTube& tube, const FilterStep& step, double noise,
+                         const std::vector<std::size_t>& pairs) {
+  PartAnswer answer;
+  if (!step.has_shape()) {
+    answer.open = pairs;
+    return answer;
+  }
+  double by_phase = 0.0;
+  double by_frequency = 0.0;
+  for (const std::size_t j : pairs) {
+    const double radius = tube.levels[j];
+    const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, noise)); };
+    const LengthBound bound = bound_up_to(radius);
+    const double low_end = tube.levels.size() == 1 ? radius : tube.levels[j + 1];
+    if (!shrinks(bound, tube, j, low_end, bound_up_to) || (j == 0 && !step.keeps_covariance(radius))) {
+      answer.open.push_back(j);
+      by_phase += bound.by_phase() / radius;
+      by_frequency += bound.by_frequency() / radius;
+    }
+  }
+  answer.halve_frequencies = by_frequency > by_phase;
+  return answer;
+}
+
 /// The number of samples in which r falls from `from` to `to` when each multiplies it by `rate`.
 Ball samples_between(const Ball& from, const Ball& to, const Ball& rate) {
   const Ball samples = log(to / from) / log(rate);
@@ -62,8 +88,8 @@ bool has_known_angles(const TrackedModel& model, const TubeSet& set, Objections&
     objections.push_back(objection);
   }
   for (const PhaseTube& tube : set.tubes) {
-    for (std::size_t i = 0; i < recursion.states(); ++i) {
-      if (tube.turns.at(i) != 0 && !recursion.is_angle()[i]) {
+    for (std::size_t i = 0; i < tube.turns.size(); ++i) {
+      if (tube.turns.at(i) != 0 && (bounds_covariance(set) || !recursion.is_angle()[i])) {
         objections.emplace_back("the curve turns in a state that is no angle");
       }
     }
@@ -86,11 +112,21 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
   if (objections.size() > before) {
     return false;
   }
-  const VectorMonomials monomials(recursion.states(), is_noisy ? recursion.samples() : 0, moves ? 1 : 0);
+  const bool is_filter = bounds_covariance(*set_);
+  if (is_filter && !bounds_suit(recursion)) {
+    objections.emplace_back(
+        "bounds of a covariance are for filters with a linear measurement and symmetric Q and R");
+    return false;
+  }
+  const VectorMonomials monomials(is_filter ? recursion.filtered() : recursion.states(),
+                                  is_noisy ? recursion.samples() : 0, moves ? 1 : 0);
   const std::vector<Ball> common = common_levels(*set_);
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& pairs) {
     const PhaseTube& tube = set_->tubes[number];
     PartAnswer answer;
+    if (is_filter) {
+      return ask_of_filter(tube, FilterStep(*model_, tube, part, monomials), set_->noise, pairs);
+    }
     const TubeStep step(*model_, tube, part, monomials, set_->slew);
     if (!step.has_shape()) {
       answer.open = pairs;

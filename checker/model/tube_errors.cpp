@@ -75,7 +75,7 @@ std::vector<double> steepest(const BallPolynomial& error, std::size_t states) {
 
 bool PhaseTubeCheck::error_is_within(const std::function<std::size_t(const PhaseTube&)>& level,
                                      const Ball& bound, bool strictly) const {
-  const VectorMonomials monomials(model_->recursion->states(), 0);
+  const VectorMonomials monomials(set_->tubes.front().curve.size(), 0);
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
     const PhaseTube& tube = set_->tubes[number];
     const TubeOver over(tube, part, false);
@@ -91,7 +91,7 @@ bool PhaseTubeCheck::error_is_within(const std::function<std::size_t(const Phase
 }
 
 bool PhaseTubeCheck::contains_errors(const Ball& reach) const {
-  const std::size_t n = model_->recursion->states();
+  const std::size_t n = set_->tubes.front().curve.size();
   const VectorMonomials monomials(n, 0);
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
     const PhaseTube& tube = set_->tubes[number];
@@ -120,9 +120,13 @@ bool PhaseTubeCheck::contains_errors(const Ball& reach) const {
 }
 
 bool PhaseTubeCheck::contains_starts(const std::vector<Ball>& deviations, const Ball& share) const {
+  const std::size_t n = set_->tubes.front().curve.size();
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     if (!certainly_equal(deviations[i], zero)) {
+      if (i >= n) {
+        return false;  // of a covariance, of which there are bounds in place of a curve
+      }
       moved.push_back(i);
     }
   }
@@ -138,7 +142,7 @@ bool PhaseTubeCheck::contains_starts(const std::vector<Ball>& deviations, const 
     bool certain = over.has_shape();
     Extent extent;
     for (std::size_t corner = 0; corner < corners && certain; ++corner) {
-      std::vector<BallPolynomial> start(deviations.size());
+      std::vector<BallPolynomial> start(n);
       for (std::size_t k = 0; k < moved.size(); ++k) {
         const BallPolynomial size(deviations[moved[k]].upper_double());
         start[moved[k]] = k > 0 && ((corner >> (k - 1)) & 1U) != 0 ? -size : size;
@@ -159,7 +163,7 @@ bool PhaseTubeCheck::holds_for_turns(
   constexpr std::size_t kFirst = 32;
   constexpr std::size_t kMost = 4096;
   constexpr double kLeastWidth = 0x1p-12;
-  const VectorMonomials monomials(model_->recursion->states(), 0);
+  const VectorMonomials monomials(set_->tubes.front().curve.size(), 0);
   struct Open {
     const PhaseTube* tube;
     double z, half_z;

@@ -88,7 +88,8 @@ Ball high_end(const PhaseTube& tube) {
 }
 
 /// `shrinks`: rates are given.
-PhaseTube tube_from(const Tree& cell, std::size_t states, bool shrinks, Objections& objections) {
+PhaseTube tube_from(const Tree& cell, std::size_t all_states, std::size_t estimated, bool shrinks,
+                    Objections& objections) {
   PhaseTube tube;
   tube.frequency = double_from(cell.at("frequency"));
   tube.half_width = double_from(cell.at("half_width"));
@@ -101,6 +102,19 @@ PhaseTube tube_from(const Tree& cell, std::size_t states, bool shrinks, Objectio
   }
   tube.curve = series_from(cell.at("curve"));
   tube.shape = series_from(cell.at("shape"));
+  const bool is_filter = cell.find("covariance_low") != nullptr || cell.find("covariance_high") != nullptr;
+  const std::size_t states = is_filter ? estimated : all_states;
+  if (is_filter) {
+    tube.covariance_low = series_from(cell.at("covariance_low"));
+    tube.covariance_high = series_from(cell.at("covariance_high"));
+    if (estimated == 0 || tube.covariance_low.size() != tube.shape.size() ||
+        tube.covariance_high.size() != tube.shape.size()) {
+      objections.emplace_back("bounds of a covariance are for filters, of as many entries as the shape has");
+    }
+    if (!shrinks) {
+      objections.emplace_back("bounds of a covariance do not go with Gaussian noise");
+    }
+  }
   tube.phases = power_of_two_from(cell.at("phases"), objections);
   tube.frequencies = power_of_two_from(cell.at("frequencies"), objections);
   if (tube.turns.size() != states || tube.curve.size() != states ||
@@ -144,7 +158,7 @@ GaussianTerms terms_from(const Tree& tree, Objections& objections) {
 
 }  // namespace
 
-TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections) {
+TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections, std::size_t estimated) {
   TubeSet result;
   result.name = set.at("name").text();
   if (const Tree* terms = set.find("gaussian")) {
@@ -160,7 +174,13 @@ TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objection
     result.crossing = doubles_from(set.at("crossing"));
   }
   for (const Tree& cell : set.at("cells").elements()) {
-    result.tubes.push_back(tube_from(cell, states, !result.gaussian, objections));
+    result.tubes.push_back(tube_from(cell, states, estimated, !result.gaussian, objections));
+    if (result.tubes.back().covariance_high.empty() != result.tubes.front().covariance_high.empty()) {
+      objections.emplace_back("some cells bound a covariance, and others do not");
+    }
+  }
+  if (bounds_covariance(result) && !certainly_equal(Ball(result.slew), zero)) {
+    objections.emplace_back("bounds of a covariance are for constant frequencies");
   }
   if (result.tubes.empty()) {
     objections.emplace_back("a set without cells");

@@ -25,7 +25,11 @@ struct PhaseTube {
   std::vector<long> turns;
   std::vector<PhaseSeries> curve;
   std::vector<PhaseSeries> shape;  ///< the lower triangle, row by row
-  std::size_t phases = 1;          ///< parts of a turn, and of the frequencies, to begin with
+  /// Of a filter: bounds, in the order of symmetric matrices, of the covariance that is predicted for the
+  /// sample at the phase; lower triangles, row by row. Curve and shape are those of the estimate then.
+  /// Otherwise empty.
+  std::vector<PhaseSeries> covariance_low, covariance_high;
+  std::size_t phases = 1;  ///< parts of a turn, and of the frequencies, to begin with
   std::size_t frequencies = 1;
 };
 
@@ -49,15 +53,20 @@ struct TubeSet {
   std::vector<PhaseTube> tubes;
 };
 
+/// Whether the tubes are those of a filter's estimate, with bounds of its covariance: all or none are.
+inline bool bounds_covariance(const TubeSet& set) {
+  return !set.tubes.empty() && !set.tubes.front().covariance_high.empty();
+}
+
 /// How many pairs of neighbouring levels a tube has; one if there is one level.
 inline std::size_t pairs_of(const PhaseTube& tube) {
   return tube.levels.size() > 1 ? tube.levels.size() - 1 : 1;
 }
 
-/// Reads a set for a tracker with so many states. Objects to what cannot be one: levels or rates out of their
-/// order, widths that are not positive, wrong numbers of states. Throws Malformed or std::invalid_argument
-/// for what cannot be read.
-TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections);
+/// Reads a set for a tracker with so many states, of which `estimated` are a filter's estimate (0: it is
+/// none). Objects to what cannot be one: levels or rates out of their order, widths that are not positive,
+/// wrong numbers of states. Throws Malformed or std::invalid_argument for what cannot be read.
+TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections, std::size_t estimated = 0);
 
 /// Objects unless the tubes go from low frequencies to high ones, without gaps.
 void check_order(const TubeSet& set, Objections& objections);

@@ -15,7 +15,8 @@ class HarmonicBasis {
  public:
   HarmonicBasis(const PhaseTube& tube, const TubePart& part, bool later) {
     std::size_t most_harmonics = 0;
-    for (const std::vector<PhaseSeries>* list : {&tube.curve, &tube.shape}) {
+    for (const std::vector<PhaseSeries>* list :
+         {&tube.curve, &tube.shape, &tube.covariance_low, &tube.covariance_high}) {
       for (const PhaseSeries& series : *list) {
         most_harmonics = std::max(most_harmonics, series.size());
         for (const auto& harmonic : series) {
@@ -118,6 +119,12 @@ TubeOver::TubeOver(const PhaseTube& tube, const TubePart& part, bool later, cons
   for (const PhaseSeries& entry : tube.shape) {
     shape.push_back(basis.value(entry, move));
   }
+  for (const PhaseSeries& entry : tube.covariance_low) {
+    covariance_low.push_back(basis.value(entry, move));
+  }
+  for (const PhaseSeries& entry : tube.covariance_high) {
+    covariance_high.push_back(basis.value(entry, move));
+  }
 }
 
 bool TubeOver::has_shape() const {
@@ -152,6 +159,11 @@ std::vector<BallPolynomial> TubeOver::coordinates(const std::vector<BallPolynomi
   return result;
 }
 
+std::vector<BallPolynomial> signal_later(const TrackedModel& model, const PhaseTube& tube,
+                                         const TubePart& part) {
+  return model.recursion->signal(BallPolynomial(model.amplitude), phase_over(tube, part, true));
+}
+
 BallPolynomial frequency_over(const PhaseTube& tube, const TubePart& part) {
   const Ball width(tube.half_width);
   return BallPolynomial(Ball(tube.frequency) + width * Ball(part.z)) +
@@ -160,7 +172,9 @@ BallPolynomial frequency_over(const PhaseTube& tube, const TubePart& part) {
 
 BallPolynomial frequency_error(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
                                const std::vector<BallPolynomial>& state) {
-  return model.recursion->frequency(state) - frequency_over(tube, part);
+  std::vector<BallPolynomial> all = state;
+  all.resize(model.recursion->states(), BallPolynomial::everything());  // of a filter, the covariance
+  return model.recursion->frequency(all) - frequency_over(tube, part);
 }
 
 std::vector<BallPolynomial> components(const VectorMonomials& monomials) {
@@ -186,7 +200,7 @@ TubeStep::TubeStep(const TrackedModel& model, const PhaseTube& tube, const TubeP
       monomials_(&monomials),
       here_(tube, part, false),
       there_(after_step(tube, part, slew)),
-      signal_(model.recursion->signal(BallPolynomial(model.amplitude), phase_over(tube, part, true))) {}
+      signal_(signal_later(model, tube, part)) {}
 
 std::vector<BallPolynomial> TubeStep::map(double radius, double noise) const {
   std::vector<BallPolynomial> samples = signal_;

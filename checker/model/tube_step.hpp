@@ -49,7 +49,8 @@ struct FrequencyMove {
 /// The curve and the shape over a part of a tube, or where they are a sample later.
 struct TubeOver {
   std::vector<BallPolynomial> curve;
-  std::vector<BallPolynomial> shape;  ///< the lower triangle, row by row
+  std::vector<BallPolynomial> shape;                            ///< the lower triangle, row by row
+  std::vector<BallPolynomial> covariance_low, covariance_high;  ///< of a filter: lower triangles
 
   /// `later`: a sample later, at the same frequency or one that it moves to.
   TubeOver(const PhaseTube& tube, const TubePart& part, bool later, const FrequencyMove* move = nullptr);
@@ -61,6 +62,9 @@ struct TubeOver {
   [[nodiscard]] std::vector<BallPolynomial> coordinates(const std::vector<BallPolynomial>& vector) const;
 };
 
+/// The signal over the part a sample later, without noise.
+std::vector<BallPolynomial> signal_later(const TrackedModel& model, const PhaseTube& tube,
+                                         const TubePart& part);
 /// omega over the part, and the estimate of the frequency at a state less that; rad/sample.
 BallPolynomial frequency_over(const PhaseTube& tube, const TubePart& part);
 BallPolynomial frequency_error(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,

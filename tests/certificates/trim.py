@@ -46,6 +46,8 @@ From tests/certificates/model-moving.toml, a loop with an angle, and a frequency
 model-moving      its tube for what is assumed, in two cells
 From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian noise:
 model-gaussian    its tubes for the assumed noise and for as much as was proved
+From tests/certificates/model-filter.toml, an extended Kalman filter at almost one frequency:
+model-filter      its tube for the assumed noise, with bounds of the covariance and three levels: checked fast
 """
 import fractions
 import json
@@ -309,6 +311,19 @@ def model_gaussian(certificate):
                              if claim["id"] not in ("model/limits", "model/steady-state")]
 
 
+def model_filter(certificate):
+    """Without what is told of no noise; the error in the long run is that of a level between."""
+    certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
+    certificate["claims"] = [claim for claim in certificate["claims"]
+                             if claim["id"] not in ("model/limits", "model/steady-state")]
+    for cell in certificate["tubes"][0]["cells"]:
+        cell["levels"] = cell["levels"][:3]
+        cell["shrinking"] = cell["shrinking"][:2]
+    for claim in certificate["claims"]:
+        if "settled_frequency_error" in claim:
+            claim["settled_frequency_error"] = "0.05"
+
+
 KINDS = {
     "theorem-2.9": without_sets(lambda name: name in ("theorem-2.9/printed", "theorem-2.9/errata")),
     "published": without_sets(is_published),
@@ -339,6 +354,7 @@ KINDS = {
     "model-part": model_part,
     "model-moving": model_moving,
     "model-gaussian": model_gaussian,
+    "model-filter": model_filter,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

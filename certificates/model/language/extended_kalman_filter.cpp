@@ -227,6 +227,111 @@ std::vector<Expression> literals_of_derivatives(const FilterModel& model) {
   return literals;
 }
 
+bool depends_on_inputs(const trackers::StraightLineProgram& program, int input, std::size_t first,
+                       std::size_t last) {
+  std::vector<bool> depends(static_cast<std::size_t>(program.registers()), false);
+  for (int i = input; i < program.inputs(); ++i) {
+    depends[static_cast<std::size_t>(i)] = true;
+  }
+  std::size_t place = static_cast<std::size_t>(program.inputs());
+  for (const trackers::Instruction& instruction : program.instructions()) {
+    for (const int operand : {instruction.first, instruction.second, instruction.third}) {
+      if (operand >= 0 && depends[static_cast<std::size_t>(operand)]) {
+        depends[place] = true;
+      }
+    }
+    ++place;
+  }
+  for (std::size_t i = first; i < last; ++i) {
+    if (depends[static_cast<std::size_t>(program.results()[i])]) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<trackers::FilterParts> compile_filter_parts(const FilterModel& model,
+                                                          const Constants& constants,
+                                                          const std::vector<std::string>& samples,
+                                                          Position place) {
+  if (!model.jacobian.empty()) {
+    return std::nullopt;
+  }
+  const std::size_t states = model.states.size();
+  const std::size_t channels = samples.size();
+  ProgramBuilder builder(constants, static_cast<int>(states + channels));
+  const auto input = [&](std::size_t number) {
+    return Term::of_register(static_cast<int>(constants.size() + number));
+  };
+  const auto with_derivatives = [&](std::vector<Differentiated> terms) {
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      terms[i].derivatives.assign(terms.size(), Term::zero());
+      terms[i].derivatives[i] = Term::one();
+    }
+    return terms;
+  };
+  std::vector<Differentiated> estimates(states);
+  for (std::size_t i = 0; i < states; ++i) {
+    estimates[i].value = input(i);
+  }
+  const std::vector<Differentiated> predicted = builder.run(
+      compile_step(model.predict, constants, model.states, {}, place), with_derivatives(estimates));
+  builder.set_position(place);
+  std::vector<const Expression*> formulas;
+  for (const Expression& formula : model.measure) {
+    formulas.push_back(&formula);
+  }
+  const std::vector<Differentiated> measured =
+      builder.run(compile_formulas(formulas, constants, model.states), with_derivatives(predicted));
+  builder.set_position(place);
+  const auto entry = [&](const Expression& formula) {
+    return builder.run(compile_formulas({&formula}, constants, {}), {}).front().value;
+  };
+  for (const Differentiated& next : predicted) {
+    builder.add_result(next.value);
+  }
+  for (const Differentiated& next : predicted) {
+    for (const Term derivative : next.derivatives) {
+      builder.add_result(derivative);
+    }
+  }
+  for (std::size_t c = 0; c < channels; ++c) {
+    builder.add_result(builder.subtract(input(states + c), measured[c].value));
+  }
+  for (const Differentiated& each : measured) {
+    for (const Term derivative : each.derivatives) {
+      builder.add_result(derivative);
+    }
+  }
+  for (const auto* matrix : {&model.process_noise, &model.measurement_noise}) {
+    for (const std::vector<Expression>& row : *matrix) {
+      for (const Expression& formula : row) {
+        builder.add_result(entry(formula));
+      }
+    }
+  }
+  trackers::FilterParts parts{builder.take().program, static_cast<int>(states), static_cast<int>(channels)};
+  const std::size_t of_measurement = states + states * states + channels;
+  const bool is_linear = !depends_on_inputs(parts.program, static_cast<int>(constants.size()), of_measurement,
+                                            parts.program.results().size());
+  // Equal formulas are one register.
+  const auto is_symmetric = [&](std::size_t first, std::size_t size) {
+    const std::vector<int>& results = parts.program.results();
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (results[first + i * size + j] != results[first + j * size + i]) {
+          return false;
+        }
+      }
+    }
+    return true;
+  };
+  const std::size_t of_process = of_measurement + channels * states;
+  const bool are_symmetric =
+      is_symmetric(of_process, states) && is_symmetric(of_process + states * states, channels);
+  return is_linear && are_symmetric ? std::optional(std::move(parts)) : std::nullopt;
+}
+
 CompiledProgram compile_filter(const FilterModel& model, const Constants& constants,
                                const std::vector<std::string>& samples, Position place) {
   return FilterWriter(model, constants, samples).write(place);

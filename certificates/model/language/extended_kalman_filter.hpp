@@ -1,10 +1,12 @@
 // The extended Kalman filter of a model, written out: its estimate and its covariance as one recursion.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "certificates/model/language/compiler.hpp"
+#include "trackers/model/filter_parts.hpp"
 
 namespace veritrack::certificates::language {
 
@@ -33,5 +35,16 @@ struct FilterModel {
 /// the constants, filter_states, the samples. Throws LanguageError.
 [[nodiscard]] CompiledProgram compile_filter(const FilterModel& model, const Constants& constants,
                                              const std::vector<std::string>& samples, Position place);
+
+/// Whether one of the results first, ..., last - 1 of a program depends on an input with this number or a
+/// larger one.
+[[nodiscard]] bool depends_on_inputs(const trackers::StraightLineProgram& program, int input,
+                                     std::size_t first, std::size_t last);
+
+/// The same filter by its parts. Nothing unless the measurement is linear and F the derivative of `predict`:
+/// entries of H that depend on the state would make the updated covariance depend on it in another way.
+[[nodiscard]] std::optional<trackers::FilterParts> compile_filter_parts(
+    const FilterModel& model, const Constants& constants, const std::vector<std::string>& samples,
+    Position place);
 
 }  // namespace veritrack::certificates::language

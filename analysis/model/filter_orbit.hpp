@@ -1,0 +1,258 @@
+// Bounds of a filter's covariance and a shape, carried along an orbit of the tone: see filter_proposal.hpp.
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "analysis/model/curve_fit.hpp"
+#include "trackers/model/filter_parts.hpp"
+
+namespace veritrack::model::detail {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Matrices of a filter of at most ten states without allocations.
+inline constexpr int kMostStates = 10;
+inline constexpr int kMostRows = kMostStates + 2;
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
+using Wide = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostStates * kMostStates>;
+
+/// Of the bounds, in units of themselves: what they have to spare.
+inline constexpr double kSlack = 0.006;
+
+/// The parts of a filter in doubles.
+class FilterNumbers {
+ public:
+  explicit FilterNumbers(const TrackedTone& tone)
+      : parts_(tone.filter), inputs_(tone.step.constants()), constants_(inputs_.size()) {
+    inputs_.resize(constants_ + static_cast<std::size_t>(parts_->states + parts_->samples), 1.0);
+    const auto values = trackers::filter_values(*parts_, inputs_);
+    const Index n = parts_->states;
+    const Index c = parts_->samples;
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    measured_ = Eigen::Map<const RowMajor>(values.measured.data(), c, n);
+    process_ = Eigen::Map<const RowMajor>(values.process.data(), n, n);
+    noise_ = Eigen::Map<const RowMajor>(values.noise.data(), c, c);
+    weighted_ = noise_.inverse() * measured_;
+  }
+  [[nodiscard]] Index states() const { return parts_->states; }
+  [[nodiscard]] const Small& measured() const { return measured_; }
+  [[nodiscard]] const Small& weighted() const { return weighted_; }  ///< R^-1 H
+  [[nodiscard]] const Small& process() const { return process_; }
+  [[nodiscard]] Small jacobian(const SmallVector& estimate) {
+    std::copy(estimate.begin(), estimate.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(constants_));
+    results_.resize(parts_->program.results().size());
+    parts_->program.run(std::span<const double>(inputs_), registers_, std::span<double>(results_));
+    const Index n = states();
+    Small f(n, n);
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = 0; j < n; ++j) {
+        f(i, j) = results_[static_cast<std::size_t>(n + i * n + j)];
+      }
+    }
+    return f;
+  }
+  /// The change of F along a direction.
+  [[nodiscard]] Small change(const SmallVector& estimate, const SmallVector& direction) {
+    constexpr double kPart = 1e-4;
+    return (jacobian(estimate + kPart * direction) - jacobian(estimate - kPart * direction)) / (2.0 * kPart);
+  }
+  [[nodiscard]] Small updated(const Small& predicted) const {
+    const Small cross = measured_ * predicted;
+    const Small result =
+        predicted - cross.transpose() * (cross * measured_.transpose() + noise_).ldlt().solve(cross);
+    return 0.5 * (result + result.transpose());
+  }
+
+ private:
+  const trackers::FilterParts* parts_;
+  std::vector<double> inputs_, registers_, results_;
+  std::size_t constants_;
+  Small measured_, process_, noise_, weighted_;
+};
+
+struct FilterParameters {
+  double eta = 0.3;
+  double theta = 0.3;
+  double lambda = 0.9;
+  double noise = 0.0;   ///< V
+  double source = 0.0;  ///< b
+  double spread = 0.0;  ///< d
+  VectorXd process;     ///< the diagonal of W
+};
+
+/// What is carried along.
+struct FilterOnOrbit {
+  Small low, high;  ///< predicted for this sample
+  Small shape;      ///< Pi after it
+};
+
+/// What a step is worth.
+struct FilterGrowth {
+  double whole = 0.0;   ///< |F|, about, for |xi| <= 1
+  double linear = 0.0;  ///< of it, without noise
+};
+
+class FilterOrbit {
+ public:
+  FilterOrbit(const TrackedTone& tone, const NodeCurve& curve, const FilterParameters& parameters)
+      : tone_(&tone), numbers_(tone), curve_(&curve), parameters_(parameters) {}
+
+  /// At this phase, from the steady state of the filter.
+  void begin(double phase) {
+    phase_ = phase;
+    estimate_ = at(phase);
+    const VectorXd state = state_at(*curve_, phase);
+    const Index n = numbers_.states();
+    Small covariance(n, n);
+    Index place = n;
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = i; j < n; ++j) {
+        covariance(i, j) = covariance(j, i) = state[place++];
+      }
+    }
+    updated_low_ = updated_high_ = covariance;
+    here_.shape = parameters_.process.asDiagonal();
+    here_.low = here_.high = covariance;
+  }
+  /// To the next sample; false where bounds or shape are none.
+  [[nodiscard]] bool step() {
+    const Index n = numbers_.states();
+    const Small f = numbers_.jacobian(estimate_);
+    const Eigen::LLT<Small> root(here_.shape);
+    if (root.info() != Eigen::Success || !(here_.shape.maxCoeff() < 1e12)) {
+      return false;
+    }
+    const Small u = root.matrixL();
+    changes_.clear();
+    Small of_high = Small::Zero(n, n);
+    Small of_low = Small::Zero(n, n);
+    for (Index i = 0; i < n; ++i) {
+      changes_.push_back(numbers_.change(estimate_, u.col(i)));
+      of_high += changes_.back() * updated_high_ * changes_.back().transpose();
+      of_low += changes_.back() * updated_low_ * changes_.back().transpose();
+    }
+    constexpr double kHigherOrders = 1.1;
+    of_high *= kHigherOrders;
+    of_low *= kHigherOrders;
+    const double eta = parameters_.eta;
+    const double theta = parameters_.theta;
+    FilterOnOrbit next;
+    next.high = (1.0 + kSlack) * (numbers_.process() + (1.0 + eta) * f * updated_high_ * f.transpose() +
+                                  (1.0 + 1.0 / eta) * of_high);
+    next.low = (1.0 - kSlack) * (numbers_.process() + (1.0 - theta) * f * updated_low_ * f.transpose() -
+                                 (1.0 / theta - 1.0) * of_low);
+    if (Eigen::LLT<Small>(next.low).info() != Eigen::Success || !(next.high.maxCoeff() < 1e12)) {
+      return false;
+    }
+    updated_high_ = numbers_.updated(next.high);
+    updated_low_ = numbers_.updated(next.low);
+    const Small middle = 0.5 * (updated_high_ + updated_low_);
+    delta_ = 0.5 * (updated_high_ - updated_low_);
+    gain_ = middle * numbers_.weighted().transpose();
+    contraction_ = (Small::Identity(n, n) - gain_ * numbers_.measured());
+    const Small a = contraction_ * f;
+    next.shape = a * here_.shape * a.transpose() / parameters_.lambda +
+                 parameters_.source * gain_ * gain_.transpose() + parameters_.spread * delta_;
+    next.shape.diagonal() += parameters_.process;
+    jacobian_ = f;
+    before_ = u;
+    here_ = std::move(next);
+    phase_ += curve_->frequency;
+    estimate_ = at(phase_);
+    return true;
+  }
+  [[nodiscard]] const FilterOnOrbit& here() const { return here_; }
+  /// How far frequency errors reach in the shape.
+  [[nodiscard]] double reach() {
+    const Index n = numbers_.states();
+    VectorXd state = state_at(*curve_, phase_);
+    const Eigen::RowVectorXd gradient = tone_->step.frequency_gradient(state).leftCols(n);
+    return std::sqrt((gradient * here_.shape * gradient.transpose()).value());
+  }
+  /// Of the step that was the last one.
+  [[nodiscard]] FilterGrowth growth() const {
+    const Index n = numbers_.states();
+    const Eigen::LLT<Small> root(here_.shape);
+    FilterGrowth worst{std::numeric_limits<double>::infinity(), 1.0};
+    if (root.info() != Eigen::Success) {
+      return worst;
+    }
+    const auto in_units = [&](auto x) {
+      root.matrixL().solveInPlace(x);
+      return x;
+    };
+    const Small spread = in_units(Small(in_units(delta_).transpose()));
+    const Small weighted = numbers_.weighted() * delta_ * numbers_.weighted().transpose();
+    const Small factor = Eigen::LLT<Small>(weighted).matrixL();
+    const Small of_x = in_units(Small(contraction_ * jacobian_ * before_));
+    const Small reach_of_x = -factor.transpose() * numbers_.measured() * jacobian_ * before_;
+    const Small of_v = Small(in_units(gain_) * parameters_.noise);
+    const Small reach_of_v = factor.transpose() * parameters_.noise;
+    Wide second(n, n * n);
+    for (Index i = 0; i < n; ++i) {
+      second.middleCols(i * n, n) = 0.5 * changes_[static_cast<std::size_t>(i)] * before_;
+    }
+    const Wide of_squares = in_units(Wide(contraction_ * second));
+    const Wide reach_of_squares = -factor.transpose() * numbers_.measured() * second;
+    const auto largest = [](const Small& symmetric) {
+      return Eigen::SelfAdjointEigenSolver<Small>(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    };
+    const double top = largest(spread);
+    for (const double share : {1.08, 1.2, 1.4, 1.8, 3.0, 8.0, 40.0}) {
+      const double mu = share * top + 1e-300;
+      const Eigen::LLT<Small> inner(Small::Identity(n, n) - spread / mu);
+      const auto stacked = [&](auto first, const auto& below) {
+        inner.matrixL().solveInPlace(first);
+        auto both = first;
+        both.resize(first.rows() + below.rows(), first.cols());
+        both << first, std::sqrt(mu) * below;
+        return both;
+      };
+      const Small x = stacked(of_x, reach_of_x);
+      const Small gram = x * x.transpose();
+      const double alone = std::sqrt(largest(gram));
+      double linear = alone;
+      if (parameters_.noise > 0.0) {
+        const Small v = stacked(of_v, reach_of_v);
+        const Small other = v * v.transpose();
+        linear = std::numeric_limits<double>::infinity();
+        for (const double t : {0.5, 0.7, 0.82, 0.9, 0.95}) {
+          linear = std::min(linear, std::sqrt(largest(Small(gram / t + other / (1.0 - t)))));
+        }
+      }
+      const Wide squares = stacked(of_squares, reach_of_squares);
+      const double whole = linear + std::sqrt(largest(Small(squares * squares.transpose())));
+      if (whole < worst.whole) {
+        worst = {whole, alone};
+      }
+    }
+    return worst;
+  }
+
+ private:
+  [[nodiscard]] SmallVector at(double phase) const {
+    return state_at(*curve_, phase).head(numbers_.states());
+  }
+
+  const TrackedTone* tone_;
+  FilterNumbers numbers_;
+  const NodeCurve* curve_;
+  FilterParameters parameters_;
+  double phase_ = 0.0;
+  SmallVector estimate_;
+  Small updated_low_, updated_high_, delta_, gain_, contraction_, jacobian_, before_;
+  std::vector<Small> changes_;
+  FilterOnOrbit here_;
+};
+
+}  // namespace veritrack::model::detail

@@ -1,0 +1,296 @@
+// The search for the parameters with which bounds and shape of a filter are carried along: see
+// filter_proposal.hpp.
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "analysis/model/filter_orbit.hpp"
+#include "analysis/model/tube_proposal.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "analysis/search/maximize.hpp"
+
+namespace veritrack::model::detail {
+
+/// Parameters as a point: the logarithm of eta, the logits of theta and of lambda between the square of the
+/// rate and 1, the logarithms of b and d, those of W in units of the states, and, when it is searched for,
+/// that of V.
+struct FilterCoordinates {
+  double rate_squared;
+  VectorXd sizes;
+  double given_noise;
+  bool finds_noise;
+
+  [[nodiscard]] Index size() const { return 5 + sizes.size() + (finds_noise ? 1 : 0); }
+  [[nodiscard]] FilterParameters at(const VectorXd& x) const {
+    const auto logistic = [](double t) { return 1.0 / (1.0 + std::exp(-t)); };
+    FilterParameters parameters;
+    parameters.eta = std::exp(x[0]);
+    parameters.theta = logistic(x[1]);
+    parameters.lambda = rate_squared + (1.0 - rate_squared) * logistic(x[2]);
+    parameters.source = std::exp(x[3]);
+    parameters.spread = std::exp(x[4]);
+    parameters.process = x.segment(5, sizes.size()).array().exp() * sizes.array().square();
+    parameters.noise = finds_noise ? std::exp(x[size() - 1]) : given_noise;
+    return parameters;
+  }
+};
+
+/// What parameters are worth: the largest growth, that of its linear part without noise, and how far
+/// frequency errors reach, over the phase.
+struct FilterWorth {
+  double growth = std::numeric_limits<double>::infinity();
+  double linear = 1.0;
+  double least_reach = std::numeric_limits<double>::infinity();
+  double most_reach = 0.0;
+};
+
+/// Over so many samples of an orbit, after `before`.
+inline FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curve,
+                                  const FilterParameters& parameters, int before, int samples) {
+  FilterOrbit orbit(tone, curve, parameters);
+  orbit.begin(0.3);
+  FilterWorth worth;
+  double growth = 0.0;
+  double linear = 0.0;
+  for (int k = 0; k < before + samples; ++k) {
+    if (!orbit.step()) {
+      return worth;
+    }
+    if (k >= before) {
+      const FilterGrowth here = orbit.growth();
+      growth = std::max(growth, here.whole);
+      linear = std::max(linear, here.linear);
+      const double reach = orbit.reach();
+      constexpr double kFar = 3.0;
+      if (!(here.whole < kFar) || !std::isfinite(reach)) {
+        return worth;
+      }
+      worth.least_reach = std::min(worth.least_reach, reach);
+      worth.most_reach = std::max(worth.most_reach, reach);
+    }
+  }
+  worth.growth = growth;
+  worth.linear = linear;
+  return worth;
+}
+
+/// How many samples the shape remembers.
+inline int memory_of(double rate_squared, const FilterParameters& parameters, double share) {
+  const double factor = std::min(0.999, std::max(rate_squared / parameters.lambda, rate_squared));
+  return std::clamp(static_cast<int>(std::ceil(std::log(share) / std::log(factor))), 12, 4000);
+}
+
+/// The search for parameters: at the middle of the cell, and then scaled so that they do at its ends.
+class FilterSearch {
+ public:
+  FilterSearch(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings, double rate)
+      : tone_(&tone), nodes_{curve.at(-1.0), curve.at(0.0), curve.at(1.0)} {
+    const Index n = tone.filter->states;
+    const VectorXd state = state_at(nodes_[1], 0.3);
+    VectorXd sizes(n);
+    // Of deviations: those that the filter itself expects.
+    Index place = n;
+    for (Index i = 0; i < n; ++i) {
+      sizes[i] = std::sqrt(std::max(1e-300, state[place]));
+      place += n - i;
+    }
+    const bool is_for_noise = settings.shape.objective == ShapeObjective::largest_noise;
+    // The largest reach at a given noise, or the largest noise.
+    coordinates_ = {rate * rate, sizes, settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0)};
+    largest_reach_ = settings.shape.largest_reach;
+    constexpr int kUsual = 100;
+    evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : kUsual;
+  }
+
+  [[nodiscard]] const FilterCoordinates& coordinates() const { return coordinates_; }
+  /// At the middle and both ends.
+  [[nodiscard]] FilterWorth worth_at(const FilterParameters& parameters, int samples) const {
+    std::array<FilterWorth, 3> each;
+    tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
+      each.at(i) = worth_on_orbit(*tone_, nodes_.at(i), parameters,
+                                  memory_of(coordinates_.rate_squared, parameters, 1e-4), samples);
+    });
+    FilterWorth worth{0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
+    for (const FilterWorth& one : each) {
+      worth.growth = std::max(worth.growth, one.growth);
+      worth.linear = std::max(worth.linear, one.linear);
+      worth.least_reach = std::min(worth.least_reach, one.least_reach);
+      worth.most_reach = std::max(worth.most_reach, one.most_reach);
+    }
+    return worth;
+  }
+  /// The point with a larger or smaller scale: of the tube, or of the noise.
+  [[nodiscard]] VectorXd scaled(VectorXd x, double logarithm) const {
+    if (coordinates_.finds_noise) {
+      x[coordinates_.size() - 1] += logarithm;
+    } else {
+      x[3] += logarithm;
+      x.segment(5, coordinates_.sizes.size()).array() += logarithm;
+    }
+    return x;
+  }
+  /// The largest scale at which the growth is what it may be; -infinity when there is none nearby.
+  template <typename Worth>
+  [[nodiscard]] double largest_scale(const VectorXd& x, const Worth& worth_of) const {
+    const auto may_be = [&](double logarithm) {
+      const FilterWorth worth = worth_of(coordinates_.at(scaled(x, logarithm)));
+      return worth.growth <= kLargestGrowth &&
+             !(largest_reach_ > 0.0 && worth.most_reach > 0.97 * largest_reach_);
+    };
+    constexpr double kStep = 1.2;
+    constexpr int kMostSteps = 9;
+    double low = 0.0;
+    int steps = 0;
+    const bool grows = may_be(0.0);
+    for (double tried = grows ? kStep : -kStep; steps < kMostSteps;
+         ++steps, tried += grows ? kStep : -kStep) {
+      const bool is_possible = may_be(tried);
+      low = is_possible || !grows ? tried : low;
+      if (is_possible != grows) {
+        break;
+      }
+    }
+    if (steps == kMostSteps) {
+      return grows ? low : -std::numeric_limits<double>::infinity();
+    }
+    double high = low + kStep;
+    constexpr int kHalvings = 6;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (may_be(middle) ? low : high) = middle;
+    }
+    return low;
+  }
+  struct Scored {
+    double value = -std::numeric_limits<double>::infinity();
+    VectorXd point;
+  };
+  [[nodiscard]] Scored score(const VectorXd& x) const {
+    constexpr int kSamples = 20;
+    const auto at_middle = [&](const FilterParameters& parameters) {
+      return worth_on_orbit(*tone_, nodes_[1], parameters,
+                            memory_of(coordinates_.rate_squared, parameters, 1e-2), kSamples);
+    };
+    const double logarithm = largest_scale(x, at_middle);
+    if (!std::isfinite(logarithm)) {
+      return {};
+    }
+    Scored scored{0.0, scaled(x, logarithm)};
+    const FilterParameters parameters = coordinates_.at(scored.point);
+    scored.value = std::log(coordinates_.finds_noise ? parameters.noise : at_middle(parameters).least_reach);
+    return scored;
+  }
+  /// The best point found, scaled for the whole cell.
+  [[nodiscard]] std::optional<VectorXd> run(const VectorXd& nearby) const {
+    std::vector<Scored> starts;
+    if (nearby.size() == coordinates_.size()) {
+      starts.push_back(score(nearby));
+    } else {
+      if (!coordinates_.finds_noise) {
+        starts = first_starts();
+      } else {
+        // From tubes without noise, made smaller.
+        std::vector<VectorXd> points;
+        FilterSearch without_noise(*this);
+        without_noise.coordinates_.finds_noise = false;
+        for (const Scored& start : without_noise.best_of(without_noise.first_starts())) {
+          for (const double scale : {-0.5, -1.4, -2.8}) {
+            if (std::isfinite(start.value)) {
+              const VectorXd smaller = without_noise.scaled(start.point, scale);
+              points.emplace_back(coordinates_.size());
+              points.back() << smaller, -6.0;
+            }
+          }
+        }
+        starts.assign(points.size(), {});
+        tbb::parallel_for(std::size_t{0}, points.size(),
+                          [&](std::size_t i) { starts[i] = score(points[i]); });
+      }
+      starts = best_of(std::move(starts));
+    }
+    if (starts.empty() || !std::isfinite(starts.front().value)) {
+      return std::nullopt;
+    }
+    tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) { improve(starts[i], 1.0); });
+    Scored best = *std::max_element(starts.begin(), starts.end(),
+                                    [](const Scored& a, const Scored& b) { return a.value < b.value; });
+    if (starts.size() > 1) {
+      improve(best, 0.5);
+      improve(best, 0.8);
+    }
+    constexpr int kSamples = 40;
+    const double logarithm = largest_scale(
+        best.point, [&](const FilterParameters& parameters) { return worth_at(parameters, kSamples); });
+    return std::isfinite(logarithm) ? std::optional(scaled(best.point, logarithm)) : std::nullopt;
+  }
+
+  static constexpr double kLargestGrowth = 0.985;
+
+ private:
+  /// Of the reach.
+  [[nodiscard]] std::vector<Scored> first_starts() const {
+    std::vector<VectorXd> points;
+    for (const double source : {-8.0, -4.0, -1.0}) {
+      for (const double eta : {-2.3, -1.0}) {
+        for (const double logit : {0.0, 1.4, 2.6}) {
+          for (const double spread : {-5.0, -2.0}) {
+            // The scale of W is found by itself.
+            constexpr double kProcess = -4.5;
+            VectorXd x = VectorXd::Constant(coordinates_.size(), kProcess);
+            x.head(5) << eta, eta, logit, source, spread;
+            points.push_back(x);
+          }
+        }
+      }
+    }
+    std::vector<Scored> starts(points.size());
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) { starts[i] = score(points[i]); });
+    return starts;
+  }
+  /// The three best ones, the best first.
+  [[nodiscard]] static std::vector<Scored> best_of(std::vector<Scored> starts) {
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Scored& a, const Scored& b) { return a.value > b.value; });
+    constexpr std::size_t kMost = 3;
+    starts.resize(std::min(kMost, starts.size()));
+    return starts;
+  }
+  void improve(Scored& best, double step) const {
+    if (!std::isfinite(best.value)) {
+      return;
+    }
+    const rigor::NearestRounding nearest;
+    search::SearchSpace space;
+    space.start = best.point;
+    space.step = VectorXd::Constant(best.point.size(), step);
+    space.lower = VectorXd::Constant(best.point.size(), -30.0);
+    space.upper = VectorXd::Constant(best.point.size(), 12.0);
+    space.evaluations = evaluations_;
+    space.tolerance = 1e-3;
+    (void)search::maximize(
+        [&](const VectorXd& x) {
+          const Scored here = score(x);
+          if (here.value > best.value) {
+            best = here;
+          }
+          return here.value;
+        },
+        space);
+  }
+
+  const TrackedTone* tone_;
+  std::array<NodeCurve, 3> nodes_;
+  FilterCoordinates coordinates_;
+  double largest_reach_ = 0.0;
+  int evaluations_ = 0;  ///< of each round
+};
+
+}  // namespace veritrack::model::detail

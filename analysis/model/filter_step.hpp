@@ -1,0 +1,25 @@
+// One step of an extended Kalman filter in the coordinates of a tube that bounds its covariance, over a cell
+// of phases and frequencies.
+//
+// With the updated covariance P+ the estimate is x+ = x^ + P+ H' R^-1 (y - H x^ - h_0): affine in P+. And P+
+// is monotone in P. So a tube has the estimate alone as its state, and bounds of the covariance beside it: if
+// the covariance predicted for this sample is between low(phi) and high(phi), the updated one is between low+
+// and high+, those of the bounds; all that is known of P+ is that it is one of these (docs/model-proof.md,
+// section 13).
+#pragma once
+
+#include <vector>
+
+#include "analysis/model/tube_step.hpp"
+
+namespace veritrack::model {
+
+/// Bounds over a cell of |F| for |xi| <= scale radius, for each of the scales, all |v| <= noise, and all
+/// covariances between the bounds of the tube; with `with_covariance`, they are known only where the bounds
+/// are shown to be bounds again at the next phase, for all |xi| <= radius. Sets its own rounding mode. Throws
+/// std::invalid_argument when sizes do not fit.
+[[nodiscard]] StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                                           double radius, double noise, const std::vector<double>& scales,
+                                           bool with_covariance);
+
+}  // namespace veritrack::model

@@ -1,0 +1,47 @@
+// One step of an extended Kalman filter in a tube that bounds its covariance, over a part of the tube's
+// phases and frequencies.
+//
+// The updated covariance P+ = P - P H' (H P H' + R)^-1 H P grows with the predicted one, P, in the order of
+// symmetric matrices, and the estimate after it is x+ = x^ + P+ H' R^-1 (y - h(x^)). Of P+ it is used only
+// that it is between the updated bounds.
+#pragma once
+
+#include <vector>
+
+#include "checker/model/place_matrix.hpp"
+#include "checker/model/tube_step.hpp"
+
+namespace veritrack::checker {
+
+/// True only for a filter whose H does not depend on the estimate, and whose Q and R are written as symmetric
+/// matrices: then bounds of the covariance say what they shall.
+bool bounds_suit(const ModelRecursion& recursion);
+
+class FilterStep {
+ public:
+  /// The second vector of the monomials, which must outlive this, is v if there is noise.
+  FilterStep(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
+             const VectorMonomials& monomials);
+
+  /// Whether the shape is one here and a sample later.
+  [[nodiscard]] bool has_shape() const { return here_.has_shape() && there_.has_shape(); }
+  /// True only when the bounds are a range of covariances here, and F P F' + Q is between those of the next
+  /// sample for every updated covariance of that range and all |xi| <= radius.
+  [[nodiscard]] bool keeps_covariance(double radius) const;
+  /// A vector that is at least as long as F for |xi| <= radius, |v| <= noise and every covariance in the
+  /// bounds, where the ball polynomials are in xi/radius and v/noise.
+  [[nodiscard]] std::vector<BallPolynomial> map(double radius, double noise) const;
+
+ private:
+  [[nodiscard]] PlaceMatrix updated(const PlaceMatrix& predicted) const;
+
+  const TrackedModel* model_;
+  const VectorMonomials* monomials_;
+  std::size_t states_;
+  TubeOver here_, there_;
+  std::vector<BallPolynomial> signal_;
+  PlaceMatrix measured_, process_noise_, noise_;  ///< H, Q, R
+  PlaceMatrix weighted_;                          ///< R^-1 H
+};
+
+}  // namespace veritrack::checker

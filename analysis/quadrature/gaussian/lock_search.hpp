@@ -36,8 +36,8 @@ struct LockProposal {
 };
 
 /// The set with the largest margin that was found: over all its thirteen shape parameters, points at which
-/// the inequality is worst being added on the way. Where the usual shapes do not do, the shape is followed from
-/// a usual design to this one, with little noise. Nothing when there is no steady state (q1 = 0).
+/// the inequality is worst being added on the way. Where the usual shapes do not do, the shape is followed
+/// from a usual design to this one, with little noise. Nothing when there is no steady state (q1 = 0).
 /// Deterministic; needs the upward mode.
 [[nodiscard]] std::optional<LockProposal> propose_lock_set(const LockRequest& request);
 

@@ -114,10 +114,10 @@ Eigen::VectorXd PointTracker::samples(double phase) {
 }
 
 Eigen::VectorXd PointTracker::state(const PointFrame& frame, const Eigen::VectorXd& coordinates) {
-  const Eigen::VectorXd estimate = frame.state(coordinates);
   if (frame.covariance.size() == 0) {
-    return estimate;
+    return frame.state(coordinates);
   }
+  const Eigen::VectorXd estimate = frame.state(coordinates);
   const Eigen::Index n = estimate.size();
   std::vector<double> inputs(step_inputs_.begin(),
                              step_inputs_.begin() + static_cast<std::ptrdiff_t>(model_->constants.size()));

@@ -254,7 +254,7 @@ std::string too_few_seeds(const std::vector<StartRates>& rates, int seeds) {
 }
 
 std::string reading_sentence(const std::vector<StartRates>& rates, int seeds) {
-  if (const std::string undecided = too_few_seeds(rates, seeds); !undecided.empty()) {
+  if (std::string undecided = too_few_seeds(rates, seeds); !undecided.empty()) {
     return undecided;
   }
   const Reproduced printed = reproduced_for_some_start(rates, &StartRates::frequency_only, seeds);

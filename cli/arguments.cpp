@@ -45,7 +45,8 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
      "  producer | veritrack track my-design.toml - --each track.csv"},
     {"reproduce",
      "  veritrack reproduce bittanti-savaresi-2000\n"
-     "  veritrack reproduce tracking-limits --seeds 10"},
+     "  veritrack reproduce tracking-limits --seeds 10\n"
+     "  veritrack reproduce ledger"},
     {"explain",
      "  veritrack explain                       everything that is explained\n"
      "  veritrack explain q1 assume.slew        keys\n"
@@ -233,9 +234,10 @@ void add_commands(CLI::App& app, Arguments& into) {
   CLI::App* reproduce =
       app.add_subcommand("reproduce",
                          "regenerate a report of docs/reports: the published examples of the single-channel "
-                         "tracker, or the comparison of the trackers with the Cramer-Rao bounds");
+                         "tracker, the comparison of the trackers with the Cramer-Rao bounds, or the ledger: "
+                         "every claim of the publications, decided");
   reproduce->add_option("REPORT", into.reproduce.report, "which report")
-      ->check(CLI::IsMember({kExampleReport, kLimitReport}))
+      ->check(CLI::IsMember({kExampleReport, kLimitReport, kLedger}))
       ->capture_default_str();
   reproduce->add_option("--out", into.reproduce.directory,
                         "folder for the report (default: reports-out/<name of the report>)");

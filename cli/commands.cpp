@@ -20,6 +20,7 @@
 #include "cli/progress_line.hpp"
 #include "reports/certificate_files.hpp"
 #include "reports/example_report.hpp"
+#include "reports/ledger/ledger_report.hpp"
 #include "reports/limit_report.hpp"
 #include "reports/tracker_reports.hpp"
 #include "reports/written_report.hpp"
@@ -143,6 +144,11 @@ ExitStatus run_reproduce(const ReproduceOptions& options) {
   const int published_seeds = limits ? 1000 : 200;
   const int seeds = options.seeds > 0 ? options.seeds : published_seeds;
   const reports::WrittenReport written = [&] {
+    if (options.report == kLedger) {
+      const ProgressLine line(options.quiet, "certifying");
+      return reports::ledger::write_ledger(
+          directory, options.renderings, [&](int done, int most) { line(done, most, "designs evaluated"); });
+    }
     const ProgressLine line(options.quiet, "simulating");
     const auto tell = [&](int done, int most) { line(done, most, "simulated"); };
     return limits ? reports::write_limit_report(seeds, directory, options.renderings, tell)

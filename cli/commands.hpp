@@ -15,6 +15,7 @@ enum ExitStatus : int { all_proved = 0, not_proved = 1, bad_input = 2, bad_arith
 
 inline constexpr const char* kExampleReport = "bittanti-savaresi-2000";
 inline constexpr const char* kLimitReport = "tracking-limits";
+inline constexpr const char* kLedger = "ledger";
 
 struct CertifyOptions {
   std::string design;

@@ -32,6 +32,9 @@ struct TrackerKind {
 
   // What not every kind has: null where it has none.
 
+  /// Adds, of everything that `certify` adds, what publications say: the derivations and claims that
+  /// theorems::find_paper_place knows. Takes a second at most. Needs the upward mode.
+  void (*published_results)(Certificate& certificate) = nullptr;
   /// The sections of published-theorems.md: what the papers say of the design. Empty when that is nothing.
   std::string (*published)(const Certificate& certificate) = nullptr;
   /// Its search ends when the deadline of the certificate is over.

@@ -103,6 +103,7 @@ const TrackerKind& quadrature_kind() {
                                 .certify = certify_quadrature,
                                 .summary = summary,
                                 .sections = sections,
+                                .published_results = quadrature_published_results,
                                 .published = published,
                                 .evidence_json = quadrature_evidence_json,
                                 .report_json = quadrature_report_json,

@@ -40,6 +40,7 @@ const TrackerKind& single_channel_kind() {
                                 .certify = certify_single_channel,
                                 .summary = summary,
                                 .sections = sections,
+                                .published_results = single_channel_published_results,
                                 .published = published,
                                 .report_json = single_channel_report_json,
                                 .formal_proofs = coq::proposition_1_proofs,

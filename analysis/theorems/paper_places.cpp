@@ -48,6 +48,14 @@ constexpr std::array kFamilies{
     Family{"lemma-3.1/", la_scala_1994, sentence, "thesis, lemma 3.1"},
     Family{"table-3.1/printed/", la_scala_1994, sentence, "thesis, Table 3.1", "table-3.1/errata"},
     Family{"table-3.1/errata/", la_scala_1994, sentence, "thesis, errata sheet to Table 3.1"},
+    Family{"chapter-3/frequency-variance", la_scala_1994, sentence, "thesis, (3.11) and (3.12)"},
+    Family{"chapter-4/transform/", la_scala_1994, sentence, "thesis, (4.5)"},
+    Family{"chapter-4/narrow-band/4.9", la_scala_1994, sentence, "thesis, (4.9)"},
+    Family{"chapter-4/narrow-band/", la_scala_1994, sentence, "thesis, (4.6)"},
+    Family{"chapter-4/jacobian", la_scala_1994, sentence, "thesis, (4.19) to (4.24)"},
+    Family{"chapter-4/", la_scala_1994, sentence, "thesis, section 4.3"},
+    Family{"chapter-5/example", la_scala_1994, sentence, "thesis, section 5.4, the examples"},
+    Family{"chapter-5/", la_scala_1994, sentence, "thesis, section 5.4, EFRA"},
     Family{"baras-bensoussan-james/units", cited, sentence, "thesis, theorem 2.2",
            "a condition without units (docs/published-results.md, section 4)"},
     Family{"baras-bensoussan-james/", cited, hypothesis, "Baras, Bensoussan, James 1988; thesis, theorem 2.2",
@@ -134,8 +142,10 @@ PaperPlace paper_place(std::string_view claim) {
     throw std::out_of_range(std::string(claim) + " is not a claim about a publication");
   }
   const PaperFinding* finding = find_paper_finding(claim);
-  std::string place =
-      finding != nullptr ? std::string(finding->place) : std::string(family->place) + equation(claim);
+  std::string place = finding != nullptr ? std::string(finding->place) : std::string(family->place);
+  if (family->role == hypothesis) {
+    place += equation(claim);
+  }
   place += reading(claim);
   return {family->paper, is_repair(claim) ? repair : family->role, std::move(place), family->repair};
 }

@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/theorems/block_transform_claims.hpp"
+#include "analysis/theorems/regulator_claims.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/markdown_text.hpp"
@@ -41,6 +43,15 @@ class Collection {
         add(derivation.id + "/" + condition.id, certificates::markdown::math(condition.statement),
             condition.verdict, condition.reason);
       }
+    }
+  }
+
+  /// Statements in which no design enters.
+  void add(const std::vector<theorems::Statement>& statements) {
+    design_ = kNoDesign;
+    for (const theorems::Statement& statement : statements) {
+      add(statement.id, certificates::markdown::escaped(statement.sentence), statement.verdict,
+          statement.witness);
     }
   }
 
@@ -122,6 +133,9 @@ std::vector<Row> collect(const Progress& progress) {
       progress(++done, static_cast<int>(designs.size()));
     }
   }
+  const rigor::UpwardRounding upward;
+  collection.add(theorems::block_transform_claims());
+  collection.add(theorems::regulator_claims());
   return std::move(collection).rows();
 }
 

@@ -13,9 +13,13 @@
 
 namespace veritrack::reports::ledger {
 
+/// In place of a design where none enters.
+inline constexpr const char* kNoDesign = "none";
+
 /// What was found for one design.
 struct DesignVerdict {
-  std::string design;  ///< its file without folder and ending, e.g. "la-scala-1994-figure-3.5"
+  /// Its file without folder and ending, e.g. "la-scala-1994-figure-3.5", or kNoDesign.
+  std::string design;
   rigor::Verdict verdict = rigor::Verdict::undecided;
   std::string ground;  ///< a sentence, as the certificate has it
 };

@@ -159,7 +159,8 @@ std::string designs_of(const std::vector<Row>& rows, Paper paper) {
       continue;
     }
     for (const DesignVerdict& each : row.verdicts) {
-      if (std::find(designs.begin(), designs.end(), each.design) == designs.end()) {
+      if (each.design != kNoDesign &&
+          std::find(designs.begin(), designs.end(), each.design) == designs.end()) {
         designs.push_back(each.design);
       }
     }
@@ -168,7 +169,7 @@ std::string designs_of(const std::vector<Row>& rows, Paper paper) {
   for (const std::string& design : designs) {
     text += fmt::format("{}`veritrack certify designs/{}.toml`", text.empty() ? "" : ", ", design);
   }
-  return text;
+  return text + ", or, where no design enters, by `veritrack reproduce ledger`";
 }
 
 std::string paper_section(const std::vector<Row>& rows, Paper paper) {

@@ -107,13 +107,20 @@ std::string verdict_cell(const Row& row) {
   return text;
 }
 
+/// The ground without the kind of mistake and the place before it, which have columns of their own.
+std::string without_finding(const Row& row, const std::string& ground) {
+  const std::string place = row.finding == nullptr ? "" : fmt::format(" ({}): ", row.finding->place);
+  const std::size_t at = place.empty() ? std::string::npos : ground.find(place);
+  return at == std::string::npos ? ground : ground.substr(at + place.size());
+}
+
 /// The ground for the strongest verdict: a refutation counts more than a proof, and that more than neither.
 std::string ground_cell(const Row& row) {
   for (const Verdict verdict : {Verdict::refuted, Verdict::proved}) {
     const auto found = std::find_if(row.verdicts.begin(), row.verdicts.end(),
                                     [&](const DesignVerdict& each) { return each.verdict == verdict; });
     if (found != row.verdicts.end()) {
-      return escaped(found->ground);
+      return escaped(without_finding(row, found->ground));
     }
   }
   return escaped(row.verdicts.front().ground);

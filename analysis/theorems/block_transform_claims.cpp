@@ -14,7 +14,6 @@ namespace veritrack::theorems {
 namespace {
 
 using rigor::Interval;
-using rigor::Verdict;
 
 Interval whole(int number) {
   return Interval(static_cast<double>(number));

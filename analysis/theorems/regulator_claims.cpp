@@ -13,7 +13,6 @@ namespace {
 
 using rigor::Interval;
 using rigor::parse_decimal;
-using rigor::Verdict;
 
 /// The printed settings of section 5.4.
 struct Efra {

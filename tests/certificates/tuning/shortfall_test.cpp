@@ -66,12 +66,12 @@ TEST_CASE("what would do is found: less noise by a factor that the oracle knows,
   const Assumptions assume = assumed(testing::kTunedText);
   Requirements require;
   require.frequency_error_below = number_of("0.011");
-  const auto certify = [](const Assumptions& less) {
+  const auto certify = [](const Assumptions& less, const Number&) {
     CertifiedValues values = good();
     values.for_ever = less.noise.nearest + 0.001;  // met below a noise of 0.01, half of what is assumed
     return values;
   };
-  const auto sentences = changes_that_would_do(certify, assume, require);
+  const auto sentences = changes_that_would_do(certify, assume, require, number_of("0"));
   REQUIRE(sentences.size() == 1);
   CAPTURE(sentences.front());
   CHECK(sentences.front().find("noise of at most 0.00") != std::string::npos);
@@ -85,8 +85,8 @@ TEST_CASE("what would do is found: less noise by a factor that the oracle knows,
 
 TEST_CASE("nothing by itself would do") {
   const rigor::NearestRounding nearest;
-  const auto sentences = changes_that_would_do([](const Assumptions&) { return CertifiedValues{}; },
-                                               assumed(testing::kTunedText), {});
+  const auto sentences = changes_that_would_do([](const Assumptions&, const Number&) { return CertifiedValues{}; },
+                                               assumed(testing::kTunedText), {}, number_of("0"));
   REQUIRE(sentences.size() == 1);
   CHECK(sentences.front().find("each by itself, would do") != std::string::npos);
   CHECK(sentences.front().starts_with("No less"));

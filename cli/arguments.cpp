@@ -188,7 +188,7 @@ void add_commands(CLI::App& app, Arguments& into) {
   tune->add_option("--timeout", into.tune.seconds,
                    "end the search after so many seconds, and certify the best so far; so does Ctrl-C")
       ->check(seconds);
-  tune->add_flag("--free-leak", into.tune.free_leak, "epsilon may become smaller than it is, down to 0");
+  tune->add_flag("--free-leak", into.tune.free_leak, "epsilon, where it is above 0, may change, too, and become 0");
 
   CLI::App* track = app.add_subcommand("track", "run the tracker of a design over a recording");
   track->add_option("DESIGN", into.track.design, "design file (TOML)")->required();

@@ -83,8 +83,7 @@ ExitStatus run_certify(const CertifyOptions& options) {
   }
   fmt::print("{}: {}\n", files.document.string(), certificates::headline(certificate));
   const ExitStatus status = status_of(certificate);
-  if (status == not_proved && certificate.contraction && certificates::can_be_tuned(certificate.design) &&
-      !options.quiet) {
+  if (status == not_proved && certificates::can_be_tuned(certificate.design) && !options.quiet) {
     fmt::print(stderr, "{}: veritrack tune looks for design values that meet what is required\n",
                options.design);
   }

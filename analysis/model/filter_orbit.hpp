@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/model/curve_fit.hpp"
+#include "analysis/model/tube.hpp"
 #include "trackers/model/filter_parts.hpp"
 
 namespace veritrack::model::detail {
@@ -28,6 +29,45 @@ using Wide = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows,
 
 /// Of the bounds, in units of themselves: what they have to spare.
 inline constexpr double kSlack = 0.006;
+/// Of those in the long run: what they have to spare is also how fast the covariance comes between them.
+inline constexpr double kLongRunSlack = 0.012;
+
+/// A matrix of series at a place, from its lower triangle.
+inline MatrixXd matrix_at(const std::vector<PhaseSeries>& triangle, double phase, double z,
+                          bool is_symmetric) {
+  std::size_t most = 1;
+  for (const PhaseSeries& series : triangle) {
+    most = std::max(most, series.coefficients.size());
+  }
+  std::vector<std::pair<double, double>> harmonics;
+  for (std::size_t h = 0; h < most; ++h) {
+    const double angle = static_cast<double>(h) * phase;
+    harmonics.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  const std::vector<double> powers{1.0, z, z * z, z * z * z, z * z * z * z};
+  Index rows = 0;
+  while (rows * (rows + 1) / 2 < static_cast<Index>(triangle.size())) {
+    ++rows;
+  }
+  MatrixXd matrix = MatrixXd::Zero(rows, rows);
+  std::size_t place = 0;
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j <= i; ++j) {
+      matrix(i, j) = triangle[place++].at(harmonics, powers);
+      if (is_symmetric) {
+        matrix(j, i) = matrix(i, j);
+      }
+    }
+  }
+  return matrix;
+}
+
+/// A tube in which the estimate stays, at a frequency of its cell.
+struct Surroundings {
+  const Tube* tube = nullptr;
+  double radius = 0.0;
+  double z = 0.0;
+};
 
 /// The parts of a filter in doubles.
 class FilterNumbers {
@@ -104,8 +144,10 @@ struct FilterGrowth {
 
 class FilterOrbit {
  public:
-  FilterOrbit(const TrackedTone& tone, const NodeCurve& curve, const FilterParameters& parameters)
-      : tone_(&tone), numbers_(tone), curve_(&curve), parameters_(parameters) {}
+  /// `around`: the bounds are for all estimates in there, not only for those in the shape.
+  FilterOrbit(const TrackedTone& tone, const NodeCurve& curve, const FilterParameters& parameters,
+              const Surroundings& around = {})
+      : tone_(&tone), numbers_(tone), curve_(&curve), parameters_(parameters), around_(around) {}
 
   /// At this phase, from the steady state of the filter.
   void begin(double phase) {
@@ -136,20 +178,24 @@ class FilterOrbit {
     changes_.clear();
     Small of_high = Small::Zero(n, n);
     Small of_low = Small::Zero(n, n);
+    const bool is_inside = around_.tube != nullptr;
+    const Small wide = is_inside ? Small(around_.radius * matrix_at(around_.tube->shape, phase_, around_.z, false)) : u;
     for (Index i = 0; i < n; ++i) {
       changes_.push_back(numbers_.change(estimate_, u.col(i)));
-      of_high += changes_.back() * updated_high_ * changes_.back().transpose();
-      of_low += changes_.back() * updated_low_ * changes_.back().transpose();
+      const Small change = is_inside ? numbers_.change(estimate_, wide.col(i)) : changes_.back();
+      of_high += change * updated_high_ * change.transpose();
+      of_low += change * updated_low_ * change.transpose();
     }
+    const double slack = is_inside ? kLongRunSlack : kSlack;
     constexpr double kHigherOrders = 1.1;
     of_high *= kHigherOrders;
     of_low *= kHigherOrders;
     const double eta = parameters_.eta;
     const double theta = parameters_.theta;
     FilterOnOrbit next;
-    next.high = (1.0 + kSlack) * (numbers_.process() + (1.0 + eta) * f * updated_high_ * f.transpose() +
+    next.high = (1.0 + slack) * (numbers_.process() + (1.0 + eta) * f * updated_high_ * f.transpose() +
                                   (1.0 + 1.0 / eta) * of_high);
-    next.low = (1.0 - kSlack) * (numbers_.process() + (1.0 - theta) * f * updated_low_ * f.transpose() -
+    next.low = (1.0 - slack) * (numbers_.process() + (1.0 - theta) * f * updated_low_ * f.transpose() -
                                  (1.0 / theta - 1.0) * of_low);
     if (Eigen::LLT<Small>(next.low).info() != Eigen::Success || !(next.high.maxCoeff() < 1e12)) {
       return false;
@@ -248,6 +294,7 @@ class FilterOrbit {
   FilterNumbers numbers_;
   const NodeCurve* curve_;
   FilterParameters parameters_;
+  Surroundings around_;
   double phase_ = 0.0;
   SmallVector estimate_;
   Small updated_low_, updated_high_, delta_, gain_, contraction_, jacobian_, before_;

@@ -22,4 +22,12 @@ namespace veritrack::model {
 void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings,
                          const std::optional<ShapeParameters>& nearby, TubeProposal& proposal);
 
+/// For noise, of estimates that stay in the tube `around`, at the level `radius` or below: a tube of the same
+/// curve and frequencies that is small in the long run, with bounds of the covariance for all estimates in
+/// that level. `of_around`: the parameters of that tube. Deterministic; holds round-to-nearest. Needs
+/// tone.filter.
+[[nodiscard]] TubeProposal propose_long_run_tube(const TrackedTone& tone, const Tube& around, double radius,
+                                                 double noise, const ShapeParameters& of_around,
+                                                 const std::optional<ShapeParameters>& nearby);
+
 }  // namespace veritrack::model

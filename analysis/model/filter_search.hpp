@@ -54,8 +54,9 @@ struct FilterWorth {
 
 /// Over so many samples of an orbit, after `before`.
 inline FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curve,
-                                  const FilterParameters& parameters, int before, int samples) {
-  FilterOrbit orbit(tone, curve, parameters);
+                                  const FilterParameters& parameters, int before, int samples,
+                                  const Surroundings& around = {}) {
+  FilterOrbit orbit(tone, curve, parameters, around);
   orbit.begin(0.3);
   FilterWorth worth;
   double growth = 0.0;

@@ -84,7 +84,7 @@ FilterPlace place_of_filter(const TrackerModel& model, const Tube& tube, const T
 }
 
 /// Whether the bounds are a nonempty range of covariances, and bounds again at the next phase.
-bool keeps_covariance(const TrackerModel& model, const FilterPlace& place, double radius) {
+bool keeps_covariance(const TrackerModel& model, const FilterPlace& place, const RangeQuestion& question) {
   const std::size_t n = place.low_here.rows();
   if (!is_positive_definite(place.low_here) || !is_positive_definite(place.high_there - place.low_there)) {
     return false;
@@ -99,12 +99,27 @@ bool keeps_covariance(const TrackerModel& model, const FilterPlace& place, doubl
       here.shape.push_back(each.lifted());
     }
     const std::vector<BallModel> none(static_cast<std::size_t>(model.filter->samples), BallModel(0.0));
-    return parts_at(model, state_in(here, radius), none).jacobian;
+    return parts_at(model, state_in(here, question.radius), none).jacobian;
   }();
   const JacobianParts parts = parts_of_jacobian(jacobian, n);
-  return std::isfinite(parts.error) &&
-         stays_below(parts, place.high_here, place.noise.process, place.high_there) &&
-         stays_above(parts, place.low_here, place.noise.process, place.low_there);
+  if (!std::isfinite(parts.error)) {
+    return false;
+  }
+  const Interval share = Interval(1.0) - Interval(question.margin);
+  const bool has_margin = question.margin > 0.0;
+  const BallMatrix high = has_margin ? scaled(place.high_there, BallModel(share)) : place.high_there;
+  const BallMatrix low =
+      has_margin ? scaled(place.low_there, BallModel(Interval(1.0) / share)) : place.low_there;
+  if (!stays_below(parts, place.high_here, place.noise.process, high) ||
+      !stays_above(parts, place.low_here, place.noise.process, low)) {
+    return false;
+  }
+  // Of c, with both sides divided by c, or multiplied by it: affine in 1/c, or in c. The ends decide.
+  const Interval ratio(question.ratio);
+  return question.ratio == 1.0 ||
+         (stays_below(parts, place.high_here, scaled(place.noise.process, BallModel(Interval(1.0) / ratio)),
+                      high) &&
+          stays_above(parts, place.low_here, scaled(place.noise.process, BallModel(ratio)), low));
 }
 
 /// The coefficients of a class at s = z = 0, a row for each model.
@@ -261,12 +276,19 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
     const rigor::BallModelScope inner(0, 0);
     // A little more, so that another program need not be as sharp.
     constexpr double kRoom = 1.01;
-    return keeps_covariance(model, place, kRoom * radius);
+    return keeps_covariance(model, place, {.radius = kRoom * radius});
   }();
   if (is_kept) {
     bounds.steps = lengths;
   }
   return bounds;
+}
+
+bool keeps_range(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                 const RangeQuestion& question) {
+  require_sizes(model, tube);
+  const rigor::BallModelScope plane(0, 0);
+  return keeps_covariance(model, place_of_filter(model, tube, cell), question);
 }
 
 }  // namespace veritrack::model

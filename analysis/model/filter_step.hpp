@@ -22,4 +22,19 @@ namespace veritrack::model {
                                            double radius, double noise, const std::vector<double>& scales,
                                            bool with_covariance);
 
+/// Of the bounds of a covariance, over a cell.
+struct RangeQuestion {
+  double radius = 0.0;  ///< of the estimate in the tube
+  /// From one sample to the next they have this share of themselves to spare: F Phi(high) F' + Q < (1 -
+  /// margin) high+, F Phi(low) F' + Q > low+/(1 - margin).
+  double margin = 0.0;
+  /// The same for c high and low/c in place of high and low, on both sides, for all c from 1 to this.
+  double ratio = 1.0;
+};
+
+/// Whether the bounds are a nonempty range of covariances in the cell, and bounds again at the next phase, for
+/// all |xi| <= radius. Sets its own rounding mode. Throws std::invalid_argument when sizes do not fit.
+[[nodiscard]] bool keeps_range(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                               const RangeQuestion& question);
+
 }  // namespace veritrack::model

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/model/frequency_cells.hpp"
+#include "analysis/model/long_run_entry.hpp"
 #include "analysis/model/tube_errors.hpp"
 #include "analysis/model/tube_verification.hpp"
 
@@ -22,6 +23,9 @@ struct ProvedTube {
   std::vector<double> shrinking;
   VerificationBudget grid;  ///< from which the verification began
   std::size_t cells = 0;    ///< that it needed
+  ShapeParameters parameters = {};  ///< of the proposal; not evidence
+  /// Of a filter's tube in the long run: how it is entered.
+  std::optional<LongRunEntry> entry = {};
 };
 
 /// What a set is for.
@@ -85,6 +89,11 @@ using SetProgress = std::function<void(double share)>;
 /// The same for a frequency that moves: all cells have the same levels, and their borders are verified.
 [[nodiscard]] TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, double low,
                                        double high, const SetTask& task, const SetProgress& progress = {});
+
+/// Tubes of a filter in the long run, for the noise of `set`, inside the lowest levels of its tubes: one for
+/// each of them, of the same frequencies. Nothing unless they are proved for all, and lower in each.
+[[nodiscard]] std::optional<TubeSet> prove_long_run_set(const TrackedTone& tone, const TrackerModel& model,
+                                                        const TubeSet& set, const search::Deadline& deadline);
 
 /// After how many samples a start of level R_0 is at level R_`level`: an upper bound. `crossing`: of its set.
 [[nodiscard]] double samples_until(const ProvedTube& proved, std::size_t level,

@@ -112,7 +112,7 @@ std::optional<TubeSet> prove_long_run_set(const TrackedTone& tone, const Tracker
   inner.is_complete = set.is_complete;
   std::optional<ShapeParameters> nearby;
   for (const ProvedTube& around : set.tubes) {
-    if (deadline.is_over() || !around.tube.bounds_covariance() || around.levels.size() < 2) {
+    if (deadline.is_over() || !around.tube.bounds_covariance()) {
       return std::nullopt;
     }
     const TubeProposal proposal = propose_long_run_tube(tone, around.tube, around.levels.back(), set.noise,

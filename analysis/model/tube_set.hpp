@@ -91,12 +91,17 @@ using SetProgress = std::function<void(double share)>;
                                        double high, const SetTask& task, const SetProgress& progress = {});
 
 /// Tubes of a filter in the long run, for the noise of `set`, inside the lowest levels of its tubes: one for
-/// each of them, of the same frequencies. Nothing unless they are proved for all, and lower in each.
+/// each of them, of the same frequencies (docs/model-proof.md, Theorem 6). Nothing unless they are proved for
+/// all.
 [[nodiscard]] std::optional<TubeSet> prove_long_run_set(const TrackedTone& tone, const TrackerModel& model,
                                                         const TubeSet& set, const search::Deadline& deadline);
 
 /// After how many samples a start of level R_0 is at level R_`level`: an upper bound. `crossing`: of its set.
 [[nodiscard]] double samples_until(const ProvedTube& proved, std::size_t level,
                                    const std::vector<double>& crossing = {});
+/// After how many samples a start of level R_0 of `around` is at the level `level` of a tube in the long run
+/// inside it: an upper bound.
+[[nodiscard]] double samples_until_long_run(const ProvedTube& around, const ProvedTube& inner,
+                                            std::size_t level);
 
 }  // namespace veritrack::model

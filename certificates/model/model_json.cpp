@@ -109,6 +109,10 @@ Json tube_json(const model::ProvedTube& proved) {
   for (const model::PhaseSeries& series : tube.shape) {
     json["shape"].push_back(series_json(series));
   }
+  if (proved.entry) {
+    json["entry"] = {{"margin", rigor::to_hexadecimal(proved.entry->margin)},
+                     {"ratio", rigor::to_hexadecimal(proved.entry->ratio)}};
+  }
   if (tube.bounds_covariance()) {
     for (const auto& [name, bound] : {std::pair("covariance_low", &tube.covariance_low),
                                       std::pair("covariance_high", &tube.covariance_high)}) {
@@ -161,7 +165,7 @@ Json model_evidence_json(const Certificate& certificate) {
     }
   };
   add(sets.starts);
-  for (const std::optional<ModelSet>* set : {&sets.assumed, &sets.noise, &sets.slew}) {
+  for (const std::optional<ModelSet>* set : {&sets.assumed, &sets.long_run, &sets.noise, &sets.slew}) {
     if (*set) {
       add(**set);
     }

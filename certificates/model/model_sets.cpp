@@ -340,6 +340,14 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     }
     done += 1.0;
   }
+  if (sets.bounds_covariance && sets.assumed && !(slew > 0.0)) {
+    if (auto tubes = model::prove_long_run_set(tone, tracker, sets.assumed->tubes, deadline)) {
+      ModelSet inner = conclude(tracker, *std::move(tubes), deviations, nullptr);
+      if (inner.settled_error < sets.assumed->settled_error) {
+        sets.long_run = std::move(inner);
+      }
+    }
+  }
   if (const auto& required = require.frequency_error_below) {
     ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
     deciding = meeting(tracker, std::move(deciding), deviations, *required);

@@ -155,7 +155,7 @@ bool bounds_suit(const ModelRecursion& recursion) {
   return is_constant && recursion.has_symmetric_noise();
 }
 
-bool FilterStep::keeps_covariance(double radius) const {
+bool FilterStep::keeps_covariance(double radius, const BoundsToSpare& spare) const {
   const PlaceMatrix low = updated(symmetric_of(here_.covariance_low, states_));
   const PlaceMatrix high = updated(symmetric_of(here_.covariance_high, states_));
   const PlaceMatrix next_low = symmetric_of(there_.covariance_low, states_);
@@ -168,12 +168,22 @@ bool FilterStep::keeps_covariance(double radius) const {
   const JacobianForms jacobian(
       model_->recursion->filter_parts(here_.point(radius, components(monomials)), signal_).jacobian,
       monomials);
-  const auto is_kept = [&](const PlaceMatrix& covariance, const PlaceMatrix& bound, bool is_high) {
+  const Ball left = one - Ball(spare.margin);
+  const Ball ratio(spare.ratio);
+  if (!certainly_positive(left) || !certainly_at_most(left, one) || !certainly_at_most(one, ratio)) {
+    return false;
+  }
+  // With Q, times a factor.
+  const auto is_kept_with = [&](const PlaceMatrix& covariance, const PlaceMatrix& next, bool is_high,
+                                const Ball& factor_of_noise) {
     const PlaceMatrix carried = congruence(jacobian.constant(), covariance);
     const PlaceMatrix spread = jacobian.spread(covariance);
-    const PlaceMatrix room = is_high ? sum(bound, process_noise_, minus) : sum(process_noise_, bound, minus);
+    const PlaceMatrix nothing = place_matrix(states_, states_);
+    const PlaceMatrix bound = sum(nothing, next, BallPolynomial(is_high ? left : one / left));
+    const PlaceMatrix process = sum(nothing, process_noise_, BallPolynomial(factor_of_noise));
+    const PlaceMatrix room = is_high ? sum(bound, process, minus) : sum(process, bound, minus);
     // F P F' <= (1 + eta) F_0 P F_0' + (1 + 1/eta) spread, and >= (1 - eta) F_0 P F_0' - (1/eta - 1) spread.
-    const auto left = [&](const PlaceMatrix& of_room, const PlaceMatrix& of_carried,
+    const auto rest = [&](const PlaceMatrix& of_room, const PlaceMatrix& of_carried,
                           const PlaceMatrix& of_spread, double eta) {
       const Ball factor = is_high ? -one - Ball(eta) : one - Ball(eta);
       const Ball other = is_high ? -one - one / Ball(eta) : one - one / Ball(eta);
@@ -191,7 +201,7 @@ bool FilterStep::keeps_covariance(double radius) const {
       const double first = from + (to - from) / 3.0;
       const double second = to - (to - from) / 3.0;
       const auto value = [&](double logarithm) {
-        return near_least_eigenvalue(left(near_room, near_carried, near_spread, std::exp(logarithm)), unit);
+        return near_least_eigenvalue(rest(near_room, near_carried, near_spread, std::exp(logarithm)), unit);
       };
       if (value(first) < value(second)) {
         from = first;
@@ -200,7 +210,13 @@ bool FilterStep::keeps_covariance(double radius) const {
       }
     }
     const double eta = std::exp(0.5 * (from + to));
-    return eta > 0.0 && (is_high || eta < 1.0) && certainly_definite(left(room, carried, spread, eta));
+    return eta > 0.0 && (is_high || eta < 1.0) && certainly_definite(rest(room, carried, spread, eta));
+  };
+  // Of c, with both sides divided by c, or multiplied by it: affine in 1/c, or in c. Its ends decide.
+  const auto is_kept = [&](const PlaceMatrix& covariance, const PlaceMatrix& next, bool is_high) {
+    return is_kept_with(covariance, next, is_high, one) &&
+           (certainly_equal(ratio, one) ||
+            is_kept_with(covariance, next, is_high, is_high ? one / ratio : ratio));
   };
   return is_kept(high, next_high, true) && is_kept(low, next_low, false);
 }

@@ -17,6 +17,14 @@ namespace veritrack::checker {
 /// matrices: then bounds of the covariance say what they shall.
 bool bounds_suit(const ModelRecursion& recursion);
 
+/// What bounds of a covariance have to spare from one sample to the next.
+struct BoundsToSpare {
+  /// F P F' + Q is below (1 - margin) high and above low/(1 - margin): a share of the bounds.
+  double margin = 0.0;
+  /// The same for c high and low/c in place of high and low, on both sides, for all c from 1 to this.
+  double ratio = 1.0;
+};
+
 class FilterStep {
  public:
   /// The second vector of the monomials, which must outlive this, is v if there is noise.
@@ -27,7 +35,7 @@ class FilterStep {
   [[nodiscard]] bool has_shape() const { return here_.has_shape() && there_.has_shape(); }
   /// True only when the bounds are a range of covariances here, and F P F' + Q is between those of the next
   /// sample for every updated covariance of that range and all |xi| <= radius.
-  [[nodiscard]] bool keeps_covariance(double radius) const;
+  [[nodiscard]] bool keeps_covariance(double radius, const BoundsToSpare& spare = {}) const;
   /// A vector that is at least as long as F for |xi| <= radius, |v| <= noise and every covariance in the
   /// bounds, where the ball polynomials are in xi/radius and v/noise.
   [[nodiscard]] std::vector<BallPolynomial> map(double radius, double noise) const;

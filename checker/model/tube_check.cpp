@@ -55,7 +55,9 @@ PartAnswer ask_of_filter(const PhaseTube& tube, const FilterStep& step, double n
     const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, noise)); };
     const LengthBound bound = bound_up_to(radius);
     const double low_end = tube.levels.size() == 1 ? radius : tube.levels[j + 1];
-    if (!shrinks(bound, tube, j, low_end, bound_up_to) || (j == 0 && !step.keeps_covariance(radius))) {
+    // Of the long run, bounds of the covariance are kept for estimates in another tube (long_run.hpp).
+    const bool has_bounds = tube.entry || j > 0 || step.keeps_covariance(radius);
+    if (!shrinks(bound, tube, j, low_end, bound_up_to) || !has_bounds) {
       answer.open.push_back(j);
       by_phase += bound.by_phase() / radius;
       by_frequency += bound.by_frequency() / radius;

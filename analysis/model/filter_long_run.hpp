@@ -43,17 +43,24 @@ class LongRunSearch {
     return worth;
   }
 
-  /// From parameters of the other tube; nothing when there is no tube.
-  [[nodiscard]] std::optional<VectorXd> run(const VectorXd& start) const {
-    constexpr std::array<double, 2> kSmaller{-1.0, -3.0};
-    std::vector<Scored> starts(kSmaller.size());
+  /// From parameters of the other tube, and those that were found at neighbouring frequencies, if any; nothing
+  /// when there is no tube.
+  [[nodiscard]] std::optional<VectorXd> run(const VectorXd& of_around, const VectorXd& nearby) const {
+    std::vector<VectorXd> points;
+    for (const double smaller : {-1.0, -3.0}) {
+      points.push_back(scaled(of_around, smaller));
+      points.back().head(2).array() += smaller;  // narrower bounds
+    }
+    if (nearby.size() == of_around.size()) {
+      points.push_back(nearby);
+    }
+    std::vector<Scored> starts(points.size());
     tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-      VectorXd x = scaled(start, kSmaller.at(i));
-      x.head(2).array() += kSmaller.at(i);  // narrower bounds
-      starts[i] = score(x);
+      starts[i] = score(points[i]);
       improve(starts[i], 1.0);
     });
-    Scored best = starts[0].value >= starts[1].value ? starts[0] : starts[1];
+    Scored best = *std::max_element(starts.begin(), starts.end(),
+                                    [](const Scored& a, const Scored& b) { return a.value < b.value; });
     improve(best, 0.4);
     if (!std::isfinite(best.value)) {
       return std::nullopt;

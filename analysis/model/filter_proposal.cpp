@@ -306,7 +306,7 @@ TubeProposal propose_long_run_tube(const TrackedTone& tone, const Tube& around, 
   const FilterSearch coordinates(tone, *curve, settings, rate);
   constexpr int kEvaluations = 80;
   const LongRunSearch search(tone, *curve, coordinates.coordinates(), around, radius, kEvaluations);
-  const std::optional<VectorXd> point = search.run(nearby ? nearby->of_filter : of_around.of_filter);
+  const std::optional<VectorXd> point = search.run(of_around.of_filter, nearby ? nearby->of_filter : VectorXd());
   proposal.outcome = TubeOutcome::cell_too_wide;
   if (point) {
     proposal.shape.parameters.of_filter = *point;

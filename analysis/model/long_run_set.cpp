@@ -53,7 +53,7 @@ class LongRunLevels {
     }
     proved_.entry = entry;
     proved_.levels = {into};
-    constexpr std::size_t kMostLevels = 16;
+    constexpr std::size_t kMostLevels = 20;
     while (proved_.levels.size() < kMostLevels && step_down()) {
     }
     return proved_.levels.size() > 1 ? std::optional(proved_) : std::nullopt;
@@ -65,8 +65,14 @@ class LongRunLevels {
   };
 
   [[nodiscard]] bool step_down() {
-    const std::array<Step, 7> steps{
-        {{0.25, fast_}, {0.5, fast_}, {0.5, slow_}, {0.7, slow_}, {0.85, slow_}, {0.93, slow_}, {0.97, slow_}}};
+    const std::array<Step, 8> steps{{{0.25, fast_},
+                                     {0.5, fast_},
+                                     {0.5, slow_},
+                                     {0.7, slow_},
+                                     {0.85, slow_},
+                                     {0.93, slow_},
+                                     {0.97, slow_},
+                                     {0.99, slow_}}};
     return std::any_of(steps.begin(), steps.end(), [&](const Step& step) { return takes(step); });
   }
   [[nodiscard]] bool takes(const Step& step) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/model/curve_fit.hpp"
+#include "analysis/model/phase_grid.hpp"
 #include "analysis/model/tube.hpp"
 #include "trackers/model/filter_parts.hpp"
 
@@ -125,6 +126,8 @@ struct FilterParameters {
   double theta = 0.3;
   double lambda = 0.9;
   double noise = 0.0;   ///< V
+  double slew = 0.0;    ///< W
+  double moving = 0.0;  ///< c
   double source = 0.0;  ///< b
   double spread = 0.0;  ///< d
   VectorXd process;     ///< the diagonal of W
@@ -145,9 +148,15 @@ struct FilterGrowth {
 class FilterOrbit {
  public:
   /// `around`: the bounds are for all estimates in there, not only for those in the shape.
+  /// `slope`: of the curve by the frequency, for a slew.
   FilterOrbit(const TrackedTone& tone, const NodeCurve& curve, const FilterParameters& parameters,
-              const Surroundings& around = {})
-      : tone_(&tone), numbers_(tone), curve_(&curve), parameters_(parameters), around_(around) {}
+              const Surroundings& around = {}, const Eigen::MatrixXcd* slope = nullptr)
+      : tone_(&tone),
+        numbers_(tone),
+        curve_(&curve),
+        parameters_(parameters),
+        around_(around),
+        slope_(parameters.slew > 0.0 ? slope : nullptr) {}
 
   /// At this phase, from the steady state of the filter.
   void begin(double phase) {
@@ -210,6 +219,10 @@ class FilterOrbit {
     next.shape = a * here_.shape * a.transpose() / parameters_.lambda +
                  parameters_.source * gain_ * gain_.transpose() + parameters_.spread * delta_;
     next.shape.diagonal() += parameters_.process;
+    if (slope_ != nullptr) {
+      move_ = value_at(*slope_, phase_ + curve_->frequency).head(n);
+      next.shape += parameters_.moving * move_ * move_.transpose();
+    }
     jacobian_ = f;
     before_ = u;
     here_ = std::move(next);
@@ -268,9 +281,19 @@ class FilterOrbit {
       const Small gram = x * x.transpose();
       const double alone = std::sqrt(largest(gram));
       double linear = alone;
-      if (parameters_.noise > 0.0) {
-        const Small v = stacked(of_v, reach_of_v);
-        const Small other = v * v.transpose();
+      if (parameters_.noise > 0.0 || slope_ != nullptr) {
+        Small other = Small::Zero(gram.rows(), gram.rows());
+        // Of both, each gets a half.
+        const double half = parameters_.noise > 0.0 && slope_ != nullptr ? 2.0 : 1.0;
+        if (parameters_.noise > 0.0) {
+          const Small v = stacked(of_v, reach_of_v);
+          other += half * v * v.transpose();
+        }
+        if (slope_ != nullptr) {
+          const Small w = stacked(Small(in_units(Small(move_)) * parameters_.slew),
+                                  Small(Small::Zero(reach_of_v.rows(), 1)));
+          other += half * w * w.transpose();
+        }
         linear = std::numeric_limits<double>::infinity();
         for (const double t : {0.5, 0.7, 0.82, 0.9, 0.95}) {
           linear = std::min(linear, std::sqrt(largest(Small(gram / t + other / (1.0 - t)))));
@@ -295,6 +318,8 @@ class FilterOrbit {
   const NodeCurve* curve_;
   FilterParameters parameters_;
   Surroundings around_;
+  const Eigen::MatrixXcd* slope_;
+  SmallVector move_;  ///< how the curve moves with the frequency
   double phase_ = 0.0;
   SmallVector estimate_;
   Small updated_low_, updated_high_, delta_, gain_, contraction_, jacobian_, before_;

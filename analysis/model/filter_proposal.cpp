@@ -66,13 +66,13 @@ MatrixXd matrix_of_triangle(const VectorXd& entries, Index n, bool is_symmetric)
 
 std::optional<FilterOnGrid> on_grid(const TrackedTone& tone, const NodeCurve& curve,
                                     const FilterParameters& parameters, int memory, int phases,
-                                    const Surroundings& around) {
+                                    const Surroundings& around, const MatrixXcd& slope) {
   const Index n = tone.filter->states;
   FilterOnGrid grid{MatrixXd(n * (n + 1) / 2, phases), MatrixXd(n * (n + 1) / 2, phases),
                     MatrixXd(n * (n + 1) / 2, phases)};
   std::vector<char> is_known(static_cast<std::size_t>(phases), 1);
   tbb::parallel_for(0, phases, [&](int j) {
-    FilterOrbit orbit(tone, curve, parameters, around);
+    FilterOrbit orbit(tone, curve, parameters, around, &slope);
     const double phase = 2.0 * std::numbers::pi * j / phases;
     orbit.begin(phase - memory * curve.frequency);
     for (int k = 0; k < memory; ++k) {
@@ -164,9 +164,9 @@ double mismatch(const MatrixXd& a, const MatrixXd& b) {
 }
 
 /// Fills in the tube of these parameters and their worth, or says that the cell is too wide. `around`: as for
-/// an orbit; its z is not read.
+/// an orbit; its z is not read. `unit`: of the levels, rad/sample.
 void fit_tube(const TrackedTone& tone, const CurveFit& curve, const FilterParameters& parameters, double rate,
-              const FilterWorth& worth, const Surroundings& around, TubeProposal& proposal) {
+              const FilterWorth& worth, double unit, const Surroundings& around, TubeProposal& proposal) {
   const Index n = tone.filter->states;
   proposal.outcome = TubeOutcome::cell_too_wide;
   proposal.loss = 1.0;
@@ -175,12 +175,12 @@ void fit_tube(const TrackedTone& tone, const CurveFit& curve, const FilterParame
   }
   constexpr double kForgotten = 1e-6;
   const int memory = memory_of(rate * rate, parameters, kForgotten);
-  // Levels are in rad/sample.
-  const double scale = 1.0 / worth.most_reach;
+  const double scale = 1.0 / unit;
   const int most_harmonics = std::max<int>(24, 2 * static_cast<int>(curve.coefficients[0].cols()));
   const int phases = 2 * most_harmonics + 1;
   const auto on_grid_at = [&](double z, int so_many) {
-    return on_grid(tone, curve.at(z), parameters, memory, so_many, {around.tube, around.radius, z});
+    return on_grid(tone, curve.at(z), parameters, memory, so_many, {around.tube, around.radius, z},
+                   curve.slope_at(z));
   };
   std::array<MatrixXd, kNodes> low;
   std::array<MatrixXd, kNodes> high;
@@ -236,10 +236,11 @@ void fit_tube(const TrackedTone& tone, const CurveFit& curve, const FilterParame
   if (!found) {
     return;
   }
-  proposal.worth.level = worth.most_reach;
+  proposal.worth.level = unit;
   proposal.worth.reach = worth.most_reach;
   proposal.worth.least_reach = worth.least_reach;
   proposal.worth.noise = parameters.noise;
+  proposal.worth.slew = parameters.slew;
   proposal.worth.rate = std::min(worth.linear, 0.999);
   proposal.shape.worth = proposal.worth;
   Tube tube;
@@ -262,7 +263,7 @@ void fit_tube(const TrackedTone& tone, const CurveFit& curve, const FilterParame
 }  // namespace
 
 void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings,
-                         const std::optional<ShapeParameters>& nearby, TubeProposal& proposal) {
+                         const std::optional<ShapeParameters>& nearby, bool keep, TubeProposal& proposal) {
   const rigor::NearestRounding nearest;
   const double rate = proposal.steady_state.rate;
   if (!(rate < 1.0) || tone.filter->states > detail::kMostStates) {
@@ -270,7 +271,9 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
     return;
   }
   const FilterSearch search(tone, curve, settings, rate);
-  const std::optional<VectorXd> point = search.run(nearby ? nearby->of_filter : VectorXd());
+  const bool keeps = keep && nearby && nearby->of_filter.size() == search.coordinates().size();
+  const std::optional<VectorXd> point = keeps ? std::optional(nearby->of_filter)
+                                              : search.run(nearby ? nearby->of_filter : VectorXd());
   if (!point) {
     proposal.outcome = TubeOutcome::cell_too_wide;
     proposal.loss = 1.0;
@@ -279,7 +282,11 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
   proposal.shape.parameters.of_filter = *point;
   const FilterParameters parameters = search.coordinates().at(*point);
   constexpr int kSamples = 64;
-  fit_tube(tone, curve, parameters, rate, search.worth_at(parameters, kSamples), {}, proposal);
+  const FilterWorth worth = search.worth_at(parameters, kSamples);
+  // Neighbouring tubes of equal parameters fit together if their units are equal.
+  const double unit = keeps ? nearby->unit_of_filter : worth.most_reach;
+  proposal.shape.parameters.unit_of_filter = unit;
+  fit_tube(tone, curve, parameters, rate, worth, unit, {}, proposal);
 }
 
 TubeProposal propose_long_run_tube(const TrackedTone& tone, const Tube& around, double radius, double noise,
@@ -312,8 +319,8 @@ TubeProposal propose_long_run_tube(const TrackedTone& tone, const Tube& around, 
     proposal.shape.parameters.of_filter = *point;
     const FilterParameters parameters = coordinates.coordinates().at(*point);
     constexpr int kSamples = 64;
-    fit_tube(tone, *curve, parameters, rate, search.worth_at(parameters, kSamples), {&around, radius, 0.0},
-             proposal);
+    const FilterWorth worth = search.worth_at(parameters, kSamples);
+    fit_tube(tone, *curve, parameters, rate, worth, worth.most_reach, {&around, radius, 0.0}, proposal);
   }
   if (proposal.tube) {
     proposal.tube->curve = around.curve;

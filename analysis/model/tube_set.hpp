@@ -71,6 +71,9 @@ struct TubeSet {
   /// With a slew, for each pair of levels: how levels change at borders of cells, after the step's shrinking
   /// (docs/model-proof.md, section 4).
   std::vector<double> crossing;
+  /// With a slew, of filters: what their bounds of the covariance have to spare at every step, as a share of
+  /// themselves, and may lose at a border.
+  double covariance_margin = 0.0;
   bool is_complete = false;          ///< every frequency of the band has a tube
   std::vector<std::string> reasons;  ///< otherwise: which part has none, and why
   FrequencyRange part;               ///< with tubes: what they cover of the band, rounded inward

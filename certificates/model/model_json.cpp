@@ -81,6 +81,9 @@ Json set_json(const model::TubeSet& set) {
   }
   if (set.slew > 0.0) {
     json["crossing"] = hexadecimals(set.crossing);
+    if (set.covariance_margin > 0.0) {
+      json["margin"] = rigor::to_hexadecimal(set.covariance_margin);
+    }
   }
   for (const model::ProvedTube& proved : set.tubes) {
     json["cells"].push_back(tube_json(proved));

@@ -116,15 +116,27 @@ class JacobianForms {
   Ball squared_error_;
 };
 
+/// A sample later, at every frequency that it moves to.
+TubeOver over_all_moves(const PhaseTube& tube, const TubePart& part, double slew) {
+  if (slew == 0.0) {
+    return {tube, part, true};
+  }
+  const FrequencyMove move{Ball(slew) / Ball(tube.half_width), BallPolynomial(Ball::within(one))};
+  return {tube, part, true, &move};
+}
+
 }  // namespace
 
 FilterStep::FilterStep(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
-                       const VectorMonomials& monomials)
+                       const VectorMonomials& monomials, double slew)
     : model_(&model),
       monomials_(&monomials),
+      tube_(&tube),
+      part_(part),
       states_(tube.curve.size()),
+      slew_(slew),
       here_(tube, part, false),
-      there_(tube, part, true),
+      there_(over_all_moves(tube, part, slew)),
       signal_(signal_later(model, tube, part)) {
   // H has these values wherever the estimate is.
   const auto parts = model.recursion->filter_parts(
@@ -133,6 +145,18 @@ FilterStep::FilterStep(const TrackedModel& model, const PhaseTube& tube, const T
   process_noise_ = ranges_of(parts.process_noise);
   noise_ = ranges_of(parts.noise);
   weighted_ = product(positive_inverse(noise_), measured_);
+}
+
+TubeOver FilterStep::moved() const {
+  if (slew_ == 0.0) {
+    return there_;
+  }
+  PhaseTube estimate = *tube_;
+  estimate.covariance_low.clear();
+  estimate.covariance_high.clear();
+  const FrequencyMove move{Ball(slew_) / Ball(tube_->half_width),
+                           BallPolynomial::variable(*monomials_, monomials_->first(2))};
+  return {estimate, part_, true, &move};
 }
 
 PlaceMatrix FilterStep::updated(const PlaceMatrix& predicted) const {
@@ -237,6 +261,7 @@ std::vector<BallPolynomial> FilterStep::map(double radius, double noise) const {
   // P+ = middle + D Y D', D D' = delta, |Y| <= 1: what it does beside the middle is D p with |p| <= |L' i|, L
   // L' = R^-1 H delta H' R^-1 and i the innovation.
   const PlaceMatrix reach = root_of(congruence(weighted_, delta));
+  const TubeOver there = moved();
   std::vector<BallPolynomial> samples = signal_;
   if (noise != 0.0) {
     for (std::size_t c = 0; c < samples.size(); ++c) {
@@ -249,9 +274,9 @@ std::vector<BallPolynomial> FilterStep::map(double radius, double noise) const {
     for (std::size_t c = 0; c < samples.size(); ++c) {
       next[i] += gain[i][c] * parts.innovation[c];
     }
-    next[i] -= there_.curve[i];
+    next[i] -= there.curve[i];
   }
-  const std::vector<BallPolynomial> deviation = there_.coordinates(next);
+  const std::vector<BallPolynomial> deviation = there.coordinates(next);
   std::vector<BallPolynomial> aside;
   for (std::size_t d = 0; d < samples.size(); ++d) {
     BallPolynomial component;

@@ -27,14 +27,15 @@ struct BoundsToSpare {
 
 class FilterStep {
  public:
-  /// The second vector of the monomials, which must outlive this, is v if there is noise.
+  /// The second vector of the monomials, which must outlive this, is v if there is noise; the third one is zeta
+  /// if there is a slew, in rad/sample per sample.
   FilterStep(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
-             const VectorMonomials& monomials);
+             const VectorMonomials& monomials, double slew = 0.0);
 
   /// Whether the shape is one here and a sample later.
   [[nodiscard]] bool has_shape() const { return here_.has_shape() && there_.has_shape(); }
   /// True only when the bounds are a range of covariances here, and F P F' + Q is between those of the next
-  /// sample for every updated covariance of that range and all |xi| <= radius.
+  /// sample, at every frequency that it moves to, for every updated covariance of that range and all |xi| <= radius.
   [[nodiscard]] bool keeps_covariance(double radius, const BoundsToSpare& spare = {}) const;
   /// A vector that is at least as long as F for |xi| <= radius, |v| <= noise and every covariance in the
   /// bounds, where the ball polynomials are in xi/radius and v/noise.
@@ -42,11 +43,17 @@ class FilterStep {
 
  private:
   [[nodiscard]] PlaceMatrix updated(const PlaceMatrix& predicted) const;
+  /// Curve and shape a sample later, as functions of zeta.
+  [[nodiscard]] TubeOver moved() const;
 
   const TrackedModel* model_;
   const VectorMonomials* monomials_;
+  const PhaseTube* tube_;
+  TubePart part_;
   std::size_t states_;
-  TubeOver here_, there_;
+  double slew_;
+  TubeOver here_;
+  TubeOver there_;  ///< of no vector: with a slew, for every zeta
   std::vector<BallPolynomial> signal_;
   PlaceMatrix measured_, process_noise_, noise_;  ///< H, Q, R
   PlaceMatrix weighted_;                          ///< R^-1 H

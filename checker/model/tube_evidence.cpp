@@ -193,8 +193,11 @@ TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objection
       break;
     }
   }
-  if (bounds_covariance(result) && !certainly_equal(Ball(result.slew), zero)) {
-    objections.emplace_back("bounds of a covariance are for constant frequencies");
+  if (bounds_covariance(result) && certainly_positive(Ball(result.slew))) {
+    result.margin = double_from(set.at("margin"));
+    if (!certainly_positive(Ball(result.margin)) || !certainly_less(Ball(result.margin), one)) {
+      objections.emplace_back("a margin is between 0 and 1");
+    }
   }
   if (result.tubes.empty()) {
     objections.emplace_back("a set without cells");

@@ -59,6 +59,9 @@ struct TubeSet {
   double noise = 0.0;
   std::optional<GaussianTerms> gaussian;  ///< then there is no noise and no slew besides, and one level
   std::vector<double> crossing;           ///< of relative levels at the borders of cells; with slew only
+  /// With a slew, of filters: the share of themselves that bounds of the covariance have to spare at every
+  /// step, and may lose at a border.
+  double margin = 0.0;
   std::vector<PhaseTube> tubes;
 };
 

@@ -38,7 +38,7 @@ Infix "-" := minus : matrix_scope.
 Notation "A '^T'" := (transpose A) (at level 8) : matrix_scope.
 Delimit Scope matrix_scope with matrix.
 
-(* What the filter is designed with: Q = diag(q1, q1, q2), R = r I. *)
+(* What the filter is designed with: Q = diag(q1, q1, q2) (Q_x) and R = r I (R_y). *)
 Record noise_model := { q1 : R; q2 : R; r : R }.
 
 (* The estimate x = (x1, x2, x3), in-phase and quadrature part and frequency in rad/sample, and its covariance P. *)
@@ -47,7 +47,7 @@ Record estimate := { x : matrix 3 1; P : matrix 3 3 }.
 Section Filter.
 Variable design : noise_model.
 
-Definition Q : matrix 3 3 := matrix_3_3 (q1 design) 0 0 0 (q1 design) 0 0 0 (q2 design).
+Definition Q_x : matrix 3 3 := matrix_3_3 (q1 design) 0 0 0 (q1 design) 0 0 0 (q2 design).
 Definition R_y : matrix 2 2 := fun i j => if Nat.eqb i j then r design else 0.
 (* (3.9) *)
 Definition H : matrix 2 3 := fun i j => if Nat.eqb i j then 1 else 0.
@@ -64,7 +64,7 @@ Definition F (x : matrix 3 1) : matrix 3 3 :=
 
 (* (2.5), (2.6) *)
 Definition time_update (s : estimate) : estimate :=
-  {| x := f (x s); P := (F (x s) * P s * (F (x s))^T + Q)%matrix |}.
+  {| x := f (x s); P := (F (x s) * P s * (F (x s))^T + Q_x)%matrix |}.
 (* (2.4), the gain *)
 Definition gain (P : matrix 3 3) : matrix 3 2 := (P * H^T * inverse_2_2 (H * P * H^T + R_y))%matrix.
 (* (2.3), (2.7) *)

@@ -31,7 +31,7 @@ Definition corrected (d : noise_model) (p : symmetric) : symmetric :=
   Symmetric (s11 p - k11 * s11 p - k12 * s12 p) (s12 p - k11 * s12 p - k12 * s22 p) (s13 p - k11 * s13 p - k12 * s23 p)
             (s22 p - k21 * s12 p - k22 * s22 p) (s23 p - k21 * s13 p - k22 * s23 p) (s33 p - k31 * s13 p - k32 * s23 p).
 
-Ltac unfold_matrices := cbv [P x time_update measurement_update f F Q R_y H gain times plus minus transpose matrix_3_3
+Ltac unfold_matrices := cbv [P x time_update measurement_update f F Q_x R_y H gain times plus minus transpose matrix_3_3
   vector_3 vector_2 inverse_2_2 sum Nat.eqb full turn] in *.
 
 Lemma seen_turn : forall a m, seen (cos a) (sin a) (turn a * full m * (turn a)^T)%matrix m.

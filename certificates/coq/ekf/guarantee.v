@@ -175,7 +175,7 @@ Proof.
     - split; [assumption | lra].
     - split; assumption.
     - split; assumption.
-    - intro k; pose proof (noise k); simpl in *; lra.
+    - intro k; pose proof (noise k) as n; clear - n; cbn [pow] in n; lra.
     - intro k; pose proof (slew k) as w; apply between_Rabs in w; clear - w; nra. }
   clear kept.
   assert (bounded : forall k bound, 0 <= bound ->

@@ -37,8 +37,11 @@ std::vector<double> propose_response(const std::vector<Interval>& coefficients) 
 
 InverseFilter::InverseFilter(const std::vector<Interval>& coefficients)
     : response_(propose_response(coefficients)) {
+  const auto weight = [](std::size_t i) { return Interval(static_cast<double>(i + 1)); };
   Interval residual(0.0);
+  Interval weighted_residual(0.0);
   Interval size(0.0);
+  Interval weighted_size(0.0);
   const std::size_t last = response_.size() + coefficients.size() - 1;
   for (std::size_t k = 0; k < last; ++k) {
     Interval sum(k == 0 ? -1.0 : 0.0);
@@ -48,17 +51,27 @@ InverseFilter::InverseFilter(const std::vector<Interval>& coefficients)
       }
     }
     residual += abs(sum);
+    weighted_residual += weight(k) * abs(sum);
   }
-  for (const double value : response_) {
-    size += abs(Interval(value));
+  for (std::size_t i = 0; i < response_.size(); ++i) {
+    size += abs(Interval(response_[i]));
+    weighted_size += weight(i) * abs(Interval(response_[i]));
   }
   const Interval rest = Interval(1.0) - residual;
-  stable_ = rigor::certainly_positive(rest) && rigor::is_finite(size);
+  const Interval weighted_rest = Interval(1.0) - weighted_residual;
+  stable_ = rigor::certainly_positive(rest) && rigor::certainly_positive(weighted_rest) &&
+            rigor::is_finite(weighted_size);
   if (stable_) {
     // A little more than that, so that another arithmetic, with another h, finds it, too.
     constexpr double kRoom = 1.0 + 0x1p-30;
     norm_ = Interval(kRoom) * size / rest;
+    weighted_norm_ = Interval(kRoom) * weighted_size / weighted_rest;
     error_ = norm_ * residual;
+    peak_ = Interval(0.0);
+    for (const double value : response_) {
+      peak_ = max(peak_, abs(Interval(value)));
+    }
+    peak_ = Interval(kRoom) * (peak_ + error_);
   }
 }
 

@@ -21,7 +21,6 @@ using theorems::Sense;
 /// A part of the band, and the size of A_1 there.
 struct Cell {
   Interval frequency;
-  Interval cosine;  ///< |cos omega|
   Interval plant;   ///< |A_1(e^{j omega})|
 };
 
@@ -58,23 +57,25 @@ class Loop {
 
   /// |output| in the long run, while the frequency error is at most that.
   [[nodiscard]] Interval output(const Interval& error) const {
-    return largest([&](const Cell& cell) {
-      return inverse_plant_.norm() * (of_tone(cell, error) + of_noise(cell, error)) + straight_noise(cell);
-    });
+    return inverse_plant_.norm() * drive(error) + straight_noise();
   }
   /// |A_1 y| at every sample, the first ones included, with a bound for ever on the frequency error.
   [[nodiscard]] Interval drive_for_ever(const Interval& error) const {
-    Interval most = largest([&](const Cell& cell) { return of_tone(cell, error) + of_noise(cell, error); });
-    const Interval noise = largest([&](const Cell& cell) { return of_noise(cell, error); });
-    const Interval off = largest([&](const Cell& cell) { return mismatch(cell, error); });
-    for (std::size_t sample = 0; sample <= question_.a.size(); ++sample) {
-      most = max(most, question_.amplitude * of_first(sample, off) + noise);
+    Interval most = drive(error);
+    for (const Interval& first : first_drives(error)) {
+      most = max(most, first);
     }
     return most;
   }
+  /// All of them at once, or the first ones apart.
   [[nodiscard]] Interval output_for_ever(const Interval& error) const {
-    return inverse_plant_.norm() * drive_for_ever(error) +
-           largest([&](const Cell& cell) { return straight_noise(cell); });
+    Interval first(0.0);
+    for (const Interval& each : first_drives(error)) {
+      first += each;
+    }
+    return min(inverse_plant_.norm() * drive_for_ever(error),
+               inverse_plant_.norm() * drive(error) + inverse_plant_.peak() * first) +
+           straight_noise();
   }
 
   /// |u| at every sample, and in the long run.
@@ -109,7 +110,7 @@ class Loop {
       real += question_.a[i] * cosine;
       imaginary += question_.a[i] * sine;
     }
-    cells_.push_back({frequency, abs(cos(frequency)), sqrt(square(real) + square(imaginary))});
+    cells_.push_back({frequency, sqrt(square(real) + square(imaginary))});
   }
 
   template <typename Value>
@@ -134,18 +135,30 @@ class Loop {
     return question_.amplitude *
            (mismatch(cell, error) * (cell.plant + question_.slew * bend_) + question_.slew * drift_);
   }
-  /// What noise adds to A_1 y, beside straight_noise.
-  [[nodiscard]] Interval of_noise(const Cell& cell, const Interval& error) const {
-    const Interval factor = question_.is_constant ? mismatch(cell, error) : Interval(3.0);
-    return factor * size_ * question_.noise;
+  /// |A_1 y| in the long run, but for straight_noise.
+  [[nodiscard]] Interval drive(const Interval& error) const {
+    return largest([&](const Cell& cell) {
+      return of_tone(cell, error) + mismatch(cell, error) * size_ * question_.noise;
+    });
   }
-  /// At a constant frequency: -2 cos(omega) n_{k-1} + n_{k-2}, whatever the plant.
-  [[nodiscard]] Interval straight_noise(const Cell& cell) const {
-    return question_.is_constant ? (Interval(1.0) + Interval(2.0) * cell.cosine) * question_.noise
-                                 : Interval(0.0);
+  /// Of the output: -2 cos(omega_k) n_{k-1} + n_{k-2}, whatever the plant, and that the frequency was another one.
+  [[nodiscard]] Interval straight_noise() const {
+    const Interval two(2.0);
+    return (Interval(1.0) + two * largest_cosine() +
+            two * question_.slew * size_ * inverse_plant_.weighted_norm()) *
+           question_.noise;
   }
-  /// |A_1 y| over the amplitude at one of the first samples, where the regulator knows nothing of the tone before
-  /// sample 0.
+  /// |A_1 y| at the first samples, where the regulator knows nothing of the tone before sample 0; but for
+  /// straight_noise.
+  [[nodiscard]] std::vector<Interval> first_drives(const Interval& error) const {
+    const Interval off = largest([&](const Cell& cell) { return mismatch(cell, error); });
+    std::vector<Interval> drives;
+    for (std::size_t sample = 0; sample <= question_.a.size(); ++sample) {
+      drives.push_back(question_.amplitude * of_first(sample, off) + off * size_ * question_.noise);
+    }
+    return drives;
+  }
+  /// Of that, the part of the tone, over the amplitude.
   [[nodiscard]] Interval of_first(std::size_t sample, const Interval& off) const {
     Interval sum(0.0);
     for (std::size_t i = 0; i < question_.a.size() && i <= sample; ++i) {
@@ -263,11 +276,11 @@ Derivation derive_output_bound(const RegulatorQuestion& question) {
                 question.tracker.for_ever.has_value(), "It is the bound that the tracker's certificate proves.",
                 "The tracker's certificate proves no bound on its frequency error for ever.");
   if (plant->is_stable()) {
-    add(derivation, {"inverse_plant_norm", "|1/A_1|_1", "1-norm of the impulse response of 1/A_1, at most"},
+    add(derivation, {"inverse_plant_norm", "|1/A_1|_1", "sum of the sizes of the impulse response of 1/A1, at most"},
         plant->norm());
   }
   if (input->is_stable()) {
-    add(derivation, {"inverse_input_norm", "|1/B_1|_1", "1-norm of the impulse response of 1/B_1, at most"},
+    add(derivation, {"inverse_input_norm", "|1/B_1|_1", "sum of the sizes of the impulse response of 1/B1, at most"},
         input->norm());
   }
   theorems::conclude(derivation);

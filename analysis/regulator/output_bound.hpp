@@ -34,7 +34,6 @@ struct RegulatorQuestion {
   rigor::Interval noise;           ///< |n_k| at most
   rigor::Interval lowest, highest;  ///< the frequencies at every sample, rad/sample
   rigor::Interval slew;            ///< |omega_{k+1} - omega_k| at most, rad/sample
-  bool is_constant = true;         ///< the slew is zero
   FrequencyBounds tracker;
 };
 

@@ -40,7 +40,6 @@ regulator::RegulatorQuestion question_of(const RegulatorTables& tables, const Fr
   question.lowest = promise.frequency[0].value;
   question.highest = promise.frequency[1].value;
   question.slew = promise.slew.value;
-  question.is_constant = promise.slew.value == Interval(0.0);
   question.tracker.for_ever = promise.for_ever;
   if (promise.settling_samples) {
     question.tracker.settled = {*promise.settling_samples, *promise.settled_error};

@@ -37,17 +37,27 @@ InverseFilter::InverseFilter(const std::vector<Ball>& coefficients) : response_(
     }
   }
   Ball residual = zero;
-  for (const Ball& each : rest) {
-    residual += abs(each);
+  Ball delayed_residual = zero;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    residual += abs(rest[i]);
+    delayed_residual += Ball(static_cast<double>(i + 1)) * abs(rest[i]);
   }
   Ball size = zero;
-  for (const double each : response_) {
-    size += abs(Ball(each));
+  Ball delayed = zero;
+  for (std::size_t i = 0; i < response_.size(); ++i) {
+    size += abs(Ball(response_[i]));
+    delayed += Ball(static_cast<double>(i + 1)) * abs(Ball(response_[i]));
   }
-  stable_ = certainly_less(residual, one) && size.finite();
+  stable_ = certainly_less(residual, one) && certainly_less(delayed_residual, one) && delayed.finite();
   if (stable_) {
     norm_ = size / (one - residual);
     off_ = norm_ * residual;
+    double largest = 0.0;
+    for (const double each : response_) {
+      largest = std::max(largest, std::fabs(each));
+    }
+    peak_ = Ball(largest) + off_;
+    delay_norm_ = delayed / (one - delayed_residual);
   }
 }
 

@@ -11,7 +11,12 @@ namespace {
 
 const Ball three(3.0);
 
-/// For one plant and one disturbance: A_1 y is what `tone` and `noise` bound, y is 1/A_1 of it and `straight`.
+/// At least the largest |cos| of the band.
+Ball largest_cosine(const Band& band) {
+  return certainly_at_most(band.highest, pi()) ? max(abs(cos(band.lowest)), abs(cos(band.highest))) : one;
+}
+
+/// For one plant and one disturbance: y is 1/A_1 of what `driven` bounds, and straight noise.
 class ClosedLoop {
  public:
   ClosedLoop(const DelayPlant& plant, const FrequencyPromise& promise)
@@ -34,31 +39,24 @@ class ClosedLoop {
 
   /// While |frequency error| <= error.
   [[nodiscard]] Ball output(const Ball& error) const {
-    return largest([&](const Piece& piece) {
-      return inverse_.norm() * (tone(piece, error) + noise(piece, error)) + straight(piece);
-    });
+    return inverse_.norm() * driven(error) + straight_noise();
   }
   /// |A_1 y| at every sample.
   [[nodiscard]] Ball ever_driven() const {
-    const Ball& error = promise_.for_ever;
-    const Ball later = largest([&](const Piece& piece) { return tone(piece, error) + noise(piece, error); });
-    const Ball off = largest([&](const Piece& piece) { return mismatch(piece, error); });
-    const Ball of_noise = largest([&](const Piece& piece) { return noise(piece, error); });
-    Ball most = later;
-    // At sample m, the part of a_i is whole for i <= m - 2, lacks the tone before sample 0 for i = m - 1, and is
-    // the tone at sample 0 for i = m.
-    for (std::size_t m = 0; m <= plant_.a.size(); ++m) {
-      Ball driven = zero;
-      for (std::size_t i = 0; i < plant_.a.size() && i <= m; ++i) {
-        const Ball whole = off + promise_.slew * (two * Ball(static_cast<double>(i)) + one);
-        driven += abs(plant_.a[i]) * (i == m ? one : i + 1 == m ? whole + one : whole);
-      }
-      most = max(most, promise_.amplitude * driven + of_noise);
+    Ball most = driven(promise_.for_ever);
+    for (const Ball& each : driven_at_first()) {
+      most = max(most, each);
     }
     return most;
   }
+  /// The first samples pass 1/A_1 one by one, or all samples are as large as the largest.
   [[nodiscard]] Ball ever_output() const {
-    return inverse_.norm() * ever_driven() + largest([&](const Piece& piece) { return straight(piece); });
+    Ball first = zero;
+    for (const Ball& each : driven_at_first()) {
+      first += each;
+    }
+    const Ball apart = inverse_.norm() * driven(promise_.for_ever) + inverse_.peak() * first;
+    return min(inverse_.norm() * ever_driven(), apart) + straight_noise();
   }
   [[nodiscard]] Ball ever_input() const {
     return inverse_of_b_.norm() * three * sum_ * (promise_.amplitude + promise_.noise);
@@ -71,9 +69,25 @@ class ClosedLoop {
 
  private:
   struct Piece {
-    Ball frequency, cosine, plant;  ///< sizes of the last two
+    Ball frequency, plant;  ///< the size of A_1
   };
 
+  [[nodiscard]] std::vector<Ball> driven_at_first() const {
+    const Ball& error = promise_.for_ever;
+    const Ball off = largest([&](const Piece& piece) { return mismatch(piece, error); });
+    std::vector<Ball> found;
+    // At sample m, the part of a_i is whole for i <= m - 2, lacks the tone before sample 0 for i = m - 1, and is
+    // the tone at sample 0 for i = m.
+    for (std::size_t m = 0; m <= plant_.a.size(); ++m) {
+      Ball of_tone = zero;
+      for (std::size_t i = 0; i < plant_.a.size() && i <= m; ++i) {
+        const Ball whole = off + promise_.slew * (two * Ball(static_cast<double>(i)) + one);
+        of_tone += abs(plant_.a[i]) * (i == m ? one : i + 1 == m ? whole + one : whole);
+      }
+      found.push_back(promise_.amplitude * of_tone + off * sum_ * promise_.noise);
+    }
+    return found;
+  }
   void add_piece(const Ball& frequency) {
     Ball real = zero;
     Ball imaginary = zero;
@@ -82,8 +96,7 @@ class ClosedLoop {
       real += plant_.a[i] * cos(turn);
       imaginary += plant_.a[i] * sin(turn);
     }
-    pieces_.push_back(
-        {frequency, abs(cos(frequency)), root_of_non_negative(square(real) + square(imaginary))});
+    pieces_.push_back({frequency, root_of_non_negative(square(real) + square(imaginary))});
   }
   template <typename Value>
   [[nodiscard]] Ball largest(const Value& value) const {
@@ -107,11 +120,15 @@ class ClosedLoop {
     return promise_.amplitude *
            (mismatch(piece, error) * (piece.plant + promise_.slew * bends_) + promise_.slew * steps_);
   }
-  [[nodiscard]] Ball noise(const Piece& piece, const Ball& error) const {
-    return (promise_.is_constant ? mismatch(piece, error) : three) * sum_ * promise_.noise;
+  [[nodiscard]] Ball driven(const Ball& error) const {
+    return largest([&](const Piece& piece) {
+      return tone(piece, error) + mismatch(piece, error) * sum_ * promise_.noise;
+    });
   }
-  [[nodiscard]] Ball straight(const Piece& piece) const {
-    return promise_.is_constant ? (one + two * piece.cosine) * promise_.noise : zero;
+  /// What of the noise is in the output whatever the estimate.
+  [[nodiscard]] Ball straight_noise() const {
+    const Ball moved = two * promise_.slew * sum_ * inverse_.delay_norm();
+    return (one + two * largest_cosine(promise_.band) + moved) * promise_.noise;
   }
 
   const DelayPlant& plant_;
@@ -137,11 +154,6 @@ Ball settled_output(const ClosedLoop& loop, const DelayPlant& plant, const Settl
   }
   const auto forgotten = static_cast<std::size_t>(named - first);
   return loop.output(tracker.frequency_error) + loop.inverse().tail(forgotten) * loop.ever_driven();
-}
-
-/// At least the largest |cos| of the band.
-Ball largest_cosine(const Band& band) {
-  return certainly_at_most(band.highest, pi()) ? max(abs(cos(band.lowest)), abs(cos(band.highest))) : one;
 }
 
 }  // namespace

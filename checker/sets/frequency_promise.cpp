@@ -74,7 +74,6 @@ std::optional<FrequencyPromise> frequency_promise(const Tree& certificate, const
   promise.noise = read_not_negative(assume.at("noise"), "noise", objections);
   promise.slew = read_slew(assume.at("slew"), assume, objections);
   promise.band = read_band(assume, objections);
-  promise.is_constant = certainly_equal(promise.slew, zero);
   promise.two_channels =
       is_model ? design.at("model").at("samples").elements().size() == 2 : tracker == "quadrature-ekf";
   promise.between = text_of(assume.at("frequency").at(0)) + " and " +

@@ -14,7 +14,6 @@ namespace veritrack::checker {
 struct FrequencyPromise {
   Ball amplitude, noise, slew;  ///< constant; of a sample at most; of the frequency at most, rad/sample per sample
   Band band;                    ///< rad/sample
-  bool is_constant = false;     ///< certainly no slew
   bool two_channels = false;    ///< the noise is a vector in the plane
   std::string between;          ///< "0.4 and 2.7 rad/sample"
 

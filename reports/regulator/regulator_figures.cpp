@@ -17,7 +17,7 @@ namespace {
 
 using certificates::ClosedLoopRun;
 
-constexpr std::size_t kMostPoints = 1000;
+constexpr std::size_t kMostPoints = 250;
 
 /// The largest of the runs' values in stretches of samples, of which so many are drawn.
 FigureTable table_of_runs(const std::vector<ClosedLoopRun>& runs) {

@@ -55,7 +55,10 @@ std::string allowed_trackers() {
   return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
-BoundTable top_keys(Design& design) {
+enum class Place { file, table };
+
+/// A design inside another one needs no name.
+BoundTable top_keys(Design& design, Place place) {
   constexpr std::string_view kOneLine = "a string on one line, of 1 to 200 bytes";
   static const std::string trackers = allowed_trackers();
   static const std::array top{
@@ -63,7 +66,8 @@ BoundTable top_keys(Design& design) {
       Key<Design>{"tracker", trackers, tracker, keys::kRequired},
       Key<Design>{"source", kOneLine, line_of_text<&Design::source, 200>, keys::kOptional},
   };
-  return bound_table("", top, design);
+  static const std::array inner{Key<Design>{"tracker", trackers, tracker, keys::kRequired}};
+  return place == Place::file ? bound_table("", top, design) : bound_table("", inner, design);
 }
 
 // ---- unknown keys
@@ -224,15 +228,11 @@ const DesignFormat& expected_format(const TomlSource& source) {
   return found != formats.end() ? **found : *formats.front();
 }
 
-}  // namespace
-
-Design read_design(std::string_view text, std::string_view file_name) {
-  const TomlSource source(text, file_name);
-  const rigor::UpwardRounding upward;
+Design read_from(const TomlSource& source, Place place) {
   const DesignFormat& format = expected_format(source);
   Design design;
   design.tables = format.empty_tables();
-  const BoundTable top = top_keys(design);
+  const BoundTable top = top_keys(design, place);
   const std::vector<BoundTable> tables = format.bind_tables(design.tables);
   reject_unknown_keys(source, top, tables);
   read_table(source, &source.root(), top, design.positions);
@@ -247,6 +247,18 @@ Design read_design(std::string_view text, std::string_view file_name) {
     }
   }
   return design;
+}
+
+}  // namespace
+
+Design read_design(std::string_view text, std::string_view file_name) {
+  const TomlSource source(text, file_name);
+  const rigor::UpwardRounding upward;
+  return read_from(source, Place::file);
+}
+
+Design read_inner_design(const TomlValue& table) {
+  return read_from(table.as_file(), Place::table);
 }
 
 std::string read_design_text(const std::filesystem::path& path) {

@@ -14,6 +14,7 @@
 #include "certificates/document/number_json.hpp"
 #include "certificates/document/tracker_run.hpp"
 #include "certificates/document/tuning.hpp"
+#include "certificates/sets/frequency_promise.hpp"
 
 namespace veritrack::certificates {
 
@@ -54,6 +55,8 @@ struct TrackerKind {
   /// The tracker in double precision, and what is assumed of its signal. Throws NotTrackable. Opens its own
   /// rounding scopes.
   TrackerOnSamples (*track)(const Design& design) = nullptr;
+  /// What is proved of the frequency error. Needs the upward mode.
+  FrequencyPromise (*frequency_promise)(const Certificate& certificate) = nullptr;
 };
 
 /// All kinds, in the order of certificates/trackers.def.

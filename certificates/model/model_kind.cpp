@@ -12,6 +12,7 @@
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_claims.hpp"
 #include "certificates/model/model_json.hpp"
+#include "certificates/model/model_promise.hpp"
 #include "certificates/model/model_run.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/model/recursion_text.hpp"
@@ -51,7 +52,8 @@ const TrackerKind& model_kind() {
                                 .limited_in_time = true,
                                 .evidence_json = model_evidence_json,
                                 .show = show,
-                                .track = model_on_samples};
+                                .track = model_on_samples,
+                                .frequency_promise = model_frequency_promise};
   return kind;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -102,10 +103,13 @@ Json positions_json(const certificates::Design& design) {
   return positions;
 }
 
-Certificate certified(const AskedDesign& asked, const Json& request, certificates::Extent extent) {
-  const double seconds = request.value("seconds", 0.0);
-  return certificates::certify(asked.design, fs::path(asked.file).filename().string(), asked.text, {}, extent,
-                               seconds > 0.0 ? search::Deadline(seconds) : search::Deadline());
+/// `otherwise`: the extent where the request names none.
+Certificate certified(const AskedDesign& asked, const Json& request, const char* otherwise) {
+  const auto extent = request.value("extent", otherwise) == std::string("everything")
+                          ? certificates::Extent::everything
+                          : certificates::Extent::requirements;
+  return certificates::certify(asked.design, fs::path(asked.file).filename().string(), asked.text, {},
+                               extent);
 }
 
 /// Threads for the searches, as long as it lives; 0 asks for all cores.
@@ -135,8 +139,7 @@ Json read(const Json& request) {
 
 Json check(const Json& request) {
   const auto threads = limited_threads(request);
-  const Certificate certificate =
-      certified(asked_design(request), request, certificates::Extent::requirements);
+  const Certificate certificate = certified(asked_design(request), request, "requirements");
   return verdicts_json(certificate, certificates::to_json(certificate));
 }
 
@@ -158,10 +161,7 @@ Json figures_json(const std::vector<reports::Figure>& figures) {
 
 Json certify(const Json& request) {
   const auto threads = limited_threads(request);
-  const bool everything = request.value("extent", "everything") == "everything";
-  const Certificate certificate =
-      certified(asked_design(request), request,
-                everything ? certificates::Extent::everything : certificates::Extent::requirements);
+  const Certificate certificate = certified(asked_design(request), request, "everything");
   const std::string document = certificates::to_json(certificate);
   Json json = verdicts_json(certificate, document);
   certificates::MarkdownOptions options;

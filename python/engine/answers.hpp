@@ -17,9 +17,9 @@ using Json = nlohmann::ordered_json;
 /// The answer to a request, whose member "do" says what is asked for:
 ///
 ///   "read"     `text` and `file` (for messages): "name", "tracker", and "positions" of all keys
-///   "check"    the same with `threads` (0: all) and `seconds` (0: no limit): the verdicts and bounds that
-///              decide [require], and the SHA-256 of the certificate that they stand in
-///   "certify"  the same with `extent` ("everything" or "requirements") and `figures`: also the documents of
+///   "check"    the same with `threads` (0: all) and `extent` ("requirements", or "everything"): verdicts,
+///   bounds, and the SHA-256 of the certificate that they stand in "certify"  the same with `figures`, and
+///   "everything" unless `extent` says otherwise: also the documents of
 ///              the certificate, its figures and their numbers
 ///   "page"     `markdown`, `file` and `figures`: one page of HTML that fetches nothing
 ///

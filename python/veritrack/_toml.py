@@ -19,12 +19,12 @@ def parse(text: str) -> dict[str, Any]:
 
 def dump(document: Mapping[str, Any]) -> str:
     """The text: first the keys above the first table, then a table each, keys in their order."""
-    lines = [f"{_key(key)} = {_value(value)}" for key, value in document.items()
+    lines = [f"{_key(key)} = {value_text(value)}" for key, value in document.items()
              if not isinstance(value, Mapping)]
     for key, table in document.items():
         if isinstance(table, Mapping):
             lines += ["", f"[{_key(key)}]"]
-            lines += [f"{_key(name)} = {_value(value)}" for name, value in table.items()]
+            lines += [f"{_key(name)} = {value_text(value)}" for name, value in table.items()]
     return "\n".join(lines) + "\n"
 
 
@@ -56,7 +56,7 @@ def _number(value: Any) -> str:
     return repr(float(value))
 
 
-def _value(value: Any) -> str:
+def value_text(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
@@ -64,9 +64,9 @@ def _value(value: Any) -> str:
     if isinstance(value, (decimal.Decimal, numbers.Real)):
         return _number(value)
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_key(key)} = {_value(each)}" for key, each in value.items()) + " }"
+        return "{ " + ", ".join(f"{_key(key)} = {value_text(each)}" for key, each in value.items()) + " }"
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_value(each) for each in value) + "]"
+        return "[" + ", ".join(value_text(each) for each in value) + "]"
     raise TypeError(f"{value!r} cannot stand in a design; allowed: numbers, strings, lists, and tables of them")

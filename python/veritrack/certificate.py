@@ -212,9 +212,9 @@ class Certificate:
         """
         target = pathlib.Path(folder)
         for name, text in self.files.items():
-            _write(target / name, text)
+            write_file(target / name, text)
         for figure in self._figures:
-            _write(target / "figures" / figure.file, figure.svg)
+            write_file(target / "figures" / figure.file, figure.svg)
         return target / "certificate.md"
 
     def verify(self, *, full: bool = False) -> Verification:
@@ -222,7 +222,7 @@ class Certificate:
         with tempfile.TemporaryDirectory() as folder:
             self.save(folder)
             design = pathlib.Path(folder, "design.toml")
-            _write(design, self.design.text)
+            write_file(design, self.design.text)
             documents = [pathlib.Path(folder, name) for name in self.files if name.endswith(".md")]
             return verify(pathlib.Path(folder, "certificate.json"), design=design, documents=documents,
                           full=full)
@@ -261,7 +261,7 @@ def _numbers(value: Any) -> Any:
     return value
 
 
-def _write(path: pathlib.Path, text: str) -> None:
+def write_file(path: pathlib.Path, text: str) -> None:
     """Beside the target first, so that the file appears whole or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
     descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=path.name)

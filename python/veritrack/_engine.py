@@ -19,12 +19,10 @@ from typing import Any, Iterator
 
 from .errors import ArithmeticNotTrusted, EngineError, InputError, TimeLimit
 
-_PROGRAMS = pathlib.Path(__file__).parent / "bin"
-
-
 def program(name: str) -> str:
-    """The path of a program of the package."""
-    path = _PROGRAMS / name
+    """The path of a program of the package; $VERITRACK_PROGRAMS names another folder with them."""
+    folder = os.environ.get("VERITRACK_PROGRAMS") or pathlib.Path(__file__).parent / "bin"
+    path = pathlib.Path(folder, name)
     if not path.is_file():
         raise EngineError(f"{path}: the program is missing; install the package (docs/python.md)")
     return str(path)

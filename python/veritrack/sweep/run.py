@@ -88,10 +88,11 @@ class _Cluster:
             self._drop_client()
             left = end - time.monotonic()
             if left <= 0:
-                raise SchedulerLost(f"{self._address()}: no scheduler within {self._options.patience:g} s")
+                raise SchedulerLost(f"{self._address()}: no scheduler with a worker within {self._options.patience:g} s")
             try:
                 self._client = distributed.Client(self._address(), timeout=min(left, 10.0))
-            except (OSError, TimeoutError):
+                self._client.wait_for_workers(1, timeout=left)
+            except (OSError, TimeoutError, distributed.TimeoutError):
                 pass  # the attempt took its time, or the address refuses; the loop looks at the clock
         return self._client
 

@@ -29,7 +29,8 @@ def answer(request):
         os.abort()
     if q1 < 0:
         return {"error": {"kind": "input", "file": request["file"], "line": 5, "column": 6, "message": "q1 below 0"}}
-    return {"verdict": "proved" if q1 * r < 0.5 else "undecided", "headline": "",
+    return {"files": {"certificate.json": "{}", "certificate.md": ""},
+            "verdict": "proved" if q1 * r < 0.5 else "undecided", "headline": "",
             "certificate_sha256": hashlib.sha256(request["text"].encode()).hexdigest(),
             "claims": [claim("frequency_error_bound", "at most", float(q1 * r))]}
 

@@ -98,6 +98,10 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("veritrack sweep: stopped; the same command goes on from here", file=sys.stderr)
         return _INTERRUPTED
+    except ModuleNotFoundError as error:
+        print(f"veritrack sweep: needs the module {error.name}: apt-get install python3-distributed "
+              "python3-matplotlib python3-scipy, or pip install 'veritrack[sweep]'", file=sys.stderr)
+        return _BAD_INPUT
     except (VeritrackError, OSError) as error:
         print(f"{error}" if isinstance(error, InputError) else f"veritrack sweep: {error}", file=sys.stderr)
         return _BAD_INPUT

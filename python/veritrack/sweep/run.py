@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import itertools
 import logging
@@ -162,19 +163,24 @@ class _Run:
         mean = max(self._seconds / self._certified, 1e-6)
         return max(1, min(_MOST_IN_BATCH, int(_BATCH_SECONDS / mean)))
 
-    def run(self, cluster: _Cluster) -> int:
+    def run(self) -> int:
         """All that is left; how many designs were certified."""
         self._store.begin(self._sweep, self._spec.name, self._spec.text, self._spec.base.text, self._program)
         self._start = time.monotonic()
         self._at_start = self._store.count(self._sweep)
         batches = _batches(self._spec, self._store, self._program, self._options.again, self._batch_size)
         self._tell()
-        while True:
-            client = cluster.client()
-            self._submit(client, batches)
-            if not self._in_flight:
-                return self._certified
-            self._wait(client)
+        first = next(batches, None)
+        if first is None:
+            return 0  # a cluster would take seconds
+        self._to_repeat.append(first)
+        with contextlib.closing(_Cluster(self._options)) as cluster:
+            while True:
+                client = cluster.client()
+                self._submit(client, batches)
+                if not self._in_flight:
+                    return self._certified
+                self._wait(client)
 
     def _submit(self, client: distributed.Client, batches: Iterator[Batch]) -> None:
         threads = sum(client.nthreads().values())
@@ -255,8 +261,4 @@ def run_sweep(spec: Spec, store: Store, options: Options = Options(), progress: 
     ------
     SchedulerLost, StoreError, OtherProgram
     """
-    cluster = _Cluster(options)
-    try:
-        return _Run(spec, store, options, progress).run(cluster)
-    finally:
-        cluster.close()
+    return _Run(spec, store, options, progress).run()

@@ -89,7 +89,7 @@ class Store:
     def begin(self, sweep: str, name: str, spec: str, base: str, program: str) -> None:
         """Notes which sweep this is; again is no harm."""
         with self._transaction():
-            self._file.execute("INSERT OR IGNORE INTO sweeps VALUES (?, ?, ?, ?, ?)",
+            self._file.execute("INSERT INTO sweeps VALUES (?, ?, ?, ?, ?) ON CONFLICT (sweep) DO NOTHING",
                                (sweep, name, spec, base, program))
 
     def add(self, sweep: str, points: Iterable[tuple[int, str, Sequence[Any]]], results: Iterable[Result]) -> None:
@@ -103,7 +103,7 @@ class Store:
                 [(each.key, each.verdict, json.dumps(each.bounds), each.certificate_sha256, each.error,
                   each.may_be_tried_again, each.seconds) for each in results])
             self._file.executemany(
-                "INSERT OR IGNORE INTO points VALUES (?, ?, ?, ?)",
+                "INSERT INTO points VALUES (?, ?, ?, ?) ON CONFLICT (sweep, point) DO NOTHING",
                 [(sweep, number, key, json.dumps([str(value) for value in values]))
                  for number, key, values in points])
 

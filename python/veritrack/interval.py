@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import decimal
-import fractions
+from fractions import Fraction
 
 
 def _rounded(value: float, digits: int, rounding: str) -> str:
@@ -28,19 +28,19 @@ class Interval:
     hi: float
 
     @property
-    def fractions(self) -> tuple[fractions.Fraction, fractions.Fraction]:
+    def fractions(self) -> tuple[Fraction, Fraction]:
         """Both ends as exact fractions."""
-        return fractions.Fraction(self.lo), fractions.Fraction(self.hi)
+        return Fraction(self.lo), Fraction(self.hi)
 
     @property
-    def width(self) -> fractions.Fraction:
+    def width(self) -> Fraction:
         """hi - lo, exactly."""
         lo, hi = self.fractions
         return hi - lo
 
-    def __contains__(self, number: float | int | fractions.Fraction | decimal.Decimal) -> bool:
+    def __contains__(self, number: float | int | Fraction | decimal.Decimal) -> bool:
         lo, hi = self.fractions
-        return lo <= fractions.Fraction(number) <= hi
+        return lo <= Fraction(number) <= hi
 
     def lower(self, digits: int = 4) -> str:
         """The lower end as a decimal, rounded down: what the number is at least."""

@@ -159,7 +159,7 @@ def _figures(spec: Spec, rows: Sequence[Row]) -> list[_Figure]:
             if level is not None:
                 caption += (f" The thick line goes around the designs for which it is "
                             f"{'at most' if values.is_at_most else 'at least'} {spec.report['level']}.")
-            svg = figures.region_figure(values, *plane, level)
+            svg = figures.region_figure(values, plane[0], plane[1], level)
         else:
             caption = (f"{_first_upper(values.words)}, as certified for each design; a cross where nothing is proved."
                        + (f" Dashed: {spec.report['level']}." if level is not None else ""))
@@ -196,22 +196,24 @@ def pareto_front(spec: Spec, rows: Sequence[Row]) -> Front:
     asked = spec.report.get("pareto")
     if not asked:
         return Front([], [], [], [], ("", ""))
-    found = [(row, bounds) for row in rows
-             if all((bounds := (bound_of(row, asked[0]), bound_of(row, asked[1]))))]
-    words = tuple(found[0][1][i].words or asked[i] for i in (0, 1)) if found else ("", "")
+    found: list[tuple[Row, Bound, Bound]] = []
+    for row in rows:
+        first, second = bound_of(row, asked[0]), bound_of(row, asked[1])
+        if first is not None and second is not None:
+            found.append((row, first, second))
+    words = (found[0][1].words or asked[0], found[0][2].words or asked[1]) if found else ("", "")
 
     def cost(bound: Bound) -> float:
         return -bound.value if bound.sense == "at least" else bound.value
 
-    costs = sorted(((cost(a), cost(b), row.number) for row, (a, b) in found))
+    costs = sorted((cost(a), cost(b), row.number) for row, a, b in found)
     best, on_front = math.inf, set()
-    for _, second, number in costs:  # by the first bound, so only a better second one counts
-        if second < best:
-            best = second
+    for _, least, number in costs:  # by the first bound, so only a better second one counts
+        if least < best:
+            best = least
             on_front.add(number)
-    return Front([row for row, _ in found], [bounds[0].value for _, bounds in found],
-                 [bounds[1].value for _, bounds in found],
-                 [row for row, _ in found if row.number in on_front], words)
+    return Front([row for row, _, _ in found], [a.value for _, a, _ in found], [b.value for _, _, b in found],
+                 [row for row, _, _ in found if row.number in on_front], words)
 
 
 # ---- the document

@@ -76,6 +76,7 @@ class _Cluster:
         self._options = options
         self._cluster: distributed.LocalCluster | None = None
         if not options.scheduler:
+            logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is told by the sweep
             # Workers are processes with one thread: a design is worked on by an engine with one thread.
             self._cluster = distributed.LocalCluster(
                 n_workers=options.jobs or len(os.sched_getaffinity(0)), threads_per_worker=1, processes=True,
@@ -186,8 +187,11 @@ class _Run:
         threads = sum(client.nthreads().values())
         most = max(_BATCHES_PER_THREAD, _BATCHES_PER_THREAD * threads)
         while len(self._in_flight) < most:
-            batch = self._to_repeat.pop() if self._to_repeat else next(batches, None)
-            if batch is None:
+            if self._to_repeat:
+                batch = self._to_repeat.pop()
+            elif (left := next(batches, None)) is not None:
+                batch = left
+            else:
                 return
             future = client.submit(
                 certified, batch.items, self._spec.base.file, self._spec.extent, self._spec.record, self._program,

@@ -11,7 +11,7 @@ import pathlib
 import re
 import tomllib
 import warnings
-from typing import Any, Iterator, Mapping, Sequence
+from typing import Any, Iterator, Mapping, NoReturn, Sequence
 
 import numpy as np
 
@@ -136,10 +136,10 @@ class Spec:
                 sequence = qmc.Sobol(dimensions, scramble=True, seed=self.seed)
                 if first:
                     sequence.fast_forward(first)
-                return dict(zip(range(first, last), sequence.random(last - first)))
+                return dict(zip(range(first, last), sequence.random(last - first).tolist()))
         # A counter for each sample: any of them can be made without those before it.
         return {sample: np.random.Generator(np.random.Philox(key=self.seed, counter=sample << 64))
-                .random(dimensions) for sample in range(first, last)}
+                .random(dimensions).tolist() for sample in range(first, last)}
 
 
 class _Reader:
@@ -149,7 +149,7 @@ class _Reader:
         self.text = text
         self.file = file
 
-    def fail(self, message: str, key: str = "", table: str = "", number: int = 0) -> None:
+    def fail(self, message: str, key: str = "", table: str = "", number: int = 0) -> NoReturn:
         """Throws InputError at a key of a table, the `number`-th of that name."""
         raise InputError(self.file, *self._place(key, table, number), message)
 

@@ -80,7 +80,7 @@ class _Cluster:
             # Workers are processes with one thread: a design is worked on by an engine with one thread.
             self._cluster = distributed.LocalCluster(
                 n_workers=options.jobs or len(os.sched_getaffinity(0)), threads_per_worker=1, processes=True,
-                memory_limit=0, dashboard_address=None, silence_logs=logging.CRITICAL)
+                memory_limit=0, dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL)
         self._client: distributed.Client | None = None
 
     def client(self) -> distributed.Client:

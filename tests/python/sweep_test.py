@@ -118,7 +118,7 @@ def test_ten_million_points_are_never_in_memory(folder, stand_in):
             return type(spec).points(spec, first, last)
 
         object.__setattr__(spec, "points", counted)
-        taken = list(itertools.islice(runs._batches(spec, store, "program", False, lambda: 7), 20))
+        taken = list(itertools.islice(runs._batches(spec, store, "program", False, lambda: 7, lambda points: None), 20))
         assert [point[0] for batch in taken for point in batch.points] == list(range(140))
         assert made <= 1000
 
@@ -161,8 +161,9 @@ def test_a_worker_that_is_killed_loses_nothing_and_a_second_run_does_nothing(fol
     assert killed
     assert_is_complete(folder, spec)
     before = results(folder)
-    assert run(folder, spec) == 0
-    assert results(folder) == before
+    told = []
+    assert run(folder, spec, lambda *progress: told.append(progress[:2])) == 0
+    assert told == [(27, 27)] and results(folder) == before
 
 
 def _worker():
@@ -239,9 +240,9 @@ def test_a_batch_is_stored_as_a_whole_or_not_at_all(folder):
         with pytest.raises(sweep.StoreError):
             store.add("s", [(0, "a", ()), (1, None, ())], [good])
         assert store.known_keys(["a"]) == set() and store.count("s") == 0
-        store.add("s", [(0, "a", ())], [good])
-        store.add("s", [(0, "a", ())], [sweep.Result("a", "refuted", {})])
-        assert [row.result.verdict for row in store.rows("s")] == ["proved"]
+        assert store.add("s", [(0, "a", ())], [good]) == 1
+        assert store.add("s", [(0, "a", ()), (1, "a", ())], [sweep.Result("a", "refuted", {})]) == 1
+        assert [row.result.verdict for row in store.rows("s")] == ["proved", "proved"]
 
 
 # ---- reports

@@ -112,8 +112,9 @@ class _Cluster:
             self._cluster.close(timeout=5)
 
 
-def _batches(spec: Spec, store: Store, program: str, again: bool, size: Callable[[], int]) -> Iterator[Batch]:
-    """What is left to do. Points whose design is known from elsewhere are noted as they are met."""
+def _batches(spec: Spec, store: Store, program: str, again: bool, size: Callable[[], int],
+             noted: Callable[[int], None]) -> Iterator[Batch]:
+    """What is left to do. Points whose design is known from elsewhere are stored as they are met, and `noted`."""
     sweep = spec.identity(program)
     waiting: list[Point] = []
 
@@ -132,7 +133,7 @@ def _batches(spec: Spec, store: Store, program: str, again: bool, size: Callable
         known = store.known_keys(keys, again)
         found = [(point.number, key, point.values) for point, key in zip(points, keys) if key in known]
         if found:
-            store.add(sweep, found, [])
+            noted(store.add(sweep, found, []))
         waiting += [point for point, key in zip(points, keys) if key not in known]
         while len(waiting) >= size():
             taken, waiting = waiting[:size()], waiting[size():]
@@ -168,8 +169,9 @@ class _Run:
         """All that is left; how many designs were certified."""
         self._store.begin(self._sweep, self._spec.name, self._spec.text, self._spec.base.text, self._program)
         self._start = time.monotonic()
-        self._at_start = self._store.count(self._sweep)
-        batches = _batches(self._spec, self._store, self._program, self._options.again, self._batch_size)
+        self._done = self._at_start = self._store.count(self._sweep)
+        batches = _batches(self._spec, self._store, self._program, self._options.again, self._batch_size,
+                           self._note)
         self._tell()
         first = next(batches, None)
         if first is None:
@@ -224,7 +226,7 @@ class _Run:
         self._keep(batch, results)
 
     def _keep(self, batch: Batch, results: list[Result]) -> None:
-        self._store.add(self._sweep, batch.points, results)
+        self._note(self._store.add(self._sweep, batch.points, results))
         self._certified += len(results)
         self._seconds += sum(result.seconds for result in results)
 
@@ -243,11 +245,13 @@ class _Run:
             self._keep(batch, [Result(batch.items[0][0], "error", {}, error="its workers ended, each in turn",
                                       may_be_tried_again=True)])
 
+    def _note(self, points: int) -> None:
+        self._done += points
+
     def _tell(self) -> None:
         if self._progress is not None:
-            done = self._store.count(self._sweep)
             elapsed = max(time.monotonic() - self._start, 1e-9)
-            self._progress(done, self._spec.size, (done - self._at_start) / elapsed)
+            self._progress(self._done, self._spec.size, (self._done - self._at_start) / elapsed)
 
 
 def run_sweep(spec: Spec, store: Store, options: Options = Options(), progress: Progress | None = None) -> int:

@@ -92,8 +92,14 @@ class Store:
             self._file.execute("INSERT INTO sweeps VALUES (?, ?, ?, ?, ?) ON CONFLICT (sweep) DO NOTHING",
                                (sweep, name, spec, base, program))
 
-    def add(self, sweep: str, points: Iterable[tuple[int, str, Sequence[Any]]], results: Iterable[Result]) -> None:
-        """Adds points (number, key, values) and results. What is there stays, unless it is to be tried again."""
+    def add(self, sweep: str, points: Iterable[tuple[int, str, Sequence[Any]]], results: Iterable[Result]) -> int:
+        """Adds points (number, key, values) and results. What is there stays, unless it is to be tried again.
+
+        Returns
+        -------
+        int
+            How many points are new.
+        """
         with self._transaction():
             self._file.executemany(
                 "INSERT INTO results VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT (key) DO UPDATE SET "
@@ -102,10 +108,11 @@ class Store:
                 "may_be_tried_again = excluded.may_be_tried_again WHERE results.may_be_tried_again",
                 [(each.key, each.verdict, json.dumps(each.bounds), each.certificate_sha256, each.error,
                   each.may_be_tried_again, each.seconds) for each in results])
-            self._file.executemany(
+            added = self._file.executemany(
                 "INSERT INTO points VALUES (?, ?, ?, ?) ON CONFLICT (sweep, point) DO NOTHING",
                 [(sweep, number, key, json.dumps([str(value) for value in values]))
                  for number, key, values in points])
+        return max(added.rowcount, 0)
 
     def known_points(self, sweep: str, first: int, last: int, again: bool = False) -> set[int]:
         """The numbers from `first` to before `last` that have a result; with `again` those that stand."""

@@ -16,7 +16,7 @@ namespace {
 
 namespace rigor = veritrack::rigor;
 
-constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
+constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
     {"certify",
      "  veritrack certify my-design.toml\n"
      "  veritrack certify my-design.toml --html --csv --latex\n"
@@ -47,6 +47,11 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
      "  veritrack reproduce bittanti-savaresi-2000\n"
      "  veritrack reproduce tracking-limits --seeds 10\n"
      "  veritrack reproduce ledger"},
+    {"sweep",
+     "  veritrack sweep sweep.toml --jobs 4\n"
+     "  veritrack sweep sweep.toml --scheduler tcp://10.0.0.1:8786\n"
+     "  veritrack sweep verify sweep.toml --sample 100\n"
+     "  veritrack sweep run --help"},
     {"explain",
      "  veritrack explain                       everything that is explained\n"
      "  veritrack explain q1 assume.slew        keys\n"
@@ -244,6 +249,12 @@ void add_commands(CLI::App& app, Arguments& into) {
   reproduce->add_option("--seeds", into.reproduce.seeds, "noise seeds (default: those of docs/reports)")
       ->check(CLI::Range(1, 100000));
   add_renderings(*reproduce, "report.html", into.reproduce.renderings);
+
+  // For help and completions: main() hands the words over unread.
+  CLI::App* sweep = app.add_subcommand(
+      "sweep", "certify many designs: run SPEC, report SPEC or verify SPEC, by the package for Python");
+  sweep->add_option("WORD", into.sweep.words, "run (may be left out), report or verify; SPEC.toml; options")
+      ->required();
 
   CLI::App* explain = app.add_subcommand(
       "explain", "what a claim of a certificate or a key of a design file means; alone, a list of them");

@@ -98,6 +98,10 @@ struct ReproduceOptions {
   bool quiet = false;  ///< no progress on standard error
 };
 
+struct SweepOptions {
+  std::vector<std::string> words;  ///< the arguments, which the package for Python reads
+};
+
 struct ExplainOptions {
   std::vector<std::string> words;  ///< none: everything that is explained is listed
 };
@@ -115,6 +119,8 @@ struct NewOptions {
 [[nodiscard]] ExitStatus run_tune(const TuneOptions& options);
 [[nodiscard]] ExitStatus run_track(const TrackOptions& options);
 [[nodiscard]] ExitStatus run_reproduce(const ReproduceOptions& options);
+/// Does not return unless the interpreter cannot be run.
+[[nodiscard]] ExitStatus run_sweep(const SweepOptions& options);
 [[nodiscard]] ExitStatus run_explain(const ExplainOptions& options);
 [[nodiscard]] ExitStatus run_new(const NewOptions& options);
 

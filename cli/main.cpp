@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -78,7 +79,19 @@ std::string unknown_option(CLI::App& app, int argc, char** argv) {
   return {};
 }
 
+/// The words of `veritrack sweep`, which another program reads; nothing for other commands, and for its help.
+std::optional<SweepOptions> words_of_sweep(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() < 2 || words[0] != "sweep" || words[1] == "--help" || words[1] == "-h") {
+    return std::nullopt;
+  }
+  return SweepOptions{{words.begin() + 1, words.end()}};
+}
+
 int run(int argc, char** argv) {
+  if (const auto sweep = words_of_sweep(argc, argv)) {
+    return run_sweep(*sweep);
+  }
   CLI::App app{"Machine-checked certificates for frequency trackers.", "veritrack"};
   app.set_version_flag("--version", version_text, "print the version, and those of the libraries");
   app.require_subcommand(1);

@@ -1,14 +1,18 @@
 #include "cli/arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/code_language.hpp"
 #include "certificates/help/design_template.hpp"
 #include "cli/shell_words.hpp"
+#include "reports/reproductions/reproduction.hpp"
 
 namespace veritrack::cli {
 
@@ -230,12 +234,17 @@ void add_commands(CLI::App& app, Arguments& into) {
   track->add_flag("--strict", into.track.strict,
                   "1 when lock is lost or the recording exceeds what the certificate assumes");
 
-  CLI::App* reproduce =
-      app.add_subcommand("reproduce",
-                         "regenerate a report of docs/reports: the published examples of the single-channel "
-                         "tracker, or the comparison of the trackers with the Cramer-Rao bounds");
-  reproduce->add_option("REPORT", into.reproduce.report, "which report")
-      ->check(CLI::IsMember({kExampleReport, kLimitReport}))
+  CLI::App* reproduce = app.add_subcommand(
+      "reproduce", "regenerate a report of docs/reports: printed tables and figures beside our simulations");
+  std::vector<std::string> reports;
+  std::string about = "which report:";
+  for (const auto& report : reports::reproductions()) {
+    about += fmt::format("{} {} ({})", reports.empty() ? "" : ";", report.name, report.about);
+    reports.emplace_back(report.name);
+  }
+  into.reproduce.report = reports.front();
+  reproduce->add_option("REPORT", into.reproduce.report, about)
+      ->check(CLI::IsMember(reports))
       ->capture_default_str();
   reproduce->add_option("--out", into.reproduce.directory,
                         "folder for the report (default: reports-out/<name of the report>)");

@@ -19,10 +19,8 @@
 #include "cli/interruption.hpp"
 #include "cli/progress_line.hpp"
 #include "reports/certificate_files.hpp"
-#include "reports/example_report.hpp"
-#include "reports/limit_report.hpp"
+#include "reports/reproductions/reproduction.hpp"
 #include "reports/tracker_reports.hpp"
-#include "reports/written_report.hpp"
 
 namespace veritrack::cli {
 
@@ -136,17 +134,16 @@ ExitStatus run_show(const ShowOptions& options) {
 }
 
 ExitStatus run_reproduce(const ReproduceOptions& options) {
+  const reports::Reproduction& report =
+      options.report.empty() ? reports::reproductions().front() : reports::find_reproduction(options.report);
   const std::filesystem::path directory = options.directory.empty()
-                                              ? std::filesystem::path("reports-out") / options.report
+                                              ? std::filesystem::path("reports-out") / report.name
                                               : std::filesystem::path(options.directory);
-  const bool limits = options.report == kLimitReport;
-  const int published_seeds = limits ? 1000 : 200;
-  const int seeds = options.seeds > 0 ? options.seeds : published_seeds;
+  const int runs = options.seeds > 0 ? options.seeds : report.runs;
   const reports::WrittenReport written = [&] {
     const ProgressLine line(options.quiet, "simulating");
-    const auto tell = [&](int done, int most) { line(done, most, "simulated"); };
-    return limits ? reports::write_limit_report(seeds, directory, options.renderings, tell)
-                  : reports::write_example_report(seeds, directory, options.renderings, tell);
+    return report.write(runs, directory, options.renderings,
+                        [&](int done, int most) { line(done, most, "simulated"); });
   }();
   if (!written.warning.empty()) {
     fmt::print(stderr, "{}: {}\n", written.document.string(), written.warning);

@@ -1,0 +1,63 @@
+#include "reports/reproductions/reproduction.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "certificates/document/output_files.hpp"
+#include "reports/reproductions/example_report.hpp"
+#include "reports/reproductions/limit_report.hpp"
+#include "reports/reproductions/swept_tone_reports.hpp"
+
+namespace veritrack::reports {
+
+namespace {
+
+/// Writes what a function of this kind finds.
+template <Findings (*reproduce)(int, const ReproductionProgress&)>
+WrittenReport write(int runs, const std::filesystem::path& directory, const page::Renderings& renderings,
+                    const ReproductionProgress& progress) {
+  return write_findings(reproduce(runs, progress), runs, directory, renderings);
+}
+
+constexpr std::array kReproductions{
+    Reproduction{"bittanti-savaresi-2000", "examples of Bittanti and Savaresi (2000)", 200,
+                 &write_example_report},
+    Reproduction{"tracking-limits", "trackers compared with the Cramer-Rao bounds", 1000,
+                 &write_limit_report},
+    Reproduction{"la-scala-bitmead-table-1", "Table I of La Scala and Bitmead (1996)", 1000,
+                 &write<reproduce_table_1>},
+    Reproduction{"la-scala-table-3.2", "Table 3.2 and Figures 3.1 to 3.5 of La Scala's thesis", 1000,
+                 &write<reproduce_table_3_2>},
+};
+
+}  // namespace
+
+WrittenReport write_findings(Findings findings, int runs, const std::filesystem::path& directory,
+                             const page::Renderings& renderings) {
+  page::Document document{"report", std::move(findings.markdown)};
+  document.figure_folder = "figures/";
+  for (Figure& figure : findings.figures) {
+    document.figures.push_back(with_title(std::move(figure)));
+  }
+  certificates::OutputFiles files;
+  stage_document(files, directory, document, renderings);
+  files.commit();
+  return {directory / "report.md", too_few_runs(findings.entries, runs)};
+}
+
+std::span<const Reproduction> reproductions() {
+  return kReproductions;
+}
+
+const Reproduction& find_reproduction(std::string_view name) {
+  const auto* const found = std::find_if(kReproductions.begin(), kReproductions.end(),
+                                         [&](const Reproduction& each) { return each.name == name; });
+  if (found == kReproductions.end()) {
+    throw std::out_of_range("there is no report " + std::string(name));
+  }
+  return *found;
+}
+
+}  // namespace veritrack::reports

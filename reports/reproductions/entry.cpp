@@ -154,6 +154,17 @@ Outcome share_of_runs(Claimed claimed, const std::vector<bool>& held) {
   return outcome;
 }
 
+Outcome share_near(double wanted, double allowed, const std::vector<bool>& held) {
+  Outcome outcome = share_of_runs(Claimed::usually, held);
+  const double share =
+      static_cast<double>(std::count(held.begin(), held.end(), true)) / static_cast<double>(held.size());
+  const auto [low, high] = share_interval(share, static_cast<int>(held.size()));
+  outcome.comes_out = low >= wanted - allowed && high <= wanted + allowed ? ComesOut::yes
+                      : high < wanted - allowed || low > wanted + allowed ? ComesOut::no
+                                                                          : ComesOut::undecided;
+  return outcome;
+}
+
 Outcome smaller_mean(std::span<const double> smaller, std::span<const double> larger) {
   if (smaller.size() != larger.size() || smaller.empty()) {
     throw std::invalid_argument("two quantities of the same runs are compared");

@@ -63,6 +63,9 @@ enum class Claimed : std::uint8_t { sometimes, usually, always, never };
 /// otherwise.
 [[nodiscard]] Outcome share_of_runs(Claimed claimed, const std::vector<bool>& held);
 
+/// That something happens in a share of the runs, to within `allowed` of it.
+[[nodiscard]] Outcome share_near(double wanted, double allowed, const std::vector<bool>& held);
+
 /// That one quantity is smaller than another, both of the same runs: by the mean difference and its standard
 /// error. NaN and infinities count as large.
 [[nodiscard]] Outcome smaller_mean(std::span<const double> smaller, std::span<const double> larger);

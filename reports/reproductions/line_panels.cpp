@@ -24,11 +24,17 @@ Figure draw_line_panels(std::string file, std::string title, const std::string& 
       table.next_index();
     }
   }
-  constexpr std::size_t kPanelHeight = 250;
-  std::string script = gnuplot_style(30 + kPanelHeight * panels.size()) + table.block();
+  const std::size_t panel_height = panels.size() == 1 ? 400 : 220;
+  std::string script = gnuplot_style(60 + panel_height * panels.size()) + table.block();
   script += fmt::format("set multiplot layout {},1\nset xlabel {}\n", panels.size(), gnuplot_text(x_label));
+  const bool one_key = std::all_of(panels.begin(), panels.end(), [&](const LinePanel& panel) {
+    return std::equal(panel.lines.begin(), panel.lines.end(), panels.front().lines.begin(),
+                      panels.front().lines.end(),
+                      [](const PanelLine& a, const PanelLine& b) { return a.name == b.name; });
+  });
   std::size_t index = 0;
   for (const LinePanel& panel : panels) {
+    script += one_key && &panel != &panels.back() ? "set key off\n" : "set key on\n";
     script += fmt::format("set title {}\nset ylabel {}\n{}plot ", gnuplot_text(panel.title),
                           gnuplot_text(panel.y_label), panel.settings);
     for (std::size_t i = 0; i < panel.lines.size(); ++i) {

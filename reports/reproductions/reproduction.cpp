@@ -8,7 +8,9 @@
 #include "certificates/document/output_files.hpp"
 #include "reports/reproductions/example_report.hpp"
 #include "reports/reproductions/limit_report.hpp"
+#include "reports/reproductions/sonar_report.hpp"
 #include "reports/reproductions/swept_tone_reports.hpp"
+#include "reports/reproductions/zarchan_report.hpp"
 
 namespace veritrack::reports {
 
@@ -30,6 +32,9 @@ constexpr std::array kReproductions{
                  &write<reproduce_table_1>},
     Reproduction{"la-scala-table-3.2", "Table 3.2 and Figures 3.1 to 3.5 of La Scala's thesis", 1000,
                  &write<reproduce_table_3_2>},
+    Reproduction{"la-scala-tables-4", "tables and figures of chapter 4 of La Scala's thesis", 200,
+                 &write<reproduce_tables_4>},
+    Reproduction{"zarchan", "experiments of Zarchan's slides", 1000, &write<reproduce_zarchan>},
 };
 
 }  // namespace

@@ -80,7 +80,7 @@ std::vector<double> means_of(const Figure31& figure) {
 
 Figure draw_figure_3_1(const Figure31& fitted, const Figure31& stand_in) {
   const LinePanel panel{"Figure 3.1: the sum of squared errors over q, ε = 0.05, r = 0.01",
-                        "sum of squared errors [(rad/sample)^2]",
+                        "sum [(rad/sample)^2]",
                         {{"fitted signal", fitted.q, means_of(fitted), "lines lw 2 lc rgb '#000000'"},
                          {"stand-in", stand_in.q, means_of(stand_in), "lines lw 2 dt '-' lc rgb '#000000'"},
                          {"printed: q of the signal, best q",
@@ -103,7 +103,7 @@ Figure draw_estimates(const SweptTone& tone, const ToneRun& run) {
          {{"signal", samples, run.frequency, std::string("lines ") + line::kSignal},
           {"estimate", samples, experiments::tracked(run, design_of(row), start_variance_of(tone)),
            "lines lw 1.2 lc rgb '#000000'"}},
-         ""});
+         "set yrange [0.3:0.9]\nset xrange [0:330]\n"});
   }
   return draw_line_panels("figures-3.2-to-3.5.svg", "The frequency and its estimate for the four designs",
                           "sample k", panels);

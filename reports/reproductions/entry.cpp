@@ -134,6 +134,11 @@ Outcome same_number(const PrintedNumber& printed, double ours) {
   return {equal ? ComesOut::yes : ComesOut::no, fmt::format("{:.5g}", ours)};
 }
 
+Outcome near_number(const PrintedNumber& printed, double ours, double tolerance) {
+  const bool near = std::fabs(ours - printed.value()) <= tolerance * std::fabs(printed.value());
+  return {near ? ComesOut::yes : ComesOut::no, fmt::format("{:.5g}", ours)};
+}
+
 Outcome share_of_runs(Claimed claimed, const std::vector<bool>& held) {
   const auto count = static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
   const double share = static_cast<double>(count) / static_cast<double>(held.size());

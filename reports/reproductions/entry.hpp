@@ -56,6 +56,9 @@ struct Outcome {
 /// A number without chance, against ours: equal after rounding.
 [[nodiscard]] Outcome same_number(const PrintedNumber& printed, double ours);
 
+/// The same to within a part of it, under conditions that are ours.
+[[nodiscard]] Outcome near_number(const PrintedNumber& printed, double ours, double tolerance);
+
 /// Of a sentence about what happens: in the one run that was printed, so that at least 2.5 % of ours should
 /// do it; in more than half of the runs; in all of them; in none.
 enum class Claimed : std::uint8_t { sometimes, usually, always, never };

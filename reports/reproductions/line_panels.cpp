@@ -26,7 +26,8 @@ Figure draw_line_panels(std::string file, std::string title, const std::string& 
   }
   const std::size_t panel_height = panels.size() == 1 ? 400 : 220;
   std::string script = gnuplot_style(60 + panel_height * panels.size()) + table.block();
-  script += fmt::format("set multiplot layout {},1\nset xlabel {}\n", panels.size(), gnuplot_text(x_label));
+  script += fmt::format("set lmargin 11\nset multiplot layout {},1\nset xlabel {}\n", panels.size(),
+                        gnuplot_text(x_label));
   const bool one_key = std::all_of(panels.begin(), panels.end(), [&](const LinePanel& panel) {
     return std::equal(panel.lines.begin(), panel.lines.end(), panels.front().lines.begin(),
                       panels.front().lines.end(),

@@ -8,8 +8,10 @@
 #include "certificates/document/output_files.hpp"
 #include "reports/reproductions/example_report.hpp"
 #include "reports/reproductions/limit_report.hpp"
+#include "reports/reproductions/observer_report.hpp"
 #include "reports/reproductions/sonar_report.hpp"
 #include "reports/reproductions/swept_tone_reports.hpp"
+#include "reports/reproductions/vibration_report.hpp"
 #include "reports/reproductions/zarchan_report.hpp"
 
 namespace veritrack::reports {
@@ -34,6 +36,10 @@ constexpr std::array kReproductions{
                  &write<reproduce_table_3_2>},
     Reproduction{"la-scala-tables-4", "tables and figures of chapter 4 of La Scala's thesis", 200,
                  &write<reproduce_tables_4>},
+    Reproduction{"la-scala-tables-5", "tables and figures of chapter 5 of La Scala's thesis", 200,
+                 &write<reproduce_tables_5>},
+    Reproduction{"praly-figures-7-9", "adaptive observer of Figures 7 to 9 of Praly, Marconi and Isidori", 8,
+                 &write<reproduce_figures_7_9>},
     Reproduction{"zarchan", "experiments of Zarchan's slides", 1000, &write<reproduce_zarchan>},
 };
 

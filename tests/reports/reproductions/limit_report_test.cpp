@@ -1,10 +1,10 @@
-#include "reports/limit_report.hpp"
+#include "reports/reproductions/limit_report.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
-#include "reports/limit_figures.hpp"
+#include "reports/reproductions/limit_figures.hpp"
 
 namespace veritrack::reports {
 namespace {

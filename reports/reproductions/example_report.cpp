@@ -1,4 +1,4 @@
-#include "reports/example_report.hpp"
+#include "reports/reproductions/example_report.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/output_files.hpp"
-#include "reports/example_linearization.hpp"
 #include "reports/gnuplot.hpp"
-#include "reports/seed_share.hpp"
+#include "reports/reproductions/example_linearization.hpp"
+#include "reports/reproductions/seed_share.hpp"
 
 namespace veritrack::reports {
 

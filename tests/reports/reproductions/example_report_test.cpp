@@ -1,8 +1,8 @@
-#include "reports/example_report.hpp"
+#include "reports/reproductions/example_report.hpp"
 
 #include <doctest/doctest.h>
 
-#include "reports/seed_share.hpp"
+#include "reports/reproductions/seed_share.hpp"
 
 namespace veritrack::reports {
 namespace {

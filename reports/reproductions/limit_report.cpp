@@ -1,4 +1,4 @@
-#include "reports/limit_report.hpp"
+#include "reports/reproductions/limit_report.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "analysis/limits/tone_bounds.hpp"
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/output_files.hpp"
-#include "reports/limit_figures.hpp"
+#include "reports/reproductions/limit_figures.hpp"
 
 namespace veritrack::reports {
 

@@ -1,4 +1,4 @@
-#include "reports/limit_figures.hpp"
+#include "reports/reproductions/limit_figures.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "reports/example_linearization.hpp"
+#include "reports/reproductions/example_linearization.hpp"
 
 #include <fmt/format.h>
 

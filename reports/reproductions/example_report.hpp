@@ -9,7 +9,7 @@
 
 #include "analysis/single_channel/published_examples.hpp"
 #include "reports/page/renderings.hpp"
-#include "reports/written_report.hpp"
+#include "reports/reproductions/written_report.hpp"
 
 namespace veritrack::reports {
 

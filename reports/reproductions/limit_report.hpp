@@ -7,7 +7,7 @@
 
 #include "analysis/limits/limit_study.hpp"
 #include "reports/page/renderings.hpp"
-#include "reports/written_report.hpp"
+#include "reports/reproductions/written_report.hpp"
 
 namespace veritrack::reports {
 

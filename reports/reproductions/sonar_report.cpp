@@ -229,49 +229,50 @@ std::string document(const std::vector<Entry>& entries, const std::array<SetStud
   const std::string warning = too_few_runs(entries, runs);
   text += warning.empty() ? "" : "*" + warning + "*\n\n";
   text += "**" + count_sentence(entries) + "** ";
-  text += fmt::format(
-      "Set 1 comes out as printed. Sets 2 and 3 do not, for any Doppler shift, even when the filter starts "
-      "at the truth: at the signal-to-noise ratios of "
-      "Table 4.1 the frequency sum of set 2 is about eight times the printed one, and in set 3 the filter "
-      "loses the tone in nearly every run. They come out "
-      "under one condition: that the noise variance was 1, as in set 1, in all three (the table after next). "
-      "Then the signal-to-noise ratios were −10 to 0 dB in all three, and "
-      "the last sentence of section 4.5.3, accuracy at very low ratios, rests on set 1 alone. In set 2, {} "
-      "of the starts of (4.35) are within half a bin, in "
-      "set 3 {}: the initialisation is the weak point, as the thesis says.\n\n",
-      percent(studies[1].scores[0][0].good_start), percent(studies[2].scores[0][0].good_start));
+  text +=
+      !warning.empty()
+          ? std::string(kNoConclusion)
+          : fmt::format(
+                "Set 1 comes out as printed. Sets 2 and 3 do not, for any Doppler shift, even when the "
+                "filter starts at the truth: at the signal-to-noise ratios of Table 4.1 the frequency sum of "
+                "set 2 is about eight times the printed one, and in set 3 the filter loses the tone in "
+                "nearly every run. They come out under one condition: that the noise variance was 1, as in "
+                "set 1, in all three (the table after next). Then the signal-to-noise ratios were −10 to 0 "
+                "dB in all three, and the last sentence of section 4.5.3, accuracy at very low ratios, rests "
+                "on set 1 alone. In set 2, {} of the starts of (4.35) are within half a bin, in set 3 {}: "
+                "the initialisation is the weak point, as the thesis says.\n\n",
+                percent(studies[1].scores[0][0].good_start), percent(studies[2].scores[0][0].good_start));
   text += fmt::format(
       "## Printed and ours\n\nThe thesis has one run of each set. A number agrees when it lies among those "
-      "of our {} runs (at most 2.5 % beyond it on either side) for one of three Doppler "
-      "shifts and one of two starts; *ours* is the range of 95 % of the runs, and their median, of the "
-      "choice that comes out, or of the first.\n\n{}",
+      "of our {} runs (at most 2.5 % beyond it on either side) for one of three Doppler shifts and one of "
+      "two starts; *ours* is the range of 95 % of the runs, and their median, of the choice that comes out, "
+      "or of the first.\n\n{}",
       runs, entry_table(entries));
   text +=
       "\n## All three sets with the noise of set 1\n\nMedian (2.5 % to 97.5 % of the runs), offset ±1.42 "
       "bins, started by the initialisation:\n\n" +
       as_set_1_table(studies) +
       "\n![Two panels: sums over the noise variance; the printed ones of sets 2 and 3 lie far "
-      "below](figures/noise.svg)\n\n*Median sum of squared errors over the "
-      "noise variance, for the three designs of Table 4.2, started at the truth; points: the sums as "
-      "printed, at the variances of Table 4.1.*\n\n## All choices\n\nWith the noise of Table 4.1. "
-      "Median (2.5 % to 97.5 % of the runs); good starts: the offset of (4.35) is within half a bin.\n\n" +
+      "below](figures/noise.svg)\n\n*Median sum of squared errors over the noise variance, for the three "
+      "designs of Table 4.2, started at the truth; points: the sums as printed, at the variances of Table "
+      "4.1.*\n\n## All choices\n\nWith the noise of Table 4.1. Median (2.5 % to 97.5 % of the runs); good "
+      "starts: the offset of (4.35) is within half a bin.\n\n" +
       all_choices_table(studies) +
       "\n## The figures\n\n![Six panels: noise, and in it a tone](figures/measured.svg)\n\n*Figures 4.4, 4.7 "
-      "and 4.10: 0.1 s of what is measured (black), and the tone in it (grey), signal "
-      "units.*\n\n![Estimates and errors for set 1](figures/set-1.svg)\n\n*Figures 4.5 and 4.6: set 1, seed "
-      "1, started by the initialisation: offset (bins) and power (dB) "
-      "with the truth (broad grey), and their errors.*\n\n![Estimates and errors for set "
-      "2](figures/set-2.svg)\n\n*Figures 4.8 and 4.9: set 2, at the noise of Table 4.1 (solid) and of set 1 "
-      "(dotted).*\n\n![Estimates and errors for set 3](figures/set-3.svg)\n\n*Figures 4.11 and 4.12: set 3, "
-      "the same.*\n\n## Setting\n\n"
-      "T = 2048 samples a second, 400 blocks of a second, M = 300, L = 2. A straight pass with the range √(1 "
-      "+ (vτ)²), the amplitude 1/range, both ends 10 dB down; received at t is what was sent at "
-      "τ, τ + range/c = t. The Doppler shift Mv/c is unpublished: three are tried, symmetric about bin M. "
-      "P(1|0) = Q, unpublished too. The bins of the tone come from its samples "
-      "by (4.4); the noise of the bins is drawn directly (variance σ²/(2T) in each real and imaginary part). "
-      "`trackers/dft_block` in double precision; seeds from 1 on, 64-bit Mersenne twister, "
-      "Karney's normal deviates. Power: 10 log10 of the squared amplitude. Sums over the 400 blocks, of "
-      "x(k|k), with the offset's mean over the block as truth. Simulations prove nothing.\n";
+      "and 4.10: 0.1 s of what is measured (black), and the tone in it (grey), signal units.*\n\n![Estimates "
+      "and errors for set 1](figures/set-1.svg)\n\n*Figures 4.5 and 4.6: set 1, seed 1, started by the "
+      "initialisation: offset (bins) and power (dB) with the truth (broad grey), and their "
+      "errors.*\n\n![Estimates and errors for set 2](figures/set-2.svg)\n\n*Figures 4.8 and 4.9: set 2, at "
+      "the noise of Table 4.1 (solid) and of set 1 (dotted).*\n\n![Estimates and errors for set "
+      "3](figures/set-3.svg)\n\n*Figures 4.11 and 4.12: set 3, the same.*\n\n## Setting\n\nT = 2048 samples "
+      "a second, 400 blocks of a second, M = 300, L = 2. A straight pass with the range √(1 + (vτ)²), the "
+      "amplitude 1/range, both ends 10 dB down; received at t is what was sent at τ, τ + range/c = t. The "
+      "Doppler shift Mv/c is unpublished: three are tried, symmetric about bin M. P(1|0) = Q, unpublished "
+      "too. The bins of the tone come from its samples by (4.4); the noise of the bins is drawn directly "
+      "(variance σ²/(2T) in each real and imaginary part). `trackers/dft_block` in double precision; seeds "
+      "from 1 on, 64-bit Mersenne twister, Karney's normal deviates. Power: 10 log10 of the squared "
+      "amplitude. Sums over the 400 blocks, of x(k|k), with the offset's mean over the block as truth. "
+      "Simulations prove nothing.\n";
   return text;
 }
 

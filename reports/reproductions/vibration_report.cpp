@@ -370,41 +370,40 @@ std::string vibration_document(const std::vector<Entry>& entries, std::ptrdiff_t
   const double gamma = 1.0 / 0.95 - 1.0;
   const std::vector<Complex> poles = poles_of(table_5_2());
   text += "**" + count_sentence(entries) + "** ";
-  text += fmt::format(
-      "The structure of both examples comes out for nearly every start: the regulator finds the pole of the "
-      "vibration, the denominator of order 3 becomes a multiple of the ideal one, "
-      "the numerator does not, and the surplus parameters of order 5 do not vanish. The numbers of the "
-      "limits depend on starts that are not printed. Three things in print are wrong. (1) The upper bound "
-      "10.1 is that of γ = 1 − λ = 0.05; with γ = (1 − λ)/λ = {:.4f}, as the thesis defines it, it is "
-      "{:.2f}. (2) The \"poles\" −3.2232 and 2.2085 are in z⁻¹: those of the "
-      "controller are their reciprocals, {:.4f} and {:.4f}, inside the unit circle. (3) At ω the limits do "
-      "not match the ideal controller: they share its pole, where both are infinite, and Figures 5.6 and 5.7 "
-      "show no more; the residues differ. They need not be the same: where the output is zero, only the pole "
-      "matters.\n\n",
-      gamma, trackers::efra_bounds(trackers::thesis_efra_design<double>()).upper, poles.at(0).real(),
-      poles.at(1).real());
+  text += !warning.empty()
+              ? std::string(kNoConclusion)
+              : fmt::format(
+                    "The structure of both examples comes out for nearly every start: the regulator finds "
+                    "the pole of the vibration, the denominator of order 3 becomes a multiple of the ideal "
+                    "one, the numerator does not, and the surplus parameters of order 5 do not vanish. The "
+                    "numbers of the limits depend on starts that are not printed. Three things in print are "
+                    "wrong. (1) The upper bound 10.1 is that of γ = 1 − λ = 0.05; with γ = (1 − λ)/λ = "
+                    "{:.4f}, as the thesis defines it, it is {:.2f}. (2) The \"poles\" −3.2232 and 2.2085 "
+                    "are in z⁻¹: those of the controller are their reciprocals, {:.4f} and {:.4f}, inside "
+                    "the unit circle. (3) At ω the limits do not match the ideal controller: they share its "
+                    "pole, where both are infinite, and Figures 5.6 and 5.7 show no more; the residues "
+                    "differ. They need not be the same: where the output is zero, only the pole matters.\n\n",
+                    gamma, trackers::efra_bounds(trackers::thesis_efra_design<double>()).upper,
+                    poles.at(0).real(), poles.at(1).real());
   text += fmt::format(
       "## Printed and ours\n\n{} starts: e₋₁ and e₋₂ normal with deviation 1, θ₀ zero but for b₀, which is "
       "uniform in [1, 4], P₋₁ = p I with p from 0.1 to 10, uniform in its logarithm (seeds from 1 on; 64-bit "
       "Mersenne twister, Karney's normal deviates). Limits are read after {} samples. For the monitored "
       "estimator r₋₁ = 1 and Λ = 10⁹: with Λ = 1000, {} of {} starts have the poles to four digits after {} "
-      "samples. \"The poles are\": the "
-      "denominator at the vibration is below 10⁻⁴ of the sum of its coefficients. A printed number of a "
-      "limit agrees when it lies among those of starts whose θ₀ is the ideal one with a normal error of "
-      "deviation "
-      "0.5 in each entry.\n\n{}",
+      "samples. \"The poles are\": the denominator at the vibration is below 10⁻⁴ of the sum of its "
+      "coefficients. A printed number of a limit agrees when it lies among those of starts whose θ₀ is the "
+      "ideal one with a normal error of deviation 0.5 in each entry.\n\n{}",
       runs, kMany, poles_with_small_limit, runs, kLate, entry_table(entries));
   text +=
       "\n## The figures\n\n![Four panels: the output decays slowly with one estimator and fast with the "
-      "other, and the parameters settle](figures/example-1.svg)\n\n*Figures 5.3 to 5.5: Example 1 with "
-      "e₋₁ = 1, e₋₂ = 0.5, b₀ = 2, P₋₁ = 10 I.*\n\n![Three panels: parameters and output for order "
-      "5](figures/example-2.svg)\n\n*Figures 5.8 and 5.9: Example 2, the same start.*\n\n"
-      "![Four panels: magnitude and phase of the ideal and the limiting "
-      "controllers](figures/responses.svg)\n\n*Figures 5.6, 5.7, 5.10 and 5.11: the ideal controller (broad "
-      "grey) and the limits of Tables 5.1 and 5.2 as "
-      "printed (thin black). They have the pole at π/6 = 0.52 rad/sample in common.*\n\n"
-      "Simulated with `trackers/regulator` in double precision; simulations prove nothing. What is computed "
-      "from printed numbers alone (bounds, poles, residues) is rounded double precision, too.\n";
+      "other, and the parameters settle](figures/example-1.svg)\n\n*Figures 5.3 to 5.5: Example 1 with e₋₁ = "
+      "1, e₋₂ = 0.5, b₀ = 2, P₋₁ = 10 I.*\n\n![Three panels: parameters and output for order "
+      "5](figures/example-2.svg)\n\n*Figures 5.8 and 5.9: Example 2, the same start.*\n\n![Four panels: "
+      "magnitude and phase of the ideal and the limiting controllers](figures/responses.svg)\n\n*Figures "
+      "5.6, 5.7, 5.10 and 5.11: the ideal controller (broad grey) and the limits of Tables 5.1 and 5.2 as "
+      "printed (thin black). They have the pole at π/6 = 0.52 rad/sample in common.*\n\nSimulated with "
+      "`trackers/regulator` in double precision; simulations prove nothing. What is computed from printed "
+      "numbers alone (bounds, poles, residues) is rounded double precision, too.\n";
   return text;
 }
 

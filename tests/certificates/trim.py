@@ -48,6 +48,10 @@ From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian no
 model-gaussian    its tubes for the assumed noise and for as much as was proved
 From tests/certificates/model-filter.toml, an extended Kalman filter at almost one frequency:
 model-filter      its tube for the assumed noise, with bounds of the covariance and three levels: checked fast
+From tests/certificates/model-filter-long-run.toml, the same filter:
+model-filter-long-run  its tubes for the assumed noise, and in the long run
+From tests/certificates/model-filter-moving.toml, the same filter and a frequency that moves through two cells:
+model-filter-moving  its tubes for what is assumed
 """
 import fractions
 import json
@@ -311,6 +315,13 @@ def model_gaussian(certificate):
                              if claim["id"] not in ("model/limits", "model/steady-state")]
 
 
+def model_long_run(certificate):
+    """Without what is told of no noise, and of more."""
+    certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] in ("assumed", "long-run")]
+    certificate["claims"] = [claim for claim in certificate["claims"]
+                             if claim["id"] not in ("model/limits", "model/steady-state")]
+
+
 def model_filter(certificate):
     """Without what is told of no noise; the error in the long run is that of a level between."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
@@ -355,6 +366,8 @@ KINDS = {
     "model-moving": model_moving,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
+    "model-filter-long-run": model_long_run,
+    "model-filter-moving": model_moving,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

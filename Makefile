@@ -51,7 +51,7 @@ certificate:
 
 # Designs certified, and every certificate checked by a program that shares no code with the one that made it.
 verify:
-	@scripts/install-packages $(BUILD_PACKAGES)
+	@scripts/install-packages $(BUILD_PACKAGES) python3-jsonschema
 	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
 	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify >&2
 	@scripts/verify build/release $(VERIFY_DESIGNS)

@@ -1,14 +1,18 @@
 #include "cli/arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/code_language.hpp"
 #include "certificates/help/design_template.hpp"
 #include "cli/shell_words.hpp"
+#include "reports/reproductions/reproduction.hpp"
 
 namespace veritrack::cli {
 
@@ -45,7 +49,8 @@ constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
      "  producer | veritrack track my-design.toml - --each track.csv"},
     {"reproduce",
      "  veritrack reproduce bittanti-savaresi-2000\n"
-     "  veritrack reproduce tracking-limits --seeds 10"},
+     "  veritrack reproduce tracking-limits --seeds 10\n"
+     "  veritrack reproduce ledger"},
     {"sweep",
      "  veritrack sweep sweep.toml --jobs 4\n"
      "  veritrack sweep sweep.toml --scheduler tcp://10.0.0.1:8786\n"
@@ -192,7 +197,8 @@ void add_commands(CLI::App& app, Arguments& into) {
   tune->add_option("--timeout", into.tune.seconds,
                    "end the search after so many seconds, and certify the best so far; so does Ctrl-C")
       ->check(seconds);
-  tune->add_flag("--free-leak", into.tune.free_leak, "epsilon may become smaller than it is, down to 0");
+  tune->add_flag("--free-leak", into.tune.free_leak,
+                 "epsilon, where it is above 0, may change, too, and become 0");
 
   CLI::App* track = app.add_subcommand("track", "run the tracker of a design over a recording");
   track->add_option("DESIGN", into.track.design, "design file (TOML)")->required();
@@ -235,12 +241,21 @@ void add_commands(CLI::App& app, Arguments& into) {
   track->add_flag("--strict", into.track.strict,
                   "1 when lock is lost or the recording exceeds what the certificate assumes");
 
-  CLI::App* reproduce =
-      app.add_subcommand("reproduce",
-                         "regenerate a report of docs/reports: the published examples of the single-channel "
-                         "tracker, or the comparison of the trackers with the Cramer-Rao bounds");
-  reproduce->add_option("REPORT", into.reproduce.report, "which report")
-      ->check(CLI::IsMember({kExampleReport, kLimitReport}))
+  CLI::App* reproduce = app.add_subcommand(
+      "reproduce",
+      "regenerate a report of docs/reports: printed tables and figures beside our simulations, or the "
+      "ledger of published claims");
+  std::vector<std::string> reports;
+  std::string about = "which report:";
+  for (const auto& report : reports::reproductions()) {
+    about += fmt::format("{} {} ({})", reports.empty() ? "" : ";", report.name, report.about);
+    reports.emplace_back(report.name);
+  }
+  about += fmt::format("; {} (every claim of the publications, decided or simulated)", kLedger);
+  reports.emplace_back(kLedger);
+  into.reproduce.report = reports.front();
+  reproduce->add_option("REPORT", into.reproduce.report, about)
+      ->check(CLI::IsMember(reports))
       ->capture_default_str();
   reproduce->add_option("--out", into.reproduce.directory,
                         "folder for the report (default: reports-out/<name of the report>)");

@@ -13,8 +13,8 @@ namespace veritrack::cli {
 
 enum ExitStatus : int { all_proved = 0, not_proved = 1, bad_input = 2, bad_arithmetic = 3 };
 
-inline constexpr const char* kExampleReport = "bittanti-savaresi-2000";
-inline constexpr const char* kLimitReport = "tracking-limits";
+/// Above the other reports of `reproduce`: it collects what they find.
+inline constexpr const char* kLedger = "ledger";
 
 struct CertifyOptions {
   std::string design;
@@ -91,7 +91,7 @@ struct TrackOptions {
 
 struct ReproduceOptions {
   reports::page::Renderings renderings;
-  std::string report = kExampleReport;
+  std::string report;  ///< empty: the first
   std::string directory;
   int seeds = 0;       ///< 0: the number used for the report in docs/reports
   bool quiet = false;  ///< no progress on standard error

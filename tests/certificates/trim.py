@@ -48,6 +48,8 @@ From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian no
 model-gaussian    its tubes for the assumed noise and for as much as was proved
 From tests/certificates/model-filter.toml, an extended Kalman filter at almost one frequency:
 model-filter      its tube for the assumed noise, with bounds of the covariance and three levels: checked fast
+From tests/certificates/regulator.toml, a regulator with a tracker of two channels:
+regulator         as it is, its tracker's certificate without what the regulator does not need
 """
 import fractions
 import json
@@ -324,6 +326,18 @@ def model_filter(certificate):
             claim["settled_frequency_error"] = "0.05"
 
 
+def regulator(certificate):
+    """The tracker's guarantee, its settling time, and the sets that they rest on."""
+    tracker = certificate["frequency_tracker"]
+    keep(tracker, ["contraction"], ["ekf/settling-time", "ekf/guarantee"])
+    tracker["certified_sets"] = [found for found in tracker["certified_sets"] if found["purpose"] in
+                                 ("frequency-error-bound", "ultimate-error", "settling")]
+    derivation = tracker["derivations"][0]
+    derivation["quantities"] = tracker["claims"][1]["evidence"]
+    derivation["conditions"] = derivation["conditions"][:2]
+    del derivation["verdict"]
+
+
 KINDS = {
     "theorem-2.9": without_sets(lambda name: name in ("theorem-2.9/printed", "theorem-2.9/errata")),
     "published": without_sets(is_published),
@@ -355,6 +369,7 @@ KINDS = {
     "model-moving": model_moving,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
+    "regulator": regulator,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

@@ -63,6 +63,8 @@ class Explain(unittest.TestCase):
         result = run("explain", "q1", "slwe")
         self.assertEqual(result.returncode, 2)
         self.assertIn('"slwe" is no key and no claim; nearest: slew', result.stderr)
+        result = run("explain", "SNR")
+        self.assertIn("it is mentioned in assume.noise, model/lowest-snr, ekf/lowest-snr;", result.stderr)
 
     def test_lines_are_as_wide_as_the_terminal(self):
         def longest(text):

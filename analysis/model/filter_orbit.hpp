@@ -30,8 +30,9 @@ using Wide = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows,
 
 /// Of the bounds, in units of themselves: what they have to spare.
 inline constexpr double kSlack = 0.006;
-/// Of those in the long run: what they have to spare is also how fast the covariance comes between them.
-inline constexpr double kLongRunSlack = 0.012;
+/// Of those in the long run, where it is also how fast the covariance comes between them, and of those of a
+/// frequency that moves, which have to fit together at borders of cells.
+inline constexpr double kWideSlack = 0.012;
 
 /// A matrix of series at a place, from its lower triangle.
 inline MatrixXd matrix_at(const std::vector<PhaseSeries>& triangle, double phase, double z,
@@ -195,7 +196,7 @@ class FilterOrbit {
       of_high += change * updated_high_ * change.transpose();
       of_low += change * updated_low_ * change.transpose();
     }
-    const double slack = is_inside ? kLongRunSlack : kSlack;
+    const double slack = is_inside || slope_ != nullptr ? kWideSlack : kSlack;
     constexpr double kHigherOrders = 1.1;
     of_high *= kHigherOrders;
     of_low *= kHigherOrders;

@@ -41,7 +41,7 @@ class MovingSearch {
       proved.grid.phases = 1.0 - rate < kLittleRoom ? 64 : 32;
     }
     if (set.tubes.front().tube.bounds_covariance()) {
-      constexpr double kMargin = 0.0025;  // of the slack of the proposals, the rest is for the width of cells
+      constexpr double kMargin = 0.005;  // of the slack of the proposals; the rest is for the width of cells
       set.covariance_margin = kMargin;
     }
     slow_ = 1.0 - 0.05 * (1.0 - rate);

@@ -53,6 +53,7 @@ constexpr std::array kFamilies{
     Family{"chapter-4/narrow-band/4.9", la_scala_1994, sentence, "thesis, (4.9)"},
     Family{"chapter-4/narrow-band/", la_scala_1994, sentence, "thesis, (4.6)"},
     Family{"chapter-4/jacobian", la_scala_1994, sentence, "thesis, (4.19) to (4.24)"},
+    Family{"chapter-4/initial-estimate/", la_scala_1994, sentence, "thesis, section 4.5.2"},
     Family{"chapter-4/", la_scala_1994, sentence, "thesis, section 4.3"},
     Family{"chapter-5/example", la_scala_1994, sentence, "thesis, section 5.4, the examples"},
     Family{"chapter-5/", la_scala_1994, sentence, "thesis, section 5.4, EFRA"},

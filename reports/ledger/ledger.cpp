@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "analysis/dft_block/lock_claims.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/theorems/block_transform_claims.hpp"
 #include "analysis/theorems/regulator_claims.hpp"
@@ -130,6 +131,7 @@ std::vector<Row> collect() {
   }
   const rigor::UpwardRounding upward;
   collection.add(theorems::block_transform_claims());
+  collection.add(dft_block::lock_claims());
   collection.add(theorems::regulator_claims());
   return std::move(collection).rows();
 }

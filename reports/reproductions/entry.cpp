@@ -252,9 +252,9 @@ std::string too_few_runs(std::span<const Entry> entries, int runs) {
   return undecided == 0
              ? ""
              : fmt::format(
-                   "{} are too few for {} of the {} entries: two standard errors do not decide them. "
-                   "More seeds would.",
-                   counted(static_cast<std::size_t>(runs), "run", "runs"), undecided, entries.size());
+                   "{} too few for {} of the {} entries: two standard errors do not decide them. More seeds "
+                   "would.",
+                   counted(static_cast<std::size_t>(runs), "run is", "runs are"), undecided, entries.size());
 }
 
 }  // namespace veritrack::reports

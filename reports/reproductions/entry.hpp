@@ -112,6 +112,9 @@ struct Entry {
 /// "Of 12 entries 8 agree, 3 do not agree, 1 cannot be compared."
 [[nodiscard]] std::string count_sentence(std::span<const Entry> entries);
 
+/// In place of what a report concludes, when its runs are too few.
+inline constexpr const char* kNoConclusion = "So few runs allow no conclusion.\n\n";
+
 /// What so many runs are too few for, a sentence; empty when nothing is undecided.
 [[nodiscard]] std::string too_few_runs(std::span<const Entry> entries, int runs);
 

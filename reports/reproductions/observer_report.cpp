@@ -123,15 +123,11 @@ std::string observer_document(const std::vector<Entry>& entries, const ObserverP
   text += "**" + count_sentence(entries) + "** ";
   text += fmt::format(
       "The comparison of section V does not decide which observer is better: that depends on the tuning. "
-      "Tuned for this "
-      "signal, and to settle as fast ({:.1f} s against {:.1f} s), the adaptive observer errs {:.1f}, {:.1f} "
-      "and {:.1f} times "
-      "less than the new one at 10, 100 and 1000 rad/s; so it does where both are faster or slower. The "
-      "captions of Figures 7 "
-      "to 9 come out nearly (means within 3 %, deviations within 25 %) for gains so large that the estimate "
-      "does not settle. "
-      "The strength of the new observer is another one: it needs no tuning to the signal. The adaptive one, "
-      "tuned for amplitude 2 "
+      "Tuned for this signal, and to settle as fast ({:.1f} s against {:.1f} s), the adaptive observer errs "
+      "{:.1f}, {:.1f} and {:.1f} times less than the new one at 10, 100 and 1000 rad/s; so it does where "
+      "both are faster or slower. The captions of Figures 7 to 9 come out nearly (means within 3 %, "
+      "deviations within 25 %) for gains so large that the estimate does not settle. The strength of the new "
+      "observer is another one: it needs no tuning to the signal. The adaptive one, tuned for amplitude 2 "
       "and 3 rad/s, does not settle within 40 s for most other signals of the last table.\n\n",
       paper.hou.settling, paper.kkl.settling, paper.kkl.error[0] / paper.hou.error[0],
       paper.kkl.error[1] / paper.hou.error[1], paper.kkl.error[2] / paper.hou.error[2]);
@@ -141,29 +137,26 @@ std::string observer_document(const std::vector<Entry>& entries, const ObserverP
       "observer are in a work that was not at hand. For the captions: λ = {}, α = {}, γ = {}, {}, {}, "
       "started at {} rad/s, statistics from {:.1f} s on over 20 s; a search over all of these found it. As "
       "they are ours, a mean agrees within 3 %, a deviation within 25 %. *Better*: the smaller root mean "
-      "square error of the frequency "
-      "in steady state, for the paper's new observer (λ = 1, 2, 3, 4) and for the adaptive one with the "
-      "smallest errors at 10 and 100 rad/s that {} local searches (Sbplx) found among those that settle as "
-      "fast: within 2 % of 3 rad/s, undisturbed, started at 2 rad/s.\n\n{}",
+      "square error of the frequency in steady state, for the paper's new observer (λ = 1, 2, 3, 4) and for "
+      "the adaptive one with the smallest errors at 10 and 100 rad/s that {} local searches (Sbplx) found "
+      "among those that settle as fast: within 2 % of 3 rad/s, undisturbed, started at 2 rad/s.\n\n{}",
       setting.design.lambda, setting.design.alpha, setting.design.gains(0), setting.design.gains(1),
       setting.design.gains(2), setting.start, setting.from, starts, entry_table(entries));
   text +=
       "\n![Three panels: the estimate jumps about 3 rad/s](figures/figures-7-to-9.svg)\n\n*Figures 7 to 9 "
-      "with the parameters found: estimate (thin) and truth (broad grey), rad/s.*\n\n"
-      "## Both observers, tuned\n\nRoot mean square errors in steady state over two periods of the signal at "
-      "10 rad/s:\n\n" +
+      "with the parameters found: estimate (thin) and truth (broad grey), rad/s.*\n\n## Both observers, "
+      "tuned\n\nRoot mean square errors in steady state over two periods of the signal at 10 rad/s:\n\n" +
       pairs_table(pairs) +
       "\n![Three panels: the adaptive observer's points lie below the new observer's "
       "line](figures/comparison.svg)\n\n*Errors over the settling time, both logarithmic: the new observer "
-      "with all rates scaled (line), the adaptive "
-      "one as searched (squares).*\n\nThe adaptive observer that settles as fast as the paper's new one, for "
-      "other signals (started at 2 rad/s), and the new one:\n\n" +
+      "with all rates scaled (line), the adaptive one as searched (squares).*\n\nThe adaptive observer that "
+      "settles as fast as the paper's new one, for other signals (started at 2 rad/s), and the new one:\n\n" +
       other_signals_table(paper.design) +
       "\nSimulated with `trackers/kkl_observer` in double precision (classical Runge–Kutta steps of at most "
       "0.005 s and a twentieth of the disturbance's period; the new observer's filters exactly, for inputs "
-      "interpolated between samples; ℓ so small that μ vanishes). No noise, so no seeds: "
-      "`--seeds` is the number of starts of each search. A search proposes; what it finds is an example, "
-      "which suffices against \"better\", and would not for it. Simulations prove nothing.\n";
+      "interpolated between samples; ℓ so small that μ vanishes). No noise, so no seeds: `--seeds` is the "
+      "number of starts of each search. A search proposes; what it finds is an example, which suffices "
+      "against \"better\", and would not for it. Simulations prove nothing.\n";
   return text;
 }
 

@@ -4,29 +4,26 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "analysis/experiments/repeated_runs.hpp"
 #include "certificates/document/markdown_text.hpp"
-#include "reports/line_styles.hpp"
-#include "reports/reproductions/line_panels.hpp"
+#include "reports/reproductions/sonar_figures.hpp"
 #include "reports/reproductions/sonar_printed.hpp"
 
 namespace veritrack::reports {
 
 namespace {
 
+using namespace sonar;
 using experiments::SonarBlock;
 using experiments::SonarScores;
 using experiments::SonarStart;
 
 /// M v / c, bins; the first is that of the figures.
 constexpr std::array<double, 3> kDopplers{1.5, 1.0, 0.1};
-constexpr double kSet1Noise = 1.0;
 constexpr Conditions kDopplerSearched{
     Conditions::Kind::searched,
     "for none of three Doppler shifts, started by the initialisation or at the truth"};
@@ -113,165 +110,55 @@ std::string as_set_1_table(const std::array<SetStudy, 3>& studies) {
       {"Set", "Power, printed, dB²", "ours", "", "Frequency, printed, bins²", "ours", ""}, rows);
 }
 
-/// Median sums over the noise variance, and where the printed ones lie.
-Figure draw_noise_scan(const std::vector<SonarBlock>& pass, int runs) {
-  constexpr int kMostRuns = 60;
-  LinePanel frequency{"frequency", "sum [bins^2]", {}, "set logscale xy\nset yrange [0.001:10]\n"};
-  LinePanel power{"power", "sum [dB^2]", {}, "set logscale xy\nset yrange [1:10000]\n"};
-  constexpr std::array<const char*, 3> kStyles{"lines lw 2 lc rgb '#000000'",
-                                               "lines lw 2 dt '-' lc rgb '#000000'",
-                                               "lines lw 2 dt '.' lc rgb '#000000'"};
-  constexpr std::array<const char*, 3> kPoints{"points pt 6 ps 1.2 lw 1.5 lc rgb '#000000'",
-                                               "points pt 4 ps 1.2 lw 1.5 lc rgb '#000000'",
-                                               "points pt 8 ps 1.2 lw 1.5 lc rgb '#000000'"};
-  for (std::size_t i = 0; i < printed::kSonarSets.size(); ++i) {
-    const printed::SonarSet& set = printed::kSonarSets.at(i);
-    PanelLine offsets{fmt::format("design of set {}", i + 1), {}, {}, kStyles.at(i)};
-    PanelLine powers = offsets;
-    for (int step = -4; step <= 8; ++step) {
-      const double variance = std::pow(10.0, 0.25 * step);
-      const SonarScores scores =
-          sonar_scores(pass, variance, set.design, SonarStart::truth, std::min(runs, kMostRuns));
-      offsets.x.push_back(variance);
-      powers.x.push_back(variance);
-      offsets.y.push_back(experiments::quantile_of(scores.offset, 0.5));
-      powers.y.push_back(experiments::quantile_of(scores.power, 0.5));
-    }
-    frequency.lines.push_back(offsets);
-    frequency.lines.push_back({fmt::format("set {} as printed", i + 1),
-                               {set.noise_variance},
-                               {set.frequency.value()},
-                               kPoints.at(i)});
-    power.lines.push_back(powers);
-    power.lines.push_back(
-        {fmt::format("set {} as printed", i + 1), {set.noise_variance}, {set.power.value()}, kPoints.at(i)});
-  }
-  return draw_line_panels("noise.svg", "The sums of Table 4.2 over the noise variance",
-                          "noise variance of a sample", {frequency, power});
-}
-
-Figure draw_signals() {
-  constexpr int kShown = 200;
-  std::vector<LinePanel> panels;
-  std::vector<double> time(kShown);
-  for (int i = 0; i < kShown; ++i) {
-    time.at(static_cast<std::size_t>(i)) = 1000.0 * i / experiments::kSonarSamples;
-  }
-  for (std::size_t i = 0; i < printed::kSonarSets.size(); ++i) {
-    for (const int block : {0, experiments::kSonarBlocks / 2}) {
-      panels.push_back({fmt::format("Figure 4.{}: set {}, {} range", 4 + 3 * i, i + 1,
-                                    block == 0 ? "largest" : "smallest"),
-                        "signal units",
-                        {{"measured", time,
-                          experiments::sonar_samples(kDopplers[0], block, kShown,
-                                                     printed::kSonarSets.at(i).noise_variance, 1)},
-                         {"tone", time, experiments::sonar_samples(kDopplers[0], block, kShown, 0.0, 1),
-                          "lines lw 2 lc rgb '#aaaaaa'"}},
-                        "set xrange [0:100]\n"});
-    }
-  }
-  return draw_line_panels("measured.svg", "What is measured, at the largest and at the smallest range",
-                          "time [ms]", panels);
-}
-
-/// Estimates and errors of one run, at the printed noise and at that of set 1.
-Figure draw_estimates(std::size_t number, const std::vector<SonarBlock>& pass) {
-  const printed::SonarSet& set = printed::kSonarSets.at(number);
-  std::vector<double> blocks(pass.size());
-  std::iota(blocks.begin(), blocks.end(), 1.0);
-  std::vector<double> offset;
-  std::vector<double> power;
-  for (const SonarBlock& block : pass) {
-    offset.push_back(block.offset);
-    power.push_back(20.0 * std::log10(block.amplitude));
-  }
-  const auto errors = [](std::vector<double> estimate, const std::vector<double>& truth) {
-    std::transform(estimate.begin(), estimate.end(), truth.begin(), estimate.begin(), std::minus<>());
-    return estimate;
-  };
-  const auto run = [&](double noise) {
-    return experiments::sonar_run(pass, noise, set.design, SonarStart::initialisation, 1);
-  };
-  std::vector<std::pair<std::string, experiments::SonarRun>> runs{{"printed noise", run(set.noise_variance)}};
-  if (set.noise_variance != kSet1Noise) {
-    runs.emplace_back("noise of set 1", run(kSet1Noise));
-  }
-  constexpr std::array<const char*, 2> kStyles{"lines lw 1.2 lc rgb '#000000'",
-                                               "lines lw 1.2 dt '.' lc rgb '#000000'"};
-  const std::string truth_style = std::string("lines ") + line::kSignal;
-  std::vector<LinePanel> panels{
-      {fmt::format("Figure 4.{}: offset", 5 + 3 * number),
-       "bins",
-       {{"truth", blocks, offset, truth_style}},
-       "set yrange [-2.5:2.5]\n"},
-      {fmt::format("Figure 4.{}: power", 5 + 3 * number),
-       "dB",
-       {{"truth", blocks, power, truth_style}},
-       "set yrange [-20:5]\n"},
-      {fmt::format("Figure 4.{}: error of the offset", 6 + 3 * number),
-       "bins",
-       {},
-       "set yrange [-0.1:0.1]\n"},
-      {fmt::format("Figure 4.{}: error of the power", 6 + 3 * number), "dB", {}, "set yrange [-3:3]\n"}};
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const auto& [words, each] = runs[i];
-    panels[0].lines.push_back({words, blocks, each.offset, kStyles.at(i)});
-    panels[1].lines.push_back({words, blocks, each.power, kStyles.at(i)});
-    panels[2].lines.push_back({words, blocks, errors(each.offset, offset), kStyles.at(i)});
-    panels[3].lines.push_back({words, blocks, errors(each.power, power), kStyles.at(i)});
-  }
-  return draw_line_panels(fmt::format("set-{}.svg", number + 1),
-                          fmt::format("Set {}: estimates and their errors", number + 1), "block", panels);
-}
-
 std::string document(const std::vector<Entry>& entries, const std::array<SetStudy, 3>& studies, int runs) {
   std::string text = "# Chapter 4 of La Scala's thesis: the tracker of weak tones by blocks\n\n";
   const std::string warning = too_few_runs(entries, runs);
   text += warning.empty() ? "" : "*" + warning + "*\n\n";
   text += "**" + count_sentence(entries) + "** ";
-  text += fmt::format(
-      "Set 1 comes out as printed. Sets 2 and 3 do not, for any Doppler shift, even when the filter starts "
-      "at the truth: at the signal-to-noise ratios of "
-      "Table 4.1 the frequency sum of set 2 is about eight times the printed one, and in set 3 the filter "
-      "loses the tone in nearly every run. They come out "
-      "under one condition: that the noise variance was 1, as in set 1, in all three (the table after next). "
-      "Then the signal-to-noise ratios were −10 to 0 dB in all three, and "
-      "the last sentence of section 4.5.3, accuracy at very low ratios, rests on set 1 alone. In set 2, {} "
-      "of the starts of (4.35) are within half a bin, in "
-      "set 3 {}: the initialisation is the weak point, as the thesis says.\n\n",
-      percent(studies[1].scores[0][0].good_start), percent(studies[2].scores[0][0].good_start));
+  text +=
+      !warning.empty()
+          ? std::string(kNoConclusion)
+          : fmt::format(
+                "Set 1 comes out as printed. Sets 2 and 3 do not, for any Doppler shift, even when the "
+                "filter starts at the truth: at the signal-to-noise ratios of Table 4.1 the frequency sum of "
+                "set 2 is about eight times the printed one, and in set 3 the filter loses the tone in "
+                "nearly every run. They come out under one condition: that the noise variance was 1, as in "
+                "set 1, in all three (the table after next). Then the signal-to-noise ratios were −10 to 0 "
+                "dB in all three, and the last sentence of section 4.5.3, accuracy at very low ratios, rests "
+                "on set 1 alone. In set 2, {} of the starts of (4.35) are within half a bin, in set 3 {}: "
+                "the initialisation is the weak point, as the thesis says.\n\n",
+                percent(studies[1].scores[0][0].good_start), percent(studies[2].scores[0][0].good_start));
   text += fmt::format(
       "## Printed and ours\n\nThe thesis has one run of each set. A number agrees when it lies among those "
-      "of our {} runs (at most 2.5 % beyond it on either side) for one of three Doppler "
-      "shifts and one of two starts; *ours* is the range of 95 % of the runs, and their median, of the "
-      "choice that comes out, or of the first.\n\n{}",
+      "of our {} runs (at most 2.5 % beyond it on either side) for one of three Doppler shifts and one of "
+      "two starts; *ours* is the range of 95 % of the runs, and their median, of the choice that comes out, "
+      "or of the first.\n\n{}",
       runs, entry_table(entries));
   text +=
       "\n## All three sets with the noise of set 1\n\nMedian (2.5 % to 97.5 % of the runs), offset ±1.42 "
       "bins, started by the initialisation:\n\n" +
       as_set_1_table(studies) +
       "\n![Two panels: sums over the noise variance; the printed ones of sets 2 and 3 lie far "
-      "below](figures/noise.svg)\n\n*Median sum of squared errors over the "
-      "noise variance, for the three designs of Table 4.2, started at the truth; points: the sums as "
-      "printed, at the variances of Table 4.1.*\n\n## All choices\n\nWith the noise of Table 4.1. "
-      "Median (2.5 % to 97.5 % of the runs); good starts: the offset of (4.35) is within half a bin.\n\n" +
+      "below](figures/noise.svg)\n\n*Median sum of squared errors over the noise variance, for the three "
+      "designs of Table 4.2, started at the truth; points: the sums as printed, at the variances of Table "
+      "4.1.*\n\n## All choices\n\nWith the noise of Table 4.1. Median (2.5 % to 97.5 % of the runs); good "
+      "starts: the offset of (4.35) is within half a bin.\n\n" +
       all_choices_table(studies) +
       "\n## The figures\n\n![Six panels: noise, and in it a tone](figures/measured.svg)\n\n*Figures 4.4, 4.7 "
-      "and 4.10: 0.1 s of what is measured (black), and the tone in it (grey), signal "
-      "units.*\n\n![Estimates and errors for set 1](figures/set-1.svg)\n\n*Figures 4.5 and 4.6: set 1, seed "
-      "1, started by the initialisation: offset (bins) and power (dB) "
-      "with the truth (broad grey), and their errors.*\n\n![Estimates and errors for set "
-      "2](figures/set-2.svg)\n\n*Figures 4.8 and 4.9: set 2, at the noise of Table 4.1 (solid) and of set 1 "
-      "(dotted).*\n\n![Estimates and errors for set 3](figures/set-3.svg)\n\n*Figures 4.11 and 4.12: set 3, "
-      "the same.*\n\n## Setting\n\n"
-      "T = 2048 samples a second, 400 blocks of a second, M = 300, L = 2. A straight pass with the range √(1 "
-      "+ (vτ)²), the amplitude 1/range, both ends 10 dB down; received at t is what was sent at "
-      "τ, τ + range/c = t. The Doppler shift Mv/c is unpublished: three are tried, symmetric about bin M. "
-      "P(1|0) = Q, unpublished too. The bins of the tone come from its samples "
-      "by (4.4); the noise of the bins is drawn directly (variance σ²/(2T) in each real and imaginary part). "
-      "`trackers/dft_block` in double precision; seeds from 1 on, 64-bit Mersenne twister, "
-      "Karney's normal deviates. Power: 10 log10 of the squared amplitude. Sums over the 400 blocks, of "
-      "x(k|k), with the offset's mean over the block as truth. Simulations prove nothing.\n";
+      "and 4.10: 0.1 s of what is measured (black), and the tone in it (grey), signal units.*\n\n![Estimates "
+      "and errors for set 1](figures/set-1.svg)\n\n*Figures 4.5 and 4.6: set 1, seed 1, started by the "
+      "initialisation: offset (bins) and power (dB) with the truth (broad grey), and their "
+      "errors.*\n\n![Estimates and errors for set 2](figures/set-2.svg)\n\n*Figures 4.8 and 4.9: set 2, at "
+      "the noise of Table 4.1 (solid) and of set 1 (dotted).*\n\n![Estimates and errors for set "
+      "3](figures/set-3.svg)\n\n*Figures 4.11 and 4.12: set 3, the same.*\n\n## Setting\n\nT = 2048 samples "
+      "a second, 400 blocks of a second, M = 300, L = 2. A straight pass with the range √(1 + (vτ)²), the "
+      "amplitude 1/range, both ends 10 dB down; received at t is what was sent at τ, τ + range/c = t. The "
+      "Doppler shift Mv/c is unpublished: three are tried, symmetric about bin M. P(1|0) = Q, unpublished "
+      "too. The bins of the tone come from its samples by (4.4); the noise of the bins is drawn directly "
+      "(variance σ²/(2T) in each real and imaginary part). `trackers/dft_block` in double precision; seeds "
+      "from 1 on, 64-bit Mersenne twister, Karney's normal deviates. Power: 10 log10 of the squared "
+      "amplitude. Sums over the 400 blocks, of x(k|k), with the offset's mean over the block as truth. "
+      "Simulations prove nothing.\n";
   return text;
 }
 
@@ -301,8 +188,8 @@ Findings reproduce_tables_4(int runs, const ReproductionProgress& progress) {
     }
   }
   result.markdown = document(result.entries, studies, runs);
-  result.figures = {draw_noise_scan(passes[0], runs), draw_signals(), draw_estimates(0, passes[0]),
-                    draw_estimates(1, passes[0]), draw_estimates(2, passes[0])};
+  result.figures = {draw_noise_scan(passes[0], runs), draw_signals(kDopplers[0]),
+                    draw_estimates(0, passes[0]), draw_estimates(1, passes[0]), draw_estimates(2, passes[0])};
   return result;
 }
 

@@ -130,39 +130,34 @@ std::string table_1_document(const std::vector<Entry>& entries, const std::array
   text += warning.empty() ? "" : "*" + warning + "*\n\n";
   text += "**" + count_sentence(entries) + "** ";
   const auto mean = [](const Sums& sums) { return experiments::summary_of(sums).mean; };
-  text += fmt::format(
-      "For one signal that fits what is known of the paper's, the column \"EKF, actual\" comes out at 17, 13 "
-      "and "
-      "10 dB, mean and deviation, and at 7 dB, too, the tracker loses lock in a part of the runs. With it "
-      "comes "
-      "\"EKF, best\" at 17 dB: it is the design of Figure 5. With that design's rule at the other noise "
-      "levels (r "
-      "five times the noise variance) the means are {:.3f}, {:.3f} and {:.3f} where {}, {} and {} are "
-      "printed. The "
-      "column \"notch, best\" cannot be compared: neither that filter nor its parameters are printed. The "
-      "order of "
-      "the two columns does not survive a search: *without leak* an EKF has {:.3f} at 17 dB, a third of what "
-      "is "
-      "printed as best, and a notch filter {:.3f}. What the table compares is the tuning, more than the "
-      "filters.\n\n",
-      mean(points[0][1].good), mean(points[0][2].good), mean(points[0][3].good),
-      printed::kTable1[1].best.mean.text, printed::kTable1[2].best.mean.text,
-      printed::kTable1[3].best.mean.text, mean(points[0][0].best), mean(points[0][0].quadrature_notch));
+  text += !warning.empty()
+              ? std::string(kNoConclusion)
+              : fmt::format(
+                    "For one signal that fits what is known of the paper's, the column \"EKF, actual\" comes "
+                    "out at 17, 13 and 10 dB, mean and deviation, and at 7 dB, too, the tracker loses lock "
+                    "in a part of the runs. With it comes \"EKF, best\" at 17 dB: it is the design of Figure "
+                    "5. With that design's rule at the other noise levels (r five times the noise variance) "
+                    "the means are {:.3f}, {:.3f} and {:.3f} where {}, {} and {} are printed. The column "
+                    "\"notch, best\" cannot be compared: neither that filter nor its parameters are printed. "
+                    "The order of the two columns does not survive a search: *without leak* an EKF has "
+                    "{:.3f} at 17 dB, a third of what is printed as best, and a notch filter {:.3f}. What "
+                    "the table compares is the tuning, more than the filters.\n\n",
+                    mean(points[0][1].good), mean(points[0][2].good), mean(points[0][3].good),
+                    printed::kTable1[1].best.mean.text, printed::kTable1[2].best.mean.text,
+                    printed::kTable1[3].best.mean.text, mean(points[0][0].best),
+                    mean(points[0][0].quadrature_notch));
   text += fmt::format(
       "## Printed and ours\n\n{} runs an entry, for the fitted signal (below); ± is the standard error. "
-      "\"Actual\": q = 0.0005, ε = "
-      "0.05, r the noise variance of a channel, 0.5 · 10^(−SNR/10). \"EKF, best\" is compared with q = "
-      "0.0023, ε = 0.01, r = "
-      "5 times the noise variance (Figure 5 at 17 dB), \"notch, best\" with the best that a search finds for "
-      "the filter "
-      "of both channels. Start: frequency off by up to 20 %, uniformly. As the signal is ours, a mean agrees "
-      "within {:.0f} %, a deviation within {:.0f} %, or two standard errors.\n\n{}",
+      "\"Actual\": q = 0.0005, ε = 0.05, r the noise variance of a channel, 0.5 · 10^(−SNR/10). \"EKF, "
+      "best\" is compared with q = 0.0023, ε = 0.01, r = 5 times the noise variance (Figure 5 at 17 dB), "
+      "\"notch, best\" with the best that a search finds for the filter of both channels. Start: frequency "
+      "off by up to 20 %, uniformly. As the signal is ours, a mean agrees within {:.0f} %, a deviation "
+      "within {:.0f} %, or two standard errors.\n\n{}",
       runs, kMeanTolerance * 100.0, kDeviationTolerance * 100.0, entry_table(entries));
   text +=
       "\n## Both signals, and the best of a search\n\nMean / standard deviation over the runs, "
-      "(rad/sample)². Searched: q, ε and r, "
-      "or ρ, μ and p, for the smallest mean over at most 200 of the runs (Sbplx of NLopt; it is a local "
-      "search, so that better ones may exist).\n\n" +
+      "(rad/sample)². Searched: q, ε and r, or ρ, μ and p, for the smallest mean over at most 200 of the "
+      "runs (Sbplx of NLopt; it is a local search, so that better ones may exist).\n\n" +
       both_signals_table(points) + "\nThe designs found, for the fitted signal:\n\n" +
       designs_table(points[0]) +
       "\nThe searches take the leak to zero: no leak is as good as none. The notch filters are derived anew "

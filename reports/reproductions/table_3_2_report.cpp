@@ -147,20 +147,19 @@ std::string table_3_2_document(const std::vector<Entry>& entries, const std::arr
   const auto median = [](const Figure31& each) { return experiments::quantile_of(best_q(each), 0.5); };
   text +=
       "**" + count_sentence(entries) + "** " +
-      fmt::format(
-          "For one signal that fits what is known of the thesis's, each of the four printed numbers lies "
-          "among those "
-          "of our runs, and the best q of Figure 3.1 is {:.4f} in the median (printed: 0.0065). The order of "
-          "the "
-          "four designs and the reason for it hold for both of our signals: the leak 0.05 keeps the estimate "
-          "below the frequency, and most of the sum is this bias, not noise. That is why a leak of 0.01 "
-          "gains a factor of five.\n\n",
-          median(studies[0].figure));
+      (!warning.empty()
+           ? std::string(kNoConclusion)
+           : fmt::format(
+                 "For one signal that fits what is known of the thesis's, each of the four printed numbers "
+                 "lies among those of our runs, and the best q of Figure 3.1 is {:.4f} in the median "
+                 "(printed: 0.0065). The order of the four designs and the reason for it hold for both of "
+                 "our signals: the leak 0.05 keeps the estimate below the frequency, and most of the sum is "
+                 "this bias, not noise. That is why a leak of 0.01 gains a factor of five.\n\n",
+                 median(studies[0].figure)));
   text += fmt::format(
       "## Printed and ours\n\nThe thesis has one run of each, so that a number agrees when it lies among the "
-      "numbers of our "
-      "runs (2.5 % of them may lie beyond it on either side); *ours* is the range of 95 % of {} runs of the "
-      "fitted signal (below), and their median.\n\n{}",
+      "numbers of our runs (2.5 % of them may lie beyond it on either side); *ours* is the range of 95 % of "
+      "{} runs of the fitted signal (below), and their median.\n\n{}",
       runs, entry_table(entries));
   text +=
       "\nMean / standard deviation of the sum, (rad/sample)²:\n\n" +
@@ -168,11 +167,10 @@ std::string table_3_2_document(const std::vector<Entry>& entries, const std::arr
           {"Figure", "q", "ε", "r", "Printed", "Fitted signal", "the same without noise", "Stand-in"}, rows);
   text +=
       "\n![The sum of squared errors over q, least near the printed best](figures/figure-3.1.svg)\n\n*Figure "
-      "3.1: mean over the runs of the "
-      "sum of squared errors, (rad/sample)², over q (rad/sample)², logarithmic.*\n\n![Four panels: the "
-      "estimate falls behind, and then does not](figures/figures-3.2-to-3.5.svg)\n\n"
-      "*Figures 3.2 to 3.5: the fitted signal (broad grey) and the estimate x3(k|k) (thin black), seed 1, "
-      "rad/sample.*\n\n";
+      "3.1: mean over the runs of the sum of squared errors, (rad/sample)², over q (rad/sample)², "
+      "logarithmic.*\n\n![Four panels: the estimate falls behind, and then does "
+      "not](figures/figures-3.2-to-3.5.svg)\n\n*Figures 3.2 to 3.5: the fitted signal (broad grey) and the "
+      "estimate x3(k|k) (thin black), seed 1, rad/sample.*\n\n";
   return text + kSignalText;
 }
 

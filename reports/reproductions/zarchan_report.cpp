@@ -29,6 +29,7 @@ constexpr double kSignalRight = 0.75;    // signal units (per s): below the nois
 constexpr double kFiveSeconds = 5.0;
 constexpr double kRoughlyRight = 0.5;  // (rad/s)^2, from 5 s on
 constexpr double kTheory = 0.6827;     // of normal errors within one deviation
+constexpr int kEnough = 100;           // runs, for the sentences at the top
 constexpr double kTheoryAllowed = 0.1;
 
 bool seen(const ZarchanRun& run, const ZarchanExperiment& experiment, ZarchanLook look) {
@@ -150,50 +151,45 @@ std::string document(const std::vector<Entry>& entries, int runs) {
         ->ours;
   };
   text += "**" + count_sentence(entries) + "** ";
-  text += fmt::format(
-      "The slides show a run of each experiment and conclude from it. Over many runs: (1) That the filter "
-      "with phase, frequency "
-      "and amplitude works only when the sign of the first frequency is right is not so: from the wrong sign "
-      "it finds the frequency in {}, "
-      "and from the right one in {}. A tenth of the noise makes it worse, as the slides say: {} fail. (2) "
-      "With the amplitude known it works, "
-      "and with a tenth of the noise always, as they say. (3) The filters with x and its derivative find the "
-      "magnitude of the frequency "
-      "and the signal from either sign, as they say. (4) Their errors do not quite agree with theory: the "
-      "error of ω is within the deviation "
-      "that the filter computes in {}, that of ω² in {}, where theory has 68 %: both filters trust "
-      "themselves too much. (5) The first two "
-      "listings print an interval of 1 s; with it, the first filter finds the frequency from the right sign "
-      "in "
-      "{}, and the second from the wrong one in {}. With 0.1 s, as in the other listings, what the slides "
-      "show "
-      "comes out.\n\n",
-      ours("zarchan/phase/only-with-the-right-sign"), ours("zarchan/phase/positive-from-positive/frequency"),
-      ours("zarchan/phase/reduced-noise/frequency"), ours("zarchan/oscillator/theory/frequency"),
-      ours("zarchan/square/theory/square"), ours("zarchan/phase/printed-interval"),
-      ours("zarchan/known-amplitude/printed-interval"));
+  text += runs < kEnough
+              ? std::string(kNoConclusion)
+              : fmt::format(
+                    "The slides show a run of each experiment and conclude from it. Over many runs: (1) That "
+                    "the filter with phase, frequency and amplitude works only when the sign of the first "
+                    "frequency is right is not so: from the wrong sign it finds the frequency in {}, and "
+                    "from the right one in {}. A tenth of the noise makes it worse, as the slides say: {} "
+                    "fail. (2) With the amplitude known it works, and with a tenth of the noise always, as "
+                    "they say. (3) The filters with x and its derivative find the magnitude of the frequency "
+                    "and the signal from either sign, as they say. (4) Their errors do not quite agree with "
+                    "theory: the error of ω is within the deviation that the filter computes in {}, that of "
+                    "ω² in {}, where theory has 68 %: both filters trust themselves too much. (5) The first "
+                    "two listings print an interval of 1 s; with it, the first filter finds the frequency "
+                    "from the right sign in {}, and the second from the wrong one in {}. With 0.1 s, as in "
+                    "the other listings, what the slides show comes out.\n\n",
+                    ours("zarchan/phase/only-with-the-right-sign"),
+                    ours("zarchan/phase/positive-from-positive/frequency"),
+                    ours("zarchan/phase/reduced-noise/frequency"),
+                    ours("zarchan/oscillator/theory/frequency"), ours("zarchan/square/theory/square"),
+                    ours("zarchan/phase/printed-interval"), ours("zarchan/known-amplitude/printed-interval"));
   text += fmt::format(
       "## Printed and ours\n\n{} runs an experiment (seeds from 1 on; 64-bit Mersenne twister, Karney's "
-      "normal deviates), with the filters of "
-      "`trackers/zarchan` in double precision: sin(ωt), t up to 20 s, noise of deviation 1, TS = 0.1 s, "
-      "starts and P(0) as in the listings. "
-      "Ours: the share of the runs in which it happened. What is said to happen agrees when it does in more "
-      "than half of the runs, and *all the time* "
-      "when it does in every run; what a slide only says of its own run, when at least 2.5 % of ours do it. "
-      "*Right*, or found: within {} rad/s (ω² within {} "
-      "(rad/s)²) in all of the last 5 s; the amplitude within {}, x and its derivative within {}, after 5 s: "
-      "ω² within {}. With theory agrees what is within one "
-      "computed deviation at 20 s in 68 % of the runs, to ten points. These thresholds are ours. Simulations "
-      "prove nothing.\n\n{}",
+      "normal deviates), with the filters of `trackers/zarchan` in double precision: sin(ωt), t up to 20 s, "
+      "noise of deviation 1, TS = 0.1 s, starts and P(0) as in the listings. Ours: the share of the runs in "
+      "which it happened. What is said to happen agrees when it does in more than half of the runs, and *all "
+      "the time* when it does in every run; what a slide only says of its own run, when at least 2.5 % of "
+      "ours do it. *Right*, or found: within {} rad/s (ω² within {} (rad/s)²) in all of the last 5 s; the "
+      "amplitude within {}, x and its derivative within {}, after 5 s: ω² within {}. With theory agrees what "
+      "is within one computed deviation at 20 s in 68 % of the runs, to ten points. These thresholds are "
+      "ours. Simulations prove nothing.\n\n{}",
       runs, kFrequencyRight, kFrequencyRight, kAmplitudeRight, kSignalRight, kRoughlyRight,
       entry_table(entries));
   text +=
       "\n![Four panels: the share of runs with the right frequency rises over "
-      "time](figures/right-frequency.svg)\n\n*Share of the runs whose "
-      "frequency (square of the frequency in the last panel) is right at that time, in percent: from the "
-      "right sign (solid), from the wrong one (dashed), with a tenth of the noise "
-      "(grey).*\n\n## Process noise\n\nThe slides do not print the Φ_s of their experiment with process "
-      "noise. The filter with phase, frequency and amplitude, ω = 1 from ω̂ = −2:\n\n" +
+      "time](figures/right-frequency.svg)\n\n*Share of the runs whose frequency (square of the frequency in "
+      "the last panel) is right at that time, in percent: from the right sign (solid), from the wrong one "
+      "(dashed), with a tenth of the noise (grey).*\n\n## Process noise\n\nThe slides do not print the Φ_s "
+      "of their experiment with process noise. The filter with phase, frequency and amplitude, ω = 1 from ω̂ "
+      "= −2:\n\n" +
       process_noise_table(runs) + "\nA little helps a little, and none makes it work.\n";
   return text;
 }

@@ -109,7 +109,7 @@ class _Cluster:
     def close(self) -> None:
         self._drop_client()
         if self._cluster is not None:
-            self._cluster.close(timeout=5)
+            self._cluster.close(timeout=60)
 
 
 def _batches(spec: Spec, store: Store, program: str, again: bool, size: Callable[[], int],

@@ -120,26 +120,28 @@ class PieceSearch {
   /// As large as can be verified; the others need not be larger.
   [[nodiscard]] std::optional<SteadySet> largest_set(const Cells& part, double known) {
     fit_to(part);
-    request_.*which_ = 0.0;
-    auto limit = propose_steady_limit(request_, which_, kTarget);
-    if (!limit) {
-      return std::nullopt;
-    }
-    const double most = size_ > 0.0 ? std::min(size_, limit->size) : limit->size;
-    const rigor::Matrix<3> metric = limit->metric;
-    for (const double share : {1.0, 0.95, 0.9, 0.85, 0.8, 0.7}) {
-      const double size = share * most;
-      if (!(size > known)) {
-        return std::nullopt;
+    for (const double target : {kTarget, 0.96, 0.93, 0.9}) {
+      request_.*which_ = 0.0;
+      auto limit = propose_steady_limit(request_, which_, target);
+      if (!limit) {
+        continue;
       }
-      request_.*which_ = size;
-      if (which_ == &SteadyRequest::radius) {
-        limit->metric = metric * (limit->size / size);
-      }
-      if (auto set = verified(part, *limit)) {
-        size_ = size;
-        point_ = limit->point;
-        return set;
+      const double most = size_ > 0.0 ? std::min(size_, limit->size) : limit->size;
+      const rigor::Matrix<3> metric = limit->metric;
+      for (const double share : {1.0, 0.97, 0.94, 0.91, 0.88}) {
+        const double size = share * most;
+        if (!(size > known)) {
+          return std::nullopt;
+        }
+        request_.*which_ = size;
+        if (which_ == &SteadyRequest::radius) {
+          limit->metric = metric * (limit->size / size);
+        }
+        if (auto set = verified(part, *limit)) {
+          size_ = size;
+          point_ = limit->point;
+          return set;
+        }
       }
     }
     return std::nullopt;
@@ -158,10 +160,14 @@ class PieceSearch {
 std::vector<SteadyPiece> search_steady_pieces(const sets::ContractionQuestion& question,
                                               const sets::LockBranch& branch, double SteadyRequest::*size,
                                               double known) {
-  if (branch.cells.empty()) {
+  // The narrowest pieces are a cell wide.
+  constexpr double kCellWidth = 0.05;  // rad/sample
+  const sets::LockBranch narrow =
+      sets::verify_lock_branch(question.design, branch.band, {.largest = kCellWidth});
+  if (narrow.verdict != Verdict::proved || narrow.cells.empty()) {
     return {};
   }
-  return PieceSearch(question, branch.cells, size).cover(known);
+  return PieceSearch(question, narrow.cells, size).cover(known);
 }
 
 }  // namespace veritrack::quadrature

@@ -17,9 +17,9 @@ struct SteadyPiece {
 };
 
 /// Verified sets of one level, without slew, over pieces that follow each other and cover the branch, in its
-/// order: for as much noise as one of them can take, or, with `size` the radius, for the noise of the question
-/// and frequency errors as large as one of them can hold. Empty when no such sets are found, or none larger
-/// than `known`. The branch must be PROVED. Opens its own rounding scopes; deterministic.
+/// order: for as much noise as one of them can take, or, with `size` the radius, for the noise of the
+/// question and frequency errors as large as one of them can hold. Empty when no such sets are found, or none
+/// larger than `known`. The branch must be PROVED. Opens its own rounding scopes; deterministic.
 [[nodiscard]] std::vector<SteadyPiece> search_steady_pieces(const sets::ContractionQuestion& question,
                                                             const sets::LockBranch& branch,
                                                             double SteadyRequest::*size, double known);

@@ -11,23 +11,23 @@ namespace veritrack::checker {
 namespace {
 
 /// The frequencies of a piece, exact.
-struct Ends {
+struct PieceEnds {
   Ball from, to;
 };
 
-std::optional<Ends> ends_of(const Tree& item) {
+std::optional<PieceEnds> ends_of(const Tree& item) {
   const Tree& numbers = item.at("numbers");
   const Tree* from = numbers.find("from");
   const Tree* to = numbers.find("to");
   if (from == nullptr && to == nullptr) {
     return std::nullopt;
   }
-  return Ends{exact_number(numbers.at("from")), exact_number(numbers.at("to"))};
+  return PieceEnds{exact_number(numbers.at("from")), exact_number(numbers.at("to"))};
 }
 
 /// The pieces follow each other from the lowest frequency to the highest, each beginning where the one before
 /// ends or sooner: what they cover has no gap.
-bool cover_band(const std::vector<Ends>& ends, const Design& design) {
+bool cover_band(const std::vector<PieceEnds>& ends, const Design& design) {
   bool cover = !ends.empty() && certainly_at_most(ends.front().from, design.lowest_frequency) &&
                certainly_at_most(design.highest_frequency, ends.back().to);
   for (std::size_t k = 0; k < ends.size(); ++k) {
@@ -54,7 +54,7 @@ bool is_for_a_purpose(const Tree& name) {
 }
 
 /// Several pieces: what one set alone need not satisfy.
-bool verify_pieces(const SteadyPieces& cover, const std::vector<Ends>& ends, const Design& design,
+bool verify_pieces(const SteadyPieces& cover, const std::vector<PieceEnds>& ends, const Design& design,
                    Objections& objections) {
   bool verified = cover.verified;
   if (!cover_band(ends, design)) {
@@ -89,7 +89,7 @@ std::vector<SteadyPieces> check_steady_piecess(const Tree& evidence, const Desig
                                                const SteadyBranches& branches, std::int64_t& cells,
                                                Objections& objections) {
   std::vector<SteadyPieces> covers;
-  std::vector<Ends> ends;  // of the pieces of the last cover; none when it is one set for the whole band
+  std::vector<PieceEnds> ends;  // of the pieces of the last cover; none when it is one set for the whole band
   const auto finish = [&] {
     if (!covers.empty() && !ends.empty()) {
       covers.back().verified = verify_pieces(covers.back(), ends, design, objections);
@@ -105,7 +105,7 @@ std::vector<SteadyPieces> check_steady_piecess(const Tree& evidence, const Desig
       objections.emplace_back("no set is for this purpose");
       continue;
     }
-    const std::optional<Ends> piece = ends_of(item);
+    const std::optional<PieceEnds> piece = ends_of(item);
     if (!piece || ends.empty() || !name.is(covers.back().name)) {
       finish();
       covers.push_back({name.text(), {}, true});

@@ -14,18 +14,18 @@ using namespace veritrack::checker;
 namespace {
 
 // The band is [0.02, 0.0201] rad/sample.
-const std::string kLow = "0x1.47ae147ae147ap-6";     // the double below 0.02
-const std::string kMiddle = "0x1.4880000000000p-6";  // about 0.02005
-const std::string kHigh = "0x1.495182a9930bfp-6";    // a double above 0.0201
+const std::string kLowEnd = "0x1.47ae147ae147ap-6";     // the double below 0.02
+const std::string kSharedEnd = "0x1.4880000000000p-6";  // about 0.02005
+const std::string kHighEnd = "0x1.495182a9930bfp-6";    // a double above 0.0201
 
-struct Piece {
-  std::string from = kLow, to = kHigh;
+struct WrittenPiece {
+  std::string from = kLowEnd, to = kHighEnd;
   std::string name = "frequency-error-radius";
   std::string noise = "0x1.0624dd2f1a9fcp-10";
   std::string slew = "0x0p+0";
 };
 
-std::string evidence_of(const Piece& piece) {
+std::string evidence_of_piece(const WrittenPiece& piece) {
   std::string text = R"({"name": ")" + piece.name + R"(", "matrices": {
     "metric": [["0x1.26f60fcf42f99p+3", "-0x1.4474904eb833fp-4", "0x1.314e15e4258c8p-2"],
                ["0x0p+0", "0x1.72f8404d79878p+2", "-0x1.35c7f87585c5fp+1"],
@@ -47,7 +47,7 @@ std::string evidence_of(const Piece& piece) {
   return text + "}}";
 }
 
-Design the_design() {
+Design design_in_pieces() {
   Design design;
   design.amplitude = one;
   design.q1 = design.q2 = Ball(0.0013);
@@ -60,7 +60,7 @@ Design the_design() {
   return design;
 }
 
-struct Checked {
+struct CheckedPieces {
   std::vector<SteadyPieces> covers;
   Objections objections;
   [[nodiscard]] bool refused(const std::string& why) const {
@@ -69,30 +69,31 @@ struct Checked {
   }
 };
 
-Checked check(const std::vector<Piece>& pieces) {
-  static const auto branch = steady_branch(the_design(), 0.3, 1e-4);
+CheckedPieces check_pieces(const std::vector<WrittenPiece>& pieces) {
+  static const auto branch = steady_branch(design_in_pieces(), 0.3, 1e-4);
   REQUIRE(branch.has_value());
   std::string text;
-  for (const Piece& piece : pieces) {
-    text += (text.empty() ? "[" : ", ") + evidence_of(piece);
+  for (const WrittenPiece& piece : pieces) {
+    text += (text.empty() ? "[" : ", ") + evidence_of_piece(piece);
   }
   const Tree evidence = read_json(text + "]");
-  Checked result;
+  CheckedPieces result;
   std::int64_t cells = 0;
-  result.covers = check_steady_piecess(evidence, the_design(), {*branch, *branch}, cells, result.objections);
+  result.covers =
+      check_steady_piecess(evidence, design_in_pieces(), {*branch, *branch}, cells, result.objections);
   return result;
 }
 
 }  // namespace
 
 TEST_CASE("pieces that share an end, or overlap, are one cover; a set without ends is one, too") {
-  std::vector<Piece> pieces(2);
+  std::vector<WrittenPiece> pieces(2);
   SUBCASE("a shared end") {
-    pieces[0].to = pieces[1].from = kMiddle;
+    pieces[0].to = pieces[1].from = kSharedEnd;
   }
   SUBCASE("an overlap") {
-    pieces[0].to = kHigh;
-    pieces[1].from = kMiddle;
+    pieces[0].to = kHighEnd;
+    pieces[1].from = kSharedEnd;
   }
   SUBCASE("one piece that is all of it") {
     pieces.resize(1);
@@ -102,7 +103,7 @@ TEST_CASE("pieces that share an end, or overlap, are one cover; a set without en
     pieces[0].from.clear();
     pieces[0].to.clear();
   }
-  const Checked checked = check(pieces);
+  const CheckedPieces checked = check_pieces(pieces);
   CHECK(checked.objections.empty());
   REQUIRE(checked.covers.size() == 1);
   CHECK(checked.covers[0].verified);
@@ -110,17 +111,17 @@ TEST_CASE("pieces that share an end, or overlap, are one cover; a set without en
 }
 
 TEST_CASE("the worst of the pieces counts") {
-  std::vector<Piece> pieces(2);
-  pieces[0].to = pieces[1].from = kMiddle;
+  std::vector<WrittenPiece> pieces(2);
+  pieces[0].to = pieces[1].from = kSharedEnd;
   pieces[1].noise = "0x1p-11";
-  const Checked checked = check(pieces);
+  const CheckedPieces checked = check_pieces(pieces);
   REQUIRE(checked.covers.size() == 1);
   CHECK(certainly_equal(noise_of(checked.covers[0]), Ball(0x1p-11)));
 }
 
 TEST_CASE("gaps, swapped ends and a slew are refused") {
-  std::vector<Piece> pieces(2);
-  pieces[0].to = pieces[1].from = kMiddle;
+  std::vector<WrittenPiece> pieces(2);
+  pieces[0].to = pieces[1].from = kSharedEnd;
   std::string why = "do not cover the band";
   SUBCASE("a gap of one bit") {
     pieces[1].from = "0x1.4880000000001p-6";
@@ -147,7 +148,7 @@ TEST_CASE("gaps, swapped ends and a slew are refused") {
     pieces[1].to = pieces[1].from;
   }
   SUBCASE("another purpose between them") {
-    Piece whole;
+    WrittenPiece whole;
     whole.name = "start-error";
     whole.from.clear();
     whole.to.clear();
@@ -157,25 +158,25 @@ TEST_CASE("gaps, swapped ends and a slew are refused") {
     pieces[0].slew = "0x1p-60";
     why = "a slew may leave";
   }
-  const Checked checked = check(pieces);
+  const CheckedPieces checked = check_pieces(pieces);
   CHECK(checked.refused(why));
   CHECK_FALSE(std::all_of(checked.covers.begin(), checked.covers.end(),
                           [](const SteadyPieces& cover) { return cover.verified; }));
 }
 
 TEST_CASE("one end alone is malformed") {
-  std::vector<Piece> pieces(1);
+  std::vector<WrittenPiece> pieces(1);
   SUBCASE("from") {
     pieces[0].to.clear();
   }
   SUBCASE("to") {
     pieces[0].from.clear();
   }
-  CHECK_THROWS(check(pieces));
+  CHECK_THROWS(check_pieces(pieces));
 }
 
 TEST_CASE("a part of the branch ends where it is cut") {
-  const auto branch = steady_branch(the_design(), 0.3, 1e-4);
+  const auto branch = steady_branch(design_in_pieces(), 0.3, 1e-4);
   REQUIRE(branch.has_value());
   CHECK(part_of(*branch, Ball(0.5), Ball(0.6)).empty());
   CHECK(part_of(*branch, Ball(0.02005), Ball(0.02005)).empty());

@@ -17,7 +17,7 @@ using rigor::Verdict;
 using test::Polar;
 using test::Simulation;
 
-sets::ContractionQuestion the_question() {
+sets::ContractionQuestion question_in_pieces() {
   sets::ContractionQuestion question;
   question.design = {Interval(0.0023), Interval(0.0023), Interval(0.05), Interval(0.01)};
   question.noise = Interval(0.001);
@@ -25,13 +25,14 @@ sets::ContractionQuestion the_question() {
   return question;
 }
 
-sets::LockBranch branch_over(double from, double to) {
-  return sets::verify_lock_branch(the_question().design, Interval::from_bounds(from, to), {.largest = 0.05});
+sets::LockBranch branch_of_pieces(double from, double to) {
+  return sets::verify_lock_branch(question_in_pieces().design, Interval::from_bounds(from, to),
+                                  {.largest = 0.05});
 }
 
 TEST_CASE("the pieces cover the band without gaps, and each is verified again") {
-  const sets::ContractionQuestion question = the_question();
-  const sets::LockBranch branch = branch_over(2.7, 2.9);
+  const sets::ContractionQuestion question = question_in_pieces();
+  const sets::LockBranch branch = branch_of_pieces(2.7, 2.9);
   REQUIRE(branch.verdict == Verdict::proved);
   double SteadyRequest::*size = nullptr;
   SUBCASE("noise") {
@@ -52,7 +53,7 @@ TEST_CASE("the pieces cover the band without gaps, and each is verified again") 
     CHECK((k == 0 || piece.from == pieces[k - 1].to));
     CHECK(piece.set.slew == 0.0);
     CHECK(piece.set.noise >= 0.001);
-    const sets::LockBranch part = branch_over(piece.from, piece.to);
+    const sets::LockBranch part = branch_of_pieces(piece.from, piece.to);
     CHECK(verify_steady_set(question.design, part.cells, piece.set).verdict == Verdict::proved);
 
     const rigor::NearestRounding nearest;
@@ -75,9 +76,9 @@ TEST_CASE("the pieces cover the band without gaps, and each is verified again") 
 }
 
 TEST_CASE("a band below zero has its hard end first") {
-  const sets::LockBranch branch = branch_over(-2.9, -2.8);
+  const sets::LockBranch branch = branch_of_pieces(-2.9, -2.8);
   REQUIRE(branch.verdict == Verdict::proved);
-  const auto pieces = search_steady_pieces(the_question(), branch, &SteadyRequest::noise, 0.0);
+  const auto pieces = search_steady_pieces(question_in_pieces(), branch, &SteadyRequest::noise, 0.0);
   REQUIRE_FALSE(pieces.empty());
   CHECK(pieces.front().from <= -2.9);
   CHECK(pieces.back().to >= -2.8);
@@ -87,8 +88,9 @@ TEST_CASE("a band below zero has its hard end first") {
 }
 
 TEST_CASE("nothing is found that is not larger than what is known, nor without a branch") {
-  CHECK(search_steady_pieces(the_question(), branch_over(2.8, 2.9), &SteadyRequest::noise, 1.0).empty());
-  CHECK(search_steady_pieces(the_question(), {}, &SteadyRequest::noise, 0.0).empty());
+  CHECK(search_steady_pieces(question_in_pieces(), branch_of_pieces(2.8, 2.9), &SteadyRequest::noise, 1.0)
+            .empty());
+  CHECK(search_steady_pieces(question_in_pieces(), {}, &SteadyRequest::noise, 0.0).empty());
 }
 
 }  // namespace

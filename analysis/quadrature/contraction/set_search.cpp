@@ -40,13 +40,7 @@ ProposalRequest request_for(const sets::ContractionQuestion& question, Objective
 
 std::optional<Verification> first_that_verifies(const sets::ContractionQuestion& question,
                                                 const ProposalRequest& request, const Shape& shape) {
-  // What only samples promise is seldom proved as it is; of a limit as much as can be.
-  const bool of_a_limit = sets_its_own_disturbance(request.objective);
-  for (const double fraction : {0.95, 0.9, 0.85, 0.8, 0.7, 0.6, 0.45, 0.3, 0.15, 0.05}) {
-    constexpr double kFirst = 0.85;
-    if (!of_a_limit && fraction > kFirst) {
-      continue;
-    }
+  for (const double fraction : {0.85, 0.8, 0.7, 0.6, 0.45, 0.3, 0.15, 0.05}) {
     const auto proposal = propose_set(request, shape, fraction);
     if (!proposal) {
       continue;
@@ -57,8 +51,9 @@ std::optional<Verification> first_that_verifies(const sets::ContractionQuestion&
     const rigor::UpwardRounding upward;
     // cannot bind (question.noise, question.slew): it copies them from the request as they are.
     const bool tolerates_assumptions =
-        of_a_limit || (certainly_less_equal(question.noise, Interval(verification.set.noise)) &&
-                       certainly_less_equal(question.slew, Interval(verification.set.slew)));
+        sets_its_own_disturbance(request.objective) ||
+        (certainly_less_equal(question.noise, Interval(verification.set.noise)) &&
+         certainly_less_equal(question.slew, Interval(verification.set.slew)));
     if (verification.verdict == rigor::Verdict::proved && tolerates_assumptions) {
       return verification;
     }

@@ -50,7 +50,7 @@ Eigen::VectorXd with_one_more(const Eigen::VectorXd& point, const ShapeSearch& p
   constexpr double kStep = 1.0;
   Eigen::VectorXd candidate(point.size() + 1);
   candidate << point, kFirst;
-  double best = kFirst;
+  Eigen::VectorXd best = candidate;
   double most = kWorthless;
   for (double last = kFirst; last <= kLast; last += kStep) {
     candidate[point.size()] = last;
@@ -60,37 +60,24 @@ Eigen::VectorXd with_one_more(const Eigen::VectorXd& point, const ShapeSearch& p
                              : proposer.largest_radius(shape) / shape.metric.frequency;
     if (value > most) {
       most = value;
-      best = last;
+      best = candidate;
     }
   }
-  candidate[point.size()] = best;
-  return candidate;
-}
-
-/// The same, about a start once more from there: where a search ends should depend little on where it began,
-/// so that a little more noise does not lead to a better set.
-search::BestPoint settled_point(const ProposalRequest& request, const BlockCovariance<double>& steady,
-                                const std::optional<Eigen::VectorXd>& seed) {
-  const search::BestPoint first = best_point(request, steady, seed);
-  if (!is_about_a_start(request.objective)) {
-    return first;
-  }
-  const search::BestPoint again = best_point(request, steady, first.point);
-  return again.value > first.value ? again : first;
+  return best;
 }
 
 /// The points found from the start of the space and, when there is noise or slew, from the best point without
 /// it: a little slew then needs no other set than none. The best first.
 std::vector<search::BestPoint> best_points(const ProposalRequest& request,
                                            const BlockCovariance<double>& steady) {
-  const search::BestPoint best = settled_point(request, steady, std::nullopt);
+  const search::BestPoint best = best_point(request, steady, std::nullopt);
   if (sets_a_disturbance(request.objective) || !(request.noise > 0.0 || request.slew > 0.0)) {
     return {best};
   }
   ProposalRequest quieter = request;
   (request.slew > 0.0 ? quieter.slew : quieter.noise) = 0.0;
   const search::BestPoint without = best_points(quieter, steady).front();
-  const search::BestPoint other = settled_point(
+  const search::BestPoint other = best_point(
       request, steady, with_one_more(without.point, ShapeSearch(request, steady), request.objective));
   return other.value > best.value ? std::vector{other, best} : std::vector{best, other};
 }

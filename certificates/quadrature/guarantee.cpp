@@ -73,7 +73,7 @@ void add_contraction(Certificate& certificate) {
     sets::ContractionQuestion question = contraction_question(certificate.design);
     question.with_samples = certificate.extent == Extent::everything;
     question.with_limits = certificate.extent == Extent::everything || require.largest_noise_at_least ||
-                           require.largest_slew_at_least;
+                           require.largest_slew_at_least || require.frequency_error_radius_at_least;
     quadrature::LeakCertificate found = quadrature::certify_with_leak(
         {question, rigor::hull(assume.frequency[0].value, assume.frequency[1].value)});
     certificate.derivations.push_back(std::move(found.derivation));

@@ -29,6 +29,14 @@ const Claim* find_claim(const Certificate& certificate, const std::string& id) {
   return found == certificate.claims.end() ? nullptr : &*found;
 }
 
+/// Are the radii those of larger sets than the one that has the rate?
+bool has_sets_for_the_radius(const Certificate& certificate) {
+  const theorems::Derivation* derivation = find_derivation(certificate, "contraction");
+  return derivation != nullptr &&
+         std::any_of(derivation->evidence.begin(), derivation->evidence.end(),
+                     [](const theorems::Evidence& one) { return one.name == "frequency-error-radius"; });
+}
+
 bool is_zero(const Number& number) {
   return number.value == Interval(0.0);
 }
@@ -157,16 +165,20 @@ std::vector<Claim> set_claims(const Certificate& certificate, const GuaranteeTer
     claim.id = "ekf/invariant-set";
     claim.verdict = Verdict::proved;
     claim.statement = fmt::format(
-        "{}, a certified invariant set contains frequency errors up to {}{}; in it, {} by at most "
-        "{}{}, "
-        "before noise and slew.",
-        tone(terms, true), units.at_least(found.frequency_error_radius.value, kDigits),
-        found.about_steady_state ? ", measured from the steady state, which the leak biases" : "",
-        found.rate_window == 1 ? "each sample multiplies the error" : "the error is multiplied",
-        rigor::upper_decimal(found.contraction_rate.value, kDigits),
-        found.rate_window == 1 ? std::string()
-                               : fmt::format(" per sample on average over {} samples", found.rate_window));
-    claim.evidence = {found.frequency_error_radius, found.contraction_rate};
+        "{}, a certified invariant set contains frequency errors up to {}{}", tone(terms, true),
+        units.at_least(found.frequency_error_radius.value, kDigits),
+        found.about_steady_state ? ", measured from the steady state, which the leak biases" : "");
+    claim.evidence = {found.frequency_error_radius};
+    if (!has_sets_for_the_radius(certificate)) {
+      claim.statement += fmt::format(
+          "; in it, {} by at most {}{}, before noise and slew",
+          found.rate_window == 1 ? "each sample multiplies the error" : "the error is multiplied",
+          rigor::upper_decimal(found.contraction_rate.value, kDigits),
+          found.rate_window == 1 ? std::string()
+                                 : fmt::format(" per sample on average over {} samples", found.rate_window));
+      claim.evidence.push_back(found.contraction_rate);
+    }
+    claim.statement += ".";
     claims.push_back(std::move(claim));
   }
   if (found.largest_noise.applies() && found.largest_slew.applies()) {

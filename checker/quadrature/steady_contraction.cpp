@@ -2,36 +2,28 @@
 
 #include "checker/document/evidence.hpp"
 #include "checker/quadrature/start_covariance.hpp"
-#include "checker/quadrature/steady_start.hpp"
+#include "checker/quadrature/steady_pieces.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
-bool tolerates(const SteadySet& set, const Design& design) {
-  return certainly_at_most(design.noise, set.noise) && certainly_at_most(design.slew, set.slew);
-}
-
-/// At least s_(j+1)/s_j for all j; 1 when the set does not shrink.
-Ball slowest(const SteadySet& set) {
-  Ball rate = set.levels.size() > 1 ? zero : one;
-  for (std::size_t j = 1; j < set.levels.size(); ++j) {
-    rate = max(rate, set.levels[j] / set.levels[j - 1]);
-  }
-  return rate;
+bool tolerates(const SteadyPieces& cover, const Design& design) {
+  return certainly_at_most(design.noise, noise_of(cover)) && certainly_at_most(design.slew, slew_of(cover));
 }
 
 void improve(std::optional<Ball>& most, const Ball& value) {
   most = most ? max(*most, value) : value;
 }
 
-/// The set for the assumed noise and slew; none when it is not verified.
-const SteadySet* whole_of(const std::vector<SteadySet>& sets, const Design& design) {
-  const SteadySet* whole = nullptr;
-  for (const SteadySet& set : sets) {
-    whole = set.verified && set.name == "start-error" && tolerates(set, design) ? &set : whole;
+/// The sets for a purpose that tolerate the assumed noise and slew; none when they are not verified.
+const SteadyPieces* cover_for(const std::string& purpose, const std::vector<SteadyPieces>& covers,
+                              const Design& design) {
+  const SteadyPieces* found = nullptr;
+  for (const SteadyPieces& cover : covers) {
+    found = cover.verified && cover.name == purpose && tolerates(cover, design) ? &cover : found;
   }
-  return whole;
+  return found;
 }
 
 /// nu* over the band.
@@ -61,19 +53,23 @@ SteadyStartClaim start_claim(const Tree& claimed) {
   return {said("capture_samples"), level, said("frequency_error_bound"), said("settling_samples")};
 }
 
-/// What the set and the starts that enter it give.
-void add_whole(const SteadySet& whole, const std::optional<SteadyStart>& start, const Promises& promises,
+/// How large the sets are.
+void add_radii(const SteadyPieces& cover, Derivation& found) {
+  const std::array<Ball, 3> radii = error_radii(cover);
+  found.quantities.push_back({"frequency_error_radius", radii[2]});
+  found.quantities.push_back({"phase_error_radius", radii[1]});
+  found.quantities.push_back({"amplitude_error_radius", radii[0]});
+}
+
+/// What the sets and the starts that enter them give.
+void add_whole(const SteadyPieces& whole, const std::optional<SteadyStart>& start, const Promises& promises,
                Derivation& found) {
   const Ball nothing = Ball::everything();
-  const std::array<Ball, 3> radii = error_radii(whole);
   const Ball rate = slowest(whole);
   const Settled settled = promises.settled.value_or(Settled{nothing, nothing});
   const std::vector<Quantity> quantities{
       {"contraction_rate", rate, Sense::bounds_above},
       {"radius", one},
-      {"frequency_error_radius", radii[2]},
-      {"phase_error_radius", radii[1]},
-      {"amplitude_error_radius", radii[0]},
       {"ultimate_frequency_error", promises.ultimate.value_or(nothing), Sense::bounds_above},
       {"settling_samples", settled.samples, Sense::bounds_above},
       {"settled_frequency_error", settled.frequency_error, Sense::bounds_above},
@@ -96,34 +92,21 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
   const auto fine = branch ? steady_branch(design, 0.05, 2e-5) : std::nullopt;
   const Tree* evidence = claimed.find("evidence");
   const std::optional<StartCovariance> covariance = read_start_covariance(claimed, design, objections);
-  std::vector<SteadySet> sets;
+  std::vector<SteadyPieces> covers;
   Promises promises;
   promises.covariance = covariance ? covariance->words : "";
   promises.about_steady_state = true;
   if (fine && evidence != nullptr) {
-    for (const Tree& item : evidence->elements()) {
-      const Tree& name = item.at("name");
-      if (name.is("start-covariance")) {
-        continue;
-      }
-      if (!name.is("start-error") && !name.is("largest-noise") && !name.is("largest-slew")) {
-        objections.emplace_back("no set is for this purpose");
-        continue;
-      }
-      // A large set needs to know the steady state better.
-      Objections coarse;
-      SteadySet checked = check_steady_set(item, design, *branch, cells, coarse);
-      if (!checked.verified) {
-        checked = check_steady_set(item, design, *fine, cells, objections);
-      }
-      const SteadySet& set = sets.emplace_back(std::move(checked));
-      if (set.verified) {
-        improve(promises.noise, set.noise);
-        improve(promises.slew, set.slew);
+    covers = check_steady_piecess(*evidence, design, {*branch, *fine}, cells, objections);
+    for (const SteadyPieces& cover : covers) {
+      if (cover.verified) {
+        improve(promises.noise, noise_of(cover));
+        improve(promises.slew, slew_of(cover));
       }
     }
   }
-  const SteadySet* whole = whole_of(sets, design);
+  const SteadyPieces* whole = cover_for("start-error", covers, design);
+  const SteadyPieces* widest = cover_for("frequency-error-radius", covers, design);
 
   Derivation found;
   found.title = "Contraction in a set around the steady state of every frequency of the band";
@@ -135,13 +118,18 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
   if (fine) {
     found.quantities.push_back({"bias_frequency", bias});
   }
+  if (const SteadyPieces* largest = widest != nullptr ? widest : whole) {
+    promises.reach = error_radii(*largest)[2];
+    add_radii(*largest, found);
+  }
   if (whole != nullptr) {
     const auto start =
-        covariance ? steady_start(design, *whole, *fine, *covariance, start_claim(claimed)) : std::nullopt;
+        covariance ? steady_start(design, *whole, *covariance, start_claim(claimed)) : std::nullopt;
     promises.starts_inside = start.has_value();
-    promises.reach = error_radii(*whole)[2];
-    promises.rate = slowest(*whole);
-    promises.ultimate = max(abs(bias.low), abs(bias.high)) + whole->levels.back() * *promises.reach;
+    if (widest == nullptr) {
+      promises.rate = slowest(*whole);
+    }
+    promises.ultimate = ultimate_error(*whole);
     if (start) {
       promises.bound = start->bound;
       const auto claim = settling_claim(claimed.at("quantities"));

@@ -308,26 +308,29 @@ Claim Guarantee::size(const std::string& id, const Promises& promises) const {
   return found;
 }
 
-/// How large the set is, and how fast errors in it shrink.
+/// How large the set is, and, when it is the one that has a rate, how fast errors in it shrink.
 Claim Guarantee::invariant_set(const Tree& claim, const Promises& promises) const {
   const Tree& evidence = claim.at("evidence");
   const Ball reach = low_of(evidence.at("frequency_error_radius"));
-  const Ball rate = high_of(evidence.at("contraction_rate"));
   Claim found;
   found.is_summary = true;
   found.evidence = {{"frequency_error_radius", of(promises.reach), Sense::bounds_below},
                     {"contraction_rate", of(promises.rate), Sense::bounds_above}};
-  found.verdict = proved_if(promises.reach && promises.rate && certainly_positive(reach));
+  found.verdict = proved_if(promises.reach && certainly_positive(reach));
   found.statement =
       tone(true) + ", a certified invariant set contains frequency errors up to " + words_.at_least(reach) +
-      (promises.about_steady_state ? ", measured from the steady state, which the leak biases" : "") +
-      "; in it, " +
-      (promises.rate_window == 1 ? "each sample multiplies the error" : "the error is multiplied") +
-      " by at most " + upper_decimal(rate) +
-      (promises.rate_window == 1
-           ? ""
-           : " per sample on average over " + std::to_string(promises.rate_window) + " samples") +
-      ", before noise and slew.";
+      (promises.about_steady_state ? ", measured from the steady state, which the leak biases" : "");
+  if (const Tree* rate = evidence.find("contraction_rate")) {
+    found.statement +=
+        std::string("; in it, ") +
+        (promises.rate_window == 1 ? "each sample multiplies the error" : "the error is multiplied") +
+        " by at most " + upper_decimal(high_of(*rate)) +
+        (promises.rate_window == 1
+             ? ""
+             : " per sample on average over " + std::to_string(promises.rate_window) + " samples") +
+        ", before noise and slew";
+  }
+  found.statement += ".";
   return found;
 }
 

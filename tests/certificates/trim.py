@@ -39,6 +39,8 @@ From tests/certificates/lock-with-leak.toml:
 mean-square-with-leak  as mean-square, in a narrow band
 From tests/certificates/steady-set.toml, the quadrature tracker with a leak in a narrow band:
 steady-set        the contraction with two levels, and the set for the largest noise
+From tests/certificates/steady-pieces.toml, the same in a band that is cut:
+steady-pieces     as steady-set, with sets for pieces of the band
 From tests/certificates/model-observer.toml, a recursion of the design file at almost one frequency:
 model-observer    as it is: tubes with levels, with noise and without
 model-part        the same sets, which are a part of a wider band
@@ -234,15 +236,17 @@ def steady_set(certificate):
     keep(certificate, ["contraction"], ["ekf/frequency-error-bound", "ekf/guarantee", "ekf/invariant-set"])
     derivation = certificate["derivations"][0]
     derivation["evidence"] = [e for e in derivation["evidence"] if e["name"] != "largest-slew"]
-    numbers = next(e for e in derivation["evidence"] if e["name"] == "start-error")["numbers"]
+    start = next(e for e in derivation["evidence"] if e["name"] == "start-error")
+    numbers = start["numbers"]
     for name in [name for name in numbers if name.startswith("s_") and name not in ("s_0", "s_1")]:
         del numbers[name]
     quantities = derivation["quantities"]
     del quantities["largest_slew"]
     level = float.fromhex(numbers["s_1"])
     bias = -float.fromhex(quantities["bias_frequency"]["lo"])
-    # The radius is stated rounded down.
-    ultimate = (bias + level * float.fromhex(quantities["frequency_error_radius"]["lo"])) * (1.0 + 1e-12)
+    # Of that set; other sets may have a larger radius.
+    radius = 1.0 / float.fromhex(start["matrices"]["metric"][2][2])
+    ultimate = (bias + level * radius) * (1.0 + 1e-12)
     quantities["contraction_rate"] = at_most(level)
     derivation["conditions"][1]["lhs"] = at_most(level)
     quantities["settling_samples"] = at_most(0)
@@ -375,6 +379,7 @@ KINDS = {
     "frozen-filter": lambda certificate: keep(certificate, ["single-channel/transfer-function"], []),
     "phases": phases,
     "steady-set": steady_set,
+    "steady-pieces": steady_set,
     "model-observer": lambda certificate: None,
     "model-part": model_part,
     "model-moving": model_moving,

@@ -1,5 +1,6 @@
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -145,21 +146,47 @@ Condition invariant_set(const sets::ContractionQuestion& question,
   return condition;
 }
 
-/// Those that tolerate the assumed noise and slew, the largest first.
-std::vector<CertifiedSet> sets_of(const ContractionCertificate& certificate) {
+bool tolerates(const CertifiedSet& set, const sets::ContractionQuestion& question) {
+  return certainly_less_equal(question.noise, Interval(set.noise)) &&
+         certainly_less_equal(question.slew, Interval(set.slew));
+}
+
+/// Those that tolerate the assumed noise and slew: the one whose size is reported first, and those that were
+/// made for more, too, so that what is proved for more is reported for less.
+std::vector<CertifiedSet> sets_of(const sets::ContractionQuestion& question,
+                                  const ContractionCertificate& certificate) {
   std::vector<CertifiedSet> sets;
-  for (const auto* found :
-       {&certificate.set, &certificate.bound_set, &certificate.ultimate_set, &certificate.settling_set}) {
-    if (*found) {
+  for (const auto* found : {&certificate.set, &certificate.bound_set, &certificate.ultimate_set,
+                            &certificate.settling_set, &certificate.noise_set, &certificate.slew_set}) {
+    if (*found && tolerates((*found)->set, question)) {
       sets.push_back((*found)->set);
     }
   }
   return sets;
 }
 
-bool tolerates(const CertifiedSet& set, const sets::ContractionQuestion& question) {
-  return certainly_less_equal(question.noise, Interval(set.noise)) &&
-         certainly_less_equal(question.slew, Interval(set.slew));
+/// Gives each purpose the best of all sets: what is reported of one is then not contradicted by another.
+void share_sets(const sets::ContractionQuestion& question, ContractionCertificate& certificate) {
+  const auto size = [](const std::optional<Verification>& found) {
+    return error_bounds(found->set, Interval(found->set.radius))[2].lower();
+  };
+  const std::array<std::optional<Verification>, 6> all{certificate.set,          certificate.noise_set,
+                                                       certificate.slew_set,     certificate.bound_set,
+                                                       certificate.ultimate_set, certificate.settling_set};
+  for (const std::optional<Verification>& found : all) {
+    if (!found) {
+      continue;
+    }
+    if (tolerates(found->set, question) && (!certificate.set || size(found) > size(certificate.set))) {
+      certificate.set = found;
+    }
+    if (certificate.noise_set && found->set.noise > certificate.noise_set->set.noise) {
+      certificate.noise_set = found;
+    }
+    if (certificate.slew_set && found->set.slew > certificate.slew_set->set.slew) {
+      certificate.slew_set = found;
+    }
+  }
 }
 
 void find_sets(const sets::ContractionQuestion& question, ContractionCertificate& certificate) {
@@ -168,11 +195,7 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
     certificate.noise_set = find_set(question, Objective::noise);
     certificate.slew_set = find_set(question, Objective::slew);
   }
-  for (const auto* found : {&certificate.noise_set, &certificate.slew_set}) {
-    if (!certificate.set && *found && tolerates((*found)->set, question)) {
-      certificate.set = *found;
-    }
-  }
+  share_sets(question, certificate);
   if (!certificate.set && certificate.noise_set) {
     certificate.set = with_slew(question, certificate.noise_set->set);
   }
@@ -184,15 +207,17 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
   // improve.
   const bool disturbed = certainly_positive(question.noise) || certainly_positive(question.slew);
   if (!disturbed) {
+    share_sets(question, certificate);
     return;
   }
   certificate.ultimate_set = find_set(question, Objective::ultimate_error);
   if (!certificate.ultimate_set) {
     certificate.ultimate_set = find_inner_set(question, certificate.set->set);
   }
-  const Interval ultimate = Promises(question, sets_of(certificate)).ultimate_frequency_error();
+  const Interval ultimate = Promises(question, sets_of(question, certificate)).ultimate_frequency_error();
   certificate.settling_set = find_set(question, Objective::settling,
                                       question.settled_frequency_error.value_or(2.0 * ultimate.upper()));
+  share_sets(question, certificate);
 }
 
 }  // namespace
@@ -217,7 +242,7 @@ ContractionCertificate certify_contraction(const sets::ContractionQuestion& aske
   }
   derivation.conditions = {leak(question.design.epsilon), controllable_amplitude(question.design.q1),
                            invariant_set(question, certificate)};
-  const Promises promises(question, sets_of(certificate));
+  const Promises promises(question, sets_of(question, certificate));
   if (certificate.set) {
     derivation.conditions.push_back(start_in_set(question, certificate.set->set, promises.starts_inside()));
   }

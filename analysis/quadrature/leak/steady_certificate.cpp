@@ -1,5 +1,6 @@
 #include "analysis/quadrature/leak/steady_certificate.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "analysis/quadrature/falsifier/steady_sampled_quantities.hpp"
@@ -30,15 +31,26 @@ theorems::Evidence evidence_of(const char* name, const SteadySet& set) {
   return evidence;
 }
 
+/// Appends sets that cover the band: one as it is, several with their frequencies.
+void add_evidence(const char* name, const std::vector<SteadyPiece>& pieces,
+                  std::vector<theorems::Evidence>& evidence) {
+  for (const SteadyPiece& piece : pieces) {
+    evidence.push_back(evidence_of(name, piece.set));
+    if (pieces.size() > 1) {
+      evidence.back().numbers.emplace_back("from", piece.from);
+      evidence.back().numbers.emplace_back("to", piece.to);
+    }
+  }
+}
+
 /// The sets that were verified: everything that is said is proved from them.
 std::vector<theorems::Evidence> evidence_of(const SteadySearch& search) {
   std::vector<theorems::Evidence> evidence;
   if (search.found()) {
     evidence.push_back(evidence_of("start-error", search.set->set));
   }
-  if (search.noise_set) {
-    evidence.push_back(evidence_of("largest-noise", *search.noise_set));
-  }
+  add_evidence("frequency-error-radius", search.radius_sets, evidence);
+  add_evidence("largest-noise", search.noise_sets, evidence);
   if (search.slew_set) {
     evidence.push_back(evidence_of("largest-slew", *search.slew_set));
   }
@@ -50,6 +62,7 @@ struct Search {
   sets::LockBranch branch;
   double largest_noise = 0.0;  ///< zero when none was certified
   double largest_slew = 0.0;
+  std::vector<SteadyPiece> radius_sets;
   std::string why;  ///< a clause: why there is no set, or the ground of the set
 };
 
@@ -67,6 +80,7 @@ Search search(const LeakQuestion& question, LeakCertificate& certificate) {
     search.largest_noise = found.largest_noise();
     search.largest_slew = found.largest_slew();
     certificate.derivation.evidence = evidence_of(found);
+    search.radius_sets = std::move(found.radius_sets);
     certificate.set = std::move(found.set);
   }
   if (certificate.set) {
@@ -103,6 +117,15 @@ std::optional<Interval> above_zero(double limit) {
   return limit > 0.0 ? std::optional(Interval(limit)) : std::nullopt;
 }
 
+/// What every one of the sets holds of an error.
+Interval least_radius(const std::vector<SteadyPiece>& pieces, Eigen::Index i) {
+  Interval least(std::numeric_limits<double>::max());
+  for (const SteadyPiece& piece : pieces) {
+    least = rigor::min(least, error_bounds(piece.set, Interval(1.0))[i]);
+  }
+  return least;
+}
+
 /// The result; `report` is there when a set is PROVED.
 sets::ContractionResult result_of(const Search& search, const std::optional<SteadyReport>& report,
                                   const std::optional<Interval>& rate) {
@@ -111,7 +134,9 @@ sets::ContractionResult result_of(const Search& search, const std::optional<Stea
     return report ? std::optional<Interval>(function(*report)) : std::nullopt;
   };
   const auto radius = [&](Eigen::Index i) {
-    return said([i](const SteadyReport& r) { return r.radius(i); });
+    return said([&](const SteadyReport& r) {
+      return search.radius_sets.empty() ? r.radius(i) : least_radius(search.radius_sets, i);
+    });
   };
   sets::ContractionResult result;
   result.about_steady_state = true;

@@ -1,5 +1,6 @@
 #include "analysis/quadrature/leak/steady_limit.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -11,22 +12,29 @@ namespace veritrack::quadrature {
 
 namespace {
 
+using rigor::Matrix;
 constexpr int kCoarseAngles = 12;
 constexpr int kFineAngles = 48;
-/// The five variables of SteadySamples::metric, the logarithm of the radius, and one that decides about the
-/// share of the covariance bounds that a step may fill.
+/// The five variables of SteadySamples::metric, the logarithm of the size of level 1 (of no effect where the
+/// radius is prescribed), and one that decides about the share of the covariance bounds that a step may fill.
 struct Shape {
   Shape(const Eigen::VectorXd& x, double target)
-      : of_metric(x.head<5>()), radius(std::exp(x[5])), goal(target - kRange / (1.0 + std::exp(-x[6]))) {}
+      : of_metric(x.head<5>()), scale(std::exp(x[5])), goal(target - kRange / (1.0 + std::exp(-x[6]))) {}
   static constexpr double kRange = 0.1;
   Eigen::VectorXd of_metric;
-  double radius, goal;
+  double scale, goal;
 };
 
 SteadySamples samples_of(const SteadyRequest& request, double SteadyRequest::*which, double size) {
   SteadyRequest asked = request;
   asked.*which = size;
   return {asked, SteadyJudgement::sharp};
+}
+
+/// The metric of level 1.
+Matrix<3> metric_of(const SteadySamples& samples, const Shape& shape, double radius) {
+  const Matrix<3> metric = samples.metric(shape.of_metric);
+  return metric / (radius > 0.0 ? radius / metric.inverse().row(2).norm() : shape.scale);
 }
 
 /// Of shapes for some steady states.
@@ -40,7 +48,8 @@ class LimitSearch {
     constexpr double kNoSense = 5.0;
     const SteadySamples samples = samples_of(request_, which_, size);
     const Shape shape(x, target_);
-    auto settings = samples.settings(samples.metric(shape.of_metric) / shape.radius);
+    const double radius = which_ == &SteadyRequest::radius ? size : request_.radius;
+    auto settings = samples.settings(metric_of(samples, shape, radius));
     const double noise = which_ == &SteadyRequest::noise ? size : request_.noise;
     if (!samples.find_band(settings, noise, shape.goal, kCoarseAngles)) {
       return kNoSense;
@@ -88,6 +97,18 @@ class LimitSearch {
     }
   }
 
+  /// The shape, when samples see it map level 1 into less than `most`.
+  [[nodiscard]] std::optional<SteadyLimit> limit_of(const Eigen::VectorXd& x, double size,
+                                                    double most) const {
+    if (!(rate(x, size) < most)) {
+      return std::nullopt;
+    }
+    const Shape shape(x, target_);
+    const SteadySamples samples(request_, SteadyJudgement::sharp);
+    const double radius = which_ == &SteadyRequest::radius ? size : request_.radius;
+    return SteadyLimit{metric_of(samples, shape, radius), shape.goal, size, x};
+  }
+
   static constexpr double kTolerance = 0.003;
 
  private:
@@ -101,9 +122,11 @@ class LimitSearch {
 std::optional<SteadyLimit> propose_steady_limit(const SteadyRequest& request, double SteadyRequest::*size,
                                                 double target) {
   const rigor::NearestRounding nearest;
-  // Where to begin, as a share of the amplitude or rad/sample per sample, and how to go on from one
-  // frequency.
-  constexpr double kFirst = 1e-4;
+  // Where to begin, as a share of the amplitude, rad/sample per sample or rad/sample, and how to go on from
+  // one frequency. A small set has no room for the noise.
+  constexpr double kLeast = 1e-4;
+  const double first =
+      size == &SteadyRequest::radius ? std::max(10.0 * kLeast, 15.0 * request.noise) : kLeast;
   constexpr double kShare = 0.5;
   constexpr int kRounds = 8;
   SteadyRequest last = request;
@@ -113,17 +136,27 @@ std::optional<SteadyLimit> propose_steady_limit(const SteadyRequest& request, do
   }
   Eigen::VectorXd x = Eigen::VectorXd::Zero(7);
   x[5] = -0.7;
-  double most = kFirst;
+  double most = first;
   LimitSearch(last, size, target).climb(x, most, kRounds);
-  most = std::max(kFirst, kShare * most);
+  most = std::max(first, kShare * most);
   const LimitSearch all(request, size, target);
   all.climb(x, most, kRounds);
-  if (!(all.rate(x, most) < 1.0)) {
-    return std::nullopt;
+  return all.limit_of(x, most, 1.0);
+}
+
+std::optional<SteadyLimit> propose_steady_size(const SteadyRequest& request, double SteadyRequest::*size,
+                                               double target, const Eigen::VectorXd& point) {
+  const rigor::NearestRounding nearest;
+  constexpr int kRounds = 3;
+  const LimitSearch search(request, size, target);
+  Eigen::VectorXd x = point;
+  for (int round = 0; round < kRounds; ++round) {
+    search.improve(x, request.*size, round == 0 ? 0.5 : 0.3);
+    if (const auto found = search.limit_of(x, request.*size, target)) {
+      return found;
+    }
   }
-  const Shape shape(x, target);
-  const SteadySamples samples(request, SteadyJudgement::sharp);
-  return SteadyLimit{samples.metric(shape.of_metric) / shape.radius, shape.goal, most};
+  return std::nullopt;
 }
 
 std::optional<SteadySet> set_of_limit(const SteadyRequest& request, const SteadyLimit& limit) {

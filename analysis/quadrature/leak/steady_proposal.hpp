@@ -19,6 +19,9 @@ struct SteadyRequest {
   std::vector<rigor::Vector<9>> slopes;
   double noise = 0.0;  ///< relative to the amplitude
   double slew = 0.0;   ///< rad/sample per sample
+  /// The largest frequency error in level 1, about the steady state, rad/sample; 0 where it is not
+  /// prescribed.
+  double radius = 0.0;
   /// Largest errors of the start from the true signal: amplitude, phase (rad), frequency (rad/sample). A set
   /// that holds them is preferred.
   rigor::Vector<3> start = rigor::Vector<3>::Zero();

@@ -1,5 +1,6 @@
 #include "analysis/quadrature/leak/steady_search.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -94,7 +95,12 @@ bool SteadySearch::found() const {
 }
 
 double SteadySearch::largest_noise() const {
-  return noise_set ? noise_set->noise : found() ? set->set.noise : 0.0;
+  if (noise_sets.empty()) {
+    return found() ? set->set.noise : 0.0;
+  }
+  return std::min_element(noise_sets.begin(), noise_sets.end(),
+                          [](const auto& a, const auto& b) { return a.set.noise < b.set.noise; })
+      ->set.noise;
 }
 
 double SteadySearch::largest_slew() const {
@@ -119,7 +125,17 @@ SteadySearch search_steady_sets(const sets::ContractionQuestion& question, const
   if (!result.shaped || (result.found() && !question.with_limits)) {
     return result;
   }
-  result.noise_set = toughest_set(question, branch, request, &SteadyRequest::noise, result.largest_noise());
+  // A constant frequency stays in its piece of the band; one that moves does not.
+  result.noise_sets = search_steady_pieces(question, branch, &SteadyRequest::noise, result.largest_noise());
+  if (result.noise_sets.empty()) {
+    if (auto set = toughest_set(question, branch, request, &SteadyRequest::noise, result.largest_noise())) {
+      result.noise_sets = {{branch.band.lower(), branch.band.upper(), *std::move(set)}};
+    }
+  }
+  if (result.found() && question.slew == Interval(0.0)) {
+    const double known = error_bounds(result.set->set, Interval(1.0))[2].upper();
+    result.radius_sets = search_steady_pieces(question, branch, &SteadyRequest::radius, known);
+  }
   result.slew_set = toughest_set(question, branch, request, &SteadyRequest::slew, result.largest_slew());
   return result;
 }

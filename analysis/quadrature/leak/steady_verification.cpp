@@ -122,7 +122,7 @@ CellResult verify_cell(const Design& design, const sets::QuadratureTube& tube, c
   const SteadyDisturbance disturbance{Interval(set.noise), motion.errors, motion.covariance};
   // What needs more is not proposed well: a set that is a little smaller is proved in much less time.
   constexpr std::int64_t kMostCells = 120;
-  constexpr std::int64_t kMostCellsOfOne = 800;
+  constexpr std::int64_t kMostCellsOfOne = 1200;
   const std::int64_t most_cells = set.levels.size() == 1 ? kMostCellsOfOne : kMostCells;
   while (result.steps < steps) {
     const double level = set.levels[result.steps];

@@ -1,0 +1,173 @@
+#include "analysis/quadrature/leak/steady_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "analysis/quadrature/leak/steady_limit.hpp"
+#include "analysis/quadrature/leak/steady_verification.hpp"
+
+namespace veritrack::quadrature {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+using Cells = std::vector<sets::QuadratureTube>;
+
+/// The share of level 1 into which samples of a proposed set may map it: what is left is for the proof.
+constexpr double kTarget = 0.975;
+
+class PieceSearch {
+ public:
+  PieceSearch(const sets::ContractionQuestion& question, Cells cells, double SteadyRequest::*which)
+      : question_(question), cells_(std::move(cells)), which_(which) {
+    request_.design = {midpoint(question.design.q1), midpoint(question.design.q2),
+                       midpoint(question.design.r), midpoint(question.design.epsilon)};
+    request_.noise = which == &SteadyRequest::noise ? 0.0 : question.noise.upper();
+    request_.evaluations = question.search_evaluations;
+  }
+
+  /// From the hard end, which decides, to the other; empty when the size would not exceed `known`.
+  [[nodiscard]] std::vector<SteadyPiece> cover(double known) {
+    std::vector<SteadyPiece> pieces;
+    std::size_t done = 0;
+    std::size_t width = 1;
+    while (done < cells_.size()) {
+      width = std::min(width, cells_.size() - done);
+      const Cells part = part_of(done, width);
+      std::optional<SteadySet> set = size_ > 0.0 ? set_for_size(part) : std::nullopt;
+      if (!set && width > 1) {
+        width /= 2;
+        continue;
+      }
+      if (!set) {
+        set = largest_set(part, known);
+      }
+      if (!set) {
+        return {};
+      }
+      pieces.push_back({part.front().parameter.lower(), part.back().parameter.upper(), *set});
+      done += width;
+      width *= 2;
+    }
+    if (hard_end_is_last()) {
+      std::reverse(pieces.begin(), pieces.end());
+    }
+    return pieces;
+  }
+
+ private:
+  /// The bias grows with the frequency.
+  [[nodiscard]] bool hard_end_is_last() const {
+    return std::fabs(cells_.back().parameter_center) >= std::fabs(cells_.front().parameter_center);
+  }
+
+  /// `width` cells after the first `done` from the hard end, in their order.
+  [[nodiscard]] Cells part_of(std::size_t done, std::size_t width) const {
+    const std::size_t first = hard_end_is_last() ? cells_.size() - done - width : done;
+    const auto begin = cells_.begin() + static_cast<std::ptrdiff_t>(first);
+    return {begin, begin + static_cast<std::ptrdiff_t>(width)};
+  }
+
+  /// Fits the request to the ends and the middle of a part, the hard end last.
+  void fit_to(const Cells& part) {
+    const rigor::UpwardRounding upward;
+    const double low = part.front().parameter.lower();
+    const double high = part.back().parameter.upper();
+    const auto& middle = part[part.size() / 2];
+    request_.steady.clear();
+    const auto add = [&](const sets::QuadratureTube& cell, double frequency) {
+      const rigor::IntervalVector<9> x = cell.at(Interval(frequency));
+      request_.steady.push_back(
+          {1.0 + midpoint(x[0]),
+           midpoint(x[1]),
+           midpoint(x[2]),
+           {midpoint(x[3]), midpoint(x[4]), midpoint(x[5]), midpoint(x[6]), midpoint(x[7]), midpoint(x[8])}});
+    };
+    add(part.front(), low);
+    add(middle, part.size() > 1 ? middle.parameter.lower() : middle.parameter_center);
+    add(part.back(), high);
+    if (!hard_end_is_last()) {
+      std::reverse(request_.steady.begin(), request_.steady.end());
+    }
+  }
+
+  [[nodiscard]] std::optional<SteadySet> verified(const Cells& part, const SteadyLimit& limit) const {
+    auto set = set_of_limit(request_, limit);
+    if (!set ||
+        verify_steady_set(question_.design, part, *set, {question_.amplitude, question_.largest_frequency})
+                .verdict != Verdict::proved) {
+      return std::nullopt;
+    }
+    return set;
+  }
+
+  /// A set of the size that the others have.
+  [[nodiscard]] std::optional<SteadySet> set_for_size(const Cells& part) {
+    fit_to(part);
+    request_.*which_ = size_;
+    const auto limit = propose_steady_size(request_, which_, kTarget, point_);
+    auto set = limit ? verified(part, *limit) : std::nullopt;
+    if (set) {
+      point_ = limit->point;
+    }
+    return set;
+  }
+
+  /// As large as can be verified; the others need not be larger.
+  [[nodiscard]] std::optional<SteadySet> largest_set(const Cells& part, double known) {
+    fit_to(part);
+    for (const double target : {kTarget, 0.96, 0.93, 0.9}) {
+      request_.*which_ = 0.0;
+      auto limit = propose_steady_limit(request_, which_, target);
+      if (!limit) {
+        continue;
+      }
+      const double most = size_ > 0.0 ? std::min(size_, limit->size) : limit->size;
+      const rigor::Matrix<3> metric = limit->metric;
+      for (const double share : {1.0, 0.97, 0.94, 0.91, 0.88}) {
+        const double size = share * most;
+        if (!(size > known)) {
+          return std::nullopt;
+        }
+        request_.*which_ = size;
+        if (which_ == &SteadyRequest::radius) {
+          limit->metric = metric * (limit->size / size);
+        }
+        if (auto set = verified(part, *limit)) {
+          size_ = size;
+          point_ = limit->point;
+          return set;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  sets::ContractionQuestion question_;
+  Cells cells_;
+  double SteadyRequest::*which_;
+  SteadyRequest request_;
+  double size_ = 0.0;  ///< of all pieces so far
+  Eigen::VectorXd point_;
+};
+
+}  // namespace
+
+std::vector<SteadyPiece> search_steady_pieces(const sets::ContractionQuestion& question,
+                                              const sets::LockBranch& branch, double SteadyRequest::*size,
+                                              double known) {
+  // The narrowest pieces are a cell wide.
+  constexpr double kCellWidth = 0.05;  // rad/sample
+  const sets::LockBranch narrow =
+      sets::verify_lock_branch(question.design, branch.band, {.largest = kCellWidth});
+  if (narrow.verdict != Verdict::proved || narrow.cells.empty()) {
+    return {};
+  }
+  return PieceSearch(question, narrow.cells, size).cover(known);
+}
+
+}  // namespace veritrack::quadrature

@@ -61,7 +61,7 @@ void check_refused(const char* name, const std::vector<Change>& changes) {
 
 }  // namespace
 
-TEST_CASE("forged bounds of the covariance in the long run are refused") {
+TEST_CASE("forged bounds of the covariance in the long run are refused" * doctest::test_suite("nightly")) {
   check_refused(
       "model-filter-long-run",
       {{"swapped",
@@ -81,7 +81,7 @@ TEST_CASE("forged bounds of the covariance in the long run are refused") {
         [](Json& c) { cell_of(c, "assumed")["entry"] = cell_of(c, "long-run")["entry"]; }}});
 }
 
-TEST_CASE("a long run that does not follow is refused") {
+TEST_CASE("a long run that does not follow is refused" * doctest::test_suite("nightly")) {
   check_refused(
       "model-filter-long-run",
       {{"claimed without its set", [](Json& c) { remove_set(c, "long-run"); }},
@@ -100,7 +100,7 @@ TEST_CASE("a long run that does not follow is refused") {
         }}});
 }
 
-TEST_CASE("a filter with a slew whose bounds of the covariance do not fit is refused") {
+TEST_CASE("a filter with a slew whose bounds of the covariance do not fit is refused" * doctest::test_suite("nightly")) {
   check_refused(
       "model-filter-moving",
       {{"without a margin", [](Json& c) { set_in(c, "assumed").erase("margin"); }},

@@ -70,7 +70,8 @@ bool fits(const StepBounds& bounds, const std::vector<double>& scales, double ra
   return true;
 }
 
-/// Whether the bounds of the covariance in the one tube, narrower by the margin, are between those of the other.
+/// Whether the bounds of the covariance in the one tube, narrower by the margin, are between those of the
+/// other.
 bool fits_covariance(const Tube& from, const Tube& to, const TubeCell& cell, double slew, double margin) {
   const rigor::BallModelScope plane(0, 0);
   const CellPlace place = place_of(cell);
@@ -147,10 +148,9 @@ BorderResult verify_border(const TrackerModel& model, const Tube& from, const Tu
   const auto ask = [&](const TubeCell& cell) {
     CellAnswer answer;
     const StepBounds bounds = bound_border(model, from, to, cell, question, scales);
-    answer.is_proved =
-        fits(bounds, scales, question.to_radius, answer.range) &&
-        (!question.covariance_margin ||
-         fits_covariance(from, to, cell, question.slew, *question.covariance_margin));
+    answer.is_proved = fits(bounds, scales, question.to_radius, answer.range) &&
+                       (!question.covariance_margin ||
+                        fits_covariance(from, to, cell, question.slew, *question.covariance_margin));
     answer.by_phase = bounds.by_phase;
     answer.by_frequency = bounds.by_frequency;
     return answer;

@@ -30,9 +30,8 @@ class LongRunSearch {
 
   [[nodiscard]] FilterWorth worth_at(const FilterParameters& parameters, int samples) const {
     std::array<FilterWorth, kPlaces.size()> each;
-    tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
-      each.at(i) = worth_there(i, parameters, 1e-4, samples);
-    });
+    tbb::parallel_for(std::size_t{0}, each.size(),
+                      [&](std::size_t i) { each.at(i) = worth_there(i, parameters, 1e-4, samples); });
     FilterWorth worth{0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
     for (const FilterWorth& one : each) {
       worth.growth = std::max(worth.growth, one.growth);
@@ -43,8 +42,8 @@ class LongRunSearch {
     return worth;
   }
 
-  /// From parameters of the other tube, and those that were found at neighbouring frequencies, if any; nothing
-  /// when there is no tube.
+  /// From parameters of the other tube, and those that were found at neighbouring frequencies, if any;
+  /// nothing when there is no tube.
   [[nodiscard]] std::optional<VectorXd> run(const VectorXd& of_around, const VectorXd& nearby) const {
     std::vector<VectorXd> points;
     for (const double smaller : {-1.0, -3.0}) {
@@ -66,9 +65,8 @@ class LongRunSearch {
       return std::nullopt;
     }
     constexpr int kSamples = 40;
-    const double logarithm = least_scale(best.point, [&](const FilterParameters& parameters) {
-      return worth_at(parameters, kSamples);
-    });
+    const double logarithm = least_scale(
+        best.point, [&](const FilterParameters& parameters) { return worth_at(parameters, kSamples); });
     return std::isfinite(logarithm) ? std::optional(scaled(best.point, logarithm)) : std::nullopt;
   }
 

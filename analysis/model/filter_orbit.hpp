@@ -189,7 +189,8 @@ class FilterOrbit {
     Small of_high = Small::Zero(n, n);
     Small of_low = Small::Zero(n, n);
     const bool is_inside = around_.tube != nullptr;
-    const Small wide = is_inside ? Small(around_.radius * matrix_at(around_.tube->shape, phase_, around_.z, false)) : u;
+    const Small wide =
+        is_inside ? Small(around_.radius * matrix_at(around_.tube->shape, phase_, around_.z, false)) : u;
     for (Index i = 0; i < n; ++i) {
       changes_.push_back(numbers_.change(estimate_, u.col(i)));
       const Small change = is_inside ? numbers_.change(estimate_, wide.col(i)) : changes_.back();
@@ -204,9 +205,9 @@ class FilterOrbit {
     const double theta = parameters_.theta;
     FilterOnOrbit next;
     next.high = (1.0 + slack) * (numbers_.process() + (1.0 + eta) * f * updated_high_ * f.transpose() +
-                                  (1.0 + 1.0 / eta) * of_high);
+                                 (1.0 + 1.0 / eta) * of_high);
     next.low = (1.0 - slack) * (numbers_.process() + (1.0 - theta) * f * updated_low_ * f.transpose() -
-                                 (1.0 / theta - 1.0) * of_low);
+                                (1.0 / theta - 1.0) * of_low);
     if (Eigen::LLT<Small>(next.low).info() != Eigen::Success || !(next.high.maxCoeff() < 1e12)) {
       return false;
     }

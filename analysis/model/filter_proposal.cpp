@@ -272,8 +272,8 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
   }
   const FilterSearch search(tone, curve, settings, rate);
   const bool keeps = keep && nearby && nearby->of_filter.size() == search.coordinates().size();
-  const std::optional<VectorXd> point = keeps ? std::optional(nearby->of_filter)
-                                              : search.run(nearby ? nearby->of_filter : VectorXd());
+  const std::optional<VectorXd> point =
+      keeps ? std::optional(nearby->of_filter) : search.run(nearby ? nearby->of_filter : VectorXd());
   if (!point) {
     proposal.outcome = TubeOutcome::cell_too_wide;
     proposal.loss = 1.0;
@@ -313,7 +313,8 @@ TubeProposal propose_long_run_tube(const TrackedTone& tone, const Tube& around, 
   const FilterSearch coordinates(tone, *curve, settings, rate);
   constexpr int kEvaluations = 80;
   const LongRunSearch search(tone, *curve, coordinates.coordinates(), around, radius, kEvaluations);
-  const std::optional<VectorXd> point = search.run(of_around.of_filter, nearby ? nearby->of_filter : VectorXd());
+  const std::optional<VectorXd> point =
+      search.run(of_around.of_filter, nearby ? nearby->of_filter : VectorXd());
   proposal.outcome = TubeOutcome::cell_too_wide;
   if (point) {
     proposal.shape.parameters.of_filter = *point;

@@ -18,7 +18,8 @@ namespace veritrack::model {
 
 /// Around the curve of a settled filter, whose first states are its estimate and whose others are the upper
 /// triangle of its covariance: fills in the shape, its worth, the tube and the outcome. `nearby`: parameters
-/// that were good at neighbouring frequencies; with `keep` they are used as they are. Deterministic; holds round-to-nearest. Needs tone.filter.
+/// that were good at neighbouring frequencies; with `keep` they are used as they are. Deterministic; holds
+/// round-to-nearest. Needs tone.filter.
 void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings,
                          const std::optional<ShapeParameters>& nearby, bool keep, TubeProposal& proposal);
 

@@ -20,8 +20,8 @@
 namespace veritrack::model::detail {
 
 /// Parameters as a point: the logarithm of eta, the logits of theta and of lambda between the square of the
-/// rate and 1, the logarithms of b and d, those of the process noise in units of the states, with a slew that of
-/// c, and, when it is searched for, that of the noise V or the slew W.
+/// rate and 1, the logarithms of b and d, those of the process noise in units of the states, with a slew that
+/// of c, and, when it is searched for, that of the noise V or the slew W.
 struct FilterCoordinates {
   double rate_squared;
   VectorXd sizes;
@@ -32,9 +32,7 @@ struct FilterCoordinates {
 
   [[nodiscard]] bool moves() const { return given_slew > 0.0 || finds_slew; }
   [[nodiscard]] bool finds() const { return finds_noise || finds_slew; }
-  [[nodiscard]] Index size() const {
-    return 5 + sizes.size() + (moves() ? 1 : 0) + (finds() ? 1 : 0);
-  }
+  [[nodiscard]] Index size() const { return 5 + sizes.size() + (moves() ? 1 : 0) + (finds() ? 1 : 0); }
   [[nodiscard]] FilterParameters at(const VectorXd& x) const {
     const auto logistic = [](double t) { return 1.0 / (1.0 + std::exp(-t)); };
     FilterParameters parameters;
@@ -63,8 +61,7 @@ struct FilterWorth {
 /// Over so many samples of an orbit, after `before`.
 inline FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curve,
                                   const FilterParameters& parameters, int before, int samples,
-                                  const Surroundings& around = {},
-                                  const Eigen::MatrixXcd* slope = nullptr) {
+                                  const Surroundings& around = {}, const Eigen::MatrixXcd* slope = nullptr) {
   FilterOrbit orbit(tone, curve, parameters, around, slope);
   orbit.begin(0.3);
   FilterWorth worth;
@@ -117,12 +114,9 @@ class FilterSearch {
     const bool is_for_noise = settings.shape.objective == ShapeObjective::largest_noise;
     // The largest reach at a given noise, or the largest noise.
     const bool is_for_slew = settings.shape.objective == ShapeObjective::largest_slew;
-    coordinates_ = {rate * rate,
-                    sizes,
-                    settings.shape.noise,
-                    is_for_noise && !(settings.shape.noise > 0.0),
-                    settings.shape.slew,
-                    is_for_slew && !(settings.shape.slew > 0.0)};
+    coordinates_ = {rate * rate,          sizes,
+                    settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0),
+                    settings.shape.slew,  is_for_slew && !(settings.shape.slew > 0.0)};
     largest_reach_ = settings.shape.largest_reach;
     constexpr int kUsual = 100;
     evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : kUsual;
@@ -133,9 +127,9 @@ class FilterSearch {
   [[nodiscard]] FilterWorth worth_at(const FilterParameters& parameters, int samples) const {
     std::array<FilterWorth, 3> each;
     tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
-      each.at(i) = worth_on_orbit(*tone_, nodes_.at(i), parameters,
-                                  memory_of(coordinates_.rate_squared, parameters, 1e-4), samples, {},
-                                &slopes_.at(i));
+      each.at(i) =
+          worth_on_orbit(*tone_, nodes_.at(i), parameters,
+                         memory_of(coordinates_.rate_squared, parameters, 1e-4), samples, {}, &slopes_.at(i));
     });
     FilterWorth worth{0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
     for (const FilterWorth& one : each) {

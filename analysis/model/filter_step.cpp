@@ -39,9 +39,11 @@ struct FilterPlace {
   BallMatrix factor;                 ///< L of R^-1 H Delta H' R^-1
 };
 
-/// Among models without a ball. With a slew, all that is at the next phase is that of every frequency it moves to.
+/// Among models without a ball. With a slew, all that is at the next phase is that of every frequency it
+/// moves to.
 FilterPlace place_of_filter(const TrackerModel& model, const Tube& tube, const TubeCell& cell, double slew) {
-  CellFrame frame = frame_of(model, tube, cell, slew > 0.0 ? FrameParts::with_samples : FrameParts::with_next);
+  CellFrame frame =
+      frame_of(model, tube, cell, slew > 0.0 ? FrameParts::with_samples : FrameParts::with_next);
   if (slew > 0.0) {
     const Interval move = Interval(slew) / Interval(tube.half_width);
     frame.there = tube_at(tube, frame.next_phase, frame.z + BallModel(hull(-move, move)));
@@ -240,8 +242,8 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
     estimate.covariance_high.clear();
     const rigor::UpwardRounding upward;
     return tube_at(estimate, place.frame.next_phase.lifted(),
-                   place.frame.z.lifted() +
-                       BallModel(question.slew * stretch / tube.half_width) * BallModel::disturbance(of_noise));
+                   place.frame.z.lifted() + BallModel(question.slew * stretch / tube.half_width) *
+                                                BallModel::disturbance(of_noise));
   }();
   const std::vector<BallModel> state = state_in(here, radius);
   std::vector<BallModel> samples;

@@ -17,16 +17,16 @@ namespace veritrack::model {
 /// What is asked of a step.
 struct FilterStepQuestion {
   double radius = 0.0;
-  double noise = 0.0;          ///< V, signal units
-  double slew = 0.0;           ///< W, rad/sample per sample
-  bool with_covariance = true; ///< that its bounds are kept, too
-  double margin = 0.0;         ///< that they then have to spare: see RangeQuestion
+  double noise = 0.0;           ///< V, signal units
+  double slew = 0.0;            ///< W, rad/sample per sample
+  bool with_covariance = true;  ///< that its bounds are kept, too
+  double margin = 0.0;          ///< that they then have to spare: see RangeQuestion
 };
 
-/// Bounds over a cell of |F| for |xi| <= scale radius, for each of the scales, all |v| <= noise, a frequency that
-/// moves by at most the slew, and all covariances between the bounds of the tube; with `with_covariance`, they are
-/// known only where the bounds are shown to be bounds again at the next phase, for all |xi| <= radius. Sets its own
-/// rounding mode. Throws std::invalid_argument when sizes do not fit.
+/// Bounds over a cell of |F| for |xi| <= scale radius, for each of the scales, all |v| <= noise, a frequency
+/// that moves by at most the slew, and all covariances between the bounds of the tube; with
+/// `with_covariance`, they are known only where the bounds are shown to be bounds again at the next phase,
+/// for all |xi| <= radius. Sets its own rounding mode. Throws std::invalid_argument when sizes do not fit.
 [[nodiscard]] StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
                                            const FilterStepQuestion& question,
                                            const std::vector<double>& scales);
@@ -41,8 +41,8 @@ struct RangeQuestion {
   double ratio = 1.0;
 };
 
-/// Whether the bounds are a nonempty range of covariances in the cell, and bounds again at the next phase, for
-/// all |xi| <= radius. Sets its own rounding mode. Throws std::invalid_argument when sizes do not fit.
+/// Whether the bounds are a nonempty range of covariances in the cell, and bounds again at the next phase,
+/// for all |xi| <= radius. Sets its own rounding mode. Throws std::invalid_argument when sizes do not fit.
 [[nodiscard]] bool keeps_range(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
                                const RangeQuestion& question);
 

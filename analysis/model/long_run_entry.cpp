@@ -93,9 +93,9 @@ CoverResult verify_long_run_entry(const TrackerModel& model, const Tube& from, d
     const Interval length(length_bounds(deviation, {1.0}).front());
     // A little more, so that another program need not be as sharp.
     constexpr double kRoom = 1.01;
-    answer.is_proved =
-        orders && is_shape(there) && rigor::certainly_less_equal(length, Interval(into_radius)) &&
-        keeps_range(model, mixed, cell, {kRoom * radius, entry.margin, entry.ratio});
+    answer.is_proved = orders && is_shape(there) &&
+                       rigor::certainly_less_equal(length, Interval(into_radius)) &&
+                       keeps_range(model, mixed, cell, {kRoom * radius, entry.margin, entry.ratio});
     return answer;
   };
   return cover_cells(ask, budget);

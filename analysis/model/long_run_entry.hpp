@@ -1,10 +1,10 @@
 // From a tube of a filter into one for the long run, whose bounds of the covariance are narrower.
 //
-// Both are tubes of the same frequencies. Estimates stay at the lowest level of the first one, and the covariance
-// stays between its bounds low_0 and high_0, which are at most c times as wide: high_0 <= c high_1, low_0 >= low_1/c.
-// If high_1 and low_1 are kept with a margin for these estimates, and c high_1, low_1/c are for every c > 1,
-// then c becomes (1 - margin) c at every sample, and the covariance is between low_1 and high_1 when c is 1
-// (docs/model-proof.md, section 13).
+// Both are tubes of the same frequencies. Estimates stay at the lowest level of the first one, and the
+// covariance stays between its bounds low_0 and high_0, which are at most c times as wide: high_0 <= c
+// high_1, low_0 >= low_1/c. If high_1 and low_1 are kept with a margin for these estimates, and c high_1,
+// low_1/c are for every c > 1, then c becomes (1 - margin) c at every sample, and the covariance is between
+// low_1 and high_1 when c is 1 (docs/model-proof.md, section 13).
 #pragma once
 
 #include "analysis/model/cell_cover.hpp"
@@ -22,9 +22,9 @@ struct LongRunEntry {
   [[nodiscard]] double samples() const;
 };
 
-/// Whether, for all phases and frequencies, states at or below the level `radius` of the tube `from` are at or
-/// below the level `into_radius` of the tube `into` of the same frequencies, and the bounds of the covariance
-/// are as above. Throws std::invalid_argument when sizes do not fit.
+/// Whether, for all phases and frequencies, states at or below the level `radius` of the tube `from` are at
+/// or below the level `into_radius` of the tube `into` of the same frequencies, and the bounds of the
+/// covariance are as above. Throws std::invalid_argument when sizes do not fit.
 [[nodiscard]] CoverResult verify_long_run_entry(const TrackerModel& model, const Tube& from, double radius,
                                                 const Tube& into, double into_radius,
                                                 const LongRunEntry& entry, const VerificationBudget& budget);

@@ -17,7 +17,8 @@ namespace {
 /// The search inside one tube.
 class LongRunLevels {
  public:
-  LongRunLevels(const TrackerModel& model, const ProvedTube& around, const TubeProposal& proposal, double noise)
+  LongRunLevels(const TrackerModel& model, const ProvedTube& around, const TubeProposal& proposal,
+                double noise)
       : model_(&model), around_(&around), noise_(noise) {
     const double room = 1.0 - proposal.worth.rate;
     proved_.tube = *proposal.tube;
@@ -41,8 +42,8 @@ class LongRunLevels {
     bool is_entered = false;
     for (const double margin : {0.006, 0.004, 0.002, 0.001}) {
       entry.margin = margin;
-      is_entered = is_entered || verify_long_run_entry(*model_, around_->tube, radius, proved_.tube, into, entry,
-                                                       proved_.grid)
+      is_entered = is_entered || verify_long_run_entry(*model_, around_->tube, radius, proved_.tube, into,
+                                                       entry, proved_.grid)
                                      .is_proved;
       if (is_entered) {
         break;
@@ -121,8 +122,8 @@ std::optional<TubeSet> prove_long_run_set(const TrackedTone& tone, const Tracker
     if (deadline.is_over() || !around.tube.bounds_covariance()) {
       return std::nullopt;
     }
-    const TubeProposal proposal = propose_long_run_tube(tone, around.tube, around.levels.back(), set.noise,
-                                                        around.parameters, nearby);
+    const TubeProposal proposal =
+        propose_long_run_tube(tone, around.tube, around.levels.back(), set.noise, around.parameters, nearby);
     if (proposal.outcome != TubeOutcome::proposed) {
       return std::nullopt;
     }

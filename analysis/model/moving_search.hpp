@@ -93,10 +93,10 @@ class MovingSearch {
 
   [[nodiscard]] bool may_hold(const ProvedTube& proved, double radius, double slew) const {
     constexpr int kPhases = 16;
-    return !deadline_->is_over() &&
-           sampled_growth(*model_, proved.tube,
-                          {radius, set_->noise, 1.0, 1.0, slew, proved.levels.empty(), set_->covariance_margin},
-                          kPhases) <= slow_;
+    return !deadline_->is_over() && sampled_growth(*model_, proved.tube,
+                                                   {radius, set_->noise, 1.0, 1.0, slew,
+                                                    proved.levels.empty(), set_->covariance_margin},
+                                                   kPhases) <= slow_;
   }
   [[nodiscard]] bool may_hold(double radius, double slew) const {
     return std::all_of(set_->tubes.begin(), set_->tubes.end(),
@@ -118,11 +118,10 @@ class MovingSearch {
   /// Whether levels from `scale` radius to radius shrink by the factor in a cell.
   [[nodiscard]] bool shrinks(ProvedTube& proved, double radius, double scale, double factor, double slew) {
     // Of the largest radius, with the bounds of the covariance.
-    const LevelResult result =
-        verify_level(*model_, proved.tube,
-                     {radius, set_->noise, scale, with_room(factor), slew, scale == 1.0,
-                      set_->covariance_margin},
-                     proved.grid);
+    const LevelResult result = verify_level(
+        *model_, proved.tube,
+        {radius, set_->noise, scale, with_room(factor), slew, scale == 1.0, set_->covariance_margin},
+        proved.grid);
     proved.cells += result.cells;
     return result.verdict == Verdict::proved;
   }

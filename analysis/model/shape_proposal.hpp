@@ -42,10 +42,10 @@ struct ShapeSettings {
 
 /// The free parameters. Equal ones at neighbouring frequencies give shapes that fit together.
 struct ShapeParameters {
-  double lambda = 0.0;         ///< between the square of the rate and 1
-  DisturbanceWeights weights;  ///< b, c
-  Eigen::MatrixXd source;      ///< W, n x n, positive semidefinite
-  Eigen::VectorXd of_filter;   ///< in place of all these: see filter_proposal.cpp
+  double lambda = 0.0;          ///< between the square of the rate and 1
+  DisturbanceWeights weights;   ///< b, c
+  Eigen::MatrixXd source;       ///< W, n x n, positive semidefinite
+  Eigen::VectorXd of_filter;    ///< in place of all these: see filter_proposal.cpp
   double unit_of_filter = 1.0;  ///< of its levels, rad/sample
 };
 

@@ -21,8 +21,8 @@ struct ProvedTube {
   Tube tube;
   std::vector<double> levels;
   std::vector<double> shrinking;
-  VerificationBudget grid;  ///< from which the verification began
-  std::size_t cells = 0;    ///< that it needed
+  VerificationBudget grid;          ///< from which the verification began
+  std::size_t cells = 0;            ///< that it needed
   ShapeParameters parameters = {};  ///< of the proposal; not evidence
   /// Of a filter's tube in the long run: how it is entered.
   std::optional<LongRunEntry> entry = {};

@@ -26,8 +26,8 @@ using rigor::to_decimal;
 struct NamedSet {
   const ModelSet* set;
   std::string purpose;
-  bool is_given = false;   ///< noise and slew are; otherwise they are searched for
-  std::string where = {};  ///< ", over [0.2, 0.4] rad/sample only"; empty for the whole band
+  bool is_given = false;               ///< noise and slew are; otherwise they are searched for
+  std::string where = {};              ///< ", over [0.2, 0.4] rad/sample only"; empty for the whole band
   const ModelSet* long_run = nullptr;  ///< inside it
 
   [[nodiscard]] double settled_error() const {

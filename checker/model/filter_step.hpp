@@ -27,15 +27,16 @@ struct BoundsToSpare {
 
 class FilterStep {
  public:
-  /// The second vector of the monomials, which must outlive this, is v if there is noise; the third one is zeta
-  /// if there is a slew, in rad/sample per sample.
+  /// The second vector of the monomials, which must outlive this, is v if there is noise; the third one is
+  /// zeta if there is a slew, in rad/sample per sample.
   FilterStep(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
              const VectorMonomials& monomials, double slew = 0.0);
 
   /// Whether the shape is one here and a sample later.
   [[nodiscard]] bool has_shape() const { return here_.has_shape() && there_.has_shape(); }
   /// True only when the bounds are a range of covariances here, and F P F' + Q is between those of the next
-  /// sample, at every frequency that it moves to, for every updated covariance of that range and all |xi| <= radius.
+  /// sample, at every frequency that it moves to, for every updated covariance of that range and all |xi| <=
+  /// radius.
   [[nodiscard]] bool keeps_covariance(double radius, const BoundsToSpare& spare = {}) const;
   /// A vector that is at least as long as F for |xi| <= radius, |v| <= noise and every covariance in the
   /// bounds, where the ball polynomials are in xi/radius and v/noise.

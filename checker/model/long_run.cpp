@@ -66,12 +66,11 @@ bool is_entered(const TrackedModel& model, const TubeSet& around, const TubeSet&
     }
     const LengthBound length(into.coordinates(difference));
     answer.halve_frequencies = length.by_frequency() > length.by_phase();
-    const bool certain =
-        length.is_at_most(tube.levels.front() * (1.0 - 0x1p-48), 1.0) &&
-        is_below(from.covariance_high, into.covariance_high, entry.ratio, states) &&
-        is_below(into.covariance_low, from.covariance_low, entry.ratio, states) &&
-        FilterStep(model, mixed[number], part, monomials)
-            .keeps_covariance(radius, {entry.margin, entry.ratio});
+    const bool certain = length.is_at_most(tube.levels.front() * (1.0 - 0x1p-48), 1.0) &&
+                         is_below(from.covariance_high, into.covariance_high, entry.ratio, states) &&
+                         is_below(into.covariance_low, from.covariance_low, entry.ratio, states) &&
+                         FilterStep(model, mixed[number], part, monomials)
+                             .keeps_covariance(radius, {entry.margin, entry.ratio});
     if (certain) {
       answer.open.clear();
     }

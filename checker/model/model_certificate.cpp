@@ -23,9 +23,10 @@ std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedMod
   for (const Tree& tree : tubes.elements()) {
     Objections objections;
     TubeSet set = read_tube_set(tree, model.recursion->states(), objections, model.recursion->filtered());
-    const bool is_known = set.gaussian ? set.name == "gaussian" || set.name == "lowest-snr"
-                                       : set.name == "starts" || set.name == "assumed" || set.name == kLongRun ||
-                                             set.name == "noise" || set.name == "slew";
+    const bool is_known = set.gaussian
+                              ? set.name == "gaussian" || set.name == "lowest-snr"
+                              : set.name == "starts" || set.name == "assumed" || set.name == kLongRun ||
+                                    set.name == "noise" || set.name == "slew";
     if (!is_known || !names.insert(set.name).second) {
       objections.emplace_back(is_known ? "a second set of this name" : kUnknown);
     }

@@ -46,7 +46,8 @@ bool fits_covariance(const Crossing& crossing, const TubePart& part, double marg
         sum(symmetric_of(high, states), symmetric_of(low, states), BallPolynomial(-left)));
   };
   return certainly_positive(left) && certainly_less(left, one) &&
-         is_below(from.covariance_high, to.covariance_high) && is_below(to.covariance_low, from.covariance_low);
+         is_below(from.covariance_high, to.covariance_high) &&
+         is_below(to.covariance_low, from.covariance_low);
 }
 
 /// Of states of the one, in the coordinates of the other: U'^-1 (C - C' + radius U xi).

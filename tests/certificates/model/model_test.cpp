@@ -166,10 +166,12 @@ TEST_CASE("covariances of the noise whose entries do not mirror each other are r
   CHECK(message(with("'q/10'", "'0.1*q'", "0")) == "no error");
   CHECK(message(with("0.001", "'0.002 - q/4'", "0.0")) == "no error");
   CHECK(message(with("'q/10'", "'0.2*q'", "0")) ==
-        "design.toml:14:23: Q is not symmetric: row 2, column 1 is 0.2*q, and row 1, column 2 is q/10; allowed: "
+        "design.toml:16:26: Q is not symmetric: row 2, column 1 is 0.2*q, and row 1, column 2 is q/10; "
+        "allowed: "
         "a covariance, whose entries mirror each other");
-  CHECK(message(with("0", "0", "0.01")).find("R is not symmetric: row 2, column 1 is 0, and row 1, column 2 "
-                                             "is 0.01; allowed:") != std::string::npos);
+  CHECK(message(with("0", "0", "0.01"))
+            .find("R is not symmetric: row 2, column 1 is 0, and row 1, column 2 "
+                  "is 0.01; allowed:") != std::string::npos);
 }
 
 TEST_CASE("what is wrong with a model is told with its place in the file") {

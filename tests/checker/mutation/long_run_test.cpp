@@ -61,7 +61,7 @@ void check_refused(const char* name, const std::vector<Change>& changes) {
 
 }  // namespace
 
-TEST_CASE("forged bounds of the covariance in the long run are refused") {
+TEST_CASE("forged bounds of the covariance in the long run are refused" * doctest::test_suite("nightly")) {
   check_refused(
       "model-filter-long-run",
       {{"swapped",
@@ -69,7 +69,9 @@ TEST_CASE("forged bounds of the covariance in the long run are refused") {
           std::swap(cell_of(c, "long-run")["covariance_low"], cell_of(c, "long-run")["covariance_high"]);
         }},
        {"empty",
-        [](Json& c) { cell_of(c, "long-run")["covariance_low"] = cell_of(c, "long-run")["covariance_high"]; }},
+        [](Json& c) {
+          cell_of(c, "long-run")["covariance_low"] = cell_of(c, "long-run")["covariance_high"];
+        }},
        {"too narrow above", [](Json& c) { scale_series(cell_of(c, "long-run")["covariance_high"], 0.97); }},
        {"too narrow below", [](Json& c) { scale_series(cell_of(c, "long-run")["covariance_low"], 1.03); }},
        {"not around it", [](Json& c) { cell_of(c, "long-run")["entry"]["ratio"] = hexadecimal(1.0); }},
@@ -81,7 +83,7 @@ TEST_CASE("forged bounds of the covariance in the long run are refused") {
         [](Json& c) { cell_of(c, "assumed")["entry"] = cell_of(c, "long-run")["entry"]; }}});
 }
 
-TEST_CASE("a long run that does not follow is refused") {
+TEST_CASE("a long run that does not follow is refused" * doctest::test_suite("nightly")) {
   check_refused(
       "model-filter-long-run",
       {{"claimed without its set", [](Json& c) { remove_set(c, "long-run"); }},
@@ -89,7 +91,8 @@ TEST_CASE("a long run that does not follow is refused") {
        {"for less noise", [](Json& c) { set_in(c, "long-run")["noise"] = hexadecimal(0.0); }},
        {"of another cell", [](Json& c) { scale_number(cell_of(c, "long-run")["half_width"], 1.01); }},
        {"as another set", [](Json& c) { set_in(c, "long-run")["name"] = "noise"; }},
-       {"begun lower", [](Json& c) {
+       {"begun lower",
+        [](Json& c) {
           Json& cell = cell_of(c, "long-run");
           cell["levels"].erase(0);
           cell["shrinking"].erase(0);
@@ -100,7 +103,8 @@ TEST_CASE("a long run that does not follow is refused") {
         }}});
 }
 
-TEST_CASE("a filter with a slew whose bounds of the covariance do not fit is refused") {
+TEST_CASE("a filter with a slew whose bounds of the covariance do not fit is refused" *
+          doctest::test_suite("nightly")) {
   check_refused(
       "model-filter-moving",
       {{"without a margin", [](Json& c) { set_in(c, "assumed").erase("margin"); }},

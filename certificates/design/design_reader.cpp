@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <any>
 #include <array>
 #include <cerrno>
 #include <optional>
@@ -121,6 +122,30 @@ void find_unknown_keys(const toml::table& table, std::string_view table_name,
   }
 }
 
+/// The trackers whose design files have this key.
+std::vector<std::string_view> trackers_with(const UnknownKey& key) {
+  std::vector<std::string_view> trackers;
+  for (const DesignFormat* format : design_formats()) {
+    std::any tables = format->empty_tables();
+    for (const BoundTable& table : format->bind_tables(tables)) {
+      const bool has_key = std::any_of(table.keys.begin(), table.keys.end(), [&](const BoundKey& each) {
+        return table.name == key.table && path_of(table.name, each.name) == key.path;
+      });
+      if (has_key) {
+        trackers.push_back(format->tracker);
+      }
+    }
+  }
+  return trackers;
+}
+
+/// "nearest known key: design.q1", or which trackers have the key.
+std::string what_is_known(const UnknownKey& unknown, const std::vector<std::string>& paths) {
+  const std::vector<std::string_view> trackers = trackers_with(unknown);
+  return trackers.empty() ? fmt::format("nearest known key: {}", nearest_key(unknown.path, paths))
+                          : fmt::format("it goes with the tracker {}", fmt::join(trackers, " or "));
+}
+
 /// Throws InputError at the first key of the file that means nothing for the tracker with these tables.
 void reject_unknown_keys(const TomlSource& source, const BoundTable& top,
                          const std::vector<BoundTable>& tables) {
@@ -143,12 +168,11 @@ void reject_unknown_keys(const TomlSource& source, const BoundTable& top,
     }
   }
   constexpr std::size_t kShownLimit = 80;
-  source.fail(
-      unknown->position,
-      fmt::format("unknown key {}; nearest known key: {}; allowed {}: {}",
-                  printable(unknown->path, kShownLimit), nearest_key(unknown->path, known_paths(top, tables)),
-                  unknown->table.empty() ? "at the top" : "in [" + unknown->table + "]",
-                  fmt::join(allowed, ", ")));
+  source.fail(unknown->position,
+              fmt::format("unknown key {}; {}; allowed {}: {}", printable(unknown->path, kShownLimit),
+                          what_is_known(*unknown, known_paths(top, tables)),
+                          unknown->table.empty() ? "at the top" : "in [" + unknown->table + "]",
+                          fmt::join(allowed, ", ")));
 }
 
 // ---- reading

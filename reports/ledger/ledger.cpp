@@ -124,15 +124,10 @@ bool Row::is_anywhere(Verdict verdict) const {
                      [&](const DesignVerdict& each) { return each.verdict == verdict; });
 }
 
-std::vector<Row> collect(const Progress& progress) {
-  const auto& designs = certificates::published_designs();
+std::vector<Row> collect() {
   Collection collection;
-  int done = 0;
-  for (const certificates::EmbeddedText& design : designs) {
+  for (const certificates::EmbeddedText& design : certificates::published_designs()) {
     collection.add(published_results_of(design));
-    if (progress) {
-      progress(++done, static_cast<int>(designs.size()));
-    }
   }
   const rigor::UpwardRounding upward;
   collection.add(theorems::block_transform_claims());

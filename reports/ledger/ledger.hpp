@@ -2,7 +2,6 @@
 // designs.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,11 +39,8 @@ struct Row {
   [[nodiscard]] bool is_anywhere(rigor::Verdict verdict) const;
 };
 
-/// Told how many of how many designs have been evaluated.
-using Progress = std::function<void(int done, int most)>;
-
 /// All rows, by publication, those of one in the order of its certificates. Opens its own rounding scopes.
-[[nodiscard]] std::vector<Row> collect(const Progress& progress = {});
+[[nodiscard]] std::vector<Row> collect();
 
 /// What follows from a verdict for the publication, in a few words; `rows` is the whole ledger, in which a
 /// repaired reading of the same sentence may stand.

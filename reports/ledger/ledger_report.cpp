@@ -226,27 +226,71 @@ std::string summary(const std::vector<Row>& rows) {
          "conditions of its stability theorem. The certificates of this program give such a guarantee.\n\n";
 }
 
+/// Of what is said of simulations: how much of it comes out.
+std::string simulated_summary(const std::vector<SimulatedReport>& simulated) {
+  std::vector<Entry> all;
+  for (const SimulatedReport& report : simulated) {
+    all.insert(all.end(), report.entries.begin(), report.entries.end());
+  }
+  return all.empty()
+             ? ""
+             : "Beside these stand the numbers and sentences that the publications print of their "
+               "simulations, compared with simulations of ours. They are samples and prove nothing. " +
+                   count_sentence(all) + "\n\n";
+}
+
+std::string simulated_section(const std::vector<SimulatedReport>& simulated) {
+  std::string text;
+  for (const SimulatedReport& report : simulated) {
+    text +=
+        fmt::format("### {}\n\n{} runs; derived again by `veritrack reproduce {}`. {}\n\n{}\n", report.name,
+                    report.runs, report.name, count_sentence(report.entries), entry_table(report.entries));
+  }
+  return text.empty() ? text : "## Every printed number and sentence about simulations\n\n" + text;
+}
+
 }  // namespace
 
-std::string ledger_document(const std::vector<Row>& rows) {
-  std::string text = "# What the publications claim, decided\n\n" + summary(rows) + counts_table(rows) + "\n";
-  text +=
-      "PROVED and REFUTED are computed with outward-rounded interval arithmetic, or are identities evaluated "
-      "exactly; UNDECIDED is everything else. A claim is evaluated for every design that its publication "
-      "prints (the four of Table 3.2, both examples, section V); where the verdicts differ, the designs are "
-      "named. The certificates of these designs hold the numbers, and `veritrack-verify` checks them. Places "
-      "are those of the scans; what a scan has lost is not held against anybody.\n\n";
-  text += falls_section(rows) + stands_section(rows) + "## Every claim\n\n";
+std::vector<SimulatedReport> simulate_reports(int runs, const ReproductionProgress& progress) {
+  std::vector<SimulatedReport> simulated;
+  const auto all = reproductions();
+  int done = 0;
+  for (const Reproduction& report : all) {
+    if (report.reproduce != nullptr) {
+      const int seeds = runs > 0 ? runs : report.runs;
+      simulated.push_back({std::string(report.name), seeds, report.reproduce(seeds, {}).entries});
+    }
+    if (progress) {
+      progress(++done, static_cast<int>(all.size()));
+    }
+  }
+  return simulated;
+}
+
+std::string decided_sections(const std::vector<Row>& rows) {
+  std::string text = falls_section(rows) + stands_section(rows) + "## Every claim\n\n";
   for (const Paper paper : kPapers) {
     text += paper_section(rows, paper);
   }
   return text;
 }
 
-WrittenReport write_ledger(const std::filesystem::path& directory, const page::Renderings& renderings,
-                           const Progress& progress) {
+std::string ledger_document(const std::vector<Row>& rows, const std::vector<SimulatedReport>& simulated) {
+  return "# What the publications claim, decided\n\n" + summary(rows) + simulated_summary(simulated) +
+         counts_table(rows) +
+         "\nPROVED and REFUTED are computed with outward-rounded interval arithmetic, or are identities "
+         "evaluated exactly; UNDECIDED is everything else. A claim is evaluated for every design that its "
+         "publication prints (the four of Table 3.2, both examples, section V); where the verdicts differ, "
+         "the designs are named. The certificates of these designs hold the numbers, and `veritrack-verify` "
+         "checks them. Places are those of the scans; what a scan has lost is not held against anybody.\n\n" +
+         decided_sections(rows) + simulated_section(simulated);
+}
+
+WrittenReport write_ledger(int runs, const std::filesystem::path& directory,
+                           const page::Renderings& renderings, const ReproductionProgress& progress) {
+  const std::vector<SimulatedReport> simulated = simulate_reports(runs, progress);
   certificates::OutputFiles files;
-  page::stage_document(files, directory, {"report", ledger_document(collect(progress))}, renderings);
+  page::stage_document(files, directory, {"report", ledger_document(collect(), simulated)}, renderings);
   files.commit();
   return {directory / "report.md", ""};
 }

@@ -50,6 +50,10 @@ From tests/certificates/model-filter.toml, an extended Kalman filter at almost o
 model-filter      its tube for the assumed noise, with bounds of the covariance and three levels: checked fast
 From tests/certificates/regulator.toml, a regulator with a tracker of two channels:
 regulator         as it is, its tracker's certificate without what the regulator does not need
+From tests/certificates/model-filter-long-run.toml, the same filter:
+model-filter-long-run  its tubes for the assumed noise, and in the long run
+From tests/certificates/model-filter-moving.toml, the same filter and a frequency that moves through two cells:
+model-filter-moving  its tubes for what is assumed
 """
 import fractions
 import json
@@ -313,6 +317,13 @@ def model_gaussian(certificate):
                              if claim["id"] not in ("model/limits", "model/steady-state")]
 
 
+def model_long_run(certificate):
+    """Without what is told of no noise, and of more."""
+    certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] in ("assumed", "long-run")]
+    certificate["claims"] = [claim for claim in certificate["claims"]
+                             if claim["id"] not in ("model/limits", "model/steady-state")]
+
+
 def model_filter(certificate):
     """Without what is told of no noise; the error in the long run is that of a level between."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
@@ -370,6 +381,8 @@ KINDS = {
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
     "regulator": regulator,
+    "model-filter-long-run": model_long_run,
+    "model-filter-moving": model_moving,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

@@ -26,6 +26,8 @@ def claims_of_accepted_certificates():
 def claims_in_the_sources():
     for folder in ("analysis", "certificates"):
         for path in sorted((ROOT / folder).rglob("*.cpp")):
+            if path.name == "paper_places.cpp":
+                continue  # beginnings of ids, not ids
             yield from (found for found in LITERAL.findall(path.read_text()) if found not in DERIVATIONS)
 
 

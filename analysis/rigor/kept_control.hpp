@@ -5,8 +5,8 @@
 
 namespace veritrack::rigor {
 
-/// Gives this thread its control register back as it was when the object was made: rounding mode, treatment of
-/// denormals, and the sticky exception flags, which HeldRounding leaves raised.
+/// Gives this thread its control register back as it was when the object was made: rounding mode, treatment
+/// of denormals, and the sticky exception flags, which HeldRounding leaves raised.
 class KeptControl {
  public:
   KeptControl() noexcept : previous_(detail::read_control()) {}

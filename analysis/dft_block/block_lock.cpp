@@ -18,8 +18,8 @@ using rigor::Interval;
 using Number = rigor::Dual<Interval, kStates>;
 
 BlockProblem<Number> constants(const BlockProblem<Interval>& problem) {
-  return {Number(problem.q1), Number(problem.q2),     Number(problem.q3),
-          Number(problem.r),  Number(problem.offset), problem.half};
+  return {Number(problem.q1),     Number(problem.q2), Number(problem.q3), Number(problem.r),
+          Number(problem.offset), Number(problem.pi), problem.half};
 }
 
 /// G and its derivatives over a box.
@@ -81,7 +81,8 @@ std::optional<rigor::Vector<kStates>> run_to_the_end(const BlockProblem<Interval
                                                      rigor::Vector<kStates> state) {
   const rigor::NearestRounding nearest;
   const BlockProblem<double> doubles{midpoint(problem.q1), midpoint(problem.q2),     midpoint(problem.q3),
-                                     midpoint(problem.r),  midpoint(problem.offset), problem.half};
+                                     midpoint(problem.r),  midpoint(problem.offset), trackers::detail::kPi,
+                                     problem.half};
   constexpr int kBlocks = 20'000;
   constexpr double kStill = 1e-13;
   constexpr double kTurn = 2.0 * trackers::detail::kPi;
@@ -131,7 +132,8 @@ std::optional<BlockLock> verify_lock(const BlockProblem<Interval>& problem, cons
                    square(centre(0) + away * reach(0))};
 }
 
-std::optional<BlockLock> find_lock(const BlockProblem<Interval>& problem, const rigor::Vector<kStates>& start) {
+std::optional<BlockLock> find_lock(const BlockProblem<Interval>& problem,
+                                   const rigor::Vector<kStates>& start) {
   const auto centre = run_to_the_end(problem, start);
   if (!centre) {
     return std::nullopt;
@@ -144,7 +146,7 @@ std::optional<BlockLock> find_lock(const BlockProblem<Interval>& problem, const 
     return std::nullopt;
   }
   for (double radius = 1.0; radius > 1e-6; radius *= 0.7) {
-    if (const auto found = verify_lock(problem, {*centre, *metric, radius, static_cast<int>(std::lround(turns))})) {
+    if (auto found = verify_lock(problem, {*centre, *metric, radius, static_cast<int>(std::lround(turns))})) {
       return found;
     }
   }

@@ -1,9 +1,9 @@
-// The block tracker on a tone of constant offset and amplitude, without noise and leak: one block is a map of nine
-// numbers into themselves, the same at every phase.
+// The block tracker on a tone of constant offset and amplitude, without noise and leak: one block is a map of
+// nine numbers into themselves, the same at every phase.
 //
-// trackers/dft_block/dft_block_ekf.hpp, with the symmetry x1 -> c x1, q1 -> c^2 q1, r -> c^4 r to a tone of x1 = 1. The
-// map is that of the program's formulas over the reals, pi being the double nearest to it in tone and tracker alike: a
-// change of 4e-17 of the offset.
+// trackers/dft_block/dft_block_ekf.hpp, with the symmetry x1 -> c x1, q1 -> c^2 q1, r -> c^4 r to a tone of
+// x1 = 1. The tracker's part is its program's formulas over the reals, where pi is the double nearest to it;
+// the tone's has pi itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,12 +18,11 @@
 
 namespace veritrack::rigor {
 
-/// sinc d and its derivative for the tracker, from d and the sine and cosine of pi d: where d is certainly at least a
-/// tenth away from zero; unknown elsewhere.
+/// sinc d and its derivative for the tracker, from d and the sine and cosine of pi d: where d is certainly at
+/// least a tenth away from zero; unknown elsewhere.
 template <int N>
-[[nodiscard]] trackers::detail::SincWithSlope<Dual<Interval, N>> sinc_with_slope(const Dual<Interval, N>& d,
-                                                                                 const Dual<Interval, N>& sine,
-                                                                                 const Dual<Interval, N>& cosine) {
+[[nodiscard]] trackers::detail::SincWithSlope<Dual<Interval, N>> sinc_with_slope(
+    const Dual<Interval, N>& d, const Dual<Interval, N>& sine, const Dual<Interval, N>& cosine) {
   using Number = Dual<Interval, N>;
   constexpr double kLeast = 0.1;
   if (!(mignitude(d.value()) >= kLeast)) {
@@ -41,8 +40,8 @@ namespace veritrack::dft_block {
 
 inline constexpr int kStates = 9;
 
-/// (x1, phase error, offset error, P_11, P_12, P_13, P_22, P_23, P_33) of the filtered estimate, x1 and P relative to a
-/// tone of x1 = 1; rad and bins.
+/// (x1, phase error, offset error, P_11, P_12, P_13, P_22, P_23, P_33) of the filtered estimate, x1 and P
+/// relative to a tone of x1 = 1; rad and bins.
 template <typename Scalar>
 using BlockState = Eigen::Matrix<Scalar, kStates, 1>;
 
@@ -50,36 +49,33 @@ using BlockState = Eigen::Matrix<Scalar, kStates, 1>;
 template <typename Scalar>
 struct BlockProblem {
   Scalar q1, q2, q3, r;
-  Scalar offset;  ///< delta of the tone, bins
+  Scalar offset;  ///< delta of the tone, bins; no integer
+  Scalar pi;      ///< an enclosure of it, or the double nearest to it
   int half;       ///< L of the 2L + 1 bins
 };
 
 /// The state after one more block.
 template <typename Scalar>
-[[nodiscard]] BlockState<Scalar> block_map(const BlockState<Scalar>& state, const BlockProblem<Scalar>& problem) {
-  using trackers::detail::kPi;
+[[nodiscard]] BlockState<Scalar> block_map(const BlockState<Scalar>& state,
+                                           const BlockProblem<Scalar>& problem) {
   using trackers::detail::sin_cos;
-  using trackers::detail::sinc_with_slope;
   const trackers::DftBlockDesign<Scalar> design{problem.q1, problem.q2,  problem.q3,
                                                 problem.r,  Scalar(0.0), Scalar(0.0)};
   trackers::DftBlockEstimate<Scalar> estimate;
   estimate.root_amplitude = state(0);
-  // The true phase at the start of this block is counted as -2 pi delta, so that it is 0 at the start of the next.
-  const Scalar turn = Scalar(2.0 * kPi) * problem.offset;
-  estimate.phase = state(1) - turn;
+  // The true phase at the start of this block is counted as -2 pi delta, so that it is 0 at the start of the
+  // next.
+  const Scalar half_turn = problem.pi * problem.offset;
+  estimate.phase = state(1) - (half_turn + half_turn);
   estimate.offset = state(2) + problem.offset;
-  estimate.covariance << state(3), state(4), state(5), state(4), state(6), state(7), state(5), state(7), state(8);
-  const Scalar half_turn = Scalar(kPi) * problem.offset;
+  estimate.covariance << state(3), state(4), state(5), state(4), state(6), state(7), state(5), state(7),
+      state(8);
   const auto [sine, cosine] = sin_cos(half_turn);
   std::vector<trackers::DftBin<Scalar>> bins;
-  double sign = problem.half % 2 == 0 ? 1.0 : -1.0;
   for (int i = 0; i <= 2 * problem.half; ++i) {
-    const Scalar s(sign);
     const Scalar d = problem.offset + Scalar(static_cast<double>(problem.half - i));
-    // 2 pi sinc(d) e^{j pi d}
-    const Scalar size = Scalar(2.0 * kPi) * sinc_with_slope(d, Scalar(s * sine), Scalar(s * cosine)).value;
-    bins.push_back({size * (s * cosine), size * (s * sine)});
-    sign = -sign;
+    // 2 pi sinc(d) e^{j pi d} = 2 sin(pi delta) e^{j pi delta} / d
+    bins.push_back({Scalar(2.0) * sine * cosine / d, Scalar(2.0) * sine * sine / d});
   }
   const std::span<const trackers::DftBin<Scalar>> seen(bins);
   const auto next = measurement_update(time_update(estimate, design), seen, design);

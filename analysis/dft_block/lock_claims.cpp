@@ -29,8 +29,13 @@ constexpr const char* kOffset = "0.3";  // bins
 BlockProblem<Interval> problem_of(const PrintedDesign& design) {
   const Interval scale = Interval(4.0) * rigor::pi();
   const Interval variance = parse_decimal(design.r_d) / Interval(4096.0);
-  return {parse_decimal(design.q1) * scale, parse_decimal(design.q2), parse_decimal(design.q3),
-          variance * square(scale),         parse_decimal(kOffset),   2};
+  return {parse_decimal(design.q1) * scale,
+          parse_decimal(design.q2),
+          parse_decimal(design.q3),
+          variance * square(scale),
+          parse_decimal(kOffset),
+          rigor::pi(),
+          2};
 }
 
 theorems::Statement false_lock(const PrintedDesign& design) {
@@ -51,8 +56,9 @@ theorems::Statement false_lock(const PrintedDesign& design) {
       is_proved ? "The set has a fixed point with an offset error of " +
                       rigor::to_decimal(found->fixed_offset_error, 4) + " bins and " +
                       rigor::upper_decimal(found->amplitude, 3) +
-                      " of the amplitude; each block brings its starts closer by " +
-                      rigor::upper_decimal(Interval(found->contraction), 3) + " at least."
+                      " of the amplitude; in the metric of the set, each block multiplies the distance from "
+                      "it by at most " +
+                      rigor::upper_decimal(Interval(found->contraction), 3) + "."
                 : "No such set was found.",
       {});
 }
@@ -61,6 +67,7 @@ theorems::Statement false_lock(const PrintedDesign& design) {
 
 std::vector<theorems::Statement> lock_claims() {
   std::vector<theorems::Statement> statements;
+  statements.reserve(kDesigns.size());
   for (const PrintedDesign& design : kDesigns) {
     statements.push_back(false_lock(design));
   }

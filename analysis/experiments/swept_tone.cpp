@@ -45,7 +45,10 @@ double notch_errors(const ToneRun& run, Filter notch, const Step& step) {
     step(notch, run.in_phase[k], run.quadrature[k]);
     sum += (notch.frequency() - run.frequency[k]) * (notch.frequency() - run.frequency[k]);
   }
-  return std::isfinite(sum) ? sum : kDiverged;
+  if (!std::isfinite(sum)) {
+    return kDiverged;
+  }
+  return sum;
 }
 
 /// The best point of local searches from these starts.

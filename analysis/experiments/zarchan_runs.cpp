@@ -10,8 +10,6 @@ namespace veritrack::experiments {
 
 namespace {
 
-using trackers::ZarchanEstimate;
-
 constexpr double kFirstAmplitude = 3.0;  // AH of the first filter, and A = 1
 constexpr double kVelocityVariance = 4.0;
 constexpr double kFrequencyVariance = 4.0;

@@ -197,7 +197,7 @@ class RegulatorVerifier {
       objections.emplace_back(kUnknown);
       return {};
     }
-    const Claim found = id == kTracker ? tracker_claim() : id == kGuarantee ? guarantee(claim) : required_claim(id);
+    Claim found = id == kTracker ? tracker_claim() : id == kGuarantee ? guarantee(claim) : required_claim(id);
     if (id != kTracker && proved_ == nullptr) {
       objections.emplace_back(kUnverified);
     }

@@ -12,6 +12,7 @@
 #include <limits>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "analysis/rigor/kept_control.hpp"
@@ -78,17 +79,18 @@ class Batch {
     const double* input = samples.data();
     const Targets targets{state.mutable_data(), deviation.mutable_data(), innovation.mutable_data(),
                           nis.mutable_data()};
+    // The batch itself is touched with the interpreter held only, so that threads may call it as they like.
+    std::vector<Tracker> moved = trackers_;
     {
       const py::gil_scoped_release free;
-      std::vector<Tracker> moved = trackers_;
-      in_threads(threads, [&](std::size_t first, std::size_t last) {
+      in_threads(moved.size(), threads, [&](std::size_t first, std::size_t last) {
         const TrackerArithmetic arithmetic;
         for (std::size_t i = first; i < last; ++i) {
           run_one(moved[i], input + i * stride, length, i * length, targets);
         }
       });
-      trackers_ = std::move(moved);
     }
+    trackers_ = std::move(moved);
     return py::make_tuple(state, deviation, innovation, nis);
   }
 
@@ -114,12 +116,12 @@ class Batch {
 
   /// Parts of the batch, a thread each; what the first part that failed has thrown is thrown.
   template <typename Work>
-  void in_threads(std::size_t threads, const Work& work) const {
-    const std::size_t parts = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(size(), 1));
+  static void in_threads(std::size_t size, std::size_t threads, const Work& work) {
+    const std::size_t parts = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(size, 1));
     std::vector<std::exception_ptr> failures(parts);
     const auto part = [&](std::size_t number) {
       try {
-        work(size() * number / parts, size() * (number + 1) / parts);
+        work(size * number / parts, size * (number + 1) / parts);
       } catch (...) {
         failures[number] = std::current_exception();
       }

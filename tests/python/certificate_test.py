@@ -161,11 +161,10 @@ def test_what_is_no_request_is_refused():
 _INTERRUPTED = """
 import sys, veritrack
 design = veritrack.Design.from_file(sys.argv[1])
-print("begins", flush=True)
 try:
+    print("begins", flush=True)
     veritrack.check([design] * 8, jobs=2) if sys.argv[2] == "check" else veritrack.certify(design)
 except KeyboardInterrupt:
-    from veritrack import _engine
     print("interrupted", flush=True)
 """
 

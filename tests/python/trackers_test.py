@@ -214,3 +214,19 @@ def test_other_threads_run_meanwhile():
         turns.append(1)
     thread.join()
     assert len(turns) > 100
+
+
+def test_threads_that_call_one_tracker_do_no_harm():
+    samples = tone(2000, 0.5, noise=0.1)
+    reference = veritrack.QuadratureEkf(0.001, 0.001, 0.01, frequency=0.4)
+    states = []
+    for _ in range(4):
+        reference.run(samples)
+        states.append(reference.state)
+    tracker = veritrack.QuadratureEkf(0.001, 0.001, 0.01, frequency=0.4)
+    threads = [threading.Thread(target=tracker.run, args=(samples,), kwargs={"threads": 1}) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert any(np.array_equal(tracker.state, state) for state in states)

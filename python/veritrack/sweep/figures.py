@@ -18,7 +18,8 @@ _STYLE = {
     "axes.spines.right": False, "axes.edgecolor": "0.4", "font.family": "DejaVu Sans",
 }
 
-_LEAST_COLOUR, _MOST_COLOUR = 0.25, 0.95
+_LEAST_COLOUR, _MOST_COLOUR, _COLOURS = 0.25, 0.95, 48
+"""Fewer than 50 colours, of which Matplotlib draws the scale as lines and not as a picture, which pages drop."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -64,7 +65,7 @@ def region_figure(values: Values, x: Axis, y: Axis, level: float | None) -> str:
         norm = (matplotlib.colors.LogNorm(proved.min(), max(proved.max(), proved.min() * 1.001))
                 if proved.size else matplotlib.colors.Normalize(0, 1))
         # Dark is better, whichever side that is.
-        shades = np.linspace(_LEAST_COLOUR, _MOST_COLOUR, 256)
+        shades = np.linspace(_LEAST_COLOUR, _MOST_COLOUR, _COLOURS)
         colours = matplotlib.colors.ListedColormap(
             [str(shade) for shade in (shades if values.is_at_most else shades[::-1])])
         xs, ys = np.unique(values.x), np.unique(values.y)

@@ -278,8 +278,8 @@ def _level_sentence(spec: Spec, rows: Sequence[Row]) -> list[str]:
     at_least = bounds[0].sense == "at least"
     met = sum(bound.value >= level if at_least else bound.value <= level for bound in bounds)
     words = bounds[0].words or name.replace("_", " ")
-    return [f"For {met} designs it is certified: {_md(words)}, {'at least' if at_least else 'at most'} "
-            f"{spec.report['level']}.", ""]
+    return [f"For {met} designs this is certified to be {'at least' if at_least else 'at most'} "
+            f"{spec.report['level']}: {_md(words)}.", ""]
 
 
 def _front_table(spec: Spec, rows: Sequence[Row]) -> list[str]:

@@ -109,7 +109,7 @@ class _Cluster:
     def close(self) -> None:
         self._drop_client()
         if self._cluster is not None:
-            self._cluster.close(timeout=5)
+            self._cluster.close(timeout=60)
 
 
 def _batches(spec: Spec, store: Store, program: str, again: bool, size: Callable[[], int],
@@ -168,7 +168,7 @@ class _Run:
     def run(self) -> int:
         """All that is left; how many designs were certified."""
         self._store.begin(self._sweep, self._spec.name, self._spec.text, self._spec.base.text, self._program)
-        self._start = time.monotonic()
+        self._start = self._had_workers = time.monotonic()
         self._done = self._at_start = self._store.count(self._sweep)
         batches = _batches(self._spec, self._store, self._program, self._options.again, self._batch_size,
                            self._note)
@@ -187,6 +187,11 @@ class _Run:
 
     def _submit(self, client: distributed.Client, batches: Iterator[Batch]) -> None:
         threads = sum(client.nthreads().values())
+        now = time.monotonic()
+        if threads:
+            self._had_workers = now
+        elif now - self._had_workers > self._options.patience:
+            raise SchedulerLost(f"no worker for {self._options.patience:g} s; the same command goes on from here")
         most = max(_BATCHES_PER_THREAD, _BATCHES_PER_THREAD * threads)
         while len(self._in_flight) < most:
             if self._to_repeat:

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/dft_block/lock_claims.hpp"
+#include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/support/random.hpp"
 
@@ -26,9 +27,13 @@ constexpr double kTurn = 6.283185307179586;
 /// Set 1 of the thesis at amplitude 1, a tone 0.3 bins off.
 BlockProblem<Interval> problem() {
   const double scale = 2.0 * kTurn;
-  return {Interval(5e-5 * scale), Interval(1e-3),
-          Interval(2.5e-3),       Interval(12.5 / 4096.0 * scale * scale),
-          Interval(0.3),          2};
+  return {Interval(5e-5 * scale),
+          Interval(1e-3),
+          Interval(2.5e-3),
+          Interval(12.5 / 4096.0 * scale * scale),
+          Interval(0.3),
+          rigor::pi(),
+          2};
 }
 
 /// The bins of the tone by (4.9), with complex numbers.
@@ -140,7 +145,7 @@ TEST_CASE("what is no lock is not proved") {
   CHECK_FALSE(verify_lock(integer, lock->set));
   // A set for all offsets of a narrow cell.
   BlockProblem<Interval> cell = problem();
-  cell.offset = Interval::from_bounds(0.3 - 1e-7, 0.3 + 1e-7);
+  cell.offset = Interval::from_bounds(0.3 - 1e-9, 0.3 + 1e-9);
   dft_block::LockProposal smaller = lock->set;
   smaller.radius *= 0.5;
   CHECK(verify_lock(cell, smaller));

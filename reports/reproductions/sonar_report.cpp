@@ -54,7 +54,7 @@ Outcome searched(const PrintedNumber& number, const SetStudy& study, SumsOf sums
   bool all_no = true;
   for (const auto& by_start : study.scores) {
     for (const SonarScores& scores : by_start) {
-      const Outcome outcome = among_runs(number, scores.*sums);
+      Outcome outcome = among_runs(number, scores.*sums);
       if (outcome.comes_out == ComesOut::yes) {
         return outcome;
       }

@@ -27,7 +27,6 @@ using namespace vibration;
 using experiments::Estimator;
 using experiments::FirstGuess;
 using experiments::VibrationOrder;
-using experiments::VibrationStart;
 using Complex = std::complex<double>;
 
 constexpr Conditions kStartUnpublished{Conditions::Kind::chosen, "e₋₁, e₋₂, θ₀ and P₋₁ are unpublished"};

@@ -88,7 +88,11 @@ Proof.
   - apply (predicted_not_negative d q1_0 q2_0); exact P.
   - apply (predicted_below d); exact B.
   - intros a b' z k1 k2; rewrite predicted_form.
-    pose proof (lower [a; b'; z; k1; k2] eq_refl) as L; unfold lower_terms, predicted_terms in L; read_terms L.
+    set (n1 := k1 - (Q2R (k11 b) * a + Q2R (k21 b) * b' + Q2R (k31 b) * z)).
+    set (n2 := k2 - (Q2R (k12 b) * a + Q2R (k22 b) * b' + Q2R (k32 b) * z)).
+    pose proof (lower [n1; n2; a; b'; z] eq_refl) as L; unfold lower_terms, predicted_terms in L; read_terms L.
+    replace (n1 + (Q2R (k11 b) * a + Q2R (k21 b) * b' + Q2R (k31 b) * z)) with k1 in L by (unfold n1; ring).
+    replace (n2 + (Q2R (k12 b) * a + Q2R (k22 b) * b' + Q2R (k32 b) * z)) with k2 in L by (unfold n2; ring).
     unfold d; cbn [design_of q1 q2 r].
     match type of L with _ <= -1 * ?g + (1 * ?f + _) => set (n := f) in *; set (bottom := g) in * end.
     match goal with |- _ <= ?f + _ + _ + _ => replace f with n by (unfold n; f_equal; ring) end.

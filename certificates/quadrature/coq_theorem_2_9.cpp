@@ -8,7 +8,9 @@
 #include <array>
 
 #include "certificates/document/coq_numbers.hpp"
+#include "certificates/quadrature/coq_ekf.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates::coq {
@@ -120,7 +122,7 @@ void prove_condition(Proofs& proofs, const theorems::Derivation& derivation, con
 
 }  // namespace
 
-FormalProofs theorem_2_9_proofs(const Certificate& certificate) {
+FormalProofs quadrature_proofs(const Certificate& certificate) {
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
   Proofs proofs(text_for_all_designs("theorem_2_9"));
   for (const char* reading : {"printed", "errata"}) {
@@ -142,6 +144,7 @@ FormalProofs theorem_2_9_proofs(const Certificate& certificate) {
       prove_condition(proofs, *derivation, reading, {"2.45", "initial_error_bound", initial_error, false});
     }
   }
+  prove_guarantee(proofs, tables, quadrature_particulars(certificate).start_covariance);
   return proofs.finished();
 }
 

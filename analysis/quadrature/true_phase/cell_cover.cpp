@@ -73,7 +73,7 @@ std::unique_ptr<CellTree> cover_box(const trackers::ToneModel<double>& design, c
 }  // namespace
 
 ErrorBox box_around(const ErrorEllipsoid& set) {
-  constexpr double kWider = 1.00005;
+  constexpr double kWider = 1.0002;
   ErrorBox box;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);

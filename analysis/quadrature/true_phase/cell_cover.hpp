@@ -18,7 +18,7 @@ struct CellTree {
   std::unique_ptr<CellTree> below, above;
 };
 
-/// A symmetric box around the ellipsoid, half a part in ten thousand wider.
+/// A symmetric box around the ellipsoid, two parts in ten thousand wider.
 [[nodiscard]] ErrorBox box_around(const ErrorEllipsoid& set);
 
 /// Numbers with which all forms are positive over the box; none where they are not found. Needs the upward

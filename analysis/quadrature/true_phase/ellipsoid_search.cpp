@@ -62,7 +62,7 @@ struct Shape {
 
 class Search {
  public:
-  explicit Search(const EllipsoidQuestion& question) : question_(question) {
+  Search(const EllipsoidQuestion& question, EllipsoidAim aim) : question_(question), aim_(aim) {
     constexpr int kSteps = 20'000;
     steady_ = question.start_highest;
     for (int k = 0; k < kSteps; ++k) {
@@ -113,20 +113,31 @@ class Search {
   /// Improves on the best so far, if a cover is found.
   bool attempt(const Shape& shape) {
     const auto set = ellipsoid(shape);
-    if (!set || !(set->inverse(2, 2) < best_bound2_)) {
+    const bool for_ever = aim_ == EllipsoidAim::for_ever;
+    if (!set || (for_ever && !(set->inverse(2, 2) < best_))) {
       return false;
     }
     const ErrorBox middle{{Interval(0.0), Interval(0.0), Interval(0.0)}};
     if (!numbers_for(question_.design, *set, middle)) {
       return false;
     }
-    if (auto cells = cover(question_.design, *set, kMostBoxes)) {
-      best_ = CoveredEllipsoid{*set, std::move(cells)};
-      best_shape_ = shape;
-      best_bound2_ = set->inverse(2, 2);
-      return true;
+    auto cells = cover(question_.design, *set, kMostBoxes);
+    if (!cells) {
+      return false;
     }
-    return false;
+    CoveredEllipsoid found{*set, std::move(cells)};
+    if (!for_ever) {
+      reduce_noise_gain(found);
+    }
+    const double bound =
+        found.set.inverse(2, 2) * (for_ever ? 1.0 : ultimate_level(question_, found.set));
+    if (!(bound < best_)) {
+      return false;
+    }
+    found_ = std::move(found);
+    best_shape_ = shape;
+    best_ = bound;
+    return true;
   }
 
   void over_grid() {
@@ -142,7 +153,7 @@ class Search {
   /// From the best so far, one number at a time.
   void by_coordinates() {
     for (const double step : {2.0, 1.4, 1.15}) {
-      bool better = best_.has_value();
+      bool better = found_.has_value();
       for (int round = 0; better && round < 4; ++round) {
         better = false;
         for (std::size_t i = 0; i < 6; ++i) {
@@ -157,28 +168,34 @@ class Search {
     }
   }
 
-  /// The least gain of the noise with which the cover is still found.
-  [[nodiscard]] std::optional<CoveredEllipsoid> with_least_noise_gain() {
-    constexpr int kBisections = 8;
-    if (!best_ || !(question_.noise > 0.0)) {
-      return std::move(best_);
+  [[nodiscard]] std::optional<CoveredEllipsoid> result() && {
+    if (found_) {
+      reduce_noise_gain(*found_);
     }
-    double works = best_->set.noise_gain;
+    return std::move(found_);
+  }
+
+ private:
+  /// To the least with which a cover is still found.
+  void reduce_noise_gain(CoveredEllipsoid& found) const {
+    constexpr int kBisections = 8;
+    if (!(question_.noise > 0.0)) {
+      return;
+    }
+    double works = found.set.noise_gain;
     double fails = 1e-4 * works;
     for (int k = 0; k < kBisections; ++k) {
-      ErrorEllipsoid set = best_->set;
+      ErrorEllipsoid set = found.set;
       set.noise_gain = stored(std::sqrt(works * fails));
       if (auto cells = cover(question_.design, set, kMostBoxes)) {
         works = set.noise_gain;
-        best_ = CoveredEllipsoid{set, std::move(cells)};
+        found = CoveredEllipsoid{set, std::move(cells)};
       } else {
         fails = set.noise_gain;
       }
     }
-    return std::move(best_);
   }
 
- private:
   /// The largest e' M e of the starts.
   [[nodiscard]] double farthest_start(const Matrix3d& shape) const {
     const Matrix3d sizes = shape.cwiseAbs();
@@ -190,15 +207,20 @@ class Search {
   Eigen::Matrix<double, 3, 2> gain_;
   double least_kappa2_ = 1.0;
   Vector3d corner_;
-  double best_bound2_ = std::numeric_limits<double>::infinity();
+  EllipsoidAim aim_;
+  double best_ = std::numeric_limits<double>::infinity();  ///< the square of the bound
   Shape best_shape_;
-  std::optional<CoveredEllipsoid> best_;
+  std::optional<CoveredEllipsoid> found_;
 };
 
 }  // namespace
 
 double stored(double x) {
   constexpr int kBits = 40;
+  constexpr double kZero = 1e-20;  // what is left of an entry that is zero by symmetry
+  if (std::fabs(x) < kZero) {
+    return 0.0;
+  }
   int exponent = 0;
   const double fraction = std::frexp(x, &exponent);
   return std::ldexp(std::rint(std::ldexp(fraction, kBits)), exponent - kBits);
@@ -218,11 +240,16 @@ Eigen::Matrix<double, 3, 2> gain_at(const trackers::ToneModel<double>& design, c
   return predicted.leftCols<2>() * innovation.inverse();
 }
 
-std::optional<CoveredEllipsoid> search_ellipsoid(const EllipsoidQuestion& question) {
-  Search search(question);
+double ultimate_level(const EllipsoidQuestion& question, const ErrorEllipsoid& set) {
+  return (set.noise_gain * question.noise * question.noise + set.slew_gain * question.slew * question.slew) /
+         (1.0 - set.kappa2);
+}
+
+std::optional<CoveredEllipsoid> search_ellipsoid(const EllipsoidQuestion& question, EllipsoidAim aim) {
+  Search search(question, aim);
   search.over_grid();
   search.by_coordinates();
-  return search.with_least_noise_gain();
+  return std::move(search).result();
 }
 
 }  // namespace veritrack::quadrature

@@ -24,9 +24,16 @@ struct CoveredEllipsoid {
   std::unique_ptr<CellTree> cells;
 };
 
-/// The smallest bound on the frequency error that is found, and then the smallest gain of the noise; none
-/// where nothing is found. Deterministic. Needs the upward mode.
-[[nodiscard]] std::optional<CoveredEllipsoid> search_ellipsoid(const EllipsoidQuestion& question);
+/// What the frequency error is to be small at: all samples, or in the long run.
+enum class EllipsoidAim { for_ever, in_the_long_run };
+
+/// The least bound on the frequency error that is found; none where nothing is found. Deterministic. Needs the
+/// upward mode.
+[[nodiscard]] std::optional<CoveredEllipsoid> search_ellipsoid(const EllipsoidQuestion& question,
+                                                               EllipsoidAim aim);
+
+/// The share u of e' M e = 1 that noise and slew hold up: e' M e falls to u. At most 1.
+[[nodiscard]] double ultimate_level(const EllipsoidQuestion& question, const ErrorEllipsoid& set);
 
 /// The covariance after one step from `covariance` with the errors e1, e2, in the frame of the prediction.
 [[nodiscard]] Eigen::Matrix3d covariance_after(const trackers::ToneModel<double>& design,

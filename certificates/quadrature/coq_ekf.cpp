@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -24,16 +26,28 @@ using rigor::Interval;
 constexpr std::array kParts{"filter", "frame",    "error", "order", "induction",
                             "positive", "leaf", "cell",  "cover", "guarantee"};
 
-/// The files as modules of one file.
+/// The files as modules of one file: what they require of Coq's libraries stands before each module.
 std::string all_parts() {
-  constexpr std::string_view kImport = "From Veritrack Require Import";
+  constexpr std::string_view kOwn = "From Veritrack Require Import ";
+  constexpr std::string_view kRequire = " Require Import ";
   std::string result;
   for (const char* name : kParts) {
-    std::string text(text_for_all_designs(fmt::format("ekf/{}", name)));
-    if (const std::size_t at = text.find(kImport); at != std::string::npos) {
-      text.replace(at, kImport.size(), "Import");
+    std::istringstream text{std::string(text_for_all_designs(fmt::format("ekf/{}", name)))};
+    std::string required;
+    std::string body;
+    for (std::string line; std::getline(text, line);) {
+      const std::size_t at = line.starts_with("From ") ? line.find(kRequire) : std::string::npos;
+      if (at == std::string::npos) {
+        body += line + "\n";
+        continue;
+      }
+      const std::string modules = line.substr(at + kRequire.size());
+      body += fmt::format("Import {}\n", modules);
+      if (!line.starts_with(kOwn)) {
+        required += fmt::format("{} Require {}\n", line.substr(0, at), modules);
+      }
     }
-    result += fmt::format("\nModule {0}.\n{1}End {0}.\n", name, text);
+    result += fmt::format("\n{1}Module {0}.\n{2}End {0}.\n", name, required, body);
   }
   return result;
 }
@@ -230,7 +244,7 @@ void prove_guarantee(Proofs& proofs, const QuadratureEkfTables& tables, const St
   const Promises settled = promises_of(question, long_run->set);
   proofs.write(all_parts());
   proofs.write(
-      "\nModule ekf.\nFrom Coq Require Import QArith.\nImport filter positive leaf cover guarantee.\n"
+      "\nModule ekf.\nImport QArith filter positive leaf cover guarantee.\n"
       "Local Open Scope Q_scope.\n");
   proofs.write(certificate_text("set_for_ever", texts, for_ever->set, *for_ever->cells, always));
   proofs.write(certificate_text("set_for_the_long_run", texts, long_run->set, *long_run->cells, settled));

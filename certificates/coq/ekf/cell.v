@@ -33,6 +33,12 @@ Proof. unfold Q2R; simpl; lra. Qed.
 Lemma half_form : forall l u a b c, form (half l u) a b c = 1 / 2 * (form u a b c - form l a b c).
 Proof. intros; unfold form, half; cbn [s11 s12 s13 s22 s23 s33]; lra. Qed.
 
+Lemma form_difference : forall m l a b c,
+  form (to_R (difference_Q m l)) a b c = form (to_R m) a b c - form (to_R l) a b c.
+Proof.
+  intros; unfold form, to_R, difference_Q; cbn [q11 q12 q13 q22 q23 q33 s11 s12 s13 s22 s23 s33]; rewrite !Q2R_minus; ring.
+Qed.
+
 Ltac read_terms H :=
   cbv zeta in H; repeat rewrite ?value_app, ?value_form, ?dot_added, ?dot_scaled, ?dot_difference, ?dot_variable,
     ?dot_nil, ?one_is, ?minus_one_is, ?cosine_is in H;
@@ -143,7 +149,7 @@ Proof.
   pose proof (error [b1; b2; b3; u1; u2; w; e1; e2; nu] eq_refl) as E.
   unfold error_terms, half_terms, middle_over_r in E; read_terms E.
   rewrite <- cosine_g, <- sine_s in E.
-  rewrite Q2R_half, Q2R_minus_2 in E.
+  rewrite Q2R_half, Q2R_minus_2, !form_difference in E.
   fold h1 h2 in E.
   assert (inverse_2_r : Q2R (/ (2 * design_r c)) = / Q2R (design_r c) * (1 / 2)).
   { rewrite Q2R_inv, Q2R_mult; [| intro Z; apply Qeq_eqR in Z; rewrite Q2R_mult in Z; unfold Q2R in Z at 1 3; simpl in Z; lra].

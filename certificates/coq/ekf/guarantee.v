@@ -97,8 +97,8 @@ Proof.
   intros half e1 e2 nu bound half0 i small A level.
   pose proof (positive_sound _ _ _ [e1; e2; nu] (width_terms_hold s half i) eq_refl A) as V.
   unfold width_terms in V; read_terms V; rewrite Q2R_mult in V.
-  assert (0 <= Q2R half * Q2R half) by nra.
-  pose proof (Rmult_le_compat_l _ _ _ H level); cbn [nth]; lra.
+  assert (square : 0 <= Q2R half * Q2R half) by (apply Rmult_le_pos; exact half0).
+  pose proof (Rmult_le_compat_l _ _ _ square level); cbn [nth]; lra.
 Qed.
 
 Lemma kept_everywhere : forall e1 e2 nu, form (M o) e1 e2 nu <= 1 -> step_is_kept (design_of s) o e1 e2 nu.

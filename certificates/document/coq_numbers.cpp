@@ -93,8 +93,8 @@ std::string quotient(std::string_view text, std::string_view sign_between) {
     return fmt::format("(0 {} 1)", sign_between);
   }
   const auto zeros = [](int count) { return std::string(static_cast<std::size_t>(std::max(count, 0)), '0'); };
-  return fmt::format("({}{}{} {} 1{})", parts.negative ? "-" : "", parts.digits, zeros(parts.exponent), sign_between,
-                     zeros(-parts.exponent));
+  return fmt::format("({}{}{} {} 1{})", parts.negative ? "-" : "", parts.digits, zeros(parts.exponent),
+                     sign_between, zeros(-parts.exponent));
 }
 
 std::string exactly(double value) {

@@ -23,8 +23,8 @@ using quadrature::EllipsoidQuestion;
 using quadrature::ErrorEllipsoid;
 using rigor::Interval;
 
-constexpr std::array kParts{"filter", "frame",    "error", "order", "induction",
-                            "positive", "leaf", "cell",  "cover", "guarantee"};
+constexpr std::array kParts{"filter",   "frame", "error", "order", "induction",
+                            "positive", "leaf",  "cell",  "cover", "guarantee"};
 
 /// The files as modules of one file: what they require of Coq's libraries stands before each module.
 std::string all_parts() {
@@ -53,7 +53,9 @@ std::string all_parts() {
 }
 
 /// A double as a number of type Q, exactly.
-std::string exact(double x) { return x == 0.0 ? "0" : fmt::format("({:a})", x); }
+std::string exact(double x) {
+  return x == 0.0 ? "0" : fmt::format("({:a})", x);
+}
 
 std::string exact(const Eigen::Matrix3d& m) {
   return fmt::format("(Build_symmetric_Q {} {} {} {} {} {})", exact(m(0, 0)), exact(m(0, 1)), exact(m(0, 2)),
@@ -71,8 +73,8 @@ std::string exact(const CellTree& tree) {
       for (Eigen::Index i = 0; i < 3; ++i) {
         gain += fmt::format(" {} {}", exact(cell.gain(i, 0)), exact(cell.gain(i, 1)));
       }
-      return fmt::format("(Checked (Build_leaf {} {}{} {} {}))", exact(cell.lowest), exact(cell.highest), gain,
-                         exact(cell.lambda), exact(cell.mu));
+      return fmt::format("(Checked (Build_leaf {} {}{} {} {}))", exact(cell.lowest), exact(cell.highest),
+                         gain, exact(cell.lambda), exact(cell.mu));
     }
     case CellTree::Kind::cut:
       break;
@@ -114,7 +116,8 @@ Eigen::Matrix3d matrix_of(const StartCovarianceText::Entries& entries, double mu
   Eigen::Matrix3d result;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = multiple * number(entries.at(i).at(j));
+      result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          multiple * number(entries.at(i).at(j));
     }
   }
   return result;
@@ -165,7 +168,8 @@ Promises promises_of(const EllipsoidQuestion& question, const ErrorEllipsoid& se
       std::clamp(std::ceil(std::log(kAboveUltimate * u) / std::log(set.kappa2)), 0.0, kMostSamples);
   const double remaining = std::pow(set.kappa2, samples) * (1.0 - u) + u;
   const std::string error_bound = rounded_up(bound);
-  return {error_bound, static_cast<long>(samples), rounded_up(number(error_bound) * std::sqrt(remaining)), level};
+  return {error_bound, static_cast<long>(samples), rounded_up(number(error_bound) * std::sqrt(remaining)),
+          level};
 }
 
 std::string certificate_text(const std::string& name, const Texts& texts, const ErrorEllipsoid& set,
@@ -174,8 +178,10 @@ std::string certificate_text(const std::string& name, const Texts& texts, const 
   const auto q = [](const std::string& text) { return quotient(text, "#"); };
   return fmt::format(
       "\nDefinition {} : certificate := {{|\n"
-      "  set := {{|\n    design_q1 := {}; design_q2 := {}; design_r := {};\n    set_M := {};\n    set_N := {};\n"
-      "    set_lo := {};\n    set_hi := {};\n    set_kappa2 := {}; set_noise_gain := {}; set_slew_gain := {} |}};\n"
+      "  set := {{|\n    design_q1 := {}; design_q2 := {}; design_r := {};\n    set_M := {};\n    set_N := "
+      "{};\n"
+      "    set_lo := {};\n    set_hi := {};\n    set_kappa2 := {}; set_noise_gain := {}; set_slew_gain := {} "
+      "|}};\n"
       "  noise_bound := {}; slew_bound := {};\n"
       "  amplitude_error := {}; phase_error := {}; frequency_error := {};\n"
       "  start_lo := Build_symmetric_Q {};\n  start_hi := Build_symmetric_Q {};\n"
@@ -189,7 +195,8 @@ std::string certificate_text(const std::string& name, const Texts& texts, const 
       entries(texts.lowest, "#"), entries(texts.highest, "#"), q(texts.multiples[0]), q(texts.multiples[1]),
       exact(quadrature::stored(kWider * std::sqrt(set.inverse(0, 0)))),
       exact(quadrature::stored(kWider * std::sqrt(set.inverse(1, 1)))), q(promises.error_bound),
-      q(promises.ultimate_level), promises.settled_after, q(promises.settled_bound), exact(cells), name, name);
+      q(promises.ultimate_level), promises.settled_after, q(promises.settled_bound), exact(cells), name,
+      name);
 }
 
 /// Design and start covariance as real numbers, for the statements.
@@ -198,7 +205,8 @@ std::string definitions(const Texts& texts) {
   return fmt::format(
       "\n(* The design, and the matrices between whose multiples the covariance at the start lies. *)\n"
       "Definition tracker : noise_model := {{| q1 := {}; q2 := {}; r := {} |}}.\n"
-      "Definition lowest_start : symmetric := Symmetric {}.\nDefinition highest_start : symmetric := Symmetric {}.\n",
+      "Definition lowest_start : symmetric := Symmetric {}.\nDefinition highest_start : symmetric := "
+      "Symmetric {}.\n",
       real(texts.q1), real(texts.q2), real(texts.r), entries(texts.lowest, "/"), entries(texts.highest, "/"));
 }
 
@@ -207,15 +215,19 @@ std::string proposition(const Texts& texts, const std::string& condition, const 
   const auto real = [](const std::string& text) { return quotient(text, "/"); };
   return fmt::format(
       "forall (phi omega v1 v2 : nat -> R) (a psi nu : R) (m : symmetric),\n"
-      "  (forall k, phi (S k) = phi k + omega k) -> (* the phase of the signal and its frequency, rad/sample *)\n"
-      "  (forall k, v1 k ^ 2 + v2 k ^ 2 <= {} ^ 2) -> (* the measurement noise, relative to the amplitude *)\n"
+      "  (forall k, phi (S k) = phi k + omega k) -> (* the phase of the signal and its frequency, rad/sample "
+      "*)\n"
+      "  (forall k, v1 k ^ 2 + v2 k ^ 2 <= {} ^ 2) -> (* the measurement noise, relative to the amplitude "
+      "*)\n"
       "  (forall k, Rabs (omega (S k) - omega k) <= {}) -> (* the slew, rad/sample per sample *)\n"
-      "  Rabs a <= {} -> Rabs psi <= {} -> Rabs nu <= {} -> (* errors of the start: amplitude, phase, frequency *)\n"
+      "  Rabs a <= {} -> Rabs psi <= {} -> Rabs nu <= {} -> (* errors of the start: amplitude, phase, "
+      "frequency *)\n"
       "  below (multiple {} lowest_start) m -> below m (multiple {} highest_start) -> (* P(0|0) *)\n"
       "  forall k, {}Rabs (x (run tracker (start_estimate (phi 0%nat) (omega 0%nat) a psi nu m)\n"
       "    (measurement phi v1 v2) k) 3%nat 1%nat - omega k) <= {}",
       real(texts.noise), real(texts.slew), real(texts.amplitude_error), real(texts.phase_error),
-      real(texts.frequency_error), real(texts.multiples[0]), real(texts.multiples[1]), condition, real(bound));
+      real(texts.frequency_error), real(texts.multiples[0]), real(texts.multiples[1]), condition,
+      real(bound));
 }
 
 std::string proof(const std::string& certificate, const char* which) {
@@ -249,17 +261,20 @@ void prove_guarantee(Proofs& proofs, const QuadratureEkfTables& tables, const St
   proofs.write(certificate_text("set_for_ever", texts, for_ever->set, *for_ever->cells, always));
   proofs.write(certificate_text("set_for_the_long_run", texts, long_run->set, *long_run->cells, settled));
   proofs.write("Local Open Scope R_scope.\n" + definitions(texts));
-  proofs.prove("frequency_error_for_ever", proposition(texts, "", always.error_bound),
-               proof("set_for_ever", "proj1"), "ekf/frequency-error-bound",
-               fmt::format("The recursion (2.3)-(2.9) over the real numbers, from every start that is assumed and every "
-                           "P(0|0) from {} M to {} M: the frequency error never exceeds {} rad/sample.",
-                           texts.multiples[0], texts.multiples[1], always.error_bound));
-  proofs.prove("frequency_error_in_the_long_run",
-               proposition(texts, fmt::format("({} <= k)%nat -> ", settled.settled_after), settled.settled_bound),
-               proof("set_for_the_long_run", "proj2"), "ekf/settling-time",
-               fmt::format("And from sample {} on it never exceeds {} rad/sample.", settled.settled_after,
-                           settled.settled_bound));
-  proofs.write("End ekf.\nImport ekf.\n");
+  proofs.prove(
+      "frequency_error_for_ever", proposition(texts, "", always.error_bound), proof("set_for_ever", "proj1"),
+      "ekf/frequency-error-bound",
+      fmt::format(
+          "The recursion (2.3)-(2.9) over the real numbers, from every start that is assumed and every "
+          "P(0|0) from {} M to {} M: the frequency error never exceeds {} rad/sample.",
+          texts.multiples[0], texts.multiples[1], always.error_bound));
+  proofs.prove(
+      "frequency_error_in_the_long_run",
+      proposition(texts, fmt::format("({} <= k)%nat -> ", settled.settled_after), settled.settled_bound),
+      proof("set_for_the_long_run", "proj2"), "ekf/settling-time",
+      fmt::format("And from sample {} on it never exceeds {} rad/sample.", settled.settled_after,
+                  settled.settled_bound));
+  proofs.write("End ekf.\nImport ekf.\n\n");
 }
 
 }  // namespace veritrack::certificates::coq

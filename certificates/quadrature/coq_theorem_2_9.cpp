@@ -124,7 +124,11 @@ void prove_condition(Proofs& proofs, const theorems::Derivation& derivation, con
 
 FormalProofs quadrature_proofs(const Certificate& certificate) {
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
-  Proofs proofs(text_for_all_designs("theorem_2_9"));
+  Proofs proofs;
+  if (certificate.particulars.has_value()) {
+    prove_guarantee(proofs, tables, quadrature_particulars(certificate).start_covariance);
+  }
+  proofs.write(text_for_all_designs("theorem_2_9"));
   for (const char* reading : {"printed", "errata"}) {
     proofs.cite("condition_2_43_fails_for_every_design", fmt::format("theorem-2.9/{}/feasibility", reading),
                 "Condition (2.43) fails for every design and every admissible choice of the free parameters, "
@@ -144,7 +148,6 @@ FormalProofs quadrature_proofs(const Certificate& certificate) {
       prove_condition(proofs, *derivation, reading, {"2.45", "initial_error_bound", initial_error, false});
     }
   }
-  prove_guarantee(proofs, tables, quadrature_particulars(certificate).start_covariance);
   return proofs.finished();
 }
 

@@ -109,8 +109,8 @@ std::optional<CellNumbers> numbers_for(const trackers::ToneModel<double>& design
       !is_inside_when_turned(cell.lowest, set.lowest, box.sides[2], true)) {
     return std::nullopt;
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> ratio((cell.highest - cell.lowest) / 2.0, set.inverse,
-                                                                 Eigen::EigenvaluesOnly);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> ratio((cell.highest - cell.lowest) / 2.0,
+                                                                 set.inverse, Eigen::EigenvaluesOnly);
   for (const double share : kShares) {
     cell.lambda = stored(share / ratio.eigenvalues()(2));
     cell.mu = stored(kAboveOne / (cell.lambda * design.r * design.r));

@@ -11,7 +11,9 @@ using rigor::Interval;
 constexpr std::size_t kMostVariables = 9;
 using Linear = std::array<Interval, kMostVariables>;
 
-Interval scalar(double x) { return Interval(x); }
+Interval scalar(double x) {
+  return Interval(x);
+}
 
 Linear nothing() {
   Linear result;
@@ -138,7 +140,8 @@ bool upper_form_is_positive(const trackers::ToneModel<double>& design, const Err
   QuadraticForm form(3);
   const ThreeLinear at{variable(0), variable(1), variable(2)};
   form.add(1.0, cell.highest, at);
-  add_prediction(form, -1.0, design, set.highest, box, at, gain_column(cell, 0, at), gain_column(cell, 1, at));
+  add_prediction(form, -1.0, design, set.highest, box, at, gain_column(cell, 0, at),
+                 gain_column(cell, 1, at));
   return form.is_positive();
 }
 

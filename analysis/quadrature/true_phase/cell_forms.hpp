@@ -38,12 +38,15 @@ struct ErrorBox {
 
 /// Are the forms of leaf.v positive over the box? The names are those of the forms there. All need the upward
 /// mode.
-[[nodiscard]] bool upper_form_is_positive(const trackers::ToneModel<double>& design, const ErrorEllipsoid& set,
-                                          const CellNumbers& cell, const ErrorBox& box);
-[[nodiscard]] bool lower_form_is_positive(const trackers::ToneModel<double>& design, const ErrorEllipsoid& set,
-                                          const CellNumbers& cell, const ErrorBox& box);
-[[nodiscard]] bool error_form_is_positive(const trackers::ToneModel<double>& design, const ErrorEllipsoid& set,
-                                          const CellNumbers& cell, const ErrorBox& box);
+[[nodiscard]] bool upper_form_is_positive(const trackers::ToneModel<double>& design,
+                                          const ErrorEllipsoid& set, const CellNumbers& cell,
+                                          const ErrorBox& box);
+[[nodiscard]] bool lower_form_is_positive(const trackers::ToneModel<double>& design,
+                                          const ErrorEllipsoid& set, const CellNumbers& cell,
+                                          const ErrorBox& box);
+[[nodiscard]] bool error_form_is_positive(const trackers::ToneModel<double>& design,
+                                          const ErrorEllipsoid& set, const CellNumbers& cell,
+                                          const ErrorBox& box);
 
 /// Is `inner`, turned by any angle of the interval, below `outer` (or above, for `outer_is_below`)?
 [[nodiscard]] bool is_inside_when_turned(const Eigen::Matrix3d& inner, const Eigen::Matrix3d& outer,

@@ -16,7 +16,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using rigor::Interval;
 
-constexpr int kMostBoxes = 48;
+constexpr int kMostBoxes = 32;
 
 Matrix3d transition(double e1, double e2) {
   Matrix3d result = Matrix3d::Identity();
@@ -25,7 +25,8 @@ Matrix3d transition(double e1, double e2) {
   return result;
 }
 
-Matrix3d prediction(const trackers::ToneModel<double>& design, const Matrix3d& covariance, double e1, double e2) {
+Matrix3d prediction(const trackers::ToneModel<double>& design, const Matrix3d& covariance, double e1,
+                    double e2) {
   const Matrix3d f = transition(e1, e2);
   return f * covariance * f.transpose() + Matrix3d(Vector3d(design.q1, design.q1, design.q2).asDiagonal());
 }
@@ -76,7 +77,8 @@ class Search {
     wide_ *= steady_.norm() / wide_.norm();
     const double length = 1.0 + question.amplitude_error;
     const double half_square = 0.5 * length * question.phase_error * question.phase_error;
-    corner_ = Vector3d(question.amplitude_error + half_square, length * question.phase_error, question.frequency_error);
+    corner_ = Vector3d(question.amplitude_error + half_square, length * question.phase_error,
+                       question.frequency_error);
   }
 
   /// The ellipsoid of that shape around the starts; none when the start covariances are not inside.
@@ -89,7 +91,8 @@ class Search {
     Matrix3d added = parts * question_.noise * question_.noise * gain_ * gain_.transpose();
     added(2, 2) += parts * question_.slew * question_.slew;
     for (Eigen::Index i = 0; i < 3; ++i) {
-      added(i, i) += rest * shape.spread_of_start.at(static_cast<std::size_t>(i)) * corner_(i) * corner_(i) + 1e-14;
+      added(i, i) +=
+          rest * shape.spread_of_start.at(static_cast<std::size_t>(i)) * corner_(i) * corner_(i) + 1e-14;
     }
     Matrix3d n = accumulated(closed_loop_, added, set.kappa2 * (1.0 - kSlack));
     n *= (1.0 + kSlack) * std::max(farthest_start(n.inverse()), kSlack);
@@ -129,8 +132,7 @@ class Search {
     if (!for_ever) {
       reduce_noise_gain(found);
     }
-    const double bound =
-        found.set.inverse(2, 2) * (for_ever ? 1.0 : ultimate_level(question_, found.set));
+    const double bound = found.set.inverse(2, 2) * (for_ever ? 1.0 : ultimate_level(question_, found.set));
     if (!(bound < best_)) {
       return false;
     }

@@ -12,9 +12,9 @@ namespace veritrack::quadrature {
 
 /// What is asked of the ellipsoid, at amplitude 1.
 struct EllipsoidQuestion {
-  trackers::ToneModel<double> design;  ///< epsilon = 0
-  double noise = 0.0;                  ///< |v(k)| <= noise
-  double slew = 0.0;                   ///< rad/sample per sample
+  trackers::ToneModel<double> design;                                      ///< epsilon = 0
+  double noise = 0.0;                                                      ///< |v(k)| <= noise
+  double slew = 0.0;                                                       ///< rad/sample per sample
   double amplitude_error = 0.0, phase_error = 0.0, frequency_error = 0.0;  ///< of the start, in size
   Eigen::Matrix3d start_lowest, start_highest;  ///< of P(0|0), in the frame of the estimated phase
 };
@@ -27,8 +27,8 @@ struct CoveredEllipsoid {
 /// What the frequency error is to be small at: all samples, or in the long run.
 enum class EllipsoidAim { for_ever, in_the_long_run };
 
-/// The least bound on the frequency error that is found; none where nothing is found. Deterministic. Needs the
-/// upward mode.
+/// The least bound on the frequency error that is found; none where nothing is found. Deterministic. Needs
+/// the upward mode.
 [[nodiscard]] std::optional<CoveredEllipsoid> search_ellipsoid(const EllipsoidQuestion& question,
                                                                EllipsoidAim aim);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -34,9 +35,15 @@ std::string scaled(bool negative, const std::string& digits, int base, int expon
   return negative ? "(- " + term + ")" : term;
 }
 
-}  // namespace
+/// digits 10^exponent, with a sign; no digits for zero.
+struct DecimalParts {
+  bool negative = false;
+  std::string digits;
+  int exponent = 0;
+};
 
-std::string decimal(std::string_view text) {
+/// Throws rigor::NumberFormatError.
+DecimalParts parts_of(std::string_view text) {
   std::string plain(text);
   std::erase(plain, '_');
   static_cast<void>(rigor::parse_decimal(plain));  // throws for what is no decimal
@@ -70,7 +77,24 @@ std::string decimal(std::string_view text) {
     digits.pop_back();
     ++exponent;
   }
-  return digits.empty() ? "0" : scaled(negative, digits, 10, exponent);
+  return {negative, digits, exponent};
+}
+
+}  // namespace
+
+std::string decimal(std::string_view text) {
+  const DecimalParts parts = parts_of(text);
+  return parts.digits.empty() ? "0" : scaled(parts.negative, parts.digits, 10, parts.exponent);
+}
+
+std::string quotient(std::string_view text, std::string_view sign_between) {
+  const DecimalParts parts = parts_of(text);
+  if (parts.digits.empty()) {
+    return fmt::format("(0 {} 1)", sign_between);
+  }
+  const auto zeros = [](int count) { return std::string(static_cast<std::size_t>(std::max(count, 0)), '0'); };
+  return fmt::format("({}{}{} {} 1{})", parts.negative ? "-" : "", parts.digits, zeros(parts.exponent),
+                     sign_between, zeros(-parts.exponent));
 }
 
 std::string exactly(double value) {

@@ -18,7 +18,7 @@ namespace veritrack::certificates::coq {
 /// Appends to the text and lists what is proved.
 class Proofs {
  public:
-  explicit Proofs(std::string_view for_all_designs) { proofs_.text = for_all_designs; }
+  explicit Proofs(std::string_view for_all_designs = {}) { proofs_.text = for_all_designs; }
 
   /// Text that proves nothing by itself: a definition, say.
   void write(std::string_view text) { proofs_.text += text; }

@@ -38,7 +38,7 @@ std::string formal_proofs_section(const Certificate& certificate) {
   }
   std::string text = fmt::format(
       "## What a proof assistant can check\n\n`{}` beside this document proves the following statements in "
-      "the language of Coq, with the decimals of the design file and of this document; the proofs use "
+      "the language of Coq, with the decimals of the design file and of this document; the proofs trust "
       "nothing that this program computed. They are proved when `coqc {}` accepts the file (Coq 8.16 with "
       "coq-interval 4.6), which this program does not run. The last lines that coqc prints list the axioms; "
       "these should be only those of the real numbers. Everything else in this document rests on interval "

@@ -8,7 +8,9 @@
 #include <array>
 
 #include "certificates/document/coq_numbers.hpp"
+#include "certificates/quadrature/coq_ekf.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
+#include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates::coq {
@@ -120,9 +122,13 @@ void prove_condition(Proofs& proofs, const theorems::Derivation& derivation, con
 
 }  // namespace
 
-FormalProofs theorem_2_9_proofs(const Certificate& certificate) {
+FormalProofs quadrature_proofs(const Certificate& certificate) {
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
-  Proofs proofs(text_for_all_designs("theorem_2_9"));
+  Proofs proofs;
+  if (certificate.particulars.has_value()) {
+    prove_guarantee(proofs, tables, quadrature_particulars(certificate).start_covariance);
+  }
+  proofs.write(text_for_all_designs("theorem_2_9"));
   for (const char* reading : {"printed", "errata"}) {
     proofs.cite("condition_2_43_fails_for_every_design", fmt::format("theorem-2.9/{}/feasibility", reading),
                 "Condition (2.43) fails for every design and every admissible choice of the free parameters, "

@@ -1,4 +1,5 @@
-// What Coq can check of a certificate: the constants and refutations of Theorem 2.9.
+// What Coq can check of a certificate: the constants and refutations of Theorem 2.9, and the guarantee of the
+// tracker without a leak.
 #pragma once
 
 #include "certificates/document/certificate.hpp"
@@ -7,6 +8,6 @@
 namespace veritrack::certificates::coq {
 
 /// certificate.v, and what it proves. Needs the upward mode.
-[[nodiscard]] FormalProofs theorem_2_9_proofs(const Certificate& certificate);
+[[nodiscard]] FormalProofs quadrature_proofs(const Certificate& certificate);
 
 }  // namespace veritrack::certificates::coq

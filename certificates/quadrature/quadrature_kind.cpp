@@ -112,7 +112,7 @@ const TrackerKind& quadrature_kind() {
                                 .published = published,
                                 .evidence_json = quadrature_evidence_json,
                                 .report_json = quadrature_report_json,
-                                .formal_proofs = coq::theorem_2_9_proofs,
+                                .formal_proofs = coq::quadrature_proofs,
                                 .tune = tune_quadrature,
                                 .tuning_objectives = quadrature_tuning_objectives(),
                                 .track = quadrature_on_samples,

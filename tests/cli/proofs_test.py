@@ -135,6 +135,34 @@ class Proofs(CliTestCase):
             ("circle_of_half", self.changed(text, "a ^ 2 + b ^ 2 < 1", "a ^ 2 + b ^ 2 < 1 / 10")),
         ])
 
+    def test_guarantee(self):
+        design = (ROOT / "designs/la-scala-1994-figure-3.5-without-leak.toml").read_text()
+        parts, found, rest = self.certify(design, "guarantee").partition("\nModule ekf.\n")
+        self.assertTrue(found)
+        self.assertNotIn("Admitted", parts)
+        compiled = self.coqc("parts", parts)
+        self.assertEqual(compiled.returncode, 0, compiled.stderr)
+        head, lemma, _ = rest.partition("\nDefinition set_for_the_long_run")
+        self.assertTrue(lemma)
+        head = "From Coq Require Import QArith.\nRequire Import parts.\n" + head
+        theorem = re.search(r"(\n\(\* The design, and.*?)\nLemma frequency_error_in_the_long_run", rest, re.DOTALL).group(1)
+        bound = re.search(r"error_bound := \((\d+) #", head).group(1)
+        unchecked = self.changed(head, "Proof. vm_cast_no_check (eq_refl true). Qed.", "Admitted.") + \
+            "\nLocal Open Scope R_scope.\n"
+        accepted = self.coqc("statement", unchecked + theorem)
+        self.assertEqual(accepted.returncode, 0, accepted.stderr)
+        for name, text in [
+                ("larger_noise", self.changed(head, "noise_bound := (1 # 1000)", "noise_bound := (3 # 1000)")),
+                ("smaller_bound", self.changed(head, f"error_bound := ({bound} #",
+                                               f"error_bound := ({int(bound) * 99 // 100} #")),
+                ("dropped_cell", re.sub(r"\(Checked \(Build_leaf .*?\)\)\n", "Outside\n", head, count=1)),
+                ("another_design", self.changed(head, "design_r := (5 # 100)", "design_r := (6 # 100)")),
+                ("another_statement", unchecked + self.changed(theorem, f"<= ({bound} /", f"<= ({int(bound) - 1} /"))]:
+            self.assertNotEqual(text, head, name)
+            outcome = self.coqc(name, text)
+            self.assertNotEqual(outcome.returncode, 0, f"{name} was accepted")
+            self.assertIn("Error", outcome.stderr, name)
+
     def test_identities_are_not_slack(self):
         # A sign or a constant changed in the proofs for all designs.
         for part, old, new in [

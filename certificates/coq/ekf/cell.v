@@ -33,6 +33,12 @@ Proof. unfold Q2R; simpl; lra. Qed.
 Lemma half_form : forall l u a b c, form (half l u) a b c = 1 / 2 * (form u a b c - form l a b c).
 Proof. intros; unfold form, half; cbn [s11 s12 s13 s22 s23 s33]; lra. Qed.
 
+Lemma form_difference : forall m l a b c,
+  form (to_R (difference_Q m l)) a b c = form (to_R m) a b c - form (to_R l) a b c.
+Proof.
+  intros; unfold form, to_R, difference_Q; cbn [q11 q12 q13 q22 q23 q33 s11 s12 s13 s22 s23 s33]; rewrite !Q2R_minus; ring.
+Qed.
+
 Ltac read_terms H :=
   cbv zeta in H; repeat rewrite ?value_app, ?value_form, ?dot_added, ?dot_scaled, ?dot_difference, ?dot_variable,
     ?dot_nil, ?one_is, ?minus_one_is, ?cosine_is in H;
@@ -88,7 +94,11 @@ Proof.
   - apply (predicted_not_negative d q1_0 q2_0); exact P.
   - apply (predicted_below d); exact B.
   - intros a b' z k1 k2; rewrite predicted_form.
-    pose proof (lower [a; b'; z; k1; k2] eq_refl) as L; unfold lower_terms, predicted_terms in L; read_terms L.
+    set (n1 := k1 - (Q2R (k11 b) * a + Q2R (k21 b) * b' + Q2R (k31 b) * z)).
+    set (n2 := k2 - (Q2R (k12 b) * a + Q2R (k22 b) * b' + Q2R (k32 b) * z)).
+    pose proof (lower [n1; n2; a; b'; z] eq_refl) as L; unfold lower_terms, predicted_terms in L; read_terms L.
+    replace (n1 + (Q2R (k11 b) * a + Q2R (k21 b) * b' + Q2R (k31 b) * z)) with k1 in L by (unfold n1; ring).
+    replace (n2 + (Q2R (k12 b) * a + Q2R (k22 b) * b' + Q2R (k32 b) * z)) with k2 in L by (unfold n2; ring).
     unfold d; cbn [design_of q1 q2 r].
     match type of L with _ <= -1 * ?g + (1 * ?f + _) => set (n := f) in *; set (bottom := g) in * end.
     match goal with |- _ <= ?f + _ + _ + _ => replace f with n by (unfold n; f_equal; ring) end.
@@ -139,7 +149,7 @@ Proof.
   pose proof (error [b1; b2; b3; u1; u2; w; e1; e2; nu] eq_refl) as E.
   unfold error_terms, half_terms, middle_over_r in E; read_terms E.
   rewrite <- cosine_g, <- sine_s in E.
-  rewrite Q2R_half, Q2R_minus_2 in E.
+  rewrite Q2R_half, Q2R_minus_2, !form_difference in E.
   fold h1 h2 in E.
   assert (inverse_2_r : Q2R (/ (2 * design_r c)) = / Q2R (design_r c) * (1 / 2)).
   { rewrite Q2R_inv, Q2R_mult; [| intro Z; apply Qeq_eqR in Z; rewrite Q2R_mult in Z; unfold Q2R in Z at 1 3; simpl in Z; lra].

@@ -91,6 +91,8 @@ Definition full (m : symmetric) : matrix 3 3 :=
 Definition form (m : symmetric) (a b c : R) : R :=
   s11 m * a * a + s22 m * b * b + s33 m * c * c + 2 * (s12 m * a * b + s13 m * a * c + s23 m * b * c).
 Definition below (l m : symmetric) : Prop := forall a b c, form l a b c <= form m a b c.
+Definition multiple (k : R) (m : symmetric) : symmetric :=
+  Symmetric (k * s11 m) (k * s12 m) (k * s13 m) (k * s22 m) (k * s23 m) (k * s33 m).
 
 (* The turn of the plane by an angle. *)
 Definition turn (angle : R) : matrix 3 3 :=

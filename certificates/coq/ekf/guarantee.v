@@ -9,7 +9,7 @@ Record certificate := {
   set : set_Q;
   noise_bound : Q; slew_bound : Q;
   amplitude_error : Q; phase_error : Q; frequency_error : Q; (* at the start *)
-  start_lo : symmetric_Q; start_hi : symmetric_Q;
+  start_lo : symmetric_Q; start_hi : symmetric_Q; from_multiple : Q; to_multiple : Q;
   half_width_1 : Q; half_width_2 : Q; error_bound : Q; (* a box around the ellipsoid e' M e <= 1 *)
   ultimate_level : Q; settled_after : nat; settled_bound : Q;
   cells : tree }.
@@ -20,7 +20,8 @@ Definition guarantee (c : certificate) : Prop :=
   (forall k, v1 k ^ 2 + v2 k ^ 2 <= Q2R (noise_bound c) ^ 2) ->
   (forall k, Rabs (omega (S k) - omega k) <= Q2R (slew_bound c)) ->
   Rabs a <= Q2R (amplitude_error c) -> Rabs psi <= Q2R (phase_error c) -> Rabs nu <= Q2R (frequency_error c) ->
-  below (to_R (start_lo c)) m -> below m (to_R (start_hi c)) ->
+  below (multiple (Q2R (from_multiple c)) (to_R (start_lo c))) m ->
+  below m (multiple (Q2R (to_multiple c)) (to_R (start_hi c))) ->
   let estimates := run (design_of (set c)) (start_estimate (phi 0%nat) (omega 0%nat) a psi nu m) (measurement phi v1 v2) in
   (forall k, Rabs (x (estimates k) 3%nat 1%nat - omega k) <= Q2R (error_bound c)) /\
   (forall k, (settled_after c <= k)%nat -> Rabs (x (estimates k) 3%nat 1%nat - omega k) <= Q2R (settled_bound c)).
@@ -39,7 +40,12 @@ Proof.
 Qed.
 
 (* The start covariances, turned by the phase error, are checked as the covariances of a cell are. *)
-Definition start_leaf (c : certificate) : leaf := Build_leaf (start_lo c) (start_hi c) 0 0 0 0 0 0 1 1.
+Definition multiple_Q (k : Q) (m : symmetric_Q) : symmetric_Q :=
+  Build_symmetric_Q (k * q11 m) (k * q12 m) (k * q13 m) (k * q22 m) (k * q23 m) (k * q33 m).
+Lemma multiple_is : forall k m, to_R (multiple_Q k m) = multiple (Q2R k) (to_R m).
+Proof. intros; unfold to_R, multiple, multiple_Q; cbn [q11 q12 q13 q22 q23 q33 s11 s12 s13 s22 s23 s33]; rewrite !Q2R_mult; reflexivity. Qed.
+Definition start_leaf (c : certificate) : leaf :=
+  Build_leaf (multiple_Q (from_multiple c) (start_lo c)) (multiple_Q (to_multiple c) (start_hi c)) 0 0 0 0 0 0 1 1.
 Definition root (c : certificate) : box :=
   Build_box (- half_width_1 c) (half_width_1 c) (- half_width_2 c) (half_width_2 c) (- error_bound c) (error_bound c).
 Definition start_level (c : certificate) : interval :=
@@ -91,8 +97,8 @@ Proof.
   intros half e1 e2 nu bound half0 i small A level.
   pose proof (positive_sound _ _ _ [e1; e2; nu] (width_terms_hold s half i) eq_refl A) as V.
   unfold width_terms in V; read_terms V; rewrite Q2R_mult in V.
-  assert (0 <= Q2R half * Q2R half) by nra.
-  pose proof (Rmult_le_compat_l _ _ _ H level); cbn [nth]; lra.
+  assert (square : 0 <= Q2R half * Q2R half) by (apply Rmult_le_pos; exact half0).
+  pose proof (Rmult_le_compat_l _ _ _ square level); cbn [nth]; lra.
 Qed.
 
 Lemma kept_everywhere : forall e1 e2 nu, form (M o) e1 e2 nu <= 1 -> step_is_kept (design_of s) o e1 e2 nu.
@@ -118,10 +124,11 @@ Qed.
 
 Lemma start_inside : forall phi omega a psi nu m,
   Rabs a <= Q2R (amplitude_error c) -> Rabs psi <= Q2R (phase_error c) -> Rabs nu <= Q2R (frequency_error c) ->
-  below (to_R (start_lo c)) m -> below m (to_R (start_hi c)) ->
+  below (multiple (Q2R (from_multiple c)) (to_R (start_lo c))) m ->
+  below m (multiple (Q2R (to_multiple c)) (to_R (start_hi c))) ->
   is_inside o (start_estimate phi omega a psi nu m) phi omega 1.
 Proof.
-  intros phi omega a psi nu m A B N L U.
+  intros phi omega a psi nu m A B N L U; rewrite <- multiple_is in L, U.
   pose proof checked as all; unfold check in all; apply andb_prop in all; destruct all as [all _].
   apply andb_prop in all; destruct all as [all start]; clear all.
   unfold check_start in start; cbv zeta in start; split_check start.

@@ -9,8 +9,11 @@ Record symmetric_Q := { q11 : Q; q12 : Q; q13 : Q; q22 : Q; q23 : Q; q33 : Q }.
 Definition to_R (m : symmetric_Q) : symmetric :=
   Symmetric (Q2R (q11 m)) (Q2R (q12 m)) (Q2R (q13 m)) (Q2R (q22 m)) (Q2R (q23 m)) (Q2R (q33 m)).
 
+Definition difference_Q (m l : symmetric_Q) : symmetric_Q :=
+  Build_symmetric_Q (q11 m - q11 l) (q12 m - q12 l) (q13 m - q13 l) (q22 m - q22 l) (q23 m - q23 l) (q33 m - q33 l).
+
 (* What is stored for a box of errors (e1, e2, nu): bounds on the covariance after the step before it is turned, a gain
-   for the upper bound, and the multipliers of Young's inequality. *)
+   near the filter's, and the multipliers of Young's inequality. *)
 Record leaf := {
   x_lo : symmetric_Q; x_hi : symmetric_Q;
   k11 : Q; k12 : Q; k21 : Q; k22 : Q; k31 : Q; k32 : Q; lambda : Q; mu : Q }.
@@ -62,10 +65,12 @@ Definition upper_terms (e1 e2 : T) : list term :=
   let k2 := ($ (k12 b) *: a) +: ($ (k22 b) *: b') +: ($ (k32 b) *: z) in
   form_terms one (x_hi b) a b' z ++ predicted_terms minus_one (set_hi c) (add ops one e1) e2 a b' z k1 k2.
 
+(* The gain is any: the stored one plus the first two variables. *)
 Definition lower_terms (e1 e2 : T) : list term :=
-  let '(a, b', z) := (variable 0, variable 1, variable 2) in
-  form_terms minus_one (x_lo b) a b' z ++
-  predicted_terms one (set_lo c) (add ops one e1) e2 a b' z (variable 3) (variable 4).
+  let '(a, b', z) := (variable 2, variable 3, variable 4) in
+  let k1 := variable 0 +: (($ (k11 b) *: a) +: ($ (k21 b) *: b') +: ($ (k31 b) *: z)) in
+  let k2 := variable 1 +: (($ (k12 b) *: a) +: ($ (k22 b) *: b') +: ($ (k32 b) *: z)) in
+  form_terms minus_one (x_lo b) a b' z ++ predicted_terms one (set_lo c) (add ops one e1) e2 a b' z k1 k2.
 
 (* cos nu = 1 - nu (nu g) and sin nu = nu s. *)
 Definition cosine (nu g : T) : T := add ops one (multiply ops minus_one (multiply ops nu (multiply ops nu g))).
@@ -82,8 +87,7 @@ Definition turned_lower_terms (nu g s : T) : list term :=
 Definition middle_over_r (f : symmetric_Q -> Q) : T :=
   multiply ops ($ (/ (2 * design_r c))%Q) (add ops ($ (f (x_lo b))) ($ (f (x_hi b)))).
 Definition half_terms (w : T) (a b' z : list T) : list term :=
-  form_terms (multiply ops w ($ (1 # 2))) (x_hi b) a b' z ++
-  form_terms (multiply ops minus_one (multiply ops w ($ (1 # 2)))) (x_lo b) a b' z.
+  form_terms (multiply ops w ($ (1 # 2))) (difference_Q (x_hi b) (x_lo b)) a b' z.
 
 (* kappa^2 e'Me + gains - (2 b'e+ - b'Nb), with the unknown covariance by Young's inequality; the variables are
    b, u, w, e. *)

@@ -40,11 +40,10 @@ Proof. intros p a b P; pose proof (P a b 0) as Z; unfold form, innovation_form i
 Lemma det_S_positive : forall p, not_negative p -> 0 < det_S d p.
 Proof.
   intros p P; pose proof (P 1 0 0) as A; pose proof (P (- s12 p) (s11 p + r d) 0) as B; unfold form in A, B; unfold det_S.
-  assert (0 < s11 p + r d) by lra.
-  assert (0 < (s11 p + r d) * ((s11 p + r d) * (s22 p + r d) - s12 p * s12 p)).
-  { pose proof (Rmult_lt_0_compat _ _ H H) as square; pose proof (Rle_0_sqr (s12 p)); unfold Rsqr in *.
-    pose proof (Rmult_lt_0_compat _ _ r_positive square).
-    pose proof (Rmult_le_pos _ _ (Rlt_le _ _ r_positive) H0). nra. }
+  assert (pivot : 0 < s11 p + r d) by lra.
+  assert (product : 0 < (s11 p + r d) * ((s11 p + r d) * (s22 p + r d) - s12 p * s12 p)).
+  { pose proof (Rmult_lt_0_compat _ _ r_positive (Rmult_lt_0_compat _ _ pivot pivot)).
+    pose proof (Rmult_le_pos _ _ (Rlt_le _ _ r_positive) (Rle_0_sqr (s12 p))); unfold Rsqr in *; nra. }
   nra.
 Qed.
 

@@ -27,6 +27,15 @@ double value_of(const std::string& term) {
   return std::ldexp(negative ? -significand : significand, static_cast<int>(power));
 }
 
+TEST_CASE("a quotient has a denominator even where it is 1, and its sign in front of the numerator") {
+  CHECK(coq::quotient("0.0023", "/") == "(23 / 10000)");
+  CHECK(coq::quotient("-0.50", "#") == "(-5 # 10)");
+  CHECK(coq::quotient("0.0", "/") == "(0 / 1)");
+  CHECK(coq::quotient("1", "#") == "(1 # 1)");
+  CHECK(coq::quotient("2.5e3", "#") == "(2500 # 1)");
+  CHECK(coq::quotient("1_000.0e-4", "/") == "(1000 / 10000)");
+}
+
 TEST_CASE("decimals become the fractions they are") {
   CHECK(coq::decimal("0.0023") == "(23 / 10000)");
   CHECK(coq::decimal("-1.50") == "(- (15 / 10))");

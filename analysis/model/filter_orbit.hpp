@@ -84,10 +84,11 @@ struct FilterParameters {
   double eta = 0.3;
   double theta = 0.3;
   double lambda = 0.9;
-  double noise = 0.0;   ///< V
-  double source = 0.0;  ///< b
-  double spread = 0.0;  ///< d
-  VectorXd process;     ///< the diagonal of W
+  double noise = 0.0;     ///< V, or the deviation of Gaussian noise
+  double source = 0.0;    ///< b
+  double spread = 0.0;    ///< d
+  double exponent = 0.0;  ///< L, for Gaussian noise: see gaussian_drift.hpp; 0: the noise is bounded
+  VectorXd process;       ///< the diagonal of W
 };
 
 /// What is carried along.
@@ -101,6 +102,34 @@ struct FilterGrowth {
   double whole = 0.0;   ///< |F|, about, for |xi| <= 1
   double linear = 0.0;  ///< of it, without noise
 };
+
+/// The root of the largest (log E W+ - log(1 + exp(-L l^2)))/(L l^2), about, over the levels l, where the
+/// step is N xi + B v and what is quadratic: from N N', B deviation, and the square of a bound of the latter.
+inline double gaussian_growth(const Small& gram, const Small& of_noise, double squared, double exponent) {
+  const Small noise = 2.0 * exponent * of_noise * of_noise.transpose();
+  const Index n = gram.rows();
+  double worst = 0.0;
+  for (const double level : {1.0, 0.7, 0.5, 0.34, 0.25}) {
+    const double all = exponent * level * level;
+    double best = std::numeric_limits<double>::infinity();
+    for (const double a : {0.01, 0.02, 0.04, 0.07, 0.12, 0.2, 0.35}) {
+      const Small rest = Small::Identity(n, n) - (1.0 + a) * noise;
+      const Eigen::LLT<Small> root(rest);
+      if (root.info() != Eigen::Success) {
+        break;
+      }
+      const Small half = root.matrixL().solve(gram);
+      const Small inner = root.matrixL().solve(Small(half.transpose()));
+      const double linear =
+          Eigen::SelfAdjointEigenSolver<Small>(inner, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+      const double spread = -std::log(root.matrixLLT().diagonal().prod());
+      best = std::min(best, (1.0 + a) * linear + (1.0 + 1.0 / a) * squared * level * level +
+                                (spread - std::log1p(std::exp(-all))) / all);
+    }
+    worst = std::max(worst, best);
+  }
+  return std::sqrt(worst);
+}
 
 class FilterOrbit {
  public:
@@ -221,6 +250,16 @@ class FilterOrbit {
       const Small x = stacked(of_x, reach_of_x);
       const Small gram = x * x.transpose();
       const double alone = std::sqrt(largest(gram));
+      if (parameters_.exponent > 0.0) {
+        const Small v = stacked(of_v, reach_of_v);
+        const Wide squares = stacked(of_squares, reach_of_squares);
+        const double drift =
+            gaussian_growth(gram, v, largest(Small(squares * squares.transpose())), parameters_.exponent);
+        if (drift < worst.whole) {
+          worst = {drift, alone};
+        }
+        continue;
+      }
       double linear = alone;
       if (parameters_.noise > 0.0) {
         const Small v = stacked(of_v, reach_of_v);

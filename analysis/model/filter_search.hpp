@@ -27,6 +27,7 @@ struct FilterCoordinates {
   VectorXd sizes;
   double given_noise;
   bool finds_noise;
+  double exponent;  ///< of Gaussian noise; 0: the noise is bounded
 
   [[nodiscard]] Index size() const { return 5 + sizes.size() + (finds_noise ? 1 : 0); }
   [[nodiscard]] FilterParameters at(const VectorXd& x) const {
@@ -38,6 +39,7 @@ struct FilterCoordinates {
     parameters.source = std::exp(x[3]);
     parameters.spread = std::exp(x[4]);
     parameters.process = x.segment(5, sizes.size()).array().exp() * sizes.array().square();
+    parameters.exponent = exponent;
     parameters.noise = finds_noise ? std::exp(x[size() - 1]) : given_noise;
     return parameters;
   }
@@ -102,9 +104,11 @@ class FilterSearch {
       sizes[i] = std::sqrt(std::max(1e-300, state[place]));
       place += n - i;
     }
-    const bool is_for_noise = settings.shape.objective == ShapeObjective::largest_noise;
+    const bool is_gaussian = settings.shape.objective == ShapeObjective::largest_deviation;
+    const bool is_for_noise = settings.shape.objective == ShapeObjective::largest_noise || is_gaussian;
     // The largest reach at a given noise, or the largest noise.
-    coordinates_ = {rate * rate, sizes, settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0)};
+    coordinates_ = {rate * rate, sizes, settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0),
+                    is_gaussian ? settings.shape.exponent : 0.0};
     largest_reach_ = settings.shape.largest_reach;
     constexpr int kUsual = 100;
     evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : kUsual;
@@ -162,7 +166,7 @@ class FilterSearch {
       return grows ? low : -std::numeric_limits<double>::infinity();
     }
     double high = low + kStep;
-    constexpr int kHalvings = 6;
+    const int kHalvings = coordinates_.exponent > 0.0 ? 12 : 6;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
       (may_be(middle) ? low : high) = middle;
@@ -201,6 +205,7 @@ class FilterSearch {
         std::vector<VectorXd> points;
         FilterSearch without_noise(*this);
         without_noise.coordinates_.finds_noise = false;
+        without_noise.coordinates_.exponent = 0.0;
         for (const Scored& start : without_noise.best_of(without_noise.first_starts())) {
           for (const double scale : {-0.5, -1.4, -2.8}) {
             if (std::isfinite(start.value)) {

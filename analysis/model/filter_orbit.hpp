@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -103,32 +104,35 @@ struct FilterGrowth {
   double linear = 0.0;  ///< of it, without noise
 };
 
-/// The root of the largest (log E W+ - log(1 + exp(-L l^2)))/(L l^2), about, over the levels l, where the
+/// c0, for proposals.
+inline constexpr double kProposedConstant = 5.0;
+
+/// The root of the largest (log E W+ - log(1 + c0 exp(-L l^2)))/(L l^2), about, over the levels l, where the
 /// step is N xi + B v and what is quadratic: from N N', B deviation, and the square of a bound of the latter.
 inline double gaussian_growth(const Small& gram, const Small& of_noise, double squared, double exponent) {
   const Small noise = 2.0 * exponent * of_noise * of_noise.transpose();
   const Index n = gram.rows();
-  double worst = 0.0;
-  for (const double level : {1.0, 0.7, 0.5, 0.34, 0.25}) {
-    const double all = exponent * level * level;
-    double best = std::numeric_limits<double>::infinity();
-    for (const double a : {0.01, 0.02, 0.04, 0.07, 0.12, 0.2, 0.35}) {
-      const Small rest = Small::Identity(n, n) - (1.0 + a) * noise;
-      const Eigen::LLT<Small> root(rest);
-      if (root.info() != Eigen::Success) {
-        break;
-      }
-      const Small half = root.matrixL().solve(gram);
-      const Small inner = root.matrixL().solve(Small(half.transpose()));
-      const double linear =
-          Eigen::SelfAdjointEigenSolver<Small>(inner, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-      const double spread = -std::log(root.matrixLLT().diagonal().prod());
-      best = std::min(best, (1.0 + a) * linear + (1.0 + 1.0 / a) * squared * level * level +
-                                (spread - std::log1p(std::exp(-all))) / all);
+  constexpr std::array<double, 5> kLevels{1.0, 0.7, 0.5, 0.34, 0.25};
+  std::array<double, kLevels.size()> least{};
+  least.fill(std::numeric_limits<double>::infinity());
+  for (const double a : {0.01, 0.02, 0.04, 0.07, 0.12, 0.2, 0.35}) {
+    const Eigen::LLT<Small> root(Small::Identity(n, n) - (1.0 + a) * noise);
+    if (root.info() != Eigen::Success) {
+      break;
     }
-    worst = std::max(worst, best);
+    const Small half = root.matrixL().solve(gram);
+    const Small inner = root.matrixL().solve(Small(half.transpose()));
+    const double linear =
+        Eigen::SelfAdjointEigenSolver<Small>(inner, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    const double spread = -std::log(root.matrixLLT().diagonal().prod());
+    for (std::size_t i = 0; i < kLevels.size(); ++i) {
+      const double square = kLevels[i] * kLevels[i];
+      const double all = exponent * square;
+      least[i] = std::min(least[i], (1.0 + a) * linear + (1.0 + 1.0 / a) * squared * square +
+                                        (spread - std::log1p(kProposedConstant * std::exp(-all))) / all);
+    }
   }
-  return std::sqrt(worst);
+  return std::sqrt(std::max(0.0, *std::max_element(least.begin(), least.end())));
 }
 
 class FilterOrbit {

@@ -108,10 +108,10 @@ class FilterSearch {
     const bool is_for_noise = settings.shape.objective == ShapeObjective::largest_noise || is_gaussian;
     // The largest reach at a given noise, or the largest noise.
     coordinates_ = {rate * rate, sizes, settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0),
-                    is_gaussian ? settings.shape.exponent : 0.0};
+                    is_gaussian ? settings.shape.exponent + std::log(kProposedConstant) : 0.0};
     largest_reach_ = settings.shape.largest_reach;
-    constexpr int kUsual = 100;
-    evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : kUsual;
+    const int usual = is_gaussian ? 300 : 100;
+    evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : usual;
   }
 
   [[nodiscard]] const FilterCoordinates& coordinates() const { return coordinates_; }
@@ -166,8 +166,8 @@ class FilterSearch {
       return grows ? low : -std::numeric_limits<double>::infinity();
     }
     double high = low + kStep;
-    const int kHalvings = coordinates_.exponent > 0.0 ? 12 : 6;
-    for (int i = 0; i < kHalvings; ++i) {
+    const int halvings = coordinates_.exponent > 0.0 ? 12 : 6;  // the value is that of the noise alone
+    for (int i = 0; i < halvings; ++i) {
       const double middle = 0.5 * (low + high);
       (may_be(middle) ? low : high) = middle;
     }

@@ -48,6 +48,8 @@ From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian no
 model-gaussian    its tubes for the assumed noise and for as much as was proved
 From tests/certificates/model-filter.toml, an extended Kalman filter at almost one frequency:
 model-filter      its tube for the assumed noise, with bounds of the covariance and three levels: checked fast
+From tests/certificates/model-filter-gaussian.toml, the same filter in Gaussian noise:
+model-filter-gaussian  its tubes for the assumed noise and the lowest ratio, with bounds of the covariance
 """
 import fractions
 import json
@@ -355,6 +357,7 @@ KINDS = {
     "model-moving": model_moving,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
+    "model-filter-gaussian": model_gaussian,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

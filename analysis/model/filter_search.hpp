@@ -110,7 +110,7 @@ class FilterSearch {
     coordinates_ = {rate * rate, sizes, settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0),
                     is_gaussian ? settings.shape.exponent + std::log(kProposedConstant) : 0.0};
     largest_reach_ = settings.shape.largest_reach;
-    const int usual = is_gaussian ? 300 : 100;
+    const int usual = is_gaussian ? 150 : 100;
     evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : usual;
   }
 

@@ -150,13 +150,13 @@ struct NoisyFilter {
   }
 };
 
-const NoisyFilter& example() {
+const NoisyFilter& noisy_example() {
   static const NoisyFilter filter;
   return filter;
 }
 
 TEST_CASE("the drift that is proved of a filter is above the integral over the noise, for every covariance") {
-  const NoisyFilter& filter = example();
+  const NoisyFilter& filter = noisy_example();
   REQUIRE(filter.proposal.tube);
   REQUIRE(filter.proposal.tube->bounds_covariance());
   REQUIRE(filter.verified(filter.question).verdict == Verdict::proved);
@@ -195,7 +195,7 @@ TEST_CASE("the drift that is proved of a filter is above the integral over the n
 }
 
 TEST_CASE("runs of a filter in as much noise as was proved lose lock no more often than is said") {
-  const NoisyFilter& filter = example();
+  const NoisyFilter& filter = noisy_example();
   REQUIRE(filter.verified(filter.question).verdict == Verdict::proved);
   double bound = 1.0;
   {
@@ -232,7 +232,7 @@ TEST_CASE("runs of a filter in as much noise as was proved lose lock no more oft
 }
 
 TEST_CASE("too much noise, a smaller probability or wrong bounds of the covariance are not proved") {
-  const NoisyFilter& filter = example();
+  const NoisyFilter& filter = noisy_example();
   const auto is_proved = [&](const model::Tube& tube, const model::DriftQuestion& asked) {
     return model::verify_drift(filter.tracker, tube, asked, {32, 1, 300, {}}).verdict == Verdict::proved;
   };

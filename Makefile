@@ -11,7 +11,13 @@ BUILD_PACKAGES := g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev co
   libkainjow-mustache-dev libpugixml-dev libjs-katex
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
 TEST_PACKAGES  := doctest-dev python3-jsonschema python3-yaml clang git
-LINT_PACKAGES  := clang clang-format clang-tidy git
+# The package for Python: what it is built with, and what it and its tests run with (sweeps: Dask, Matplotlib, Sobol points)
+PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy
+PYTHON_TEST_PACKAGES := $(PYTHON_PACKAGES) python3-pytest python3-distributed python3-matplotlib python3-scipy \
+  python3-pip python3-venv python3-setuptools python3-wheel
+# types, and the notebook of docs/, by night
+PYTHON_NIGHTLY_PACKAGES := mypy python3-nbconvert python3-ipykernel
+LINT_PACKAGES  := clang clang-format clang-tidy git $(PYTHON_PACKAGES)
 FUZZ_PACKAGES  := clang libclang-rt-14-dev doctest-dev
 PROOF_PACKAGES := coq libcoq-interval libcoq-coquelicot
 BENCH_PACKAGES := libbenchmark-dev libmpfi-dev
@@ -35,7 +41,7 @@ VERIFY_DESIGNS ?= $(subst 3.3-with-leak-at-22,3.4-with-leak-at-22,$(shell script
 PROOF_DESIGNS  ?= designs/praly-section-v-proved-ell.toml designs/la-scala-1994-figure-3.5.toml \
   designs/bittanti-savaresi-2000-example-1.toml
 
-.PHONY: certificate verify proofs pages test lint format sanitize fuzz mutation bench deb clean
+.PHONY: certificate verify proofs pages test lint format sanitize fuzz mutation bench wheel deb clean
 
 certificate:
 	@scripts/install-packages $(BUILD_PACKAGES)
@@ -45,7 +51,7 @@ certificate:
 
 # Designs certified, and every certificate checked by a program that shares no code with the one that made it.
 verify:
-	@scripts/install-packages $(BUILD_PACKAGES)
+	@scripts/install-packages $(BUILD_PACKAGES) python3-jsonschema
 	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
 	@cmake --build --preset release --parallel $(JOBS) --target veritrack veritrack-verify >&2
 	@scripts/verify build/release $(VERIFY_DESIGNS)
@@ -66,8 +72,9 @@ pages:
 	@scripts/test-pages build/release/veritrack
 
 test:
-	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES)
-	cmake --preset release -DVERITRACK_BUILD_TESTS=ON
+	@scripts/install-packages $(BUILD_PACKAGES) $(TEST_PACKAGES) $(PYTHON_TEST_PACKAGES) \
+	  $(if $(filter nightly,$(TEST_PRESET)),$(PYTHON_NIGHTLY_PACKAGES))
+	cmake --preset release -DVERITRACK_BUILD_TESTS=ON -DVERITRACK_BUILD_PYTHON=ON
 	cmake --build --preset release --parallel $(JOBS)
 	ctest --preset $(TEST_PRESET) --parallel $(JOBS)
 
@@ -114,6 +121,14 @@ bench:
 	cmake --build --preset release --parallel $(JOBS)
 	for program in build/release/bench/*_bench; do $$program; done
 
+# The package for Python as a wheel for this platform, in build/wheels (docs/python.md).
+wheel:
+	@scripts/install-packages $(BUILD_PACKAGES) $(PYTHON_PACKAGES) python3-pip python3-setuptools python3-wheel
+	@cmake --preset release -DVERITRACK_BUILD_PYTHON=ON >&2
+	@VERITRACK_BUILD_FOLDER="$(CURDIR)/build/release" /usr/bin/python3 -m pip wheel --quiet --no-build-isolation --no-deps \
+	  --wheel-dir build/wheels . >&2
+	@ls build/wheels/*.whl
+
 # The programs as a Debian package, in build/release/packages. scripts/try-deb installs it into an empty Debian.
 deb:
 	@scripts/install-packages $(BUILD_PACKAGES) $(DEB_PACKAGES)
@@ -123,4 +138,4 @@ deb:
 	@ls build/release/packages/*.deb
 
 clean:
-	rm -rf build certificates-out maps-out tracks-out tests/pages/node_modules
+	rm -rf build certificates-out maps-out tracks-out sweeps-out python/veritrack.egg-info tests/pages/node_modules

@@ -1,14 +1,18 @@
 #include "cli/arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/code_language.hpp"
 #include "certificates/help/design_template.hpp"
 #include "cli/shell_words.hpp"
+#include "reports/reproductions/reproduction.hpp"
 
 namespace veritrack::cli {
 
@@ -16,7 +20,7 @@ namespace {
 
 namespace rigor = veritrack::rigor;
 
-constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
+constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
     {"certify",
      "  veritrack certify my-design.toml\n"
      "  veritrack certify my-design.toml --html --csv --latex\n"
@@ -45,7 +49,13 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kExamples{{
      "  producer | veritrack track my-design.toml - --each track.csv"},
     {"reproduce",
      "  veritrack reproduce bittanti-savaresi-2000\n"
-     "  veritrack reproduce tracking-limits --seeds 10"},
+     "  veritrack reproduce tracking-limits --seeds 10\n"
+     "  veritrack reproduce ledger"},
+    {"sweep",
+     "  veritrack sweep sweep.toml --jobs 4\n"
+     "  veritrack sweep sweep.toml --scheduler tcp://10.0.0.1:8786\n"
+     "  veritrack sweep verify sweep.toml --sample 100\n"
+     "  veritrack sweep run --help"},
     {"explain",
      "  veritrack explain                       everything that is explained\n"
      "  veritrack explain q1 assume.slew        keys\n"
@@ -187,7 +197,8 @@ void add_commands(CLI::App& app, Arguments& into) {
   tune->add_option("--timeout", into.tune.seconds,
                    "end the search after so many seconds, and certify the best so far; so does Ctrl-C")
       ->check(seconds);
-  tune->add_flag("--free-leak", into.tune.free_leak, "epsilon may become smaller than it is, down to 0");
+  tune->add_flag("--free-leak", into.tune.free_leak,
+                 "epsilon, where it is above 0, may change, too, and become 0");
 
   CLI::App* track = app.add_subcommand("track", "run the tracker of a design over a recording");
   track->add_option("DESIGN", into.track.design, "design file (TOML)")->required();
@@ -230,18 +241,33 @@ void add_commands(CLI::App& app, Arguments& into) {
   track->add_flag("--strict", into.track.strict,
                   "1 when lock is lost or the recording exceeds what the certificate assumes");
 
-  CLI::App* reproduce =
-      app.add_subcommand("reproduce",
-                         "regenerate a report of docs/reports: the published examples of the single-channel "
-                         "tracker, or the comparison of the trackers with the Cramer-Rao bounds");
-  reproduce->add_option("REPORT", into.reproduce.report, "which report")
-      ->check(CLI::IsMember({kExampleReport, kLimitReport}))
+  CLI::App* reproduce = app.add_subcommand(
+      "reproduce",
+      "regenerate a report of docs/reports: printed tables and figures beside our simulations, or the "
+      "ledger of published claims");
+  std::vector<std::string> reports;
+  std::string about = "which report:";
+  for (const auto& report : reports::reproductions()) {
+    about += fmt::format("{} {} ({})", reports.empty() ? "" : ";", report.name, report.about);
+    reports.emplace_back(report.name);
+  }
+  about += fmt::format("; {} (every claim of the publications, decided or simulated)", kLedger);
+  reports.emplace_back(kLedger);
+  into.reproduce.report = reports.front();
+  reproduce->add_option("REPORT", into.reproduce.report, about)
+      ->check(CLI::IsMember(reports))
       ->capture_default_str();
   reproduce->add_option("--out", into.reproduce.directory,
                         "folder for the report (default: reports-out/<name of the report>)");
   reproduce->add_option("--seeds", into.reproduce.seeds, "noise seeds (default: those of docs/reports)")
       ->check(CLI::Range(1, 100000));
   add_renderings(*reproduce, "report.html", into.reproduce.renderings);
+
+  // For help and completions: main() hands the words over unread.
+  CLI::App* sweep = app.add_subcommand(
+      "sweep", "certify many designs: run SPEC, report SPEC or verify SPEC, by the package for Python");
+  sweep->add_option("WORD", into.sweep.words, "run (may be left out), report or verify; SPEC.toml; options")
+      ->required();
 
   CLI::App* explain = app.add_subcommand(
       "explain", "what a claim of a certificate or a key of a design file means; alone, a list of them");

@@ -18,6 +18,7 @@ struct Arguments {
   TuneOptions tune;
   TrackOptions track;
   ReproduceOptions reproduce;
+  SweepOptions sweep;
   ExplainOptions explain;
   NewOptions new_design;
   std::string shell;  ///< of completions

@@ -19,10 +19,9 @@
 #include "cli/interruption.hpp"
 #include "cli/progress_line.hpp"
 #include "reports/certificate_files.hpp"
-#include "reports/example_report.hpp"
-#include "reports/limit_report.hpp"
+#include "reports/ledger/ledger_report.hpp"
+#include "reports/reproductions/reproduction.hpp"
 #include "reports/tracker_reports.hpp"
-#include "reports/written_report.hpp"
 
 namespace veritrack::cli {
 
@@ -82,8 +81,7 @@ ExitStatus run_certify(const CertifyOptions& options) {
   }
   fmt::print("{}: {}\n", files.document.string(), certificates::headline(certificate));
   const ExitStatus status = status_of(certificate);
-  if (status == not_proved && certificate.contraction && certificates::can_be_tuned(certificate.design) &&
-      !options.quiet) {
+  if (status == not_proved && certificates::can_be_tuned(certificate.design) && !options.quiet) {
     fmt::print(stderr, "{}: veritrack tune looks for design values that meet what is required\n",
                options.design);
   }
@@ -135,19 +133,28 @@ ExitStatus run_show(const ShowOptions& options) {
   return all_proved;
 }
 
+namespace {
+
+reports::WrittenReport write_reproduction(const ReproduceOptions& options) {
+  const auto folder = [&](std::string_view name) {
+    return options.directory.empty() ? std::filesystem::path("reports-out") / name
+                                     : std::filesystem::path(options.directory);
+  };
+  const ProgressLine line(options.quiet, "simulating");
+  const auto tell = [&](int done, int most) { line(done, most, "simulated"); };
+  if (options.report == kLedger) {
+    return reports::ledger::write_ledger(options.seeds, folder(kLedger), options.renderings, tell);
+  }
+  const reports::Reproduction& report =
+      options.report.empty() ? reports::reproductions().front() : reports::find_reproduction(options.report);
+  const int runs = options.seeds > 0 ? options.seeds : report.runs;
+  return report.write(runs, folder(report.name), options.renderings, tell);
+}
+
+}  // namespace
+
 ExitStatus run_reproduce(const ReproduceOptions& options) {
-  const std::filesystem::path directory = options.directory.empty()
-                                              ? std::filesystem::path("reports-out") / options.report
-                                              : std::filesystem::path(options.directory);
-  const bool limits = options.report == kLimitReport;
-  const int published_seeds = limits ? 1000 : 200;
-  const int seeds = options.seeds > 0 ? options.seeds : published_seeds;
-  const reports::WrittenReport written = [&] {
-    const ProgressLine line(options.quiet, "simulating");
-    const auto tell = [&](int done, int most) { line(done, most, "simulated"); };
-    return limits ? reports::write_limit_report(seeds, directory, options.renderings, tell)
-                  : reports::write_example_report(seeds, directory, options.renderings, tell);
-  }();
+  const reports::WrittenReport written = write_reproduction(options);
   if (!written.warning.empty()) {
     fmt::print(stderr, "{}: {}\n", written.document.string(), written.warning);
   }

@@ -91,10 +91,12 @@ ExitStatus run_explain(const ExplainOptions& options) {
     const std::vector<Explanation> found = certificates::explain(word);
     if (found.empty()) {
       constexpr std::size_t kShown = 100;
+      const std::vector<std::string> mentions = certificates::explanations_with(word);
       throw std::runtime_error(fmt::format(
-          "veritrack explain: \"{}\" is no key and no claim; nearest: {}; allowed: what `veritrack explain` "
-          "lists",
-          certificates::printable(word, kShown), certificates::nearest_explained(word)));
+          "veritrack explain: \"{}\" is no key and no claim; {}; allowed: what `veritrack explain` lists",
+          certificates::printable(word, kShown),
+          mentions.empty() ? "nearest: " + certificates::nearest_explained(word)
+                           : fmt::format("it is mentioned in {}", fmt::join(mentions, ", "))));
     }
     for (const Explanation& explanation : found) {
       fmt::print("{}", is_first ? "" : "\n");

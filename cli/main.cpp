@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,7 +45,53 @@ std::string unknown_command(CLI::App& app, int argc, char** argv) {
                      veritrack::certificates::nearest_key(*first, known), fmt::join(known, ", "));
 }
 
+/// What to say of the first option that the command does not have; empty when it has all of them.
+std::string unknown_option(CLI::App& app, int argc, char** argv) {
+  const auto arguments = std::span(argv, static_cast<std::size_t>(argc)).subspan(1);
+  std::vector<std::string> known;
+  std::string command;
+  const auto add_options = [&](const CLI::App& of) {
+    for (const CLI::Option* option : of.get_options()) {
+      for (const std::string& name : option->get_lnames()) {
+        known.push_back("--" + name);
+      }
+    }
+  };
+  add_options(app);
+  for (const CLI::App* each : app.get_subcommands()) {
+    command = " " + each->get_name();
+    add_options(*each);
+  }
+  for (const char* argument : arguments) {
+    const std::string name = std::string(argument).substr(0, std::string(argument).find('='));
+    if (name == "--") {
+      break;
+    }
+    if (name.starts_with("--") && std::find(known.begin(), known.end(), name) == known.end()) {
+      constexpr std::size_t kShown = 100;
+      return fmt::format(
+          "veritrack{0}: no option is called \"{1}\"; nearest option: {2}; allowed: what `veritrack{0} "
+          "--help` lists",
+          command, veritrack::certificates::printable(name, kShown),
+          veritrack::certificates::nearest_key(name, known));
+    }
+  }
+  return {};
+}
+
+/// The words of `veritrack sweep`, which another program reads; nothing for other commands, and for its help.
+std::optional<SweepOptions> words_of_sweep(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() < 2 || words[0] != "sweep" || words[1] == "--help" || words[1] == "-h") {
+    return std::nullopt;
+  }
+  return SweepOptions{{words.begin() + 1, words.end()}};
+}
+
 int run(int argc, char** argv) {
+  if (const auto sweep = words_of_sweep(argc, argv)) {
+    return run_sweep(*sweep);
+  }
   CLI::App app{"Machine-checked certificates for frequency trackers.", "veritrack"};
   app.set_version_flag("--version", version_text, "print the version, and those of the libraries");
   app.require_subcommand(1);
@@ -64,6 +111,11 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (const std::string unknown = unknown_command(app, argc, argv); !unknown.empty()) {
+      fmt::print(stderr, "{}\n", unknown);
+      return bad_input;
+    }
+    const bool has_extras = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    if (const std::string unknown = unknown_option(app, argc, argv); has_extras && !unknown.empty()) {
       fmt::print(stderr, "{}\n", unknown);
       return bad_input;
     }

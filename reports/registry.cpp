@@ -11,6 +11,7 @@
 #include "reports/kkl_observer/kkl_observer_reports.hpp"
 #include "reports/model/model_reports.hpp"
 #include "reports/quadrature/quadrature_reports.hpp"
+#include "reports/regulator/regulator_reports.hpp"
 #include "reports/single_channel/single_channel_reports.hpp"
 #include "reports/tracker_reports.hpp"
 
@@ -49,7 +50,7 @@ std::vector<std::string_view> given_options(const MapRequest& request) {
 
 std::span<const TrackerReports* const> tracker_reports() {
   static const std::array all{&quadrature_reports(), &kkl_observer_reports(), &single_channel_reports(),
-                              &model_reports()};
+                              &model_reports(), &regulator_reports()};
   return all;
 }
 

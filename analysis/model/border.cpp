@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/model/filter_models.hpp"
 #include "analysis/model/map_bound.hpp"
 #include "analysis/model/tube_models.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -69,11 +70,27 @@ bool fits(const StepBounds& bounds, const std::vector<double>& scales, double ra
   return true;
 }
 
+/// Whether the bounds of the covariance in the one tube, narrower by the margin, are between those of the other.
+bool fits_covariance(const Tube& from, const Tube& to, const TubeCell& cell, double slew, double margin) {
+  const rigor::BallModelScope plane(0, 0);
+  const CellPlace place = place_of(cell);
+  const Strip strip = strip_of(from, to, slew);
+  const TubeHere here = tube_at(from, place.phase, z_in(from, strip, place.z));
+  const TubeHere there = tube_at(to, place.phase, z_in(to, strip, place.z));
+  const Interval left = Interval(1.0) - Interval(margin);
+  return is_positive_definite(symmetric(there.covariance_high) -
+                              scaled(symmetric(here.covariance_high), BallModel(left))) &&
+         is_positive_definite(scaled(symmetric(here.covariance_low), BallModel(Interval(1.0) / left)) -
+                              symmetric(there.covariance_low));
+}
+
 std::string objection_to(const Tube& from, const Tube& to, const BorderQuestion& question,
                          const VerificationBudget& budget) {
   const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   if (!is_positive(question.from_radius) || !is_positive(question.to_radius) || !is_positive(question.slew) ||
-      !(question.least_scale > 0.0 && question.least_scale <= 1.0) || !is_grid(budget)) {
+      !(question.least_scale > 0.0 && question.least_scale <= 1.0) || !is_grid(budget) ||
+      (question.covariance_margin &&
+       !(*question.covariance_margin > 0.0 && *question.covariance_margin < 1.0))) {
     return "no radius, slew or budget that could be verified";
   }
   if (from.turns != to.turns) {
@@ -93,7 +110,7 @@ StepBounds bound_border(const TrackerModel& model, const Tube& from, const Tube&
                         const BorderQuestion& question, const std::vector<double>& scales) {
   require_sizes(model, from);
   require_sizes(model, to);
-  const auto states = static_cast<std::size_t>(model.recursion->states);
+  const std::size_t states = from.curve.size();
   const rigor::BallModelScope scope(static_cast<int>(states), 0);
   const CellPlace place = place_of(cell);
   const Strip strip = strip_of(from, to, question.slew);
@@ -130,7 +147,10 @@ BorderResult verify_border(const TrackerModel& model, const Tube& from, const Tu
   const auto ask = [&](const TubeCell& cell) {
     CellAnswer answer;
     const StepBounds bounds = bound_border(model, from, to, cell, question, scales);
-    answer.is_proved = fits(bounds, scales, question.to_radius, answer.range);
+    answer.is_proved =
+        fits(bounds, scales, question.to_radius, answer.range) &&
+        (!question.covariance_margin ||
+         fits_covariance(from, to, cell, question.slew, *question.covariance_margin));
     answer.by_phase = bounds.by_phase;
     answer.by_frequency = bounds.by_frequency;
     return answer;

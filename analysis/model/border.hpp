@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct BorderQuestion {
   double slew = 0.0;
   /// The same for r R_a' and r R_b, all r from this to 1.
   double least_scale = 1.0;
+  /// Of filters: that the bounds of the covariance, narrower by this share of themselves, are between those of the
+  /// next tube is shown, too. None: not asked.
+  std::optional<double> covariance_margin = {};
 };
 
 struct BorderResult {

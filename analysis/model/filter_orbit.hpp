@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "analysis/model/curve_fit.hpp"
+#include "analysis/model/phase_grid.hpp"
+#include "analysis/model/tube.hpp"
 #include "trackers/model/filter_parts.hpp"
 
 namespace veritrack::model::detail {
@@ -29,6 +31,46 @@ using Wide = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows,
 
 /// Of the bounds, in units of themselves: what they have to spare.
 inline constexpr double kSlack = 0.006;
+/// Of those in the long run, where it is also how fast the covariance comes between them, and of those of a
+/// frequency that moves, which have to fit together at borders of cells.
+inline constexpr double kWideSlack = 0.012;
+
+/// A matrix of series at a place, from its lower triangle.
+inline MatrixXd matrix_at(const std::vector<PhaseSeries>& triangle, double phase, double z,
+                          bool is_symmetric) {
+  std::size_t most = 1;
+  for (const PhaseSeries& series : triangle) {
+    most = std::max(most, series.coefficients.size());
+  }
+  std::vector<std::pair<double, double>> harmonics;
+  for (std::size_t h = 0; h < most; ++h) {
+    const double angle = static_cast<double>(h) * phase;
+    harmonics.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  const std::vector<double> powers{1.0, z, z * z, z * z * z, z * z * z * z};
+  Index rows = 0;
+  while (rows * (rows + 1) / 2 < static_cast<Index>(triangle.size())) {
+    ++rows;
+  }
+  MatrixXd matrix = MatrixXd::Zero(rows, rows);
+  std::size_t place = 0;
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j <= i; ++j) {
+      matrix(i, j) = triangle[place++].at(harmonics, powers);
+      if (is_symmetric) {
+        matrix(j, i) = matrix(i, j);
+      }
+    }
+  }
+  return matrix;
+}
+
+/// A tube in which the estimate stays, at a frequency of its cell.
+struct Surroundings {
+  const Tube* tube = nullptr;
+  double radius = 0.0;
+  double z = 0.0;
+};
 
 /// The parts of a filter in doubles.
 class FilterNumbers {
@@ -86,6 +128,8 @@ struct FilterParameters {
   double theta = 0.3;
   double lambda = 0.9;
   double noise = 0.0;     ///< V, or the deviation of Gaussian noise
+  double slew = 0.0;      ///< W
+  double moving = 0.0;    ///< c
   double source = 0.0;    ///< b
   double spread = 0.0;    ///< d
   double exponent = 0.0;  ///< L, for Gaussian noise: see gaussian_drift.hpp; 0: the noise is bounded
@@ -137,8 +181,16 @@ inline double gaussian_growth(const Small& gram, const Small& of_noise, double s
 
 class FilterOrbit {
  public:
-  FilterOrbit(const TrackedTone& tone, const NodeCurve& curve, const FilterParameters& parameters)
-      : tone_(&tone), numbers_(tone), curve_(&curve), parameters_(parameters) {}
+  /// `around`: the bounds are for all estimates in there, not only for those in the shape.
+  /// `slope`: of the curve by the frequency, for a slew.
+  FilterOrbit(const TrackedTone& tone, const NodeCurve& curve, const FilterParameters& parameters,
+              const Surroundings& around = {}, const Eigen::MatrixXcd* slope = nullptr)
+      : tone_(&tone),
+        numbers_(tone),
+        curve_(&curve),
+        parameters_(parameters),
+        around_(around),
+        slope_(parameters.slew > 0.0 ? slope : nullptr) {}
 
   /// At this phase, from the steady state of the filter.
   void begin(double phase) {
@@ -169,20 +221,24 @@ class FilterOrbit {
     changes_.clear();
     Small of_high = Small::Zero(n, n);
     Small of_low = Small::Zero(n, n);
+    const bool is_inside = around_.tube != nullptr;
+    const Small wide = is_inside ? Small(around_.radius * matrix_at(around_.tube->shape, phase_, around_.z, false)) : u;
     for (Index i = 0; i < n; ++i) {
       changes_.push_back(numbers_.change(estimate_, u.col(i)));
-      of_high += changes_.back() * updated_high_ * changes_.back().transpose();
-      of_low += changes_.back() * updated_low_ * changes_.back().transpose();
+      const Small change = is_inside ? numbers_.change(estimate_, wide.col(i)) : changes_.back();
+      of_high += change * updated_high_ * change.transpose();
+      of_low += change * updated_low_ * change.transpose();
     }
+    const double slack = is_inside || slope_ != nullptr ? kWideSlack : kSlack;
     constexpr double kHigherOrders = 1.1;
     of_high *= kHigherOrders;
     of_low *= kHigherOrders;
     const double eta = parameters_.eta;
     const double theta = parameters_.theta;
     FilterOnOrbit next;
-    next.high = (1.0 + kSlack) * (numbers_.process() + (1.0 + eta) * f * updated_high_ * f.transpose() +
+    next.high = (1.0 + slack) * (numbers_.process() + (1.0 + eta) * f * updated_high_ * f.transpose() +
                                   (1.0 + 1.0 / eta) * of_high);
-    next.low = (1.0 - kSlack) * (numbers_.process() + (1.0 - theta) * f * updated_low_ * f.transpose() -
+    next.low = (1.0 - slack) * (numbers_.process() + (1.0 - theta) * f * updated_low_ * f.transpose() -
                                  (1.0 / theta - 1.0) * of_low);
     if (Eigen::LLT<Small>(next.low).info() != Eigen::Success || !(next.high.maxCoeff() < 1e12)) {
       return false;
@@ -197,6 +253,10 @@ class FilterOrbit {
     next.shape = a * here_.shape * a.transpose() / parameters_.lambda +
                  parameters_.source * gain_ * gain_.transpose() + parameters_.spread * delta_;
     next.shape.diagonal() += parameters_.process;
+    if (slope_ != nullptr) {
+      move_ = value_at(*slope_, phase_ + curve_->frequency).head(n);
+      next.shape += parameters_.moving * move_ * move_.transpose();
+    }
     jacobian_ = f;
     before_ = u;
     here_ = std::move(next);
@@ -265,9 +325,19 @@ class FilterOrbit {
         continue;
       }
       double linear = alone;
-      if (parameters_.noise > 0.0) {
-        const Small v = stacked(of_v, reach_of_v);
-        const Small other = v * v.transpose();
+      if (parameters_.noise > 0.0 || slope_ != nullptr) {
+        Small other = Small::Zero(gram.rows(), gram.rows());
+        // Of both, each gets a half.
+        const double half = parameters_.noise > 0.0 && slope_ != nullptr ? 2.0 : 1.0;
+        if (parameters_.noise > 0.0) {
+          const Small v = stacked(of_v, reach_of_v);
+          other += half * v * v.transpose();
+        }
+        if (slope_ != nullptr) {
+          const Small w = stacked(Small(in_units(Small(move_)) * parameters_.slew),
+                                  Small(Small::Zero(reach_of_v.rows(), 1)));
+          other += half * w * w.transpose();
+        }
         linear = std::numeric_limits<double>::infinity();
         for (const double t : {0.5, 0.7, 0.82, 0.9, 0.95}) {
           linear = std::min(linear, std::sqrt(largest(Small(gram / t + other / (1.0 - t)))));
@@ -291,6 +361,9 @@ class FilterOrbit {
   FilterNumbers numbers_;
   const NodeCurve* curve_;
   FilterParameters parameters_;
+  Surroundings around_;
+  const Eigen::MatrixXcd* slope_;
+  SmallVector move_;  ///< how the curve moves with the frequency
   double phase_ = 0.0;
   SmallVector estimate_;
   Small updated_low_, updated_high_, delta_, gain_, contraction_, jacobian_, before_;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 
+#include "analysis/model/filter_long_run.hpp"
 #include "analysis/model/filter_search.hpp"
 #include "analysis/rigor/rounding.hpp"
 
@@ -24,7 +25,9 @@ using detail::FilterParameters;
 using detail::FilterSearch;
 using detail::FilterWorth;
 using detail::kSlack;
+using detail::LongRunSearch;
 using detail::memory_of;
+using detail::Surroundings;
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
@@ -62,13 +65,14 @@ MatrixXd matrix_of_triangle(const VectorXd& entries, Index n, bool is_symmetric)
 }
 
 std::optional<FilterOnGrid> on_grid(const TrackedTone& tone, const NodeCurve& curve,
-                                    const FilterParameters& parameters, int memory, int phases) {
+                                    const FilterParameters& parameters, int memory, int phases,
+                                    const Surroundings& around, const MatrixXcd& slope) {
   const Index n = tone.filter->states;
   FilterOnGrid grid{MatrixXd(n * (n + 1) / 2, phases), MatrixXd(n * (n + 1) / 2, phases),
                     MatrixXd(n * (n + 1) / 2, phases)};
   std::vector<char> is_known(static_cast<std::size_t>(phases), 1);
   tbb::parallel_for(0, phases, [&](int j) {
-    FilterOrbit orbit(tone, curve, parameters);
+    FilterOrbit orbit(tone, curve, parameters, around, &slope);
     const double phase = 2.0 * std::numbers::pi * j / phases;
     orbit.begin(phase - memory * curve.frequency);
     for (int k = 0; k < memory; ++k) {
@@ -159,47 +163,31 @@ double mismatch(const MatrixXd& a, const MatrixXd& b) {
       .maxCoeff();
 }
 
-}  // namespace
-
-void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings,
-                         const std::optional<ShapeParameters>& nearby, TubeProposal& proposal) {
-  const rigor::NearestRounding nearest;
+/// Fills in the tube of these parameters and their worth, or says that the cell is too wide. `around`: as for
+/// an orbit; its z is not read. `unit`: of the levels, rad/sample.
+void fit_tube(const TrackedTone& tone, const CurveFit& curve, const FilterParameters& parameters, double rate,
+              const FilterWorth& worth, double unit, const Surroundings& around, TubeProposal& proposal) {
   const Index n = tone.filter->states;
-  const double rate = proposal.steady_state.rate;
-  if (!(rate < 1.0) || n > detail::kMostStates) {
-    proposal.outcome = TubeOutcome::no_shape;
-    return;
-  }
-  const FilterSearch search(tone, curve, settings, rate);
-  const std::optional<VectorXd> point = search.run(nearby ? nearby->of_filter : VectorXd());
-  if (!point) {
-    proposal.outcome = TubeOutcome::cell_too_wide;
-    proposal.loss = 1.0;
-    return;
-  }
-  const FilterParameters parameters = search.coordinates().at(*point);
-  constexpr int kSamples = 64;
-  const FilterWorth worth = search.worth_at(parameters, kSamples);
+  proposal.outcome = TubeOutcome::cell_too_wide;
+  proposal.loss = 1.0;
   if (!(worth.growth < 1.3)) {
-    proposal.outcome = TubeOutcome::cell_too_wide;
-    proposal.loss = 1.0;
     return;
   }
-  proposal.shape.parameters.of_filter = *point;
   constexpr double kForgotten = 1e-6;
   const int memory = memory_of(rate * rate, parameters, kForgotten);
-  // Levels are in rad/sample.
-  const double scale = 1.0 / worth.most_reach;
+  const double scale = 1.0 / unit;
   const int most_harmonics = std::max<int>(24, 2 * static_cast<int>(curve.coefficients[0].cols()));
   const int phases = 2 * most_harmonics + 1;
+  const auto on_grid_at = [&](double z, int so_many) {
+    return on_grid(tone, curve.at(z), parameters, memory, so_many, {around.tube, around.radius, z},
+                   curve.slope_at(z));
+  };
   std::array<MatrixXd, kNodes> low;
   std::array<MatrixXd, kNodes> high;
   std::array<MatrixXd, kNodes> shape;
   for (std::size_t j = 0; j < low.size(); ++j) {
-    const auto grid = on_grid(tone, curve.at(node_places().at(j)), parameters, memory, phases);
+    const auto grid = on_grid_at(node_places().at(j), phases);
     if (!grid) {
-      proposal.outcome = TubeOutcome::cell_too_wide;
-      proposal.loss = 1.0;
       return;
     }
     low.at(j) = grid->low;
@@ -209,16 +197,13 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
   // As few harmonics as lose hardly anything, judged between the nodes.
   std::vector<std::pair<double, FilterOnGrid>> judges;
   for (const double z : {-1.0, 0.0, 0.6, 1.0}) {
-    auto grid = on_grid(tone, curve.at(z), parameters, memory, 31);
+    auto grid = on_grid_at(z, 31);
     if (!grid) {
-      proposal.outcome = TubeOutcome::cell_too_wide;
-      proposal.loss = 1.0;
       return;
     }
     judges.emplace_back(z, *std::move(grid));
   }
   std::optional<std::array<Fit, 3>> found;
-  proposal.loss = 1.0;
   for (int harmonics = 2; harmonics <= most_harmonics && !found; harmonics += 2) {
     std::array<Fit, 3> fit{fit_of(low, harmonics, 1.0), fit_of(high, harmonics, 1.0),
                            fit_of(shape, harmonics, scale)};
@@ -249,13 +234,13 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
     }
   }
   if (!found) {
-    proposal.outcome = TubeOutcome::cell_too_wide;
     return;
   }
-  proposal.worth.level = worth.most_reach;
+  proposal.worth.level = unit;
   proposal.worth.reach = worth.most_reach;
   proposal.worth.least_reach = worth.least_reach;
   proposal.worth.noise = parameters.noise;
+  proposal.worth.slew = parameters.slew;
   proposal.worth.rate = std::min(worth.linear, 0.999);
   proposal.shape.worth = proposal.worth;
   Tube tube;
@@ -273,6 +258,74 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
   tube.shape = series_of_fit((*found)[2]);
   proposal.tube = std::move(tube);
   proposal.outcome = TubeOutcome::proposed;
+}
+
+}  // namespace
+
+void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings,
+                         const std::optional<ShapeParameters>& nearby, bool keep, TubeProposal& proposal) {
+  const rigor::NearestRounding nearest;
+  const double rate = proposal.steady_state.rate;
+  if (!(rate < 1.0) || tone.filter->states > detail::kMostStates) {
+    proposal.outcome = TubeOutcome::no_shape;
+    return;
+  }
+  const FilterSearch search(tone, curve, settings, rate);
+  const bool keeps = keep && nearby && nearby->of_filter.size() == search.coordinates().size();
+  const std::optional<VectorXd> point = keeps ? std::optional(nearby->of_filter)
+                                              : search.run(nearby ? nearby->of_filter : VectorXd());
+  if (!point) {
+    proposal.outcome = TubeOutcome::cell_too_wide;
+    proposal.loss = 1.0;
+    return;
+  }
+  proposal.shape.parameters.of_filter = *point;
+  const FilterParameters parameters = search.coordinates().at(*point);
+  constexpr int kSamples = 64;
+  const FilterWorth worth = search.worth_at(parameters, kSamples);
+  // Neighbouring tubes of equal parameters fit together if their units are equal.
+  const double unit = keeps ? nearby->unit_of_filter : worth.most_reach;
+  proposal.shape.parameters.unit_of_filter = unit;
+  fit_tube(tone, curve, parameters, rate, worth, unit, {}, proposal);
+}
+
+TubeProposal propose_long_run_tube(const TrackedTone& tone, const Tube& around, double radius, double noise,
+                                   const ShapeParameters& of_around,
+                                   const std::optional<ShapeParameters>& nearby) {
+  const rigor::NearestRounding nearest;
+  TubeProposal proposal;
+  proposal.frequency = around.frequency;
+  proposal.half_width = around.half_width;
+  proposal.steady_state = find_steady_state(tone, around.frequency, {});
+  const double rate = proposal.steady_state.rate;
+  if (proposal.steady_state.outcome != SteadyStateOutcome::settled || !(rate < 1.0)) {
+    return proposal;
+  }
+  constexpr double kNegligible = 1e-13;
+  const auto curve = fit_curve(tone, around.frequency, around.half_width, proposal.steady_state, kNegligible);
+  if (!curve) {
+    proposal.outcome = TubeOutcome::no_curve;
+    return proposal;
+  }
+  TubeSettings settings;
+  settings.shape.objective = ShapeObjective::largest_noise;
+  settings.shape.noise = noise;
+  const FilterSearch coordinates(tone, *curve, settings, rate);
+  constexpr int kEvaluations = 80;
+  const LongRunSearch search(tone, *curve, coordinates.coordinates(), around, radius, kEvaluations);
+  const std::optional<VectorXd> point = search.run(of_around.of_filter, nearby ? nearby->of_filter : VectorXd());
+  proposal.outcome = TubeOutcome::cell_too_wide;
+  if (point) {
+    proposal.shape.parameters.of_filter = *point;
+    const FilterParameters parameters = coordinates.coordinates().at(*point);
+    constexpr int kSamples = 64;
+    const FilterWorth worth = search.worth_at(parameters, kSamples);
+    fit_tube(tone, *curve, parameters, rate, worth, worth.most_reach, {&around, radius, 0.0}, proposal);
+  }
+  if (proposal.tube) {
+    proposal.tube->curve = around.curve;
+  }
+  return proposal;
 }
 
 }  // namespace veritrack::model

@@ -18,8 +18,16 @@ namespace veritrack::model {
 
 /// Around the curve of a settled filter, whose first states are its estimate and whose others are the upper
 /// triangle of its covariance: fills in the shape, its worth, the tube and the outcome. `nearby`: parameters
-/// that were good at neighbouring frequencies. Deterministic; holds round-to-nearest. Needs tone.filter.
+/// that were good at neighbouring frequencies; with `keep` they are used as they are. Deterministic; holds round-to-nearest. Needs tone.filter.
 void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings,
-                         const std::optional<ShapeParameters>& nearby, TubeProposal& proposal);
+                         const std::optional<ShapeParameters>& nearby, bool keep, TubeProposal& proposal);
+
+/// For noise, of estimates that stay in the tube `around`, at the level `radius` or below: a tube of the same
+/// curve and frequencies that is small in the long run, with bounds of the covariance for all estimates in
+/// that level. `of_around`: the parameters of that tube. Deterministic; holds round-to-nearest. Needs
+/// tone.filter.
+[[nodiscard]] TubeProposal propose_long_run_tube(const TrackedTone& tone, const Tube& around, double radius,
+                                                 double noise, const ShapeParameters& of_around,
+                                                 const std::optional<ShapeParameters>& nearby);
 
 }  // namespace veritrack::model

@@ -20,16 +20,20 @@
 namespace veritrack::model::detail {
 
 /// Parameters as a point: the logarithm of eta, the logits of theta and of lambda between the square of the
-/// rate and 1, the logarithms of b and d, those of W in units of the states, and, when it is searched for,
-/// that of V.
+/// rate and 1, the logarithms of b and d, those of the process noise in units of the states, with a slew that
+/// of c, and, when it is searched for, that of the noise V or the slew W.
 struct FilterCoordinates {
   double rate_squared;
   VectorXd sizes;
   double given_noise;
   bool finds_noise;
-  double exponent;  ///< of Gaussian noise; 0: the noise is bounded
+  double given_slew = 0.0;
+  bool finds_slew = false;
+  double exponent = 0.0;  ///< of Gaussian noise; 0: the noise is bounded
 
-  [[nodiscard]] Index size() const { return 5 + sizes.size() + (finds_noise ? 1 : 0); }
+  [[nodiscard]] bool moves() const { return given_slew > 0.0 || finds_slew; }
+  [[nodiscard]] bool finds() const { return finds_noise || finds_slew; }
+  [[nodiscard]] Index size() const { return 5 + sizes.size() + (moves() ? 1 : 0) + (finds() ? 1 : 0); }
   [[nodiscard]] FilterParameters at(const VectorXd& x) const {
     const auto logistic = [](double t) { return 1.0 / (1.0 + std::exp(-t)); };
     FilterParameters parameters;
@@ -41,6 +45,8 @@ struct FilterCoordinates {
     parameters.process = x.segment(5, sizes.size()).array().exp() * sizes.array().square();
     parameters.exponent = exponent;
     parameters.noise = finds_noise ? std::exp(x[size() - 1]) : given_noise;
+    parameters.slew = finds_slew ? std::exp(x[size() - 1]) : given_slew;
+    parameters.moving = moves() ? std::exp(x[5 + sizes.size()]) : 0.0;
     return parameters;
   }
 };
@@ -56,8 +62,9 @@ struct FilterWorth {
 
 /// Over so many samples of an orbit, after `before`.
 inline FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curve,
-                                  const FilterParameters& parameters, int before, int samples) {
-  FilterOrbit orbit(tone, curve, parameters);
+                                  const FilterParameters& parameters, int before, int samples,
+                                  const Surroundings& around = {}, const Eigen::MatrixXcd* slope = nullptr) {
+  FilterOrbit orbit(tone, curve, parameters, around, slope);
   orbit.begin(0.3);
   FilterWorth worth;
   double growth = 0.0;
@@ -94,7 +101,9 @@ inline int memory_of(double rate_squared, const FilterParameters& parameters, do
 class FilterSearch {
  public:
   FilterSearch(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings, double rate)
-      : tone_(&tone), nodes_{curve.at(-1.0), curve.at(0.0), curve.at(1.0)} {
+      : tone_(&tone),
+        nodes_{curve.at(-1.0), curve.at(0.0), curve.at(1.0)},
+        slopes_{curve.slope_at(-1.0), curve.slope_at(0.0), curve.slope_at(1.0)} {
     const Index n = tone.filter->states;
     const VectorXd state = state_at(nodes_[1], 0.3);
     VectorXd sizes(n);
@@ -107,7 +116,13 @@ class FilterSearch {
     const bool is_gaussian = settings.shape.objective == ShapeObjective::largest_deviation;
     const bool is_for_noise = settings.shape.objective == ShapeObjective::largest_noise || is_gaussian;
     // The largest reach at a given noise, or the largest noise.
-    coordinates_ = {rate * rate, sizes, settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0),
+    const bool is_for_slew = settings.shape.objective == ShapeObjective::largest_slew;
+    coordinates_ = {rate * rate,
+                    sizes,
+                    settings.shape.noise,
+                    is_for_noise && !(settings.shape.noise > 0.0),
+                    settings.shape.slew,
+                    is_for_slew && !(settings.shape.slew > 0.0),
                     is_gaussian ? settings.shape.exponent + std::log(kProposedConstant) : 0.0};
     largest_reach_ = settings.shape.largest_reach;
     const int usual = is_gaussian ? 150 : 100;
@@ -119,8 +134,9 @@ class FilterSearch {
   [[nodiscard]] FilterWorth worth_at(const FilterParameters& parameters, int samples) const {
     std::array<FilterWorth, 3> each;
     tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
-      each.at(i) = worth_on_orbit(*tone_, nodes_.at(i), parameters,
-                                  memory_of(coordinates_.rate_squared, parameters, 1e-4), samples);
+      each.at(i) =
+          worth_on_orbit(*tone_, nodes_.at(i), parameters,
+                         memory_of(coordinates_.rate_squared, parameters, 1e-4), samples, {}, &slopes_.at(i));
     });
     FilterWorth worth{0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
     for (const FilterWorth& one : each) {
@@ -133,11 +149,11 @@ class FilterSearch {
   }
   /// The point with a larger or smaller scale: of the tube, or of the noise.
   [[nodiscard]] VectorXd scaled(VectorXd x, double logarithm) const {
-    if (coordinates_.finds_noise) {
+    if (coordinates_.finds()) {
       x[coordinates_.size() - 1] += logarithm;
     } else {
       x[3] += logarithm;
-      x.segment(5, coordinates_.sizes.size()).array() += logarithm;
+      x.segment(5, coordinates_.sizes.size() + (coordinates_.moves() ? 1 : 0)).array() += logarithm;
     }
     return x;
   }
@@ -181,7 +197,8 @@ class FilterSearch {
     constexpr int kSamples = 20;
     const auto at_middle = [&](const FilterParameters& parameters) {
       return worth_on_orbit(*tone_, nodes_[1], parameters,
-                            memory_of(coordinates_.rate_squared, parameters, 1e-2), kSamples);
+                            memory_of(coordinates_.rate_squared, parameters, 1e-2), kSamples, {},
+                            &slopes_[1]);
     };
     const double logarithm = largest_scale(x, at_middle);
     if (!std::isfinite(logarithm)) {
@@ -189,7 +206,9 @@ class FilterSearch {
     }
     Scored scored{0.0, scaled(x, logarithm)};
     const FilterParameters parameters = coordinates_.at(scored.point);
-    scored.value = std::log(coordinates_.finds_noise ? parameters.noise : at_middle(parameters).least_reach);
+    scored.value = std::log(coordinates_.finds_noise  ? parameters.noise
+                            : coordinates_.finds_slew ? parameters.slew
+                                                      : at_middle(parameters).least_reach);
     return scored;
   }
   /// The best point found, scaled for the whole cell.
@@ -198,20 +217,22 @@ class FilterSearch {
     if (nearby.size() == coordinates_.size()) {
       starts.push_back(score(nearby));
     } else {
-      if (!coordinates_.finds_noise) {
+      if (!coordinates_.finds()) {
         starts = first_starts();
       } else {
-        // From tubes without noise, made smaller.
+        // From tubes without noise and slew, made smaller.
         std::vector<VectorXd> points;
         FilterSearch without_noise(*this);
-        without_noise.coordinates_.finds_noise = false;
+        without_noise.coordinates_.finds_noise = without_noise.coordinates_.finds_slew = false;
+        without_noise.coordinates_.given_slew = 0.0;
         without_noise.coordinates_.exponent = 0.0;
         for (const Scored& start : without_noise.best_of(without_noise.first_starts())) {
           for (const double scale : {-0.5, -1.4, -2.8}) {
             if (std::isfinite(start.value)) {
               const VectorXd smaller = without_noise.scaled(start.point, scale);
-              points.emplace_back(coordinates_.size());
-              points.back() << smaller, -6.0;
+              VectorXd x = VectorXd::Constant(coordinates_.size(), coordinates_.moves() ? -10.0 : -6.0);
+              x.head(smaller.size()) = smaller;
+              points.push_back(std::move(x));
             }
           }
         }
@@ -251,6 +272,9 @@ class FilterSearch {
             constexpr double kProcess = -4.5;
             VectorXd x = VectorXd::Constant(coordinates_.size(), kProcess);
             x.head(5) << eta, eta, logit, source, spread;
+            if (coordinates_.moves()) {
+              x[x.size() - 1] = -9.0;
+            }
             points.push_back(x);
           }
         }
@@ -293,6 +317,7 @@ class FilterSearch {
 
   const TrackedTone* tone_;
   std::array<NodeCurve, 3> nodes_;
+  std::array<Eigen::MatrixXcd, 3> slopes_;
   FilterCoordinates coordinates_;
   double largest_reach_ = 0.0;
   int evaluations_ = 0;  ///< of each round

@@ -10,6 +10,7 @@
 #include "analysis/model/filter_models.hpp"
 #include "analysis/model/map_bound.hpp"
 #include "analysis/model/tube_models.hpp"
+#include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
 
@@ -38,9 +39,15 @@ struct FilterPlace {
   BallMatrix factor;                 ///< L of R^-1 H Delta H' R^-1
 };
 
-/// Among models without a ball.
-FilterPlace place_of_filter(const TrackerModel& model, const Tube& tube, const TubeCell& cell) {
-  CellFrame frame = frame_of(model, tube, cell, FrameParts::with_next);
+/// Among models without a ball. With a slew, all that is at the next phase is that of every frequency it
+/// moves to.
+FilterPlace place_of_filter(const TrackerModel& model, const Tube& tube, const TubeCell& cell, double slew) {
+  CellFrame frame =
+      frame_of(model, tube, cell, slew > 0.0 ? FrameParts::with_samples : FrameParts::with_next);
+  if (slew > 0.0) {
+    const Interval move = Interval(slew) / Interval(tube.half_width);
+    frame.there = tube_at(tube, frame.next_phase, frame.z + BallModel(hull(-move, move)));
+  }
   FilterNoise noise = noise_of(model);
   BallMatrix low_here = updated(symmetric(frame.here.covariance_low), noise);
   BallMatrix high_here = updated(symmetric(frame.here.covariance_high), noise);
@@ -84,7 +91,7 @@ FilterPlace place_of_filter(const TrackerModel& model, const Tube& tube, const T
 }
 
 /// Whether the bounds are a nonempty range of covariances, and bounds again at the next phase.
-bool keeps_covariance(const TrackerModel& model, const FilterPlace& place, double radius) {
+bool keeps_covariance(const TrackerModel& model, const FilterPlace& place, const RangeQuestion& question) {
   const std::size_t n = place.low_here.rows();
   if (!is_positive_definite(place.low_here) || !is_positive_definite(place.high_there - place.low_there)) {
     return false;
@@ -99,12 +106,27 @@ bool keeps_covariance(const TrackerModel& model, const FilterPlace& place, doubl
       here.shape.push_back(each.lifted());
     }
     const std::vector<BallModel> none(static_cast<std::size_t>(model.filter->samples), BallModel(0.0));
-    return parts_at(model, state_in(here, radius), none).jacobian;
+    return parts_at(model, state_in(here, question.radius), none).jacobian;
   }();
   const JacobianParts parts = parts_of_jacobian(jacobian, n);
-  return std::isfinite(parts.error) &&
-         stays_below(parts, place.high_here, place.noise.process, place.high_there) &&
-         stays_above(parts, place.low_here, place.noise.process, place.low_there);
+  if (!std::isfinite(parts.error)) {
+    return false;
+  }
+  const Interval share = Interval(1.0) - Interval(question.margin);
+  const bool has_margin = question.margin > 0.0;
+  const BallMatrix high = has_margin ? scaled(place.high_there, BallModel(share)) : place.high_there;
+  const BallMatrix low =
+      has_margin ? scaled(place.low_there, BallModel(Interval(1.0) / share)) : place.low_there;
+  if (!stays_below(parts, place.high_here, place.noise.process, high) ||
+      !stays_above(parts, place.low_here, place.noise.process, low)) {
+    return false;
+  }
+  // Of c, with both sides divided by c, or multiplied by it: affine in 1/c, or in c. The ends decide.
+  const Interval ratio(question.ratio);
+  return question.ratio == 1.0 ||
+         (stays_below(parts, place.high_here, scaled(place.noise.process, BallModel(Interval(1.0) / ratio)),
+                      high) &&
+          stays_above(parts, place.low_here, scaled(place.noise.process, BallModel(ratio)), low));
 }
 
 /// The coefficients of a class at s = z = 0, a row for each model.
@@ -189,30 +211,50 @@ double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& d
 }  // namespace
 
 FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
-                                double radius, double noise, bool with_covariance, double of_gaussian) {
+                                const FilterStepQuestion& question, double of_gaussian) {
   require_sizes(model, tube);
-  const bool is_noisy = noise > 0.0;
+  const double radius = question.radius;
+  const bool is_noisy = question.noise > 0.0;
+  const bool is_moving = question.slew > 0.0;
   const FilterPlace place = [&] {
     const rigor::BallModelScope plane(0, 0);
-    return place_of_filter(model, tube, cell);
+    return place_of_filter(model, tube, cell, question.slew);
   }();
   const std::size_t n = tube.curve.size();
   const std::size_t channels = static_cast<std::size_t>(model.filter->samples);
-  TubeHere here;
-  TubeHere there;
-  for (std::size_t i = 0; i < n; ++i) {
-    here.curve.push_back(place.frame.here.curve[i].lifted());
-    there.curve.push_back(place.frame.there.curve[i].lifted());
-  }
-  for (std::size_t i = 0; i < place.frame.here.shape.size(); ++i) {
-    here.shape.push_back(place.frame.here.shape[i].lifted());
-    there.shape.push_back(place.frame.there.shape[i].lifted());
-  }
+  const int of_noise = is_noisy ? model.filter->samples : 0;
+  // Noise and slew are in the unit ball together when the squared length of each is at most 1/2.
+  constexpr double kRootOfTwo = 0x1.6a09e667f3bcdp0;
+  const double stretch = is_noisy && is_moving ? kRootOfTwo : 1.0;
+  const auto lifted_tube = [](const TubeHere& of_place) {
+    TubeHere result;
+    for (const BallModel& each : of_place.curve) {
+      result.curve.push_back(each.lifted());
+    }
+    for (const BallModel& each : of_place.shape) {
+      result.shape.push_back(each.lifted());
+    }
+    return result;
+  };
+  const TubeHere here = lifted_tube(place.frame.here);
+  const TubeHere there = [&] {
+    if (!is_moving) {
+      return lifted_tube(place.frame.there);
+    }
+    Tube estimate = tube;
+    estimate.covariance_low.clear();
+    estimate.covariance_high.clear();
+    const rigor::UpwardRounding upward;
+    return tube_at(estimate, place.frame.next_phase.lifted(),
+                   place.frame.z.lifted() + BallModel(question.slew * stretch / tube.half_width) *
+                                                BallModel::disturbance(of_noise));
+  }();
   const std::vector<BallModel> state = state_in(here, radius);
   std::vector<BallModel> samples;
   for (std::size_t c = 0; c < channels; ++c) {
     const BallModel sample = place.frame.next[c].lifted();
-    samples.push_back(is_noisy ? sample + BallModel(noise) * BallModel::disturbance(static_cast<int>(c))
+    samples.push_back(is_noisy ? sample + BallModel(question.noise * stretch) *
+                                              BallModel::disturbance(static_cast<int>(c))
                                : sample);
   }
   const trackers::FilterValues<BallModel> values = parts_at(model, state, samples);
@@ -238,7 +280,7 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
   const bool is_known = is_shape(here) && is_shape(there);
   step.frequency_error =
       is_known ? (frequency_of(model, state) - place.frame.frequency.lifted()).range() : Interval::empty();
-  const double mu = best_multiplier(place.spread, deviation, reach, is_noisy, of_gaussian);
+  const double mu = best_multiplier(place.spread, deviation, reach, is_noisy || is_moving, of_gaussian);
   if (!is_known || !(mu > 0.0) || !std::isfinite(mu)) {
     return step;
   }
@@ -258,23 +300,25 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
   for (const BallModel& each : reach) {
     step.vector.push_back(root_of_mu * each);
   }
-  step.is_known = !with_covariance || [&] {
+  step.is_known = !question.with_covariance || [&] {
     const rigor::BallModelScope inner(0, 0);
     // A little more, so that another program need not be as sharp.
     constexpr double kRoom = 1.01;
-    return keeps_covariance(model, place, kRoom * radius);
+    return keeps_covariance(model, place, {kRoom * radius, question.margin, 1.0});
   }();
   return step;
 }
 
-StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell, double radius,
-                             double noise, const std::vector<double>& scales, bool with_covariance) {
+StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                             const FilterStepQuestion& question, const std::vector<double>& scales) {
   require_sizes(model, tube);
+  const bool is_noisy = question.noise > 0.0;
+  const bool is_moving = question.slew > 0.0;
   StepBounds bounds;
   bounds.steps.assign(scales.size(), std::numeric_limits<double>::quiet_NaN());
-  const rigor::BallModelScope scope(static_cast<int>(tube.curve.size()),
-                                    noise > 0.0 ? model.filter->samples : 0);
-  const FilterStepOver step = filter_step_over(model, tube, cell, radius, noise, with_covariance);
+  const int of_noise = is_noisy ? model.filter->samples : 0;
+  const rigor::BallModelScope scope(static_cast<int>(tube.curve.size()), is_moving ? of_noise + 1 : of_noise);
+  const FilterStepOver step = filter_step_over(model, tube, cell, question);
   bounds.frequency_error = step.frequency_error;
   if (step.vector.empty()) {
     return bounds;
@@ -282,11 +326,18 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
   const WidthShares shares = width_shares(step.vector);
   bounds.by_phase = shares.by_phase;
   bounds.by_frequency = shares.by_frequency;
-  const std::vector<double> lengths = length_bounds(step.vector, scales);
+  const std::vector<double> lengths = length_bounds(step.vector, scales, is_noisy && is_moving);
   if (step.is_known) {
     bounds.steps = lengths;
   }
   return bounds;
+}
+
+bool keeps_range(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                 const RangeQuestion& question) {
+  require_sizes(model, tube);
+  const rigor::BallModelScope plane(0, 0);
+  return keeps_covariance(model, place_of_filter(model, tube, cell, 0.0), question);
 }
 
 }  // namespace veritrack::model

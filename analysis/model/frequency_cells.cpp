@@ -101,7 +101,17 @@ BandProposal propose_band(const TrackedTone& tone, double low, double high, cons
       const bool is_settled = steady.outcome == SteadyStateOutcome::settled;
       tube.shape.largest_rate = std::max(tube.shape.largest_rate, is_settled ? steady.rate : 0.0);
     }
-    const TubeProposal middle = propose_tube(tone, 0.5 * (low + high), half_width, tube);
+    TubeProposal middle = propose_tube(tone, 0.5 * (low + high), half_width, tube);
+    if (middle.outcome == TubeOutcome::proposed && tone.filter != nullptr) {
+      // Those of the place where tubes are smallest.
+      const TubeProposal at_middle = middle;
+      for (const double place : {low + half_width, high - half_width}) {
+        TubeProposal end = propose_tube(tone, place, half_width, tube, at_middle.shape.parameters);
+        if (end.outcome == TubeOutcome::proposed && end.worth.reach < middle.worth.reach) {
+          middle = std::move(end);
+        }
+      }
+    }
     if (middle.outcome == TubeOutcome::proposed) {
       division.begin_with(middle.shape.parameters);
     }

@@ -27,9 +27,10 @@ CellAnswer filter_drift_over(const TrackerModel& model, const Tube& tube, const 
   const rigor::UpwardRounding upward;
   const rigor::BallModelScope scope(static_cast<int>(tube.curve.size()), model.recursion->samples);
   const double share = question.deviation / question.most_noise;
+  const FilterStepQuestion asked{
+      .radius = question.radius, .noise = question.most_noise, .with_covariance = question.with_covariance};
   const FilterStepOver step =
-      filter_step_over(model, tube, cell, question.radius, question.most_noise, question.with_covariance,
-                       2.0 * question.exponent * share * share);
+      filter_step_over(model, tube, cell, asked, 2.0 * question.exponent * share * share);
   if (!step.is_known) {
     return {};
   }

@@ -22,6 +22,7 @@ class LevelSearch {
     constexpr double kLittleRoom = 0.02;
     proved_.grid.phases = room < kLittleRoom ? 64 : 32;
     proved_.tube = *proposal.tube;
+    proved_.parameters = proposal.shape.parameters;
     proved_.grid.deadline = task.deadline;
     slow_ = 1.0 - 0.05 * room;
     fast_ = 1.0 - 0.5 * room;

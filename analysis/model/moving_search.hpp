@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,6 +39,10 @@ class MovingSearch {
     constexpr double kLittleRoom = 0.02;
     for (ProvedTube& proved : set.tubes) {
       proved.grid.phases = 1.0 - rate < kLittleRoom ? 64 : 32;
+    }
+    if (set.tubes.front().tube.bounds_covariance()) {
+      constexpr double kMargin = 0.005;  // of the slack of the proposals; the rest is for the width of cells
+      set.covariance_margin = kMargin;
     }
     slow_ = 1.0 - 0.05 * (1.0 - rate);
     fast_ = 1.0 - 0.5 * (1.0 - rate);
@@ -89,7 +94,9 @@ class MovingSearch {
   [[nodiscard]] bool may_hold(const ProvedTube& proved, double radius, double slew) const {
     constexpr int kPhases = 16;
     return !deadline_->is_over() &&
-           sampled_growth(*model_, proved.tube, {radius, set_->noise, 1.0, 1.0, slew}, kPhases) <= slow_;
+           sampled_growth(*model_, proved.tube,
+                          {radius, set_->noise, 1.0, 1.0, slew, proved.levels.empty(), set_->covariance_margin},
+                          kPhases) <= slow_;
   }
   [[nodiscard]] bool may_hold(double radius, double slew) const {
     return std::all_of(set_->tubes.begin(), set_->tubes.end(),
@@ -110,8 +117,12 @@ class MovingSearch {
 
   /// Whether levels from `scale` radius to radius shrink by the factor in a cell.
   [[nodiscard]] bool shrinks(ProvedTube& proved, double radius, double scale, double factor, double slew) {
-    const LevelResult result = verify_level(
-        *model_, proved.tube, {radius, set_->noise, scale, with_room(factor), slew}, proved.grid);
+    // Of the largest radius, with the bounds of the covariance.
+    const LevelResult result =
+        verify_level(*model_, proved.tube,
+                     {radius, set_->noise, scale, with_room(factor), slew, scale == 1.0,
+                      set_->covariance_margin},
+                     proved.grid);
     proved.cells += result.cells;
     return result.verdict == Verdict::proved;
   }
@@ -127,9 +138,11 @@ class MovingSearch {
     const ProvedTube& a = set_->tubes[i];
     const ProvedTube& b = set_->tubes[i + 1];
     double largest = 0.0;
+    const bool with_covariance = a.tube.bounds_covariance() && scale == 1.0;
+    const auto margin = with_covariance ? std::optional(set_->covariance_margin) : std::nullopt;
     for (const bool is_up : {true, false}) {
       const BorderResult result = verify_border(*model_, is_up ? a.tube : b.tube, is_up ? b.tube : a.tube,
-                                                {factor * radius, radius, slew, scale}, a.grid);
+                                                {factor * radius, radius, slew, scale, margin}, a.grid);
       if (result.verdict != Verdict::proved || !(result.largest < 1.0)) {
         return 2.0;
       }

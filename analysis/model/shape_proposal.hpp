@@ -46,6 +46,7 @@ struct ShapeParameters {
   DisturbanceWeights weights;  ///< b, c
   Eigen::MatrixXd source;      ///< W, n x n, positive semidefinite
   Eigen::VectorXd of_filter;   ///< in place of all these: see filter_proposal.cpp
+  double unit_of_filter = 1.0;  ///< of its levels, rad/sample
 };
 
 /// What a shape is worth at the curve.

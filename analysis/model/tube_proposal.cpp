@@ -207,7 +207,7 @@ TubeProposal propose_tube(const TrackedTone& tone, double frequency, double half
     return proposal;
   }
   if (tone.filter != nullptr) {
-    propose_filter_tube(tone, *curve, settings, nearby, proposal);
+    propose_filter_tube(tone, *curve, settings, nearby, keep, proposal);
     return proposal;
   }
   const PhaseGrid grid(grid_harmonics(tone, curve->at(0.0)));

@@ -94,4 +94,10 @@ double samples_until(const ProvedTube& proved, std::size_t level, const std::vec
   return samples;
 }
 
+double samples_until_long_run(const ProvedTube& around, const ProvedTube& inner, std::size_t level) {
+  const rigor::UpwardRounding upward;
+  const double entered = inner.entry ? inner.entry->samples() : INFINITY;
+  return samples_until(around, around.levels.size() - 1) + entered + samples_until(inner, level);
+}
+
 }  // namespace veritrack::model

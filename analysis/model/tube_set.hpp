@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/model/frequency_cells.hpp"
+#include "analysis/model/long_run_entry.hpp"
 #include "analysis/model/tube_errors.hpp"
 #include "analysis/model/tube_verification.hpp"
 
@@ -22,6 +23,9 @@ struct ProvedTube {
   std::vector<double> shrinking;
   VerificationBudget grid;  ///< from which the verification began
   std::size_t cells = 0;    ///< that it needed
+  ShapeParameters parameters = {};  ///< of the proposal; not evidence
+  /// Of a filter's tube in the long run: how it is entered.
+  std::optional<LongRunEntry> entry = {};
 };
 
 /// What a set is for.
@@ -67,6 +71,9 @@ struct TubeSet {
   /// With a slew, for each pair of levels: how levels change at borders of cells, after the step's shrinking
   /// (docs/model-proof.md, section 4).
   std::vector<double> crossing;
+  /// With a slew, of filters: what their bounds of the covariance have to spare at every step, as a share of
+  /// themselves, and may lose at a border.
+  double covariance_margin = 0.0;
   bool is_complete = false;          ///< every frequency of the band has a tube
   std::vector<std::string> reasons;  ///< otherwise: which part has none, and why
   FrequencyRange part;               ///< with tubes: what they cover of the band, rounded inward
@@ -86,8 +93,18 @@ using SetProgress = std::function<void(double share)>;
 [[nodiscard]] TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, double low,
                                        double high, const SetTask& task, const SetProgress& progress = {});
 
+/// Tubes of a filter in the long run, for the noise of `set`, inside the lowest levels of its tubes: one for
+/// each of them, of the same frequencies (docs/model-proof.md, Theorem 6). Nothing unless they are proved for
+/// all.
+[[nodiscard]] std::optional<TubeSet> prove_long_run_set(const TrackedTone& tone, const TrackerModel& model,
+                                                        const TubeSet& set, const search::Deadline& deadline);
+
 /// After how many samples a start of level R_0 is at level R_`level`: an upper bound. `crossing`: of its set.
 [[nodiscard]] double samples_until(const ProvedTube& proved, std::size_t level,
                                    const std::vector<double>& crossing = {});
+/// After how many samples a start of level R_0 of `around` is at the level `level` of a tube in the long run
+/// inside it: an upper bound.
+[[nodiscard]] double samples_until_long_run(const ProvedTube& around, const ProvedTube& inner,
+                                            std::size_t level);
 
 }  // namespace veritrack::model

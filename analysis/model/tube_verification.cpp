@@ -40,8 +40,10 @@ bool holds(const StepBounds& bounds, const LevelQuestion& question, const std::v
 StepBounds bounds_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
                      const LevelQuestion& question, const std::vector<double>& scales) {
   return tube.bounds_covariance()
-             ? bound_filter_step(model, tube, cell, question.radius, question.noise, scales,
-                                 question.with_covariance)
+             ? bound_filter_step(model, tube, cell,
+                                 {question.radius, question.noise, question.slew, question.with_covariance,
+                                  question.covariance_margin},
+                                 scales)
              : bound_step(model, tube, cell, question.radius, question.noise, scales, question.slew);
 }
 
@@ -84,11 +86,8 @@ LevelResult verify_level(const TrackerModel& model, const Tube& tube, const Leve
                            std::isfinite(question.noise) && question.least_scale > 0.0 &&
                            question.least_scale <= 1.0 && question.shrinking > 0.0 &&
                            question.shrinking <= 1.0 && question.slew >= 0.0 &&
-                           std::isfinite(question.slew) && is_grid(budget);
-  if (tube.bounds_covariance() && question.slew != 0.0) {
-    result.reason = "bounds of a covariance are for constant frequencies";
-    return result;
-  }
+                           std::isfinite(question.slew) && question.covariance_margin >= 0.0 &&
+                           question.covariance_margin < 1.0 && is_grid(budget);
   if (!is_question) {
     result.reason = "no radius, noise, slew or budget that could be verified";
     return result;

@@ -24,6 +24,8 @@ struct LevelQuestion {
   /// Of a filter: that the bounds of the covariance are kept is shown, too. It is enough to do so for the
   /// largest radius.
   bool with_covariance = true;
+  /// Then they have this share of themselves to spare at every step.
+  double covariance_margin = 0.0;
 };
 
 struct LevelResult {

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <any>
 #include <array>
 #include <cerrno>
 #include <optional>
@@ -54,7 +55,10 @@ std::string allowed_trackers() {
   return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
-BoundTable top_keys(Design& design) {
+enum class Place { file, table };
+
+/// A design inside another one needs no name.
+BoundTable top_keys(Design& design, Place place) {
   constexpr std::string_view kOneLine = "a string on one line, of 1 to 200 bytes";
   static const std::string trackers = allowed_trackers();
   static const std::array top{
@@ -62,7 +66,8 @@ BoundTable top_keys(Design& design) {
       Key<Design>{"tracker", trackers, tracker, keys::kRequired},
       Key<Design>{"source", kOneLine, line_of_text<&Design::source, 200>, keys::kOptional},
   };
-  return bound_table("", top, design);
+  static const std::array inner{Key<Design>{"tracker", trackers, tracker, keys::kRequired}};
+  return place == Place::file ? bound_table("", top, design) : bound_table("", inner, design);
 }
 
 // ---- unknown keys
@@ -117,6 +122,30 @@ void find_unknown_keys(const toml::table& table, std::string_view table_name,
   }
 }
 
+/// The trackers whose design files have this key.
+std::vector<std::string_view> trackers_with(const UnknownKey& key) {
+  std::vector<std::string_view> trackers;
+  for (const DesignFormat* format : design_formats()) {
+    std::any tables = format->empty_tables();
+    for (const BoundTable& table : format->bind_tables(tables)) {
+      const bool has_key = std::any_of(table.keys.begin(), table.keys.end(), [&](const BoundKey& each) {
+        return table.name == key.table && path_of(table.name, each.name) == key.path;
+      });
+      if (has_key) {
+        trackers.push_back(format->tracker);
+      }
+    }
+  }
+  return trackers;
+}
+
+/// "nearest known key: design.q1", or which trackers have the key.
+std::string what_is_known(const UnknownKey& unknown, const std::vector<std::string>& paths) {
+  const std::vector<std::string_view> trackers = trackers_with(unknown);
+  return trackers.empty() ? fmt::format("nearest known key: {}", nearest_key(unknown.path, paths))
+                          : fmt::format("it goes with the tracker {}", fmt::join(trackers, " or "));
+}
+
 /// Throws InputError at the first key of the file that means nothing for the tracker with these tables.
 void reject_unknown_keys(const TomlSource& source, const BoundTable& top,
                          const std::vector<BoundTable>& tables) {
@@ -139,12 +168,11 @@ void reject_unknown_keys(const TomlSource& source, const BoundTable& top,
     }
   }
   constexpr std::size_t kShownLimit = 80;
-  source.fail(
-      unknown->position,
-      fmt::format("unknown key {}; nearest known key: {}; allowed {}: {}",
-                  printable(unknown->path, kShownLimit), nearest_key(unknown->path, known_paths(top, tables)),
-                  unknown->table.empty() ? "at the top" : "in [" + unknown->table + "]",
-                  fmt::join(allowed, ", ")));
+  source.fail(unknown->position,
+              fmt::format("unknown key {}; {}; allowed {}: {}", printable(unknown->path, kShownLimit),
+                          what_is_known(*unknown, known_paths(top, tables)),
+                          unknown->table.empty() ? "at the top" : "in [" + unknown->table + "]",
+                          fmt::join(allowed, ", ")));
 }
 
 // ---- reading
@@ -200,15 +228,11 @@ const DesignFormat& expected_format(const TomlSource& source) {
   return found != formats.end() ? **found : *formats.front();
 }
 
-}  // namespace
-
-Design read_design(std::string_view text, std::string_view file_name) {
-  const TomlSource source(text, file_name);
-  const rigor::UpwardRounding upward;
+Design read_from(const TomlSource& source, Place place) {
   const DesignFormat& format = expected_format(source);
   Design design;
   design.tables = format.empty_tables();
-  const BoundTable top = top_keys(design);
+  const BoundTable top = top_keys(design, place);
   const std::vector<BoundTable> tables = format.bind_tables(design.tables);
   reject_unknown_keys(source, top, tables);
   read_table(source, &source.root(), top, design.positions);
@@ -223,6 +247,18 @@ Design read_design(std::string_view text, std::string_view file_name) {
     }
   }
   return design;
+}
+
+}  // namespace
+
+Design read_design(std::string_view text, std::string_view file_name) {
+  const TomlSource source(text, file_name);
+  const rigor::UpwardRounding upward;
+  return read_from(source, Place::file);
+}
+
+Design read_inner_design(const TomlValue& table) {
+  return read_from(table.as_file(), Place::table);
 }
 
 std::string read_design_text(const std::filesystem::path& path) {

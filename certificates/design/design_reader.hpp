@@ -8,6 +8,7 @@
 
 #include "certificates/design/design.hpp"
 #include "certificates/design/input_error.hpp"
+#include "certificates/design/toml_value.hpp"
 
 namespace veritrack::certificates {
 
@@ -16,6 +17,10 @@ namespace veritrack::certificates {
 /// holds for that whole interval. Keys that the file leaves out have their defaults, with position {0, 0}.
 /// Throws InputError. Holds its own rounding mode.
 [[nodiscard]] Design read_design(std::string_view text, std::string_view file_name);
+
+/// A design inside another one's file: a table with `tracker` and the tables of that tracker. It has no name and no
+/// source. Throws InputError. Needs the upward rounding mode.
+[[nodiscard]] Design read_inner_design(const TomlValue& table);
 
 /// The text of a design file. Throws InputError when it is missing, no regular file, unreadable, or larger
 /// than 1 MiB (which is found out before reading).

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/design/input_error.hpp"
@@ -115,6 +116,14 @@ TomlSource::TomlSource(std::string_view text, std::string_view file_name, Origin
   }
 }
 
+TomlSource::TomlSource(const TomlSource& outer, const toml::table& table, std::string name)
+    : text_(outer.text_),
+      file_name_(outer.file_name_),
+      origin_(outer.origin_),
+      lines_(split_lines(text_)),
+      table_(&table),
+      table_name_(std::move(name)) {}
+
 toml::table TomlSource::parse(std::string_view text) const {
   try {
     const rigor::NearestRounding nearest;
@@ -183,7 +192,9 @@ Position TomlSource::end() const {
 }
 
 void TomlSource::fail(Position position, std::string_view message) const {
-  throw InputError(file_name_, position, message);
+  throw InputError(file_name_, position,
+                   table_name_.empty() ? std::string(message)
+                                       : fmt::format("in [{}]: {}", table_name_, message));
 }
 
 }  // namespace veritrack::certificates

@@ -21,13 +21,16 @@ class TomlSource {
   /// Parses `text` (copied). `file_name` is for messages. Throws InputError for whatever is not TOML 1.0, for
   /// invalid UTF-8, and for text that is empty, larger than kSizeLimit, or nested beyond all use.
   TomlSource(std::string_view text, std::string_view file_name, Origin origin = Origin::file);
+  /// A table of a file as if it were a file: positions are still those in `outer`, and messages begin with the name
+  /// of the table. The table must outlive it.
+  TomlSource(const TomlSource& outer, const toml::table& table, std::string name);
   TomlSource(const TomlSource&) = delete;
   TomlSource& operator=(const TomlSource&) = delete;
   TomlSource(TomlSource&&) = delete;
   TomlSource& operator=(TomlSource&&) = delete;
   ~TomlSource() = default;
 
-  [[nodiscard]] const toml::table& root() const noexcept { return root_; }
+  [[nodiscard]] const toml::table& root() const noexcept { return table_ != nullptr ? *table_ : root_; }
   [[nodiscard]] Origin origin() const noexcept { return origin_; }
   /// What the line of `position` holds from there on; empty behind its end, and when there is no such
   /// line.
@@ -49,6 +52,8 @@ class TomlSource {
   Origin origin_;
   std::vector<std::string_view> lines_;  // of text_, without the line feeds
   toml::table root_;
+  const toml::table* table_ = nullptr;  // in place of root_
+  std::string table_name_;
 };
 
 /// The same position, in our words.

@@ -57,6 +57,13 @@ Position TomlValue::position() const {
   return to_position(node_->source().begin);
 }
 
+TomlSource TomlValue::as_file() const {
+  if (!node_->is_table()) {
+    refuse_kind();
+  }
+  return {*source_, *node_->as_table(), path_};
+}
+
 void TomlValue::refuse(std::string_view found) const {
   source_->fail(position(), fmt::format("{} is {}; allowed: {}", path_, found, allowed_));
 }

@@ -59,6 +59,9 @@ class TomlValue {
   [[nodiscard]] std::optional<TomlValue> elsewhere(std::string_view table, std::string_view key,
                                                    std::string_view allowed) const;
 
+  /// The table as if it were a file. Throws InputError when it is no table.
+  [[nodiscard]] TomlSource as_file() const;
+
   [[nodiscard]] Position position() const;
   /// `path` is `found`; allowed: ... Throws InputError.
   [[noreturn]] void refuse(std::string_view found) const;

@@ -118,23 +118,12 @@ Json claim_json(const Claim& claim) {
   return json;
 }
 
-/// Every number of the design with its text and its enclosure.
-Json design_json(const Design& design, const TrackerKind& kind) {
-  Json json{{"name", design.name}, {"tracker", design.tracker}, {"source", design.source}};
-  json.update(kind.design_json(design));
-  return json;
-}
-
-}  // namespace
-
-std::string to_json(const Certificate& certificate) {
+/// Adds what is proved or refuted, and the evidence, to what is said of the design.
+void add_findings(Json& json, const Certificate& certificate) {
   const TrackerKind& kind = kind_of(certificate.design);
-  Json json{{"schema", "veritrack/certificate/2"},
-            {"design_sha256", sha256(certificate.design_text)},
-            {"design", design_json(certificate.design, kind)},
-            {"derivations", Json::array()},
-            {"claims", Json::array()},
-            {"verdict", verdict_text(certificate)}};
+  json["derivations"] = Json::array();
+  json["claims"] = Json::array();
+  json["verdict"] = verdict_text(certificate);
   for (const theorems::Derivation& derivation : certificate.derivations) {
     if (says_something(derivation)) {
       json["derivations"].push_back(derivation_json(derivation));
@@ -148,6 +137,25 @@ std::string to_json(const Certificate& certificate) {
       json["claims"].push_back(claim_json(claim));
     }
   }
+}
+
+}  // namespace
+
+Json inner_certificate_json(const Certificate& certificate) {
+  Json json;
+  // Every number of the design with its text and its enclosure.
+  json["design"] = {{"tracker", certificate.design.tracker}};
+  json["design"].update(kind_of(certificate.design).design_json(certificate.design));
+  add_findings(json, certificate);
+  return json;
+}
+
+std::string to_json(const Certificate& certificate) {
+  const Design& design = certificate.design;
+  Json json{{"schema", "veritrack/certificate/2"}, {"design_sha256", sha256(certificate.design_text)}};
+  json["design"] = {{"name", design.name}, {"tracker", design.tracker}, {"source", design.source}};
+  json["design"].update(kind_of(design).design_json(design));
+  add_findings(json, certificate);
   // A design's name need not be UTF-8; JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "certificates/document/certificate.hpp"
+#include "certificates/document/number_json.hpp"
 
 namespace veritrack::certificates {
 
@@ -12,5 +13,9 @@ namespace veritrack::certificates {
 /// the checker, which composes all sentences itself; what is sampled, undecided or for people stands in
 /// report.json.
 [[nodiscard]] std::string to_json(const Certificate& certificate);
+
+/// The certificate of a design inside another one's file, as a member of that one's certificate: without a format, a
+/// name and a hash of its own.
+[[nodiscard]] Json inner_certificate_json(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

@@ -14,6 +14,7 @@
 #include "certificates/document/number_json.hpp"
 #include "certificates/document/tracker_run.hpp"
 #include "certificates/document/tuning.hpp"
+#include "certificates/sets/frequency_promise.hpp"
 
 namespace veritrack::certificates {
 
@@ -32,6 +33,9 @@ struct TrackerKind {
 
   // What not every kind has: null where it has none.
 
+  /// Adds, of everything that `certify` adds, what publications say: the derivations and claims that
+  /// theorems::find_paper_place knows. Takes a second at most. Needs the upward mode.
+  void (*published_results)(Certificate& certificate) = nullptr;
   /// The sections of published-theorems.md: what the papers say of the design. Empty when that is nothing.
   std::string (*published)(const Certificate& certificate) = nullptr;
   /// Its search ends when the deadline of the certificate is over.
@@ -51,6 +55,8 @@ struct TrackerKind {
   /// The tracker in double precision, and what is assumed of its signal. Throws NotTrackable. Opens its own
   /// rounding scopes.
   TrackerOnSamples (*track)(const Design& design) = nullptr;
+  /// What is proved of the frequency error. Needs the upward mode.
+  FrequencyPromise (*frequency_promise)(const Certificate& certificate) = nullptr;
 };
 
 /// All kinds, in the order of certificates/trackers.def.

@@ -19,7 +19,7 @@ struct TuningRequest {
   std::string design_text;     ///< the file, whose words and order are kept where that is possible
   std::string objective;       ///< one of `tuning_objectives`; empty: the first that fits what is assumed
   int most_designs = 60;       ///< that the search looks at; the trade-off and what would do instead are more
-  bool free_leak = false;      ///< the leak may become smaller, down to 0
+  bool free_leak = false;      ///< a leak above 0 may change, and become 0
   bool with_trade_off = true;  ///< looks at faster and slower designs, too
   search::Deadline deadline = {};  ///< the best so far is the result when it is over
   /// Told how many designs have been looked at, of at most how many.

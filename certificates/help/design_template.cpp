@@ -13,10 +13,13 @@ namespace veritrack::certificates {
 namespace {
 
 const EmbeddedText* find_template(std::string_view tracker) {
+  // Its first line with a tracker: one of another may stand further below.
   const std::string line = fmt::format("\ntracker = \"{}\"", tracker);
   const auto found =
-      std::find_if(design_templates().begin(), design_templates().end(),
-                   [&](const EmbeddedText& text) { return text.text.find(line) != std::string_view::npos; });
+      std::find_if(design_templates().begin(), design_templates().end(), [&](const EmbeddedText& text) {
+        const std::size_t first = text.text.find("\ntracker = ");
+        return first != std::string_view::npos && text.text.substr(first).starts_with(line);
+      });
   return found == design_templates().end() ? nullptr : &*found;
 }
 

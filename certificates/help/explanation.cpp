@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <any>
+#include <cctype>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -218,6 +219,26 @@ std::string nearest_explained(std::string_view word) {
     }
   }
   return nearest_key(word, words);
+}
+
+std::vector<std::string> explanations_with(std::string_view word) {
+  constexpr std::size_t kMost = 4;
+  constexpr std::size_t kShortest = 3;
+  const auto is_same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  const auto has_word = [&](std::string_view text) {
+    return std::search(text.begin(), text.end(), word.begin(), word.end(), is_same) != text.end();
+  };
+  std::vector<std::string> names;
+  for (const Explanation& explanation : explanations()) {
+    const bool has =
+        has_word(explanation.name) || std::any_of(explanation.parts.begin(), explanation.parts.end(),
+                                                  [&](const auto& part) { return has_word(part.second); });
+    const bool is_new = std::find(names.begin(), names.end(), explanation.name) == names.end();
+    if (has && is_new && word.size() >= kShortest && names.size() < kMost) {
+      names.push_back(explanation.name);
+    }
+  }
+  return names;
 }
 
 }  // namespace veritrack::certificates

@@ -28,4 +28,7 @@ struct Explanation {
 /// The word that is explained and is most like this one.
 [[nodiscard]] std::string nearest_explained(std::string_view word);
 
+/// What is explained in words of which this is one, in small letters or capitals: some names, the first ones.
+[[nodiscard]] std::vector<std::string> explanations_with(std::string_view word);
+
 }  // namespace veritrack::certificates

@@ -1,4 +1,5 @@
-// Texts for people that stand in the program: files of the columns, made a part of it by CMake.
+// Texts that stand in the program: files of the columns for people, and the papers' designs, made a part of it
+// by CMake.
 #pragma once
 
 #include <string_view>
@@ -15,5 +16,7 @@ struct EmbeddedText {
 [[nodiscard]] const std::vector<EmbeddedText>& explanation_texts();
 /// certificates/*/new.toml: a design file to begin with for each tracker.
 [[nodiscard]] const std::vector<EmbeddedText>& design_templates();
+/// The designs of designs/ that a paper prints, as they stand there.
+[[nodiscard]] const std::vector<EmbeddedText>& published_designs();
 
 }  // namespace veritrack::certificates

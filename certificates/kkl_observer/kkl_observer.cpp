@@ -203,7 +203,7 @@ KklEll kkl_ell_in_use(const Certificate& certificate) {
   return {Interval(lower), lower, std::nullopt};
 }
 
-void certify_kkl_observer(Certificate& certificate, const CertifyProgress& /*progress*/) {
+void kkl_observer_published_results(Certificate& certificate) {
   const KklObserverTables& tables = kkl_observer_tables(certificate.design);
   kkl_observer::KklClaimsQuestion claims;
   for (const Number& rate : tables.design.lambda) {
@@ -217,10 +217,20 @@ void certify_kkl_observer(Certificate& certificate, const CertifyProgress& /*pro
     certificate.derivations.push_back(kkl_observer::derive_kkl_ell(range, infimum));
     claims.infimum = infimum.value();
     claims.ell = kkl_ell_in_use(certificate).value;
-    certificate.derivations.push_back(
-        kkl_observer::derive_kkl_robustness(kkl_robustness_question(tables, claims.ell)));
   }
   certificate.derivations.push_back(kkl_observer::derive_kkl_claims(claims));
+}
+
+void certify_kkl_observer(Certificate& certificate, const CertifyProgress& /*progress*/) {
+  const KklObserverTables& tables = kkl_observer_tables(certificate.design);
+  kkl_observer_published_results(certificate);
+  if (tables.design.lambda.size() == kFilters) {
+    // Its place is between the two.
+    const kkl_observer::KklRobustnessQuestion question =
+        kkl_robustness_question(tables, kkl_ell_in_use(certificate).value);
+    certificate.derivations.insert(certificate.derivations.end() - 1,
+                                   kkl_observer::derive_kkl_robustness(question));
+  }
   if (const auto lambda = section_v_rates(tables)) {
     certificate.derivations.push_back(
         kkl_observer::derive_kkl_section_v(*lambda, kkl_ell_in_use(certificate).nearest));

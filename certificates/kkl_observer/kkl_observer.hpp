@@ -13,6 +13,9 @@ namespace veritrack::certificates {
 /// with more than four filters "kkl-paper" alone. Needs the upward mode.
 void certify_kkl_observer(Certificate& certificate, const CertifyProgress& progress);
 
+/// Of these, ell and the claims of the paper alone. Needs the upward mode.
+void kkl_observer_published_results(Certificate& certificate);
+
 /// Chooses the rates of an observer with four filters for a small frequency error under the assumed
 /// disturbance and a settling time of at most settles_within (without it: that of the given rates). The ell
 /// is left to the certificate. Opens its own rounding scopes.

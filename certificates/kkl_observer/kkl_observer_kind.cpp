@@ -20,6 +20,7 @@ const TrackerKind& kkl_observer_kind() {
                                 .certify = certify_kkl_observer,
                                 .summary = kkl_observer_summary,
                                 .sections = kkl_observer_sections,
+                                .published_results = kkl_observer_published_results,
                                 .published = kkl_observer_published,
                                 .formal_proofs = coq::kkl_observer_proofs,
                                 .tune = tune_kkl_observer,

@@ -28,6 +28,11 @@ struct NamedSet {
   std::string purpose;
   bool is_given = false;   ///< noise and slew are; otherwise they are searched for
   std::string where = {};  ///< ", over [0.2, 0.4] rad/sample only"; empty for the whole band
+  const ModelSet* long_run = nullptr;  ///< inside it
+
+  [[nodiscard]] double settled_error() const {
+    return long_run != nullptr ? long_run->settled_error : set->settled_error;
+  }
 
   [[nodiscard]] bool is_any() const { return set->is_proved() || set->has_part(); }
 };
@@ -40,7 +45,9 @@ std::vector<NamedSet> named_sets(const ModelSets& sets, const ModelAssumptions& 
                      !(tubes.slew > 0.0)    ? "the assumed noise"
                      : !(tubes.noise > 0.0) ? "the assumed slew"
                                             : "the assumed noise and slew",
-                     true});
+                     true,
+                     {},
+                     sets.long_run ? &*sets.long_run : nullptr});
   }
   if (sets.noise) {
     named.push_back({&*sets.noise, "the largest noise", false});
@@ -59,10 +66,13 @@ std::vector<NamedSet> named_sets(const ModelSets& sets, const ModelAssumptions& 
 }
 
 /// After so many samples every start is at the lowest level.
-double samples_to_settle(const ModelSet& set) {
+double samples_to_settle(const ModelSet& set, const ModelSet* long_run) {
   double samples = 0.0;
-  for (const ProvedTube& tube : set.tubes.tubes) {
-    const double until = samples_until(tube, tube.levels.size() - 1, set.tubes.crossing);
+  for (std::size_t i = 0; i < set.tubes.tubes.size(); ++i) {
+    const ProvedTube& tube = set.tubes.tubes[i];
+    const ProvedTube* inner = long_run != nullptr ? &long_run->tubes.tubes[i] : nullptr;
+    const double until = inner != nullptr ? samples_until_long_run(tube, *inner, inner->levels.size() - 1)
+                                          : samples_until(tube, tube.levels.size() - 1, set.tubes.crossing);
     samples = std::isfinite(until) ? std::max(samples, until) : INFINITY;
   }
   return samples;
@@ -96,11 +106,11 @@ std::vector<std::string> row_of(const NamedSet& named, const FrequencyUnits& uni
     row.insert(row.end(), {"not proved", "—", "—", "—", "—", "—"});
     return row;
   }
-  const double samples = samples_to_settle(set);
+  const double samples = samples_to_settle(set, named.long_run);
   const bool settles = samples > 0.0;
   row.insert(row.end(),
              {fmt::format("{}", set.tubes.tubes.size()), levels_of(set), units.at_most(set.frequency_error),
-              settles ? units.at_most(set.settled_error) : "as for ever",
+              settles ? units.at_most(named.settled_error()) : "as for ever",
               settles ? fmt::format("{}", samples) : "—", units.at_least(set.reach)});
   return row;
 }
@@ -121,10 +131,10 @@ std::string sentence_of(const NamedSet& named, const FrequencyUnits& units) {
   std::string text = fmt::format(
       "- *For {}{}*: {}, a start in this set stays in it for ever, with a frequency error of at most {}",
       named.purpose, named.where, disturbances_of(set.tubes, units), units.at_most(set.frequency_error));
-  const double samples = samples_to_settle(set);
-  if (samples > 0.0 && std::isfinite(samples) && std::isfinite(set.settled_error)) {
-    text +=
-        fmt::format("; from sample {} on the error is at most {}", samples, units.at_most(set.settled_error));
+  const double samples = samples_to_settle(set, named.long_run);
+  if (samples > 0.0 && std::isfinite(samples) && std::isfinite(named.settled_error())) {
+    text += fmt::format("; from sample {} on the error is at most {}", samples,
+                        units.at_most(named.settled_error()));
   }
   return text + ".\n";
 }
@@ -235,6 +245,11 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
                            "Long run: from sample", "Reach, at least"},
                           rows) +
           "\n" + meanings + (meanings.empty() ? "" : "\n") + failures;
+  if (sets.long_run) {
+    text +=
+        "The long run in the assumed noise is that of a second set, `long-run`, inside the lowest levels of "
+        "the first: when errors are small, the covariance comes between two narrower matrices.\n\n";
+  }
   const ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
   if (model_tables(certificate.design).require.sets.frequency_error_below &&
       (deciding.is_proved() || deciding.has_part())) {

@@ -146,6 +146,34 @@ std::vector<std::vector<Expression>> square_matrix(const std::vector<std::vector
   return matrix;
 }
 
+/// Throws LanguageError where two entries that mirror each other are certainly different numbers.
+void require_symmetric(const std::vector<std::vector<SourceText>>& rows,
+                       const std::vector<NamedFormula>& parameters, std::string_view name) {
+  const auto value_of = [&](const SourceText& entry) {
+    std::vector<NamedFormula> formulas = parameters;
+    formulas.push_back({"entry", entry.position, language::parse_expression(entry)});
+    return language::collect_constants(formulas, {})[parameters.size()].value;
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const SourceText& below = rows[i][j];
+      const SourceText& above = rows[j][i];
+      if (below.text == above.text) {
+        continue;
+      }
+      const rigor::Interval a = value_of(below);
+      const rigor::Interval b = value_of(above);
+      if (rigor::certainly_less(a, b) || rigor::certainly_less(b, a)) {
+        throw LanguageError(
+            below.position,
+            fmt::format("{} is not symmetric: row {}, column {} is {}, and row {}, column {} is {}; "
+                        "allowed: a covariance, whose entries mirror each other",
+                        name, i + 1, j + 1, below.text, j + 1, i + 1, above.text));
+      }
+    }
+  }
+}
+
 Recipe recipe_of(const ModelTable& table) {
   if (!table.ekf) {
     return {table.step.position, language::parse_definitions(table.step), std::nullopt, {}};
@@ -254,6 +282,10 @@ Model make_model(const ModelTable& table, const std::vector<SourceText>& signal)
     all.push_back(&sample);
   }
   model.constants = language::collect_constants(parameters, all);
+  if (table.ekf) {
+    require_symmetric(table.ekf->process_noise, parameters, "Q");
+    require_symmetric(table.ekf->measurement_noise, parameters, "R");
+  }
 
   model.step = recipe.filter
                    ? language::compile_filter(*recipe.filter, model.constants, model.samples, recipe.position)

@@ -60,8 +60,8 @@ class ModelClaims {
       add_part(claim, scope);
       claim.statement +=
           fmt::format(", the frequency error stays at or below {} for ever", units_.at_most(bound));
-      if (std::isfinite(deciding_->settled_error) && settles()) {
-        const std::string settled = above(deciding_->settled_error);
+      if (std::isfinite(settled_error()) && settles()) {
+        const std::string settled = above(settled_error());
         claim.values.emplace_back("settled_frequency_error", settled);
         claim.statement += fmt::format(", and at or below {} in the long run", units_.at_most(settled));
       }
@@ -258,7 +258,7 @@ class ModelClaims {
       claim.reason = guarantee_objection();
     } else if (!std::isfinite(samples)) {
       claim.reason = fmt::format("The proved bound in the long run is {} rad/sample; {} was required.",
-                                 above(deciding_->settled_error), target.text);
+                                 above(settled_error()), target.text);
     } else {
       const bool holds = rigor::certainly_less_equal(Interval(samples), within.value);
       claim.verdict = holds ? Verdict::proved : Verdict::undecided;
@@ -271,21 +271,31 @@ class ModelClaims {
   [[nodiscard]] double samples_below(const Number& target) const {
     const Model model = make_model(tables_->model, tables_->assume.signal);
     const model::TrackerModel tracker = proved_model(model, tables_->assume);
-    double samples = 0.0;
-    for (const model::ProvedTube& proved : deciding_->tubes.tubes) {
-      std::size_t level = 0;
-      const auto is_below = [&] {
+    // The first level below it.
+    const auto level_below = [&](const model::ProvedTube& proved) -> std::optional<std::size_t> {
+      for (std::size_t level = 0; level < proved.levels.size(); ++level) {
         const Interval error = model::bound_errors(tracker, proved.tube, proved.levels[level], {}).error;
         const Interval room(1.001);
-        return rigor::is_finite(error) && rigor::certainly_less(error * room, target.value) &&
-               rigor::certainly_less(-error * room, target.value);
-      };
-      while (!is_below()) {
-        if (++level == proved.levels.size()) {
-          return INFINITY;
+        if (rigor::is_finite(error) && rigor::certainly_less(error * room, target.value) &&
+            rigor::certainly_less(-error * room, target.value)) {
+          return level;
         }
       }
-      samples = std::max(samples, model::samples_until(proved, level, deciding_->tubes.crossing));
+      return std::nullopt;
+    };
+    double samples = 0.0;
+    const std::vector<model::ProvedTube>& tubes = deciding_->tubes.tubes;
+    for (std::size_t i = 0; i < tubes.size(); ++i) {
+      double until = INFINITY;
+      if (const auto level = level_below(tubes[i])) {
+        until = model::samples_until(tubes[i], *level, deciding_->tubes.crossing);
+      } else if (sets_->long_run) {
+        const model::ProvedTube& inner = sets_->long_run->tubes.tubes[i];
+        if (const auto inner_level = level_below(inner)) {
+          until = model::samples_until_long_run(tubes[i], inner, *inner_level);
+        }
+      }
+      samples = std::isfinite(until) ? std::max(samples, until) : INFINITY;
     }
     return samples;
   }
@@ -299,8 +309,12 @@ class ModelClaims {
   }
   [[nodiscard]] bool guaranteed() const { return covers_assumptions() && keeps_starts(); }
   [[nodiscard]] bool settles() const {
-    return std::all_of(deciding_->tubes.tubes.begin(), deciding_->tubes.tubes.end(),
+    return sets_->long_run ||
+           std::all_of(deciding_->tubes.tubes.begin(), deciding_->tubes.tubes.end(),
                        [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
+  }
+  [[nodiscard]] double settled_error() const {
+    return sets_->long_run ? sets_->long_run->settled_error : deciding_->settled_error;
   }
   [[nodiscard]] bool has_bias() const { return sets_->starts.is_proved() && knows_bias(); }
   /// For the frequencies that the set without noise covers.

@@ -81,6 +81,9 @@ Json set_json(const model::TubeSet& set) {
   }
   if (set.slew > 0.0) {
     json["crossing"] = hexadecimals(set.crossing);
+    if (set.covariance_margin > 0.0) {
+      json["margin"] = rigor::to_hexadecimal(set.covariance_margin);
+    }
   }
   for (const model::ProvedTube& proved : set.tubes) {
     json["cells"].push_back(tube_json(proved));
@@ -108,6 +111,10 @@ Json tube_json(const model::ProvedTube& proved) {
   }
   for (const model::PhaseSeries& series : tube.shape) {
     json["shape"].push_back(series_json(series));
+  }
+  if (proved.entry) {
+    json["entry"] = {{"margin", rigor::to_hexadecimal(proved.entry->margin)},
+                     {"ratio", rigor::to_hexadecimal(proved.entry->ratio)}};
   }
   if (tube.bounds_covariance()) {
     for (const auto& [name, bound] : {std::pair("covariance_low", &tube.covariance_low),
@@ -161,7 +168,7 @@ Json model_evidence_json(const Certificate& certificate) {
     }
   };
   add(sets.starts);
-  for (const std::optional<ModelSet>* set : {&sets.assumed, &sets.noise, &sets.slew}) {
+  for (const std::optional<ModelSet>* set : {&sets.assumed, &sets.long_run, &sets.noise, &sets.slew}) {
     if (*set) {
       add(**set);
     }

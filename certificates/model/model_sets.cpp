@@ -181,8 +181,7 @@ bool bounds_covariance(const Model& model, const ModelTables& tables) {
   const bool names_covariance =
       std::any_of(assume.start_within.begin(), assume.start_within.end(),
                   [](const NamedText& entry) { return entry.name.text.starts_with("P."); });
-  return model.filter && !names_covariance && !(assume.slew.value.upper() > 0.0) &&
-         !tables.require.sets.largest_slew_at_least;
+  return model.filter && !names_covariance;
 }
 
 model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume) {
@@ -339,6 +338,14 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
                               : sets.slew) = std::move(set);
     }
     done += 1.0;
+  }
+  if (sets.bounds_covariance && sets.assumed && !(slew > 0.0)) {
+    if (auto tubes = model::prove_long_run_set(tone, tracker, sets.assumed->tubes, deadline)) {
+      ModelSet inner = conclude(tracker, *std::move(tubes), deviations, nullptr);
+      if (inner.settled_error < sets.assumed->settled_error) {
+        sets.long_run = std::move(inner);
+      }
+    }
   }
   if (const auto& required = require.frequency_error_below) {
     ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;

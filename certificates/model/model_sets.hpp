@@ -40,6 +40,7 @@ struct ModelCell {
 struct ModelSets {
   ModelSet starts;                      ///< without noise
   std::optional<ModelSet> assumed;      ///< for the assumed noise and slew; none when both are 0
+  std::optional<ModelSet> long_run;     ///< of a filter: inside the lowest levels of `assumed`
   std::optional<ModelSet> slew;         ///< for the largest slew, without noise
   std::optional<ModelSet> noise;        ///< for the largest noise
   std::optional<ModelLock> gaussian;    ///< for the assumed Gaussian noise

@@ -91,15 +91,10 @@ Claim applicability_claim(const theorems::Derivation& derivation) {
 
 }  // namespace
 
-void certify_quadrature(Certificate& certificate, const CertifyProgress& progress) {
+void quadrature_published_results(Certificate& certificate) {
   certificate.particulars = QuadratureParticulars{};
-  const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
   certificate.simulation = simulate_quadrature(certificate.design);
-  if (tables.assume.gaussian) {
-    // The published results, too, are about noise with a bound.
-    add_lock(certificate);
-    return;
-  }
+  const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
   const theorems::Theorem29Input input = theorem_input(tables);
   const Number& amplitude = tables.assume.amplitude;
   const theorems::Trajectory trajectory =
@@ -130,6 +125,18 @@ void certify_quadrature(Certificate& certificate, const CertifyProgress& progres
                       amplitude.text));
     }
   }
+}
+
+void certify_quadrature(Certificate& certificate, const CertifyProgress& progress) {
+  const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
+  if (tables.assume.gaussian) {
+    // The published results, too, are about noise with a bound.
+    certificate.particulars = QuadratureParticulars{};
+    certificate.simulation = simulate_quadrature(certificate.design);
+    add_lock(certificate);
+    return;
+  }
+  quadrature_published_results(certificate);
   add_contraction(certificate);
   add_capture(certificate, progress);
   add_comparison(certificate);

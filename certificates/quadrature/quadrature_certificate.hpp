@@ -11,4 +11,8 @@ namespace veritrack::certificates {
 /// losing lock ("lock") in place of all these. Needs the upward mode.
 void certify_quadrature(Certificate& certificate, const CertifyProgress& progress);
 
+/// Of these, the published results alone, with the simulation that audits them: for noise with a bound. Needs
+/// the upward mode.
+void quadrature_published_results(Certificate& certificate);
+
 }  // namespace veritrack::certificates

@@ -22,6 +22,7 @@
 #include "certificates/quadrature/quadrature_run.hpp"
 #include "certificates/quadrature/quadrature_tuning.hpp"
 #include "certificates/quadrature/theorem_claims.hpp"
+#include "certificates/sets/frequency_promise.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/markdown_assumptions.hpp"
 #include "certificates/sets/markdown_contraction.hpp"
@@ -69,6 +70,10 @@ std::string start_covariance_of(const Certificate& certificate) {
   return words.substr(words.find("P(0|0)"));
 }
 
+FrequencyPromise frequency_promise(const Certificate& certificate) {
+  return ekf_frequency_promise(certificate, quadrature_tables(certificate.design).assume, true);
+}
+
 std::string summary(const Certificate& certificate) {
   return guarantee_section(certificate);
 }
@@ -103,13 +108,15 @@ const TrackerKind& quadrature_kind() {
                                 .certify = certify_quadrature,
                                 .summary = summary,
                                 .sections = sections,
+                                .published_results = quadrature_published_results,
                                 .published = published,
                                 .evidence_json = quadrature_evidence_json,
                                 .report_json = quadrature_report_json,
                                 .formal_proofs = coq::theorem_2_9_proofs,
                                 .tune = tune_quadrature,
                                 .tuning_objectives = quadrature_tuning_objectives(),
-                                .track = quadrature_on_samples};
+                                .track = quadrature_on_samples,
+                                .frequency_promise = frequency_promise};
   return kind;
 }
 

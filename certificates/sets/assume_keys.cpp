@@ -65,6 +65,21 @@ void bounded_noise(const TomlValue& value, Assumptions& assume) {
   assume.noise = bound_on_noise(value);
 }
 
+/// The same where Gaussian noise is asked for now and then, and nothing is certified with it.
+void noise_in_a_disc(const TomlValue& value, Assumptions& assume) {
+  if (value.is_table() && (value.fields({"snr_db"}) || value.fields({"deviation"}))) {
+    value.refuse("Gaussian, with which nothing is certified for this tracker");
+  }
+  bounded_noise(value, assume);
+}
+constexpr std::string_view kNoiseInADisc =
+    "a number, 0 or more, or { bound = that number }. Noise in a disc of the radius 1.42 A 10^(-SNR/20), A "
+    "the "
+    "amplitude, or twice the deviation of a channel, has the same variance: veritrack tune --objective "
+    "simulated-rms compares simulations with it. As a model (docs/gaussian.md, section 15) the tracker can "
+    "be "
+    "certified in Gaussian noise";
+
 /// A bound, or the deviation of Gaussian noise.
 void noise(const TomlValue& value, Assumptions& assume) {
   read_noise(value, assume.noise, assume.gaussian);
@@ -219,7 +234,8 @@ constexpr std::array<Key<Assume>, kAssumeKeys.size() + 2> with_gaussian_noise() 
 }
 constexpr std::array kAssumeKeysWithGaussianNoise = with_gaussian_noise();
 
-/// kAssumeKeys with a frequency that may be one number, and without ranges of covariances.
+/// kAssumeKeys with a frequency that may be one number, without ranges of covariances, and with a word on
+/// Gaussian noise.
 constexpr std::array<Key<Assume>, kAssumeKeys.size()> with_one_frequency() {
   std::array<Key<Assume>, kAssumeKeys.size()> keys = kAssumeKeys;
   for (Key<Assume>& key : keys) {
@@ -232,6 +248,9 @@ constexpr std::array<Key<Assume>, kAssumeKeys.size()> with_one_frequency() {
     } else if (key.name == "initial_covariance") {
       key.allowed = "\"steady-state\" or a symmetric positive definite 3x3 array of numbers";
       key.read = one_covariance;
+    } else if (key.name == "noise") {
+      key.allowed = kNoiseInADisc;
+      key.read = noise_in_a_disc;
     }
   }
   return keys;

@@ -132,6 +132,39 @@ BiasFrequency bias_frequency(const Number& number) {
   return {text, rigor::parse_decimal(text)};
 }
 
+trackers::ToneModel<Interval> design_at_unit_amplitude(const SingleChannelEkfTables& tables) {
+  return trackers::at_unit_amplitude(enclosed_values(tables.design), tables.assume.amplitude.value);
+}
+
+bool has_steady_state(const trackers::ToneModel<Interval>& design) {
+  return !(design.q1 == Interval(0.0)) || !design.without_leak();
+}
+
+SteadyStateBias steady_state_at(const trackers::ToneModel<Interval>& design, const BiasFrequency& frequency) {
+  if (has_steady_state(design)) {
+    return single_channel::steady_state_bias(design, frequency.value);
+  }
+  SteadyStateBias none;
+  none.frequency = frequency.value;
+  none.reason = "there is no exponentially stable steady state, see the claims";
+  return none;
+}
+
+/// The propositions of the paper; `at` is the steady state of the design at that frequency.
+void add_propositions(Certificate& certificate, const trackers::ToneModel<Interval>& design,
+                      const BiasFrequency& frequency, const SteadyStateBias& at) {
+  trackers::ToneModel<Interval> without_leak = design;
+  without_leak.epsilon = Interval(0.0);
+  const SteadyStateBias exact =
+      design.without_leak() ? at : single_channel::steady_state_bias(without_leak, frequency.value);
+  const auto add_all = [&](const std::vector<theorems::Statement>& statements) {
+    std::transform(statements.begin(), statements.end(), std::back_inserter(certificate.claims), to_claim);
+  };
+  add_all(single_channel::proposition_1_formulas());
+  add_all(single_channel::proposition_1_conclusion(at, exact, design.epsilon, frequency.text));
+  add_all(single_channel::proposition_2());
+}
+
 }  // namespace
 
 std::vector<BiasFrequency> bias_frequencies(const Assumptions& assume) {
@@ -175,28 +208,29 @@ trackers::ToneModel<double> nearest_values(const SingleChannelDesignTable& desig
   return {identity ? q : 0.0, q, r, design.epsilon.nearest};
 }
 
+void single_channel_published_results(Certificate& certificate) {
+  const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
+  const trackers::ToneModel<Interval> design = design_at_unit_amplitude(tables);
+  const std::vector<BiasFrequency> frequencies = bias_frequencies(tables.assume);
+  const BiasFrequency& middle = frequencies[frequencies.size() / 2];
+  add_propositions(certificate, design, middle, steady_state_at(design, middle));
+}
+
 void certify_single_channel(Certificate& certificate, const CertifyProgress& /*progress*/) {
   const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
   certificate.simulation = simulate_single_channel(tables);
-  const trackers::ToneModel<Interval> design =
-      trackers::at_unit_amplitude(enclosed_values(tables.design), tables.assume.amplitude.value);
+  const trackers::ToneModel<Interval> design = design_at_unit_amplitude(tables);
   const std::vector<BiasFrequency> frequencies = bias_frequencies(tables.assume);
   const std::size_t middle = frequencies.size() / 2;
 
-  const bool has_steady_state = !(design.q1 == Interval(0.0)) || !design.without_leak();
-  if (!has_steady_state) {
+  if (!has_steady_state(design)) {
     certificate.claims.push_back(stability_claim(design.r));
   }
   const Interval band = rigor::hull(tables.assume.frequency[0].value, tables.assume.frequency[1].value);
   const sets::LockBranch quadrature = sets::verify_lock_branch(design, band);
   SteadyStateBias at_middle;
   for (std::size_t i = 0; i < frequencies.size(); ++i) {
-    SteadyStateBias bias;
-    bias.frequency = frequencies[i].value;
-    bias.reason = "there is no exponentially stable steady state, see the claims";
-    if (has_steady_state) {
-      bias = single_channel::steady_state_bias(design, frequencies[i].value);
-    }
+    const SteadyStateBias bias = steady_state_at(design, frequencies[i]);
     if (i == middle) {
       at_middle = bias;
     }
@@ -214,19 +248,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
       trackers::at_unit_amplitude(nearest_values(tables.design), tables.assume.amplitude.nearest),
       midpoint(frequencies[middle].value))));
 
-  trackers::ToneModel<Interval> without_leak = design;
-  without_leak.epsilon = Interval(0.0);
-  SteadyStateBias exact = at_middle;
-  if (!design.without_leak()) {
-    exact = single_channel::steady_state_bias(without_leak, frequencies[middle].value);
-  }
-  const auto add_all = [&](const std::vector<theorems::Statement>& statements) {
-    std::transform(statements.begin(), statements.end(), std::back_inserter(certificate.claims), to_claim);
-  };
-  add_all(single_channel::proposition_1_formulas());
-  add_all(
-      single_channel::proposition_1_conclusion(at_middle, exact, design.epsilon, frequencies[middle].text));
-  add_all(single_channel::proposition_2());
+  add_propositions(certificate, design, frequencies[middle], at_middle);
   const GuaranteeTerms terms{tables.assume, tables.require, true, false, covariance, kDoublePrecision};
   add_required_claims(certificate, terms);
   certificate.claims.push_back(guarantee_claim(certificate, terms));

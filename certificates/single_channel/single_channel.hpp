@@ -32,6 +32,9 @@ struct BiasFrequency {
 /// propositions, and the claims of [require]. Needs the upward mode.
 void certify_single_channel(Certificate& certificate, const CertifyProgress& progress);
 
+/// Of these, the propositions alone. Needs the upward mode.
+void single_channel_published_results(Certificate& certificate);
+
 /// The simulated run, from the edge of the assumed start errors along the signal that [simulate] names, of
 /// which the tracker sees the in-phase channel. Throws trackers::ZeroInnovationVariance. Holds
 /// round-to-nearest.

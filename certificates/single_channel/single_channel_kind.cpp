@@ -3,6 +3,7 @@
 #include <string>
 
 #include "certificates/document/tracker_kind.hpp"
+#include "certificates/sets/frequency_promise.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/markdown_assumptions.hpp"
 #include "certificates/sets/markdown_contraction.hpp"
@@ -28,6 +29,10 @@ std::string sections(const Certificate& certificate, const MarkdownOptions& opti
          simulated_run_section(certificate, tables.simulate, options) + single_channel_coverage_section();
 }
 
+FrequencyPromise frequency_promise(const Certificate& certificate) {
+  return ekf_frequency_promise(certificate, single_channel_tables(certificate.design).assume, false);
+}
+
 std::string published(const Certificate& certificate) {
   return transfer_function_section(certificate) + proposition_section(certificate);
 }
@@ -40,12 +45,14 @@ const TrackerKind& single_channel_kind() {
                                 .certify = certify_single_channel,
                                 .summary = summary,
                                 .sections = sections,
+                                .published_results = single_channel_published_results,
                                 .published = published,
                                 .report_json = single_channel_report_json,
                                 .formal_proofs = coq::proposition_1_proofs,
                                 .tune = tune_single_channel,
                                 .tuning_objectives = single_channel_tuning_objectives(),
-                                .track = single_channel_on_samples};
+                                .track = single_channel_on_samples,
+                                .frequency_promise = frequency_promise};
   return kind;
 }
 

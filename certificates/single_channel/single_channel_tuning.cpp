@@ -30,17 +30,12 @@ DesignValues given_values(const SingleChannelDesignTable& design) {
   return {is_identity ? scale : "0", scale, r, design.epsilon.text};
 }
 
-Design with_values(const Design& design, const DesignValues& values, const Assumptions& assume) {
-  Design changed = design;
-  SingleChannelEkfTables tables = single_channel_tables(design);
+void put(const DesignValues& values, SingleChannelEkfTables& tables) {
   tables.design = {};
   tables.design.process_noise = SingleChannelDesignTable::ProcessNoise::diagonal;
   tables.design.variances = {number_of(values.q1), number_of(values.q2)};
   tables.design.r = number_of(values.r);
   tables.design.epsilon = number_of(values.epsilon);
-  tables.assume = assume;
-  changed.tables = tables;
-  return changed;
 }
 
 CertifiedValues certified_over_phases(const Design& design, const std::set<Objective>& needed) {
@@ -63,40 +58,27 @@ std::span<const std::string_view> single_channel_tuning_objectives() {
 
 TuningResult tune_single_channel(const Design& design, const TuningRequest& request) {
   const SingleChannelEkfTables& tables = single_channel_tables(design);
-  TuningProblem problem;
-  problem.assume = &tables.assume;
-  problem.require = &tables.require;
-  problem.given = given_values(tables.design);
-  problem.objective = chosen_objective(request.objective, tables.assume);
-  problem.free_leak = request.free_leak;
+  const DesignValues given = given_values(tables.design);
+  const Objective objective = chosen_objective(request.objective, tables.assume);
   const bool leaks = !(tables.design.epsilon.value == rigor::Interval(0.0));
-  if (leaks && !request.free_leak && problem.objective != Objective::simulated_rms) {
-    return {
-        std::nullopt,
-        "With a leak no bound is certified for this tracker; --free-leak lets it become 0, and --objective "
-        "simulated-rms compares simulations."};
+  if (leaks && !request.free_leak && objective != Objective::simulated_rms) {
+    return {std::nullopt,
+            "With a leak no bound is certified for this tracker, only its bias; --free-leak lets it become "
+            "0, and "
+            "--objective simulated-rms compares simulations."};
   }
-  problem.design_with = [&](const DesignValues& values) {
-    return with_values(design, values, tables.assume);
-  };
-  problem.certify = [&](const DesignValues& values, const Assumptions& assume,
-                        const std::set<Objective>& needed) {
-    const Design changed = with_values(design, values, assume);
-    CertifiedValues found = certified_over_phases(changed, needed);
-    add_simulated(changed, assume, needed, found);
-    return found;
-  };
-  return tuned_file(problem, request, [&](const DesignValues& values) {
-    std::vector<DesignEdit> edits{
-        {"process_noise", fmt::format("{{ q1 = {}, q2 = {} }}", values.q1, values.q2)},
-        {"r", values.r},
-        {"q", std::nullopt},
-        {"lambda", std::nullopt}};
-    if (values.epsilon != problem.given.epsilon) {
-      edits.push_back({"epsilon", values.epsilon});
-    }
-    return edits;
-  });
+  return tuned<SingleChannelEkfTables>(
+      design, request, {given, put, certified_over_phases, [&](const DesignValues& values) {
+                          std::vector<DesignEdit> edits{
+                              {"process_noise", fmt::format("{{ q1 = {}, q2 = {} }}", values.q1, values.q2)},
+                              {"r", values.r},
+                              {"q", std::nullopt},
+                              {"lambda", std::nullopt}};
+                          if (values.epsilon != given.epsilon) {
+                            edits.push_back({"epsilon", values.epsilon});
+                          }
+                          return edits;
+                        }});
 }
 
 }  // namespace veritrack::certificates

@@ -96,8 +96,19 @@ std::string shown(const CertifiedValues& values, Objective objective, const Assu
   }
 }
 
+bool asks_for_proofs(Objective objective, const Requirements& require) {
+  const bool is_required = require.frequency_error_below || require.settled_below ||
+                           require.largest_noise_at_least || require.largest_slew_at_least ||
+                           require.frequency_error_radius_at_least ||
+                           require.probability_of_losing_lock_below || require.rms_frequency_error_below;
+  return objective != Objective::simulated_rms || is_required;
+}
+
 std::set<Objective> needed(Objective objective, const Assumptions& assume, const Requirements& require) {
   std::set<Objective> all{objective};
+  if (!asks_for_proofs(objective, require)) {
+    return all;
+  }
   if (assume.gaussian) {
     if (require.rms_frequency_error_below) {
       all.insert(Objective::rms);

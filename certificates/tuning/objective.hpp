@@ -78,6 +78,10 @@ inline constexpr std::array<ObjectiveWords, 8> kObjectiveWords{{
 [[nodiscard]] std::string shown(const CertifiedValues& values, Objective objective,
                                 const Assumptions& assume);
 
+/// Whether something has to be certified, or estimated, to judge values: simulations are compared as they are
+/// where nothing is required.
+[[nodiscard]] bool asks_for_proofs(Objective objective, const Requirements& require);
+
 /// Everything that has to be known to judge values: the objective, and what [require] asks.
 [[nodiscard]] std::set<Objective> needed(Objective objective, const Assumptions& assume,
                                          const Requirements& require);

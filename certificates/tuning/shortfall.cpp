@@ -1,13 +1,16 @@
 #include "certificates/tuning/shortfall.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/sets/frequency_units.hpp"
+#include "certificates/sets/gaussian_noise.hpp"
 #include "certificates/tuning/design_values.hpp"
 
 namespace veritrack::certificates {
@@ -16,6 +19,7 @@ namespace {
 
 constexpr double kMissing = 20.0;  // of what is not certified at all; larger than any ratio's logarithm
 constexpr int kShortfallDigits = 3;
+constexpr std::string_view kLeakName = "leak";
 
 /// 0 when the value is as large as is wanted; else the logarithm of what is missing.
 double missing(double value, double wanted) {
@@ -46,13 +50,20 @@ double shortage_with_gaussian_noise(const CertifiedValues& found, const Requirem
   return sum;
 }
 
-/// A number of the assumptions that may be smaller, with its words.
+/// What may be smaller: the assumptions, and the leak of the design.
+struct Terms {
+  Assumptions assume;
+  Number leak;
+};
+
+/// A number of the terms that may be smaller, with its words.
 struct Reducible {
+  std::string_view name;
   std::string_view words;
-  void (*reduce)(Assumptions& assume, double factor);
-  std::string (*shown)(const Assumptions& assume);
-  std::string (*as_written)(const Assumptions& assume);
-  bool (*is_there)(const Assumptions& assume);
+  void (*reduce)(Terms& terms, double factor);
+  std::string (*shown)(const Terms& terms);
+  std::string (*as_written)(const Terms& terms);
+  bool (*is_there)(const Terms& terms);
 };
 
 Number times(const Number& number, double factor) {
@@ -64,41 +75,79 @@ std::string rounded_down(double value) {
   return rigor::to_decimal(value, kShortfallDigits, rigor::Direction::down);
 }
 
-void reduce_starts(Assumptions& assume, double factor) {
+void reduce_starts(Terms& terms, double factor) {
+  Assumptions& assume = terms.assume;
   for (Number* number :
        {&assume.initial_frequency_error, &assume.initial_phase_error, &assume.initial_amplitude_error}) {
     *number = times(*number, factor);
   }
 }
 
+double decibels_of(const Assumptions& assume) {
+  return -20.0 * std::log10(std::sqrt(2.0) * nearest_deviation(assume));
+}
+
 const Reducible kReducible[] = {
-    {"noise of at most",
-     [](Assumptions& assume, double factor) { assume.noise = times(assume.noise, factor); },
-     [](const Assumptions& assume) { return rounded_down(assume.noise.nearest) + " signal units"; },
-     [](const Assumptions& assume) { return assume.noise.text; },
-     [](const Assumptions& assume) { return assume.noise.nearest > 0.0; }},
-    {"a slew of at most",
-     [](Assumptions& assume, double factor) { assume.slew = times(assume.slew, factor); },
-     [](const Assumptions& assume) {
-       return FrequencyUnits(assume.sample_rate).slew(assume.slew.nearest, kShortfallDigits);
+    {"noise", "noise of at most",
+     [](Terms& terms, double factor) { terms.assume.noise = times(terms.assume.noise, factor); },
+     [](const Terms& terms) { return rounded_down(terms.assume.noise.nearest) + " signal units"; },
+     [](const Terms& terms) { return terms.assume.noise.text; },
+     [](const Terms& terms) { return !terms.assume.gaussian && terms.assume.noise.nearest > 0.0; }},
+    {"noise", "an SNR of at least",
+     [](Terms& terms, double factor) {
+       const double decibels = decibels_of(terms.assume) - 20.0 * std::log10(factor);
+       terms.assume.gaussian = GaussianNoise{number_of(decibels), std::nullopt};
      },
-     [](const Assumptions& assume) { return slew_words(assume.slew); },
-     [](const Assumptions& assume) { return assume.slew.nearest > 0.0; }},
-    {"starts within", reduce_starts,
-     [](const Assumptions& assume) {
+     [](const Terms& terms) {
+       return rigor::to_decimal(decibels_of(terms.assume), kShortfallDigits, rigor::Direction::up) + " dB";
+     },
+     [](const Terms& terms) {
+       const GaussianNoise& noise = *terms.assume.gaussian;
+       return noise.snr_db ? noise.snr_db->text + " dB" : "a deviation of " + noise.deviation->text;
+     },
+     [](const Terms& terms) { return terms.assume.gaussian.has_value(); }},
+    {"walk", "a walk of at most",
+     [](Terms& terms, double factor) {
+       terms.assume.frequency_walk = times(*terms.assume.frequency_walk, factor);
+     },
+     [](const Terms& terms) {
+       return FrequencyUnits(terms.assume.sample_rate)
+           .at_least(terms.assume.frequency_walk->nearest, kShortfallDigits);
+     },
+     [](const Terms& terms) { return frequency_words(*terms.assume.frequency_walk); },
+     [](const Terms& terms) { return frequency_walks(terms.assume); }},
+    {"slew", "a slew of at most",
+     [](Terms& terms, double factor) { terms.assume.slew = times(terms.assume.slew, factor); },
+     [](const Terms& terms) {
+       return FrequencyUnits(terms.assume.sample_rate).slew(terms.assume.slew.nearest, kShortfallDigits);
+     },
+     [](const Terms& terms) { return slew_words(terms.assume.slew); },
+     [](const Terms& terms) { return terms.assume.slew.nearest > 0.0; }},
+    {kLeakName, "a leak of at most",
+     [](Terms& terms, double factor) { terms.leak = times(terms.leak, factor); },
+     [](const Terms& terms) { return rounded_down(terms.leak.nearest); },
+     [](const Terms& terms) { return terms.leak.text; },
+     [](const Terms& terms) { return terms.leak.nearest > 0.0; }},
+    {"start error", "starts within", reduce_starts,
+     [](const Terms& terms) {
+       const Assumptions& assume = terms.assume;
        const FrequencyUnits units(assume.sample_rate);
        return fmt::format("{}, {} rad and {} signal units",
                           units.at_least(assume.initial_frequency_error.nearest, kShortfallDigits),
                           rounded_down(assume.initial_phase_error.nearest),
                           rounded_down(assume.initial_amplitude_error.nearest));
      },
-     [](const Assumptions& assume) {
+     [](const Terms& terms) {
+       const Assumptions& assume = terms.assume;
        return fmt::format("{}, {} and {}", frequency_words(assume.initial_frequency_error),
                           assume.initial_phase_error.text, assume.initial_amplitude_error.text);
      },
-     [](const Assumptions& assume) {
-       return assume.initial_frequency_error.nearest > 0.0 || assume.initial_phase_error.nearest > 0.0 ||
-              assume.initial_amplitude_error.nearest > 0.0;
+     [](const Terms& terms) {
+       const Assumptions& assume = terms.assume;
+       // An estimate in Gaussian noise knows nothing of starts.
+       return !assume.gaussian &&
+              (assume.initial_frequency_error.nearest > 0.0 || assume.initial_phase_error.nearest > 0.0 ||
+               assume.initial_amplitude_error.nearest > 0.0);
      }}};
 
 /// The largest factor that does, to within a few per cent; none when the least that is tried does not.
@@ -115,6 +164,12 @@ std::optional<double> largest_factor(const std::function<bool(double)>& does) {
     (does(between) ? good : bad) = between;
   }
   return good;
+}
+
+/// "a", "a or b", "a, b or c"; not empty.
+std::string joined(const std::vector<std::string>& items) {
+  const auto last = items.end() - 1;
+  return items.size() == 1 ? *last : fmt::format("{} or {}", fmt::join(items.begin(), last, ", "), *last);
 }
 
 }  // namespace
@@ -162,7 +217,21 @@ std::vector<std::string> unmet_requirements(const CertifiedValues& found, const 
     }
   };
   const auto value = [&](Objective objective) { return shown(found, objective, assume); };
-  if (!assume.gaussian && !std::isfinite(found.for_ever)) {
+  if (assume.gaussian) {
+    if (!(found.lock_margin >= kEnoughMargin)) {
+      sentences.emplace_back(
+          "In this noise the search found no set with which a probability of losing lock could be proved.");
+    } else if (const auto& wanted = require.rms_frequency_error_below) {
+      const bool is_known = std::isfinite(found.rms);
+      if (!is_known || excess(found.rms, wanted->nearest) > 0.0) {
+        sentences.push_back(fmt::format("Required: a root mean square of {} in lock; estimated: {}.",
+                                        frequency_words(*wanted),
+                                        is_known ? value(Objective::rms) : std::string("none")));
+      }
+    }
+    return sentences;
+  }
+  if (!std::isfinite(found.for_ever)) {
     sentences.push_back(fmt::format(
         "No certified set covers the assumed starts, noise and slew together: it reaches {}; at a constant "
         "frequency the noise that is tolerated is {}, without noise the slew {}.",
@@ -197,42 +266,47 @@ std::vector<std::string> unmet_requirements(const CertifiedValues& found, const 
 }
 
 std::vector<std::string> changes_that_would_do(const CertifiedUnder& certify, const Assumptions& assume,
-                                               const Requirements& require) {
-  std::vector<std::string> sentences;
-  if (assume.gaussian) {
-    return sentences;
-  }
+                                               const Requirements& require, const Number& leak) {
+  const Terms given{assume, leak};
+  std::vector<std::string> tried;
   std::vector<std::string> alone;
   for (const Reducible& each : kReducible) {
-    if (!each.is_there(assume)) {
+    if (!each.is_there(given)) {
       continue;
     }
+    tried.emplace_back(each.name);
     const auto reduced = [&](double factor) {
-      Assumptions less = assume;
+      Terms less = given;
       each.reduce(less, factor);
       return less;
     };
-    const auto factor = largest_factor([&](double part) {
-      const Assumptions less = reduced(part);
-      return shortage(certify(less), less, require) == 0.0;
-    });
+    const auto does = [&](double factor) {
+      const Terms less = reduced(factor);
+      return shortage(certify(less.assume, less.leak), less.assume, require) == 0.0;
+    };
+    const auto factor = largest_factor(does);
+    // Without a leak there is another certificate, which may be much better.
+    if (!factor && each.name == kLeakName && does(0.0)) {
+      alone.push_back(fmt::format("no leak (in place of {})", each.as_written(given)));
+    }
     if (factor) {
       alone.push_back(fmt::format("{} {} (in place of {})", each.words, each.shown(reduced(*factor)),
-                                  each.as_written(assume)));
+                                  each.as_written(given)));
     }
   }
+  if (tried.empty()) {
+    return {};
+  }
   if (alone.empty()) {
-    sentences.emplace_back(
-        "No less noise, slew or start error, each by itself, would do for these values, as far as was "
-        "tried.");
-    return sentences;
+    return {fmt::format("No less {}{} would do for these values, as far as was tried.", joined(tried),
+                        tried.size() > 1 ? ", each by itself," : "")};
   }
-  std::string list = alone.front();
-  for (std::size_t i = 1; i < alone.size(); ++i) {
-    list += (i + 1 == alone.size() ? ", or " : ", ") + alone[i];
-  }
-  sentences.push_back("With these values everything required would be certified with " + list + ".");
-  return sentences;
+  return {fmt::format("{} {}.",
+                      assume.gaussian
+                          ? "As far as can be estimated, with these values everything required could be "
+                            "certified with"
+                          : "With these values everything required would be certified with",
+                      joined(alone))};
 }
 
 }  // namespace veritrack::certificates

@@ -19,13 +19,13 @@ namespace veritrack::certificates {
                                                           const Assumptions& assume,
                                                           const Requirements& require);
 
-/// What is certified of the values under other assumptions.
-using CertifiedUnder = std::function<CertifiedValues(const Assumptions&)>;
+/// What is certified of the values, or estimated, under other assumptions and with another leak.
+using CertifiedUnder = std::function<CertifiedValues(const Assumptions&, const Number& leak)>;
 
-/// How much less noise, slew or start error would do, each by itself, found by certifying the same values
-/// under less of it: sentences. For noise with a bound; nothing for Gaussian noise.
+/// How much less noise, slew, walk, start error or leak would do, each by itself, found by certifying the
+/// same values with less of it: sentences. For Gaussian noise by estimating, and the sentences say so.
 [[nodiscard]] std::vector<std::string> changes_that_would_do(const CertifiedUnder& certify,
                                                              const Assumptions& assume,
-                                                             const Requirements& require);
+                                                             const Requirements& require, const Number& leak);
 
 }  // namespace veritrack::certificates

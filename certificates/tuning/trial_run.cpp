@@ -36,8 +36,14 @@ double mean_square(const Design& design, const Assumptions& assume, const TrialL
   const std::vector<trackers::Sample> samples = simulated_signal(assume, settings);
   const TrackerOnSamples run = kind_of(design).track(design);
   const trackers::Sample& first = samples.front();
+  // As far off as is assumed, each run in another direction: a filter that never gets rid of it is no good.
+  const auto off = [&](int bit, const Number& error) {
+    return (seed & bit) == 0 ? error.nearest : -error.nearest;
+  };
   run.tracker->start(
-      {assume.amplitude.nearest, std::atan2(first.clean_quadrature, first.clean_in_phase), first.frequency});
+      {assume.amplitude.nearest + off(1, assume.initial_amplitude_error),
+       std::atan2(first.clean_quadrature, first.clean_in_phase) + off(2, assume.initial_phase_error),
+       first.frequency + off(4, assume.initial_frequency_error)});
   const std::size_t settled = samples.size() / 4;
   double sum = 0.0;
   for (std::size_t k = 0; k < samples.size(); ++k) {

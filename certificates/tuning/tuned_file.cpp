@@ -48,7 +48,7 @@ void add_simulated(const Design& design, const Assumptions& assume, const std::s
 }
 
 TuningResult tuned_file(const TuningProblem& problem, const TuningRequest& request,
-                        const std::function<std::vector<DesignEdit>(const DesignValues&)>& edits) {
+                        const DesignEdits& edits) {
   const TuningOutcome outcome = search_values(problem, request);
   TuningResult result;
   // What is as it was stays as it was written.
@@ -59,8 +59,7 @@ TuningResult tuned_file(const TuningProblem& problem, const TuningRequest& reque
     const DesignValues& found = outcome.chosen;
     result.reason = fmt::format(
         "q1 = {}, q2 = {}, r = {} and epsilon = {} were found, but [design] of the file is not a table with "
-        "a "
-        "line for each key, into which they could be written.",
+        "a line for each key, into which they could be written.",
         found.q1, found.q2, found.r, found.epsilon);
     return result;
   }

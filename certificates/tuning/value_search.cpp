@@ -26,8 +26,9 @@ constexpr double kDecades = 4.0;  // around a start
 constexpr double kMissingMerit = 20.0;
 constexpr double kWeightOfOpen = 1e3;  // what is required comes first
 constexpr double kNoLeakBelow = 1e-3;  // of the given leak
+constexpr double kMostLeak = 0.5;
 constexpr int kTradeOffDesigns = 8;
-constexpr int kChangeDesigns = 21;  // at most, to find out what would do
+constexpr int kChangeDesigns = 28;  // at most, to find out what would do
 
 /// Thrown to end a search whose time is over, or that has looked at enough.
 struct Enough {};
@@ -57,6 +58,7 @@ class Search {
       : problem_(problem),
         request_(request),
         needed_(needed(problem.objective, *problem.assume, *problem.require)),
+        asks_for_proofs_(asks_for_proofs(problem.objective, *problem.require)),
         free_r_(gives_covariance(*problem.assume)) {
     const double variance = noise_variance(*problem.assume);
     r_ = variance > 0.0 && !free_r_ ? decimal(variance) : problem.given.r;
@@ -68,10 +70,19 @@ class Search {
     outcome.before = certified(given);  // whatever the limits
     DesignValues best = given;
     try {
-      const Eigen::VectorXd kalman = kalman_point();
       Eigen::VectorXd start = point_of(given);
-      if (score(values_at(kalman)) > score(given)) {
-        start = kalman;
+      double best_score = score(given);
+      std::vector<Eigen::VectorXd> others{kalman_point()};
+      if (leak_is_free()) {
+        others.push_back(start);
+        others.back()(start.size() - 1) = -kDecades;
+      }
+      for (const Eigen::VectorXd& other : others) {
+        const double found = score(values_at(other));
+        if (found > best_score) {
+          start = other;
+          best_score = found;
+        }
       }
       improve(start);
     } catch (const Enough&) {
@@ -118,8 +129,8 @@ class Search {
     values.q2 = decimal(r * std::pow(10.0, x(1)));
     if (leak_is_free()) {
       const double share = std::pow(10.0, x(x.size() - 1));
-      values.epsilon =
-          share < kNoLeakBelow ? "0" : decimal(share * number_of(problem_.given.epsilon).nearest);
+      const double leak = share * number_of(problem_.given.epsilon).nearest;
+      values.epsilon = share < kNoLeakBelow ? "0" : decimal(std::min(leak, kMostLeak));
     }
     return values;
   }
@@ -163,7 +174,7 @@ class Search {
     return -kWeightOfOpen * shortage_of(found) + (std::isfinite(merit) ? merit : -kMissingMerit);
   }
   [[nodiscard]] double shortage_of(const CertifiedValues& found) const {
-    return shortage(found, *problem_.assume, *problem_.require);
+    return asks_for_proofs_ ? shortage(found, *problem_.assume, *problem_.require) : 0.0;
   }
   const CertifiedValues& certified(const DesignValues& values) {
     const auto known = known_.find(values);
@@ -283,13 +294,15 @@ class Search {
     }
     try {
       const std::vector<std::string> would_do = changes_that_would_do(
-          [&](const Assumptions& less) {
+          [&](const Assumptions& less, const Number& leak) {
             if (request_.deadline.is_over()) {
               throw Enough();
             }
-            return looked_at(best, less);
+            DesignValues values = best;
+            values.epsilon = leak.text;
+            return looked_at(values, less);
           },
-          assume, *problem_.require);
+          assume, *problem_.require, number_of(best.epsilon));
       outcome.changes.insert(outcome.changes.end(), would_do.begin(), would_do.end());
     } catch (const Enough&) {
     }
@@ -298,6 +311,7 @@ class Search {
   const TuningProblem& problem_;
   const TuningRequest& request_;
   std::set<Objective> needed_;
+  bool asks_for_proofs_;
   bool free_r_;
   std::string r_;
   std::map<DesignValues, CertifiedValues> known_;

@@ -1,6 +1,8 @@
 #include "checker/document/design_file.hpp"
 
 #include <map>
+#include <set>
+#include <utility>
 
 #include "checker/document/design_number.hpp"
 #include "checker/document/model_design_file.hpp"
@@ -59,6 +61,9 @@ class Comparison {
  public:
   Comparison(const TomlFile& file, Objections& objections) : file_(&file), objections_(objections) {}
 
+  /// A table of the file that is compared apart.
+  void leave_aside(std::string name) { left_aside_.insert(std::move(name)); }
+
   void table(const std::string& path, const Tree& claimed, const toml::table* file) {
     for (const auto& [name, value] : claimed.members()) {
       node(inside(path, name), value, file != nullptr ? file->get(name) : nullptr);
@@ -68,7 +73,7 @@ class Comparison {
     }
     for (const auto& [key, value] : *file) {
       const std::string name(key.str());
-      const bool left_aside = path.empty() && name == "simulate";
+      const bool left_aside = path.empty() && left_aside_.contains(name);
       if (!left_aside && claimed.find(name) == nullptr) {
         objections_.push_back(inside(path, name).append(" is in the design file and not in the certificate"));
       }
@@ -133,7 +138,36 @@ class Comparison {
 
   const TomlFile* file_;
   Objections& objections_;
+  std::set<std::string> left_aside_{"simulate"};
 };
+
+/// The part of a file that is a design of this tracker.
+void compare_design(const Tree& design, const TomlFile& file, const toml::table& part, Objections& objections) {
+  if (design.at("tracker").text() == "model") {
+    compare_model_design(design, file, part, objections);
+  } else {
+    Comparison(file, objections).table("", design, &part);
+  }
+}
+
+/// [design] of a regulator is the design of its tracker, which has a certificate of its own.
+void compare_regulator(const Tree& certificate, const TomlFile& file, Objections& objections) {
+  Comparison outside(file, objections);
+  outside.leave_aside("design");
+  outside.table("", certificate.at("design"), &file.table());
+  const toml::table* chosen = file.table().get_as<toml::table>("design");
+  const toml::table* tracker =
+      chosen != nullptr ? chosen->get_as<toml::table>("frequency_tracker") : nullptr;
+  if (tracker == nullptr || chosen->size() != 1) {
+    objections.emplace_back("[design] of the design file is not the table frequency_tracker alone");
+    return;
+  }
+  Objections inside;
+  compare_design(certificate.at("frequency_tracker").at("design"), file, *tracker, inside);
+  for (const std::string& objection : inside) {
+    objections.push_back("design.frequency_tracker: " + objection);
+  }
+}
 
 }  // namespace
 
@@ -144,10 +178,10 @@ void compare_with_design_file(const Tree& certificate, const std::string& file, 
   try {
     const TomlFile toml(file);
     const Tree& design = certificate.at("design");
-    if (design.at("tracker").text() == "model") {
-      compare_model_design(design, toml, objections);
+    if (design.at("tracker").text() == "vibration-regulator") {
+      compare_regulator(certificate, toml, objections);
     } else {
-      Comparison(toml, objections).table("", design, &toml.table());
+      compare_design(design, toml, toml.table(), objections);
     }
   } catch (const toml::parse_error& error) {
     throw Malformed("the design file is not TOML: " + std::string(error.description()));

@@ -67,8 +67,9 @@ class CertificateSays {
 /// What the file says, with its defaults, as the certificate would.
 class FileSays {
  public:
-  FileSays(const TomlFile& file, Objections& objections) : file_(&file), objections_(&objections) {
-    for (const auto& [key, value] : file.table()) {
+  FileSays(const TomlFile& file, const toml::table& part, Objections& objections)
+      : file_(&file), objections_(&objections) {
+    for (const auto& [key, value] : part) {
       const std::string name(key.str());
       if (name == "model") {
         model(value);
@@ -80,7 +81,9 @@ class FileSays {
         leaf(name, value);
       }
     }
-    fallback("source", "");
+    if (&part == &file.table()) {  // a design inside another one's file has no source
+      fallback("source", "");
+    }
     fallback("assume.amplitude", "1");
     fallback("assume.slew", "0");
     fallback("assume.frequency_in_hertz", "false");
@@ -233,10 +236,11 @@ class FileSays {
 
 }  // namespace
 
-void compare_model_design(const Tree& design, const TomlFile& file, Objections& objections) {
+void compare_model_design(const Tree& design, const TomlFile& file, const toml::table& part,
+                          Objections& objections) {
   CertificateSays certificate(objections);
   certificate.add("", design);
-  const FileSays there(file, objections);
+  const FileSays there(file, part, objections);
   for (const auto& [path, text] : certificate.said()) {
     const auto found = there.said().find(path);
     if (found == there.said().end()) {

@@ -10,6 +10,8 @@ namespace veritrack::checker {
 
 /// Objects unless the file says what the certificate's design says, text by text: all that is verified rests
 /// on. Units of states and where simulations start are left aside.
-void compare_model_design(const Tree& design, const TomlFile& file, Objections& objections);
+/// `part`: the table of the file that is the design.
+void compare_model_design(const Tree& design, const TomlFile& file, const toml::table& part,
+                          Objections& objections);
 
 }  // namespace veritrack::checker

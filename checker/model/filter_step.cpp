@@ -116,15 +116,27 @@ class JacobianForms {
   Ball squared_error_;
 };
 
+/// A sample later, at every frequency that it moves to.
+TubeOver over_all_moves(const PhaseTube& tube, const TubePart& part, double slew) {
+  if (slew == 0.0) {
+    return {tube, part, true};
+  }
+  const FrequencyMove move{Ball(slew) / Ball(tube.half_width), BallPolynomial(Ball::within(one))};
+  return {tube, part, true, &move};
+}
+
 }  // namespace
 
 FilterStep::FilterStep(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
-                       const VectorMonomials& monomials)
+                       const VectorMonomials& monomials, double slew)
     : model_(&model),
       monomials_(&monomials),
+      tube_(&tube),
+      part_(part),
       states_(tube.curve.size()),
+      slew_(slew),
       here_(tube, part, false),
-      there_(tube, part, true),
+      there_(over_all_moves(tube, part, slew)),
       signal_(signal_later(model, tube, part)) {
   // H has these values wherever the estimate is.
   const auto parts = model.recursion->filter_parts(
@@ -133,6 +145,18 @@ FilterStep::FilterStep(const TrackedModel& model, const PhaseTube& tube, const T
   process_noise_ = ranges_of(parts.process_noise);
   noise_ = ranges_of(parts.noise);
   weighted_ = product(positive_inverse(noise_), measured_);
+}
+
+TubeOver FilterStep::moved() const {
+  if (slew_ == 0.0) {
+    return there_;
+  }
+  PhaseTube estimate = *tube_;
+  estimate.covariance_low.clear();
+  estimate.covariance_high.clear();
+  const FrequencyMove move{Ball(slew_) / Ball(tube_->half_width),
+                           BallPolynomial::variable(*monomials_, monomials_->first(2))};
+  return {estimate, part_, true, &move};
 }
 
 PlaceMatrix FilterStep::updated(const PlaceMatrix& predicted) const {
@@ -155,7 +179,7 @@ bool bounds_suit(const ModelRecursion& recursion) {
   return is_constant && recursion.has_symmetric_noise();
 }
 
-bool FilterStep::keeps_covariance(double radius) const {
+bool FilterStep::keeps_covariance(double radius, const BoundsToSpare& spare) const {
   const PlaceMatrix low = updated(symmetric_of(here_.covariance_low, states_));
   const PlaceMatrix high = updated(symmetric_of(here_.covariance_high, states_));
   const PlaceMatrix next_low = symmetric_of(there_.covariance_low, states_);
@@ -168,12 +192,22 @@ bool FilterStep::keeps_covariance(double radius) const {
   const JacobianForms jacobian(
       model_->recursion->filter_parts(here_.point(radius, components(monomials)), signal_).jacobian,
       monomials);
-  const auto is_kept = [&](const PlaceMatrix& covariance, const PlaceMatrix& bound, bool is_high) {
+  const Ball left = one - Ball(spare.margin);
+  const Ball ratio(spare.ratio);
+  if (!certainly_positive(left) || !certainly_at_most(left, one) || !certainly_at_most(one, ratio)) {
+    return false;
+  }
+  // With Q, times a factor.
+  const auto is_kept_with = [&](const PlaceMatrix& covariance, const PlaceMatrix& next, bool is_high,
+                                const Ball& factor_of_noise) {
     const PlaceMatrix carried = congruence(jacobian.constant(), covariance);
     const PlaceMatrix spread = jacobian.spread(covariance);
-    const PlaceMatrix room = is_high ? sum(bound, process_noise_, minus) : sum(process_noise_, bound, minus);
+    const PlaceMatrix nothing = place_matrix(states_, states_);
+    const PlaceMatrix bound = sum(nothing, next, BallPolynomial(is_high ? left : one / left));
+    const PlaceMatrix process = sum(nothing, process_noise_, BallPolynomial(factor_of_noise));
+    const PlaceMatrix room = is_high ? sum(bound, process, minus) : sum(process, bound, minus);
     // F P F' <= (1 + eta) F_0 P F_0' + (1 + 1/eta) spread, and >= (1 - eta) F_0 P F_0' - (1/eta - 1) spread.
-    const auto left = [&](const PlaceMatrix& of_room, const PlaceMatrix& of_carried,
+    const auto rest = [&](const PlaceMatrix& of_room, const PlaceMatrix& of_carried,
                           const PlaceMatrix& of_spread, double eta) {
       const Ball factor = is_high ? -one - Ball(eta) : one - Ball(eta);
       const Ball other = is_high ? -one - one / Ball(eta) : one - one / Ball(eta);
@@ -191,7 +225,7 @@ bool FilterStep::keeps_covariance(double radius) const {
       const double first = from + (to - from) / 3.0;
       const double second = to - (to - from) / 3.0;
       const auto value = [&](double logarithm) {
-        return near_least_eigenvalue(left(near_room, near_carried, near_spread, std::exp(logarithm)), unit);
+        return near_least_eigenvalue(rest(near_room, near_carried, near_spread, std::exp(logarithm)), unit);
       };
       if (value(first) < value(second)) {
         from = first;
@@ -200,7 +234,13 @@ bool FilterStep::keeps_covariance(double radius) const {
       }
     }
     const double eta = std::exp(0.5 * (from + to));
-    return eta > 0.0 && (is_high || eta < 1.0) && certainly_definite(left(room, carried, spread, eta));
+    return eta > 0.0 && (is_high || eta < 1.0) && certainly_definite(rest(room, carried, spread, eta));
+  };
+  // Of c, with both sides divided by c, or multiplied by it: affine in 1/c, or in c. Its ends decide.
+  const auto is_kept = [&](const PlaceMatrix& covariance, const PlaceMatrix& next, bool is_high) {
+    return is_kept_with(covariance, next, is_high, one) &&
+           (certainly_equal(ratio, one) ||
+            is_kept_with(covariance, next, is_high, is_high ? one / ratio : ratio));
   };
   return is_kept(high, next_high, true) && is_kept(low, next_low, false);
 }
@@ -221,6 +261,7 @@ std::vector<BallPolynomial> FilterStep::map(double radius, double noise, double 
   // P+ = middle + D Y D', D D' = delta, |Y| <= 1: what it does beside the middle is D p with |p| <= |L' i|, L
   // L' = R^-1 H delta H' R^-1 and i the innovation.
   const PlaceMatrix reach = root_of(congruence(weighted_, delta));
+  const TubeOver there = moved();
   std::vector<BallPolynomial> samples = signal_;
   if (noise != 0.0) {
     for (std::size_t c = 0; c < samples.size(); ++c) {
@@ -233,9 +274,9 @@ std::vector<BallPolynomial> FilterStep::map(double radius, double noise, double 
     for (std::size_t c = 0; c < samples.size(); ++c) {
       next[i] += gain[i][c] * parts.innovation[c];
     }
-    next[i] -= there_.curve[i];
+    next[i] -= there.curve[i];
   }
-  const std::vector<BallPolynomial> deviation = there_.coordinates(next);
+  const std::vector<BallPolynomial> deviation = there.coordinates(next);
   std::vector<BallPolynomial> aside;
   for (std::size_t d = 0; d < samples.size(); ++d) {
     BallPolynomial component;

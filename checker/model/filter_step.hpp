@@ -17,17 +17,26 @@ namespace veritrack::checker {
 /// matrices: then bounds of the covariance say what they shall.
 bool bounds_suit(const ModelRecursion& recursion);
 
+/// What bounds of a covariance have to spare from one sample to the next.
+struct BoundsToSpare {
+  /// F P F' + Q is below (1 - margin) high and above low/(1 - margin): a share of the bounds.
+  double margin = 0.0;
+  /// The same for c high and low/c in place of high and low, on both sides, for all c from 1 to this.
+  double ratio = 1.0;
+};
+
 class FilterStep {
  public:
-  /// The second vector of the monomials, which must outlive this, is v if there is noise.
+  /// The second vector of the monomials, which must outlive this, is v if there is noise; the third one is zeta
+  /// if there is a slew, in rad/sample per sample.
   FilterStep(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
-             const VectorMonomials& monomials);
+             const VectorMonomials& monomials, double slew = 0.0);
 
   /// Whether the shape is one here and a sample later.
   [[nodiscard]] bool has_shape() const { return here_.has_shape() && there_.has_shape(); }
   /// True only when the bounds are a range of covariances here, and F P F' + Q is between those of the next
-  /// sample for every updated covariance of that range and all |xi| <= radius.
-  [[nodiscard]] bool keeps_covariance(double radius) const;
+  /// sample, at every frequency that it moves to, for every updated covariance of that range and all |xi| <= radius.
+  [[nodiscard]] bool keeps_covariance(double radius, const BoundsToSpare& spare = {}) const;
   /// A vector that is at least as long as F for |xi| <= radius, |v| <= noise and every covariance in the
   /// bounds, where the ball polynomials are in xi/radius and v/noise. It is the short one where |v| <= noise;
   /// `of_gaussian`, if not 0: where the square of its part with v/noise counts that many times.
@@ -35,11 +44,17 @@ class FilterStep {
 
  private:
   [[nodiscard]] PlaceMatrix updated(const PlaceMatrix& predicted) const;
+  /// Curve and shape a sample later, as functions of zeta.
+  [[nodiscard]] TubeOver moved() const;
 
   const TrackedModel* model_;
   const VectorMonomials* monomials_;
+  const PhaseTube* tube_;
+  TubePart part_;
   std::size_t states_;
-  TubeOver here_, there_;
+  double slew_;
+  TubeOver here_;
+  TubeOver there_;  ///< of no vector: with a slew, for every zeta
   std::vector<BallPolynomial> signal_;
   PlaceMatrix measured_, process_noise_, noise_;  ///< H, Q, R
   PlaceMatrix weighted_;                          ///< R^-1 H

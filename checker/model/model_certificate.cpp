@@ -5,6 +5,7 @@
 #include <set>
 
 #include "checker/model/gaussian_drift.hpp"
+#include "checker/model/long_run.hpp"
 #include "checker/model/model_claims.hpp"
 
 namespace veritrack::checker {
@@ -23,7 +24,7 @@ std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedMod
     Objections objections;
     TubeSet set = read_tube_set(tree, model.recursion->states(), objections, model.recursion->filtered());
     const bool is_known = set.gaussian ? set.name == "gaussian" || set.name == "lowest-snr"
-                                       : set.name == "starts" || set.name == "assumed" ||
+                                       : set.name == "starts" || set.name == "assumed" || set.name == kLongRun ||
                                              set.name == "noise" || set.name == "slew";
     if (!is_known || !names.insert(set.name).second) {
       objections.emplace_back(is_known ? "a second set of this name" : kUnknown);
@@ -37,6 +38,14 @@ std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedMod
       // They object themselves where they fail.
       (void)(set.gaussian ? is_seldom_left(model, set, result.cells, objections)
                           : PhaseTubeCheck(model, set, result.cells).is_never_left(objections));
+    }
+    if (set.name == kLongRun && objections.empty()) {
+      const auto around = sets.find("assumed");
+      if (around == sets.end()) {
+        objections.emplace_back("no verified set is around it");
+      } else {
+        (void)is_entered(model, around->second, set, result.cells, objections);
+      }
     }
     result.parts.push_back({"tubes " + set.name, objections});
     if (objections.empty()) {

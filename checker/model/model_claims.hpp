@@ -35,6 +35,11 @@ class ModelClaims {
   [[nodiscard]] const TubeSet* find(const std::string& name, const Part& part = {}) const;
   /// Whose noise and slew are at least the assumed ones.
   [[nodiscard]] const TubeSet* deciding_set(const Part& part = {}) const;
+  /// Inside the deciding set, where states are in the long run; or none.
+  [[nodiscard]] const TubeSet* long_run_set(const Part& part = {}) const;
+  /// The tubes of the deciding set, or of the long run, in which all states are from this sample on; each
+  /// with one level.
+  [[nodiscard]] TubeSet reached_by(const TubeSet& set, const Ball& sample) const;
   /// The name of the set that a guarantee is about.
   [[nodiscard]] std::string deciding_name() const;
   /// "starts", if there are levels to come down to.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "checker/model/length_bound.hpp"
+#include "checker/model/place_matrix.hpp"
 
 namespace veritrack::checker {
 
@@ -31,6 +32,21 @@ TubePart part_of_tube(const Crossing& crossing, const TubePart& part, const Phas
   TubePart result{part.turn, part.half_turn, z.near(), half_z.near(), 0.0};
   result.z_error = (abs(z - Ball(result.z)) + abs(half_z - Ball(result.half_z))).upper_double();
   return result;
+}
+
+/// Whether the bounds of the covariance of the one, narrower by the margin, are between those of the other.
+bool fits_covariance(const Crossing& crossing, const TubePart& part, double margin) {
+  const TubeOver from(*crossing.from, part_of_tube(crossing, part, *crossing.from), false);
+  const TubeOver to(*crossing.to, part_of_tube(crossing, part, *crossing.to), false);
+  const std::size_t states = crossing.from->curve.size();
+  const Ball left = one - Ball(margin);
+  const auto is_below = [&](const std::vector<BallPolynomial>& low, const std::vector<BallPolynomial>& high) {
+    // left low < high
+    return certainly_definite(
+        sum(symmetric_of(high, states), symmetric_of(low, states), BallPolynomial(-left)));
+  };
+  return certainly_positive(left) && certainly_less(left, one) &&
+         is_below(from.covariance_high, to.covariance_high) && is_below(to.covariance_low, from.covariance_low);
 }
 
 /// Of states of the one, in the coordinates of the other: U'^-1 (C - C' + radius U xi).
@@ -113,6 +129,7 @@ bool crosses_borders(const TubeSet& set, std::size_t states, std::int64_t& cells
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& questions) {
     const Crossing& crossing = crossings[number];
     PartAnswer answer;
+    const bool has_bounds = !bounds_covariance(set) || fits_covariance(crossing, part, set.margin);
     double by_phase = 0.0;
     double by_frequency = 0.0;
     for (const std::size_t j : questions) {
@@ -122,7 +139,7 @@ bool crosses_borders(const TubeSet& set, std::size_t states, std::int64_t& cells
       const double radius = from.levels[j] * from.shrinking[j] * kUp;
       const LengthBound bound(in_other_coordinates(crossing, part, radius, monomials));
       const double factor = set.crossing[j] * (crossing.to->levels[0] / from.levels[0]) * kDown * kDown;
-      bool certain = bound.is_at_most(factor * from.levels[j] * kDown, 1.0);
+      bool certain = has_bounds && bound.is_at_most(factor * from.levels[j] * kDown, 1.0);
       if (certain && from.levels.size() > 1) {
         const double low = (common[j + 1] * Ball(from.levels[0])).lower_double();
         certain = bound.is_at_most(factor * low * kDown, low / from.levels[j] * kUp);

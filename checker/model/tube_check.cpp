@@ -40,9 +40,18 @@ bool shrinks(const LengthBound& step, const PhaseTube& tube, std::size_t j, doub
   return shrinks_to(nearer, between, between) && shrinks_to(nearer, low_end, between);
 }
 
+/// The lowest of the radii between the levels number j and j + 1.
+double low_end_of(const TubeSet& set, const PhaseTube& tube, std::size_t j, const std::vector<Ball>& common) {
+  const bool moves = !certainly_equal(Ball(set.slew), zero);
+  return tube.levels.size() == 1 ? tube.levels[j]
+         : moves                 ? (common[j + 1] * Ball(tube.levels[0])).lower_double()
+                                 : tube.levels[j + 1];
+}
+
 /// Of a filter: with the largest radius also that the bounds of the covariance are kept.
-PartAnswer ask_of_filter(const PhaseTube& tube, const FilterStep& step, double noise,
-                         const std::vector<std::size_t>& pairs) {
+PartAnswer ask_of_filter(const TubeSet& set, std::size_t number, const FilterStep& step,
+                         const std::vector<Ball>& common, const std::vector<std::size_t>& pairs) {
+  const PhaseTube& tube = set.tubes[number];
   PartAnswer answer;
   if (!step.has_shape()) {
     answer.open = pairs;
@@ -52,10 +61,12 @@ PartAnswer ask_of_filter(const PhaseTube& tube, const FilterStep& step, double n
   double by_frequency = 0.0;
   for (const std::size_t j : pairs) {
     const double radius = tube.levels[j];
-    const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, noise)); };
+    const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, set.noise)); };
     const LengthBound bound = bound_up_to(radius);
-    const double low_end = tube.levels.size() == 1 ? radius : tube.levels[j + 1];
-    if (!shrinks(bound, tube, j, low_end, bound_up_to) || (j == 0 && !step.keeps_covariance(radius))) {
+    const double low_end = low_end_of(set, tube, j, common);
+    // Of the long run, bounds of the covariance are kept for estimates in another tube (long_run.hpp).
+    const bool has_bounds = tube.entry || j > 0 || step.keeps_covariance(radius, {set.margin, 1.0});
+    if (!shrinks(bound, tube, j, low_end, bound_up_to) || !has_bounds) {
       answer.open.push_back(j);
       by_phase += bound.by_phase() / radius;
       by_frequency += bound.by_frequency() / radius;
@@ -125,7 +136,8 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
     const PhaseTube& tube = set_->tubes[number];
     PartAnswer answer;
     if (is_filter) {
-      return ask_of_filter(tube, FilterStep(*model_, tube, part, monomials), set_->noise, pairs);
+      return ask_of_filter(*set_, number, FilterStep(*model_, tube, part, monomials, set_->slew), common,
+                           pairs);
     }
     const TubeStep step(*model_, tube, part, monomials, set_->slew);
     if (!step.has_shape()) {
@@ -138,9 +150,7 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
       const double radius = tube.levels[j];
       const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, set_->noise)); };
       const LengthBound bound = bound_up_to(radius);
-      const double low_end = tube.levels.size() == 1 ? radius
-                             : moves                 ? (common[j + 1] * Ball(tube.levels[0])).lower_double()
-                                                     : tube.levels[j + 1];
+      const double low_end = low_end_of(*set_, tube, j, common);
       if (!shrinks(bound, tube, j, low_end, bound_up_to)) {
         answer.open.push_back(j);
         by_phase += bound.by_phase() / radius;
@@ -157,7 +167,7 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
   }
   if (!certain_everywhere(grids, ask, *cells_)) {
     objections.emplace_back("a step may leave the tube, or not shrink as much as is said");
-  } else if (moves && !crosses_borders(*set_, recursion.states(), *cells_)) {
+  } else if (moves && !crosses_borders(*set_, set_->tubes.front().curve.size(), *cells_)) {
     objections.emplace_back("a tube may be left where the frequency crosses the border of a cell");
   }
   return objections.size() == before;

@@ -112,6 +112,13 @@ PhaseTube tube_from(const Tree& cell, std::size_t all_states, std::size_t estima
       objections.emplace_back("bounds of a covariance are for filters, of as many entries as the shape has");
     }
   }
+  if (const Tree* entry = cell.find("entry")) {
+    tube.entry = LongRunEntry{double_from(entry->at("margin")), double_from(entry->at("ratio"))};
+    if (!certainly_positive(Ball(tube.entry->margin)) || !certainly_less(Ball(tube.entry->margin), one) ||
+        !certainly_at_most(one, Ball(tube.entry->ratio))) {
+      objections.emplace_back("a margin is between 0 and 1, and a ratio at least 1");
+    }
+  }
   tube.phases = power_of_two_from(cell.at("phases"), objections);
   tube.frequencies = power_of_two_from(cell.at("frequencies"), objections);
   if (tube.turns.size() != states || tube.curve.size() != states ||
@@ -176,8 +183,18 @@ TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objection
       objections.emplace_back("some cells bound a covariance, and others do not");
     }
   }
-  if (bounds_covariance(result) && !certainly_equal(Ball(result.slew), zero)) {
-    objections.emplace_back("bounds of a covariance are for constant frequencies");
+  for (const PhaseTube& tube : result.tubes) {
+    if (tube.entry.has_value() != (result.name == kLongRun) || (tube.entry && !bounds_covariance(result))) {
+      objections.emplace_back(
+          "tubes of a filter in the long run, and only these, say how bounds of a covariance are reached");
+      break;
+    }
+  }
+  if (bounds_covariance(result) && certainly_positive(Ball(result.slew))) {
+    result.margin = double_from(set.at("margin"));
+    if (!certainly_positive(Ball(result.margin)) || !certainly_less(Ball(result.margin), one)) {
+      objections.emplace_back("a margin is between 0 and 1");
+    }
   }
   if (result.tubes.empty()) {
     objections.emplace_back("a set without cells");

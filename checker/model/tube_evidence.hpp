@@ -15,6 +15,13 @@ namespace veritrack::checker {
 /// Re sum_h sum_d c[h][d] z^d exp(i h phi). Nothing: 0.
 using PhaseSeries = std::vector<std::vector<std::complex<double>>>;
 
+/// What bounds of a covariance have to spare at each sample, as a share of themselves, and how many times as
+/// wide others are from which they are reached.
+struct LongRunEntry {
+  double margin = 0.0;  ///< in (0, 1)
+  double ratio = 0.0;   ///< at least 1
+};
+
 /// C(phi, omega) + U(phi, omega) xi, |xi| <= R, over the frequencies |omega - frequency| <= half_width,
 /// where C(phi, omega) = turns phi + curve and U is lower triangular; rad/sample.
 struct PhaseTube {
@@ -29,6 +36,8 @@ struct PhaseTube {
   /// sample at the phase; lower triangles, row by row. Curve and shape are those of the estimate then.
   /// Otherwise empty.
   std::vector<PhaseSeries> covariance_low, covariance_high;
+  /// Of a tube in the long run: how its bounds of the covariance are reached (long_run.hpp). Otherwise none.
+  std::optional<LongRunEntry> entry;
   std::size_t phases = 1;  ///< parts of a turn, and of the frequencies, to begin with
   std::size_t frequencies = 1;
 };
@@ -50,6 +59,9 @@ struct TubeSet {
   double noise = 0.0;
   std::optional<GaussianTerms> gaussian;  ///< then there is no noise and no slew besides, and one level
   std::vector<double> crossing;           ///< of relative levels at the borders of cells; with slew only
+  /// With a slew, of filters: the share of themselves that bounds of the covariance have to spare at every
+  /// step, and may lose at a border.
+  double margin = 0.0;
   std::vector<PhaseTube> tubes;
 };
 
@@ -57,6 +69,9 @@ struct TubeSet {
 inline bool bounds_covariance(const TubeSet& set) {
   return !set.tubes.empty() && !set.tubes.front().covariance_high.empty();
 }
+
+/// The set of the long run, inside another one (long_run.hpp).
+inline constexpr const char* kLongRun = "long-run";
 
 /// How many pairs of neighbouring levels a tube has; one if there is one level.
 inline std::size_t pairs_of(const PhaseTube& tube) {

@@ -50,6 +50,12 @@ From tests/certificates/model-filter.toml, an extended Kalman filter at almost o
 model-filter      its tube for the assumed noise, with bounds of the covariance and three levels: checked fast
 From tests/certificates/model-filter-gaussian.toml, the same filter in Gaussian noise:
 model-filter-gaussian  its tubes for the assumed noise and the lowest ratio, with bounds of the covariance
+From tests/certificates/regulator.toml, a regulator with a tracker of two channels:
+regulator         as it is, its tracker's certificate without what the regulator does not need
+From tests/certificates/model-filter-long-run.toml, the same filter:
+model-filter-long-run  its tubes for the assumed noise, and in the long run
+From tests/certificates/model-filter-moving.toml, the same filter and a frequency that moves through two cells:
+model-filter-moving  its tubes for what is assumed
 """
 import fractions
 import json
@@ -313,6 +319,13 @@ def model_gaussian(certificate):
                              if claim["id"] not in ("model/limits", "model/steady-state")]
 
 
+def model_long_run(certificate):
+    """Without what is told of no noise, and of more."""
+    certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] in ("assumed", "long-run")]
+    certificate["claims"] = [claim for claim in certificate["claims"]
+                             if claim["id"] not in ("model/limits", "model/steady-state")]
+
+
 def model_filter(certificate):
     """Without what is told of no noise; the error in the long run is that of a level between."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
@@ -324,6 +337,18 @@ def model_filter(certificate):
     for claim in certificate["claims"]:
         if "settled_frequency_error" in claim:
             claim["settled_frequency_error"] = "0.05"
+
+
+def regulator(certificate):
+    """The tracker's guarantee, its settling time, and the sets that they rest on."""
+    tracker = certificate["frequency_tracker"]
+    keep(tracker, ["contraction"], ["ekf/settling-time", "ekf/guarantee"])
+    tracker["certified_sets"] = [found for found in tracker["certified_sets"] if found["purpose"] in
+                                 ("frequency-error-bound", "ultimate-error", "settling")]
+    derivation = tracker["derivations"][0]
+    derivation["quantities"] = tracker["claims"][1]["evidence"]
+    derivation["conditions"] = derivation["conditions"][:2]
+    del derivation["verdict"]
 
 
 KINDS = {
@@ -358,6 +383,9 @@ KINDS = {
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
     "model-filter-gaussian": model_gaussian,
+    "regulator": regulator,
+    "model-filter-long-run": model_long_run,
+    "model-filter-moving": model_moving,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

@@ -142,6 +142,12 @@ class BadInput(CliTestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("nearest command: certify", result.stderr)
 
+    def test_a_mistyped_option_is_told_the_nearest(self):
+        for option in ("--objectve", "--objectve=rms"):
+            result = self.run_here("tune", "design.toml", option)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn('veritrack tune: no option is called "--objectve"; nearest option: --objective', result.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,22 +1,53 @@
-"""veritrack certify on a design of each kind, or on all of them with VERITRACK_TEST_EFFORT above 1: the documents, whole."""
+"""veritrack certify: the documents, whole. `make verify` looks at those of a design of each kind."""
 
 import copy
 import fractions
-import hashlib
+import functools
 import json
 import math
-import os
 import re
-import subprocess
 import unittest
 import xml.etree.ElementTree
 
-from documents import objections, read_documents
-from support import DESIGN, PROGRAM, ROOT, CliTestCase
+from documents import check_agreement, objections, read_documents
+from support import DESIGN, PROGRAM, ROOT, CliTestCase, run, scratch_folder
 
-DESIGNS = sorted((ROOT / "designs").glob("*.toml"))
+REQUIRED = DESIGN + "\n[require]\nfrequency_error_below = 0.05\n"
 QUANTITIES = """R_x epsilon_r rho_1 rho_2 rho_3 rho_4 rho_5 delta_1 delta_2 a_1 a_2 b_1 b_2 p q s gamma beta
     one_minus_alpha epsilon_z delta_p delta_k delta_k2 zeta_z eta zeta lhs_2_43 lhs_2_44 initial_error_bound""".split()
+
+
+class Run:
+    """A design certified into the folder `out`: the documents fit their schemas, and each other."""
+
+    def __init__(self, design, folder):
+        self.result = run("certify", design, "--out", "out", cwd=folder)
+        self.out = folder / "out"
+        assert self.result.returncode in (0, 1), self.result.stderr
+        self.certificate, self.report = read_documents(self.out)
+        check_agreement(self.certificate, self.report, self.result.returncode)
+        self.text = (self.out / "certificate.md").read_text()
+
+    def guarantee(self):
+        """The claim, which must be the paragraph below the first line of the document."""
+        claim = next(claim for claim in self.report["claims"] if claim["id"] == "ekf/guarantee")
+        lines = self.text.splitlines()
+        assert lines[2] == f"**{claim['verdict'].upper()}**: {claim['statement']}", lines[2]
+        assert lines[4].endswith(claim["reason"]), lines[4]
+        return claim
+
+
+@functools.cache
+def certified(text):
+    """The run for this text of a design file; many tests are about the same."""
+    folder = scratch_folder()
+    (folder / "design.toml").write_text(text)
+    return Run("design.toml", folder)
+
+
+@functools.cache
+def certified_file(name):
+    return Run(ROOT / "designs" / name, scratch_folder())
 
 
 def readings(document):
@@ -28,36 +59,6 @@ def readings(document):
 
 
 class Certify(CliTestCase):
-    def certify(self, design, out="out"):
-        """The run, certificate.json and report.json, which fit their schemas."""
-        result = self.run_here("certify", design, "--out", out)
-        self.assertIn(result.returncode, (0, 1), result.stderr)
-        return result, *read_documents(self.folder / out)
-
-    def test_there_are_designs(self):
-        self.assertGreaterEqual(len(DESIGNS), 4)
-
-    def test_every_design_gives_a_valid_certificate(self):
-        chosen = DESIGNS
-        if float(os.environ.get("VERITRACK_TEST_EFFORT") or 1) <= 1:
-            listed = subprocess.run([ROOT / "scripts/one-of-each-kind"], capture_output=True, text=True, check=True).stdout
-            # Gaussian noise takes minutes; make verify does it.
-            chosen = [ROOT / name for name in listed.split() if "snr_db" not in (ROOT / name).read_text()]
-            chosen.append(ROOT / "tests/certificates/lock.toml")
-            self.assertGreaterEqual(len(chosen), 4)
-        for design in chosen:
-            with self.subTest(design=design.name):
-                result, certificate, report = self.certify(design, design.stem)
-                required = [claim["verdict"] for claim in report["claims"] if claim["required"]]
-                self.assertEqual(result.returncode, 0 if all(v == "proved" for v in required) else 1)
-                self.assertEqual(certificate["verdict"] == "nothing-required", not required)
-                self.assertEqual(certificate["verdict"], report["verdict"])
-                # Of the claims that are told, those that are decided are claimed, in the same order.
-                self.assertEqual([(c["id"], c["verdict"], c["required"]) for c in certificate["claims"]],
-                                 [(c["id"], c["verdict"], c["required"]) for c in report["claims"]
-                                  if c["verdict"] != "undecided"])
-                self.assertEqual(certificate["design_sha256"], hashlib.sha256(design.read_bytes()).hexdigest())
-
     def test_the_certificates_of_the_checkers_tests_fit_the_schema(self):
         paths = sorted((ROOT / "tests/certificates/accepted").glob("*.json"))
         self.assertGreaterEqual(len(paths), 10)
@@ -83,7 +84,7 @@ class Certify(CliTestCase):
                 self.assertNotEqual([], objections("certificate", changed))
 
     def test_every_quantity_of_the_theorem_is_there(self):
-        _, certificate, _ = self.certify(ROOT / "designs/la-scala-1994-figure-3.5.toml")
+        certificate = certified_file("la-scala-1994-figure-3.5.toml").certificate
         for derivation in readings(certificate):
             for name in QUANTITIES:
                 quantity = derivation["quantities"][name]
@@ -92,7 +93,7 @@ class Certify(CliTestCase):
                 self.assertLessEqual(high - low, 1e-12 * max(abs(low), abs(high)), name)
 
     def test_design_values_are_as_written_in_the_tightest_doubles(self):
-        _, certificate, _ = self.certify(self.write(DESIGN))
+        certificate = certified(DESIGN).certificate
         for name, value in certificate["design"]["design"].items():
             self.assertIn(f"\n{name} = {value['text']}\n", DESIGN)
             low, high = float.fromhex(value["lo"]), float.fromhex(value["hi"])
@@ -101,71 +102,53 @@ class Certify(CliTestCase):
             self.assertIn(high, (low, math.nextafter(low, math.inf)), name)
         self.assertEqual(certificate["design"]["theorem_2_9"]["sigma"]["text"], "1e-3")
 
-    def test_same_input_same_bytes_and_no_paths(self):
-        design = self.write(DESIGN)
-        self.certify(design, "folder-one")
-        self.certify(design, "folder-two")
-        names = sorted(p.relative_to(self.folder / "folder-one") for p in (self.folder / "folder-one").rglob("*") if p.is_file())
+    def test_same_input_same_bytes_and_no_paths_and_the_default_folder_is_named_after_the_design(self):
+        first = certified(DESIGN)
+        self.write(DESIGN)
+        result = self.run_here("certify", "design.toml")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        names = sorted(path.relative_to(first.out) for path in first.out.rglob("*") if path.is_file())
         self.assertIn("certificate.md", map(str, names))
         for name in names:
-            first = (self.folder / "folder-one" / name).read_bytes()
-            self.assertEqual(first, (self.folder / "folder-two" / name).read_bytes(), name)
-            for forbidden in (str(self.folder), str(ROOT), str(PROGRAM), "folder-one"):
-                self.assertNotIn(forbidden.encode(), first, name)
+            found = (first.out / name).read_bytes()
+            self.assertEqual(found, (self.folder / "certificates-out/design" / name).read_bytes(), name)
+            for forbidden in (first.out.parent, self.folder, ROOT, PROGRAM, "certificates-out"):
+                self.assertNotIn(str(forbidden).encode(), found, name)
 
     def test_figures_are_well_formed_and_referred_to(self):
-        self.certify(self.write(DESIGN))
-        text = (self.folder / "out/certificate.md").read_text()
-        references = re.findall(r"\]\((figures/[^)]+)\)", text)
+        found = certified(DESIGN)
+        references = re.findall(r"\]\((figures/[^)]+)\)", found.text)
         self.assertEqual(references, [f"figures/{name}.svg" for name in ("frequency", "error", "tube")])
         for reference in references:
-            root = xml.etree.ElementTree.parse(self.folder / "out" / reference).getroot()
+            root = xml.etree.ElementTree.parse(found.out / reference).getroot()
             self.assertTrue(root.tag.endswith("svg"))
 
     def test_the_last_line_names_the_certificate_and_its_verdict(self):
-        result, _, _ = self.certify(self.write(DESIGN))
+        result = certified(DESIGN).result
         last = result.stdout.splitlines()[-1]
         self.assertEqual(last, "out/certificate.md: Nothing is required of this design")
         self.assertEqual(result.stderr, "")
 
-    def test_default_folder_is_named_after_the_design(self):
-        self.write(DESIGN, "my-design.toml")
-        result = self.run_here("certify", "my-design.toml")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertTrue((self.folder / "certificates-out/my-design/certificate.md").is_file())
-
     def test_a_requirement_that_is_not_proved_stands_in_the_first_line(self):
-        design = self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.0051\n"
-                            "settles_within = 200\nsettled_below = 0.0011\n")
-        result, certificate, _ = self.certify(design)
-        first = (self.folder / "out/certificate.md").read_text().splitlines()[0]
+        found = certified(DESIGN + "\n[require]\nfrequency_error_below = 0.0051\n"
+                          "settles_within = 200\nsettled_below = 0.0011\n")
+        first = found.text.splitlines()[0]
         self.assertTrue(first.startswith("# NOT PROVED."), first)
-        self.assertEqual(result.returncode, 1)
-        self.assertEqual(certificate["verdict"], "undecided")
+        self.assertEqual(found.result.returncode, 1)
+        self.assertEqual(found.certificate["verdict"], "undecided")
 
     def test_a_requirement_that_is_proved_comes_with_its_evidence(self):
-        design = self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.05\n")
-        result, certificate, _ = self.certify(design)
-        first = (self.folder / "out/certificate.md").read_text().splitlines()[0]
+        found = certified(REQUIRED)
+        first = found.text.splitlines()[0]
         self.assertTrue(first.startswith("# PROVED: the frequency error stays below 0.05"), first)
-        self.assertEqual(result.returncode, 0)
-        self.assertEqual(certificate["verdict"], "proved")
-        claim = next(claim for claim in certificate["claims"] if claim["required"])
+        self.assertEqual(found.result.returncode, 0)
+        self.assertEqual(found.certificate["verdict"], "proved")
+        claim = next(claim for claim in found.certificate["claims"] if claim["required"])
         self.assertLess(float.fromhex(claim["evidence"]["frequency_error_bound"]["hi"]), 0.05)
-        self.assertIn("start-error", [entry["purpose"] for entry in certificate["certified_sets"]])
-
-    def guarantee(self, report):
-        """The claim, which must be the paragraph below the first line of the document."""
-        claim = next(claim for claim in report["claims"] if claim["id"] == "ekf/guarantee")
-        lines = (self.folder / "out/certificate.md").read_text().splitlines()
-        self.assertEqual(lines[2], f"**{claim['verdict'].upper()}**: {claim['statement']}")
-        self.assertTrue(lines[4].endswith(claim["reason"]), lines[4])
-        return claim
+        self.assertIn("start-error", [entry["purpose"] for entry in found.certificate["certified_sets"]])
 
     def test_the_guarantee_is_one_sentence_on_top(self):
-        design = self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.05\n")
-        _, _, report = self.certify(design)
-        claim = self.guarantee(report)
+        claim = certified(REQUIRED).guarantee()
         self.assertEqual(claim["verdict"], "proved")
         self.assertRegex(claim["statement"], re.compile(
             r"^In double precision \(IEEE 754, .*\), for a tone of constant amplitude 1\.0 whose frequency is at most pi "
@@ -176,28 +159,27 @@ class Certify(CliTestCase):
             r"error never exceeds "))
 
     def test_starts_beyond_the_certified_set_are_captured(self):
-        result, certificate, report = self.certify(ROOT / "designs/far-start.toml")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(result.stderr, "")
-        verdicts = {derivation["id"]: derivation["verdict"] for derivation in report["derivations"]}
+        found = certified_file("far-start.toml")
+        self.assertEqual(found.result.returncode, 0, found.result.stderr)
+        self.assertEqual(found.result.stderr, "")
+        verdicts = {derivation["id"]: derivation["verdict"] for derivation in found.report["derivations"]}
         self.assertEqual((verdicts["contraction"], verdicts["capture"]), ("undecided", "proved"))
-        claimed = {derivation["id"]: derivation.get("verdict") for derivation in certificate["derivations"]}
+        claimed = {derivation["id"]: derivation.get("verdict") for derivation in found.certificate["derivations"]}
         self.assertEqual((claimed["contraction"], claimed["capture"]), (None, "proved"))
-        self.assertEqual(self.guarantee(report)["verdict"], "proved")
-        text = (self.folder / "out/certificate.md").read_text()
+        self.assertEqual(found.guarantee()["verdict"], "proved")
         for figure in ("tube", "capture"):
-            self.assertIn(f"(figures/{figure}.svg)", text)
+            self.assertIn(f"(figures/{figure}.svg)", found.text)
 
     def test_what_fails_only_under_noise_is_said_to_hold_without(self):
-        design = self.write(DESIGN.replace("noise = 0.001", "noise = 0.01")
-                            .replace("initial_phase_error = 0.005", "initial_phase_error = 0.8")
-                            .replace("initial_frequency_error = 0.005", "initial_frequency_error = 0.5"))
-        result, certificate, report = self.certify(design)
-        self.assertEqual(result.returncode, 0, result.stderr)  # nothing is required
-        self.assertNotIn("ekf/capture", [claim["id"] for claim in certificate["claims"]])
+        found = certified(DESIGN.replace("noise = 0.001", "noise = 0.01")
+                          .replace("initial_phase_error = 0.005", "initial_phase_error = 0.8")
+                          .replace("initial_frequency_error = 0.005", "initial_frequency_error = 0.5"))
+        report = found.report
+        self.assertEqual(found.result.returncode, 0, found.result.stderr)  # nothing is required
+        self.assertNotIn("ekf/capture", [claim["id"] for claim in found.certificate["claims"]])
         verdicts = {claim["id"]: claim["verdict"] for claim in report["claims"]}
         self.assertEqual((verdicts["ekf/capture"], verdicts["ekf/capture-noise-free"]), ("undecided", "proved"))
-        claim = self.guarantee(report)
+        claim = found.guarantee()
         self.assertEqual(claim["verdict"], "undecided")
         self.assertRegex(claim["reason"], r"[0-9]+ of [0-9]+ cells of assumed starts could not be followed")
         self.assertRegex(claim["reason"],
@@ -214,24 +196,20 @@ class Certify(CliTestCase):
                               ("initial_frequency_error = 0.005", "initial_frequency_error = 6"):
                                   ("witness", "1 turns per sample away", "Smaller start errors")}.items():
             with self.subTest(change=change[1]):
-                _, _, report = self.certify(self.write(DESIGN.replace(*change)))
-                claim = self.guarantee(report)
+                claim = certified(DESIGN.replace(*change)).guarantee()
                 self.assertNotEqual(claim["verdict"], "proved")
                 for word in words:
                     self.assertIn(word, claim["reason"])
 
     def test_a_start_outside_the_required_bound_refutes_it(self):
-        design = self.write(DESIGN + "\n[require]\nfrequency_error_below = 0.005\n")
-        result, _, report = self.certify(design)
-        claim = next(claim for claim in report["claims"] if claim["required"])
+        found = certified(DESIGN + "\n[require]\nfrequency_error_below = 0.005\n")
+        claim = next(claim for claim in found.report["claims"] if claim["required"])
         self.assertEqual(claim["verdict"], "refuted")
         self.assertIn("Witness", claim["reason"])
-        self.assertEqual(result.returncode, 1)
+        self.assertEqual(found.result.returncode, 1)
 
     def test_q1_zero_is_not_an_error(self):
-        design = self.write(DESIGN.replace("q1 = 0.0023", "q1 = 0"))
-        _, _, report = self.certify(design)
-        for derivation in readings(report):
+        for derivation in readings(certified(DESIGN.replace("q1 = 0.0023", "q1 = 0")).report):
             self.assertIn("q", derivation["not_applicable"])
             self.assertIn("p", derivation["quantities"])
             verdicts = {condition["id"]: condition["verdict"] for condition in derivation["conditions"]}
@@ -239,9 +217,7 @@ class Certify(CliTestCase):
             self.assertEqual(verdicts["2.43"], "undecided")
 
     def test_q1_above_q2_is_noted(self):
-        design = self.write(DESIGN.replace("q1 = 0.0023", "q1 = 0.1"))
-        _, _, report = self.certify(design)
-        for derivation in readings(report):
+        for derivation in readings(certified(DESIGN.replace("q1 = 0.0023", "q1 = 0.1")).report):
             self.assertTrue(any("q_1" in note or "q1" in note for note in derivation["notes"]), derivation["notes"])
             self.assertEqual(derivation["verdict"], "refuted")
 

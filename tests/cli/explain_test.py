@@ -26,6 +26,8 @@ def claims_of_accepted_certificates():
 def claims_in_the_sources():
     for folder in ("analysis", "certificates"):
         for path in sorted((ROOT / folder).rglob("*.cpp")):
+            if path.name == "paper_places.cpp":
+                continue  # beginnings of ids, not ids
             yield from (found for found in LITERAL.findall(path.read_text()) if found not in DERIVATIONS)
 
 
@@ -63,6 +65,8 @@ class Explain(unittest.TestCase):
         result = run("explain", "q1", "slwe")
         self.assertEqual(result.returncode, 2)
         self.assertIn('"slwe" is no key and no claim; nearest: slew', result.stderr)
+        result = run("explain", "SNR")
+        self.assertIn("it is mentioned in assume.noise, model/lowest-snr, ekf/lowest-snr;", result.stderr)
 
     def test_lines_are_as_wide_as_the_terminal(self):
         def longest(text):

@@ -11,9 +11,16 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ["VERITRACK"]
 
+
+def scratch_folder():
+    """A folder that goes away when the tests end."""
+    folder = pathlib.Path(tempfile.mkdtemp())
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
 # Verdicts that a test finds are not those of an earlier run, nor kept for a later one.
-os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()
-atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
+os.environ["XDG_CACHE_HOME"] = str(scratch_folder())
 os.environ.pop("GITHUB_ACTIONS", None)
 
 DESIGN = """\
@@ -41,7 +48,7 @@ samples = 50
 
 
 def run(*arguments, **options):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300,
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=900,
                           check=False, **options)
 
 

@@ -7,6 +7,18 @@ import unittest
 from support import DESIGN, PROGRAM, CliTestCase
 
 GAUSSIAN = DESIGN.replace("noise = 0.001", "noise = { snr_db = 30 }\nsamples = 1e6")
+ONE_CHANNEL = """name = "a design"
+tracker = "single-channel-ekf"
+[design]
+process_noise = { q1 = 0.01, q2 = 0.01 }
+r = 0.01
+[assume]
+frequency = [0.4, 0.6]
+noise = 0.01
+initial_frequency_error = 0.001
+initial_phase_error = 0.001
+initial_amplitude_error = 0.001
+"""
 POOR = (DESIGN.replace("q1 = 0.0023", "q1 = 0.1   # too much").replace("q2 = 0.0023", "q2 = 0.3")
         .replace("noise = 0.001", "noise = 0.02"))
 
@@ -37,11 +49,31 @@ class Tune(CliTestCase):
         self.assertEqual(changed, ["q1", "q2", "r"])
         self.assertEqual(self.files(), [])
 
-    def test_a_leak_is_free_or_is_not(self):
-        self.write(GAUSSIAN.replace("epsilon = 0.0", "epsilon = 0.01"))
+    def test_what_has_no_certificate_is_said_at_once(self):
+        self.write(GAUSSIAN.replace("epsilon = 0.0", "epsilon = 0.01").replace("samples = 1e6", "samples = 1e6\nfrequency_walk = 1e-4"))
         result = self.run_here("tune", "design.toml")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("--free-leak lets it become 0", result.stdout)
+        self.assertIn("With a leak and a frequency that walks nothing is certified", result.stdout)
+        self.assertIn("--free-leak", result.stdout)
+        self.write(ONE_CHANNEL.replace("r = 0.01", "r = 0.01\nepsilon = 0.001"))
+        result = self.run_here("tune", "design.toml")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no bound is certified for this tracker, only its bias", result.stdout)
+        self.write(ONE_CHANNEL.replace("noise = 0.01", "noise = { snr_db = 17 }"))
+        result = self.run_here("tune", "design.toml")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"^design.toml:8:9: assume.noise is Gaussian, with which nothing is certified")
+        self.assertIn("--objective simulated-rms", result.stderr)
+        self.write(ONE_CHANNEL.replace("noise = 0.01", "noise = 0.01\nsamples = 1e6"))
+        result = self.run_here("tune", "design.toml")
+        self.assertIn("unknown key assume.samples; it goes with the tracker quadrature-ekf or model", result.stderr)
+
+    def test_simulations_are_compared_as_they_are_where_nothing_is_required(self):
+        self.write(ONE_CHANNEL.replace("r = 0.01", "r = 0.01\nepsilon = 0.001"))
+        result = self.run_here("tune", "design.toml", "--objective", "simulated-rms", "--designs", "20", "--no-certificate")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("the simulated root mean square of the frequency error goes from", result.stdout)
+        self.assertNotIn("certified set", result.stdout)
 
     def test_a_time_limit_and_ctrl_c_give_the_best_so_far(self):
         self.write(POOR)

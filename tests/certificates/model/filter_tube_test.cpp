@@ -131,7 +131,8 @@ TEST_CASE("the parts of a filter are those of its recursion") {
 TEST_CASE("only linear measurements, symmetric noise and an estimated frequency are taken to parts") {
   CHECK(Filter(filter_text("'q*x1 + x2'")).model.filter.has_value());
   CHECK_FALSE(Filter(filter_text("'x1 + 0.1*x1*x2'")).model.filter.has_value());
-  CHECK_FALSE(Filter(filter_text("'x1'", "0.001")).model.filter.has_value());
+  // Equal numbers that are written differently.
+  CHECK_FALSE(Filter(filter_text("'x1'", "'0*q'")).model.filter.has_value());
   CHECK_FALSE(Filter(filter_text("'x1'", "0", "", "w + P.w.w")).model.filter.has_value());
   CHECK_FALSE(
       Filter(filter_text("'x1'", "0",
@@ -235,7 +236,8 @@ TEST_CASE("wrong bounds of a covariance are not proved") {
                .verdict == Verdict::proved;
   };
   CHECK(is_proved(*proposal.tube, radius));
-  CHECK_FALSE(is_proved(*proposal.tube, radius, 1e-6));
+  CHECK(is_proved(*proposal.tube, radius, 1e-7));
+  CHECK_FALSE(is_proved(*proposal.tube, radius, 1e-2));
   CHECK_FALSE(is_proved(*proposal.tube, 2.0 * proposal.worth.level));
   const auto changed = [&](const auto& change) {
     model::Tube tube = *proposal.tube;

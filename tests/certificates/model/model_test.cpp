@@ -156,6 +156,22 @@ TEST_CASE("derivatives are those of each function") {
 
 const std::string kRest = "\n[assume]\nfrequency = [0.2, 0.5]\nnoise = 0\n";
 
+TEST_CASE("covariances of the noise whose entries do not mirror each other are refused") {
+  const auto with = [](const std::string& q12, const std::string& q21, const std::string& r12) {
+    std::string text = filter("['y', 'z']", "['x1', 'x2']", "[['r', " + r12 + "], [0, 'r']]");
+    const std::string q = "Q = [['q', 0, 0], [0,";
+    return text.replace(text.find(q), q.size(), "Q = [['q', " + q12 + ", 0], [" + q21 + ",");
+  };
+  CHECK(message(with("0", "0", "0")) == "no error");
+  CHECK(message(with("'q/10'", "'0.1*q'", "0")) == "no error");
+  CHECK(message(with("0.001", "'0.002 - q/4'", "0.0")) == "no error");
+  CHECK(message(with("'q/10'", "'0.2*q'", "0")) ==
+        "design.toml:14:23: Q is not symmetric: row 2, column 1 is 0.2*q, and row 1, column 2 is q/10; allowed: "
+        "a covariance, whose entries mirror each other");
+  CHECK(message(with("0", "0", "0.01")).find("R is not symmetric: row 2, column 1 is 0, and row 1, column 2 "
+                                             "is 0.01; allowed:") != std::string::npos);
+}
+
 TEST_CASE("what is wrong with a model is told with its place in the file") {
   const std::string before = "[model]\nsamples = 'y'\nfrequency = 'w'\n";
   const std::string step = "states = ['w']\nstep = '''\nw' = w + y\n'''\n";

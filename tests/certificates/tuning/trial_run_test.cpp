@@ -40,6 +40,20 @@ TEST_CASE("the simulated root mean square: the same twice, more in more noise, o
   CHECK(std::abs(more->rms - found->rms) < 4.0 * (more->deviation + found->deviation));
 }
 
+TEST_CASE("a filter that does not get rid of the assumed start error has it in its root mean square") {
+  const std::string slow = "q2 = 1e-14";
+  const auto rms = [](const Design& design) {
+    return simulated_rms(design, quadrature_tables(design).assume, {8, 400})->rms;
+  };
+  std::string text = testing::kTunedText;
+  text.replace(text.find("q1 = 0.0023"), 11, "q1 = 1e-14");
+  text.replace(text.find("slew = 1e-4"), 11, "slew = 0");
+  const double off = rms(with("q2 = 0.0023", slow, text));
+  text.replace(text.find("initial_frequency_error = 0.005"), 31, "initial_frequency_error = 0    ");
+  CHECK(off > 0.004);
+  CHECK(off > 5.0 * rms(with("q2 = 0.0023", slow, text)));
+}
+
 TEST_CASE("one run has no scatter") {
   const Design design = read_design(testing::kTunedText, "design.toml");
   CHECK(simulated_rms(design, quadrature_tables(design).assume, {1, 400})->deviation == 0.0);

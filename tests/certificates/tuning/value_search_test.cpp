@@ -127,6 +127,34 @@ TEST_CASE("a leak stays, unless it is free") {
     return found;
   };
   CHECK(search_values(example.problem, TuningRequest()).chosen.epsilon == "0");
+  // One that pays becomes larger, but no tracker has a leak of 1.
+  example.problem.certify = [&](const DesignValues& values, const Assumptions& assume,
+                                const std::set<Objective>& needed) {
+    CertifiedValues found = certify(values, assume, needed);
+    found.long_run /= 1.0 + 100.0 * number_of(values.epsilon).nearest;
+    return found;
+  };
+  const double leak = number_of(search_values(example.problem, TuningRequest()).chosen.epsilon).nearest;
+  CHECK(leak > 0.05);
+  CHECK(leak <= 0.5);
+}
+
+TEST_CASE("simulations are compared as they are where nothing is required") {
+  const rigor::NearestRounding nearest;
+  Requirements require;
+  CHECK_FALSE(asks_for_proofs(Objective::simulated_rms, require));
+  CHECK(asks_for_proofs(Objective::long_run, require));
+  Example example;
+  example.problem.objective = Objective::simulated_rms;
+  example.problem.certify = [](const DesignValues&, const Assumptions&, const std::set<Objective>& needed) {
+    CHECK(needed == std::set<Objective>{Objective::simulated_rms});
+    CertifiedValues found;  // nothing certified
+    found.simulated_rms = 0.01;
+    return found;
+  };
+  CHECK(search_values(example.problem, TuningRequest()).is_met);
+  require.rms_frequency_error_below = number_of("0.1");
+  CHECK(asks_for_proofs(Objective::simulated_rms, require));
 }
 
 }  // namespace

@@ -101,6 +101,21 @@ frequency_error_below = 0.002
         self.assertRegex(told, r"Certified: a root mean square of the frequency error in lock of at most 0\.\d+ rad/sample")
         self.assertIn("PROVED: the probability of losing lock is below 1e-6", told)
 
+    def test_gaussian_noise_with_a_leak(self):
+        text = (DESIGN.replace("q1 = 0.0023", "q1 = 0.0013").replace("q2 = 0.0023", "q2 = 0.0013").replace("r = 0.05", "r = 0.01")
+                .replace("epsilon = 0.0", "epsilon = 0.01").replace("frequency = [0.05, 3.0]", "frequency = [0.2, 0.9]")
+                .replace("noise = 0.001", "noise = { snr_db = 22 }\nsamples = 1e6"))
+        required = "\n[require]\nprobability_of_losing_lock_below = 1e-6\n"
+        told = self.tune(text + required, "--designs", "5")
+        before, after = map(float, re.search(r"in lock goes from about (\S+) rad/sample to about (\S+) rad/sample", told).groups())
+        self.assertLess(after, before)
+        certified = float(re.search(r"Certified: a root mean square of .* of at most (\S+) rad/sample", told).group(1))
+        self.assertLess(abs(certified - after), 0.25 * after)
+        self.assertIn("epsilon = 0.01", (self.folder / "tuned.toml").read_text())
+        told = self.tune(text + required, "--designs", "3", "--objective", "lowest-snr", "--no-certificate")
+        self.assertRegex(told, r"can be certified (goes from|is) about \S+ dB")
+        self.assertIn("With a leak a certificate is about the assumed ratio only", told)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,154 @@
+#include "analysis/theorems/paper_places.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <stdexcept>
+#include <utility>
+
+#include "analysis/theorems/paper_findings.hpp"
+
+namespace veritrack::theorems {
+
+namespace {
+
+using enum Paper;
+using enum PaperRole;
+
+/// All claims whose ids begin so.
+struct Family {
+  std::string_view begin;
+  Paper paper;
+  PaperRole role;
+  std::string_view place;
+  std::string_view repair = {};
+};
+
+constexpr std::string_view kContraction = "the contraction certificate (docs/contraction.md, docs/leak.md)";
+constexpr std::string_view kRiccati = "sound bounds for a window (docs/riccati-bounds.md)";
+
+/// The first that fits counts, so that the longer of two stands first.
+constexpr std::array kFamilies{
+    Family{"theorem-2.9/printed/", la_scala_1994, hypothesis, "thesis, theorem 2.9", kContraction},
+    Family{"theorem-2.9/errata/", la_scala_1994, hypothesis, "thesis, theorem 2.9 with the errata sheet",
+           kContraction},
+    Family{"theorem-2.9/lemma-3.1", la_scala_1994, sentence, "thesis, lemma 3.1"},
+    Family{"theorem-2.9/s/", la_scala_1994, sentence, "thesis, section 2.4.3, s", kRiccati},
+    Family{"theorem-2.9/", la_scala_1994, sentence, "thesis, section 3.5",
+           "theorem-2.9/repaired (docs/repaired-theorem.md)"},
+    Family{"riccati-bounds/", la_scala_1994, sentence, "thesis, section 2.4.3, p and q", kRiccati},
+    Family{"total-stability/corollary/", la_scala_1994, hypothesis, "thesis, corollary 2.6.1", kContraction},
+    Family{"total-stability/", la_scala_1994, hypothesis, "thesis, theorem 2.6", kContraction},
+    Family{"theorem-2.7/printed/", la_scala_1994, hypothesis, "thesis, theorem 2.7", "theorem-2.7/corrected"},
+    Family{"theorem-3.1/to-the-letter/", la_scala_1994, sentence, "thesis, section 3.2.1", "theorem-3.1"},
+    Family{"theorem-3.1/printed-gram", la_scala_1994, sentence, "thesis, section 3.2.1, J'J"},
+    Family{"theorem-3.1/", la_scala_1994, sentence, "thesis, theorem 3.1"},
+    Family{"theorem-3.2/any-start/", la_scala_1994, sentence, "thesis, theorem 3.2", "theorem-3.2"},
+    Family{"theorem-3.2/", la_scala_1994, sentence, "thesis, theorem 3.2, at |z| = 1"},
+    Family{"lemma-3.1/", la_scala_1994, sentence, "thesis, lemma 3.1"},
+    Family{"table-3.1/printed/", la_scala_1994, sentence, "thesis, Table 3.1", "table-3.1/errata"},
+    Family{"table-3.1/errata/", la_scala_1994, sentence, "thesis, errata sheet to Table 3.1"},
+    Family{"chapter-3/frequency-variance", la_scala_1994, sentence, "thesis, (3.11) and (3.12)"},
+    Family{"chapter-4/transform/", la_scala_1994, sentence, "thesis, (4.5)"},
+    Family{"chapter-4/narrow-band/4.9", la_scala_1994, sentence, "thesis, (4.9)"},
+    Family{"chapter-4/narrow-band/", la_scala_1994, sentence, "thesis, (4.6)"},
+    Family{"chapter-4/jacobian", la_scala_1994, sentence, "thesis, (4.19) to (4.24)"},
+    Family{"chapter-4/initial-estimate/", la_scala_1994, sentence, "thesis, section 4.5.2"},
+    Family{"chapter-4/", la_scala_1994, sentence, "thesis, section 4.3"},
+    Family{"chapter-5/example", la_scala_1994, sentence, "thesis, section 5.4, the examples"},
+    Family{"chapter-5/", la_scala_1994, sentence, "thesis, section 5.4, EFRA"},
+    Family{"baras-bensoussan-james/units", cited, sentence, "thesis, theorem 2.2",
+           "a condition without units (docs/published-results.md, section 4)"},
+    Family{"baras-bensoussan-james/", cited, hypothesis, "Baras, Bensoussan, James 1988; thesis, theorem 2.2",
+           kContraction},
+    Family{"song-grizzle/", cited, hypothesis, "Song, Grizzle 1993; thesis, theorem 2.5",
+           "song-grizzle/local"},
+    Family{"reif-1999/", cited, hypothesis, "Reif, Guenther, Yaz, Unbehauen 1999", "reif-1999/two-step"},
+    Family{"proposition-1/denominator", bittanti_savaresi_2000, sentence, "paper, (4) and (6)",
+           "proposition-1/denominator-corrected"},
+    Family{"proposition-1/numerator", bittanti_savaresi_2000, sentence, "paper, (4)"},
+    Family{"proposition-1/response", bittanti_savaresi_2000, sentence, "paper, (6)",
+           "proposition-1/response-corrected"},
+    Family{"proposition-1/", bittanti_savaresi_2000, sentence, "paper, proposition 1"},
+    Family{"proposition-2/", bittanti_savaresi_2000, sentence, "paper, proposition 2",
+           "proposition-2/scaled-start"},
+    Family{"kkl-paper/invariance", praly_marconi_isidori, sentence, "paper, (3) and (6)"},
+    Family{"kkl-paper/determinant", praly_marconi_isidori, sentence, "paper, section IV, det(L'L)"},
+    Family{"kkl-paper/null-space", praly_marconi_isidori, sentence, "paper, section IV, M"},
+    Family{"kkl-paper/injectivity", praly_marconi_isidori, sentence, "paper, section IV"},
+    Family{"kkl-paper/mu-vanishes", praly_marconi_isidori, sentence, "paper, (9) and (10)", "kkl-ell"},
+    Family{"kkl-paper/left-inverse", praly_marconi_isidori, sentence, "paper, (15)", "kkl-ell"},
+    Family{"kkl-paper/section-v-ell", praly_marconi_isidori, sentence, "paper, section V", "kkl-ell"},
+    Family{"kkl-paper/", praly_marconi_isidori, sentence, "paper, section IV"}};
+
+/// Theorems of ours, under ids that begin as those of the publication's do.
+constexpr std::array<std::string_view, 4> kOurRepairs{"theorem-2.9/repaired/", "song-grizzle/local/",
+                                                      "theorem-2.7/corrected/", "reif-1999/two-step/"};
+
+const Family* family_of(std::string_view claim) {
+  const auto begins = [&](std::string_view begin) { return claim.starts_with(begin); };
+  // "<derivation>/conditions" is all conditions together.
+  if (claim.ends_with("/conditions") || std::any_of(kOurRepairs.begin(), kOurRepairs.end(), begins)) {
+    return nullptr;
+  }
+  const auto* const found = std::find_if(kFamilies.begin(), kFamilies.end(),
+                                         [&](const Family& family) { return begins(family.begin); });
+  return found == kFamilies.end() ? nullptr : found;
+}
+
+/// ", as printed" or ", with the errata sheet" for one of two readings of a sentence.
+std::string_view reading(std::string_view claim) {
+  return claim.ends_with("/printed")  ? ", as printed"
+         : claim.ends_with("/errata") ? ", with the errata sheet"
+                                      : "";
+}
+
+/// Does the id name what a sentence should say?
+bool is_repair(std::string_view claim) {
+  return claim.ends_with("repaired") || claim.ends_with("corrected");
+}
+
+/// ", (2.43)" for a condition that is named by its equation number; empty for one with a name of ours.
+std::string equation(std::string_view claim) {
+  const std::string_view last = claim.substr(claim.rfind('/') + 1);
+  const bool is_number = std::all_of(last.begin(), last.end(), [](unsigned char letter) {
+    return std::isdigit(letter) != 0 || letter == '.';
+  });
+  return is_number ? ", (" + std::string(last) + ")" : "";
+}
+
+}  // namespace
+
+std::string_view to_string(Paper paper) {
+  switch (paper) {
+    case la_scala_1994:
+      return "B. F. La Scala, PhD thesis, 1994, with its errata sheet";
+    case bittanti_savaresi_2000:
+      return "S. Bittanti and S. M. Savaresi, 2000";
+    case praly_marconi_isidori:
+      return "L. Praly, L. Marconi and A. Isidori";
+    case cited:
+      return "Theorems by others, applied to the quadrature tracker";
+  }
+  return "";
+}
+
+bool is_published(std::string_view claim) {
+  return family_of(claim) != nullptr;
+}
+
+PaperPlace paper_place(std::string_view claim) {
+  const Family* family = family_of(claim);
+  if (family == nullptr) {
+    throw std::out_of_range(std::string(claim) + " is not a claim about a publication");
+  }
+  const PaperFinding* finding = find_paper_finding(claim);
+  std::string place = finding != nullptr ? std::string(finding->place) : std::string(family->place);
+  if (family->role == hypothesis) {
+    place += equation(claim);
+  }
+  place += reading(claim);
+  return {family->paper, is_repair(claim) ? repair : family->role, std::move(place), family->repair};
+}
+
+}  // namespace veritrack::theorems

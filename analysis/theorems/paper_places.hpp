@@ -1,0 +1,42 @@
+// Where in a publication a claim stands: for the ledger of published claims (veritrack reproduce ledger).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace veritrack::theorems {
+
+/// The publications, in the order of the ledger.
+enum class Paper {
+  la_scala_1994,           ///< the thesis, with its errata sheet
+  bittanti_savaresi_2000,  ///< the single-channel tracker
+  praly_marconi_isidori,   ///< the KKL observer
+  cited                    ///< a theorem by others that the papers, or we, apply to the tracker
+};
+
+/// "B. F. La Scala, ...", for a heading.
+[[nodiscard]] std::string_view to_string(Paper paper);
+
+/// What a claim is to the publication.
+enum class PaperRole {
+  sentence,    ///< the publication asserts it
+  hypothesis,  ///< the publication assumes it, and we ask whether its own tracker and design satisfy it
+  repair       ///< ours: what a sentence should say
+};
+
+/// The place of one claim.
+struct PaperPlace {
+  Paper paper = Paper::la_scala_1994;
+  PaperRole role = PaperRole::sentence;
+  std::string place;        ///< e.g. "thesis, theorem 2.9, (2.43)", with the reading where there are two
+  std::string_view repair;  ///< what is proved in place of a false one; empty when nothing is
+};
+
+/// Is this a claim about a publication? Theorems of ours are none, nor are claims about designs.
+[[nodiscard]] bool is_published(std::string_view claim);
+
+/// The place of a claim, by its id: of a statement, or "derivation/condition". Throws std::out_of_range when
+/// it is not about a publication.
+[[nodiscard]] PaperPlace paper_place(std::string_view claim);
+
+}  // namespace veritrack::theorems

@@ -1,0 +1,135 @@
+#include "analysis/theorems/regulator_claims.hpp"
+
+#include <array>
+#include <string>
+
+#include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/elementary.hpp"
+#include "analysis/theorems/comparison.hpp"
+
+namespace veritrack::theorems {
+
+namespace {
+
+using rigor::Interval;
+using rigor::parse_decimal;
+
+/// The printed settings of section 5.4.
+struct Efra {
+  Interval alpha = parse_decimal("0.5");
+  Interval beta = parse_decimal("0.005");
+  Interval lambda = parse_decimal("0.95");
+  Interval delta = parse_decimal("0.005");
+
+  [[nodiscard]] Interval gamma() const { return (Interval(1.0) - lambda) / lambda; }
+};
+
+/// gamma/(2 delta) (1 + sqrt(1 + 4 beta delta/gamma^2)).
+Interval upper_bound(const Efra& efra) {
+  const Interval gamma = efra.gamma();
+  return gamma / (Interval(2.0) * efra.delta) *
+         (Interval(1.0) + sqrt(Interval(1.0) + Interval(4.0) * efra.beta * efra.delta / square(gamma)));
+}
+
+/// (alpha - gamma)/(2 delta) (-1 + sqrt(1 + 4 beta delta/divisor^2)).
+Interval lower_bound(const Efra& efra, const Interval& divisor) {
+  return (efra.alpha - efra.gamma()) / (Interval(2.0) * efra.delta) *
+         (sqrt(Interval(1.0) + Interval(4.0) * efra.beta * efra.delta / square(divisor)) - Interval(1.0));
+}
+
+/// What becomes of a covariance of one parameter when phi is so large that the update takes alpha of it.
+Interval smallest_successor(const Efra& efra, const Interval& covariance) {
+  return covariance * (Interval(1.0) + efra.gamma() - efra.alpha) + efra.beta -
+         efra.delta * square(covariance);
+}
+
+/// Do they agree to the printed digits: half a unit of the last one?
+Statement printed_number(const std::string& id, const std::string& sentence, const Interval& value,
+                         const std::string& printed, const std::string& half_unit) {
+  return make_statement(
+      id, sentence, decide(abs(value - parse_decimal(printed)), parse_decimal(half_unit), Strictness::weak),
+      "The value is " + enclosed(value) + ".", {});
+}
+
+std::vector<Statement> efra_statements() {
+  const Efra efra;
+  const Interval gamma = efra.gamma();
+  const Interval constraint = square(gamma - efra.alpha) + Interval(4.0) * efra.beta * efra.delta;
+  const Interval printed_lower = lower_bound(efra, gamma);
+  const Interval successor = smallest_successor(efra, printed_lower);
+  const std::string settings = "With alpha = 0.5, beta = 0.005, lambda = 0.95, delta = 0.005 ";
+  return {
+      make_statement("chapter-5/efra-constraints",
+                     settings + "(gamma - alpha)^2 + 4 beta delta < (1 - alpha)^2.",
+                     decide(constraint, square(Interval(1.0) - efra.alpha), Strictness::strict),
+                     "The left side is " + enclosed(constraint) + ", the right side 0.25.", {}),
+      printed_number("chapter-5/efra-upper-bound", settings + "the formula for the upper bound gives 10.1.",
+                     upper_bound(efra), "10.1", "0.05"),
+      printed_number("chapter-5/efra-upper-approximation",
+                     settings + "the upper bound is gamma/delta + beta/gamma, to within 0.01.",
+                     upper_bound(efra) - (gamma / efra.delta + efra.beta / gamma), "0", "0.01"),
+      printed_number(
+          "chapter-5/efra-lower-bound/printed",
+          settings + "the printed formula for the lower bound, with gamma^2 under the root, gives 0.011.",
+          printed_lower, "0.011", "0.0005"),
+      printed_number(
+          "chapter-5/efra-lower-bound/corrected",
+          settings + "the formula for the lower bound with (alpha - gamma)^2 under the root gives 0.011.",
+          lower_bound(efra, efra.alpha - gamma), "0.011", "0.0005"),
+      printed_number("chapter-5/efra-lower-approximation",
+                     settings + "the lower bound is beta/(alpha - gamma), to three digits.",
+                     efra.beta / (efra.alpha - gamma), "0.0112", "0.00005"),
+      make_statement("chapter-5/efra-lower-bound-holds",
+                     settings + "P(k) >= mu I implies P(k+1) >= mu I, with mu by the printed formula.",
+                     decide(printed_lower, successor, Strictness::weak),
+                     "One parameter, P = mu = " + enclosed(printed_lower) +
+                         ", phi beyond every bound: P(k+1) tends to " + enclosed(successor) + ".",
+                     {})};
+}
+
+/// The coefficients of A = A1 A2 and B = A2 B1 of the examples, A1 = 1 - 0.5 q^-1, B1 = 3.
+std::vector<Statement> plant_statements() {
+  const Interval two_cosines = Interval(2.0) * cos(rigor::pi() / Interval(6.0));
+  const Interval half(0.5);
+  const std::array<Interval, 2> a{-half - two_cosines, Interval(1.0) + half * two_cosines};
+  const std::array<const char*, 2> printed{"-2.23205", "1.86603"};
+  Interval off(0.0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    off = rigor::max(off, abs(a.at(i) - parse_decimal(printed.at(i))));
+  }
+  return {make_statement("chapter-5/example-denominator",
+                         "A = A1 A2 of the examples is (1, -2.23205, 1.86603, -0.5), to the printed digits.",
+                         decide(off, parse_decimal("0.000005"), Strictness::weak),
+                         "The coefficients differ by " + enclosed(off) + " at most.", {}),
+          printed_number("chapter-5/example-poles", "The poles of the disturbance are 0.8660 +- 0.5 j.",
+                         half * two_cosines, "0.8660", "0.00005"),
+          printed_number("chapter-5/example-frequency", "pi/6 rad/sample is 0.0833 cycles a sample.",
+                         Interval(1.0) / Interval(12.0), "0.0833", "0.00005")};
+}
+
+/// (3.12) is the variance that (3.11) leaves as it is: a linear equation in it, with one solution.
+Statement variance_statement() {
+  const Interval epsilon = parse_decimal("0.05");
+  const Interval q2 = parse_decimal("0.0005");
+  const Interval kept = square(Interval(1.0) - epsilon);
+  const Interval variance = q2 / (Interval(1.0) - kept);
+  const Interval off = abs(kept * variance + q2 - variance);
+  return make_statement("chapter-3/frequency-variance",
+                        "(3.12) is the stationary variance of (3.11), to nine digits.",
+                        decide(off, Interval(1e-9) * variance, Strictness::weak),
+                        "At the leak 0.05 and q2 = 0.0005 one step changes the variance " +
+                            enclosed(variance) + " by " + enclosed(off) + " at most.",
+                        {});
+}
+
+}  // namespace
+
+std::vector<Statement> regulator_claims() {
+  std::vector<Statement> statements{variance_statement()};
+  for (auto part : {plant_statements(), efra_statements()}) {
+    statements.insert(statements.end(), part.begin(), part.end());
+  }
+  return statements;
+}
+
+}  // namespace veritrack::theorems

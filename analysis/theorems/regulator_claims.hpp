@@ -1,0 +1,15 @@
+// What sections 3.5 and chapter 5 of the thesis assert with numbers that no design of ours changes: the
+// variance (3.12), the plant of the examples, and the bounds on P of the least squares with exponential
+// forgetting and resetting (EFRA), as statements with verdicts.
+#pragma once
+
+#include <vector>
+
+#include "analysis/theorems/statement.hpp"
+
+namespace veritrack::theorems {
+
+/// With ids "chapter-3/..." and "chapter-5/...". Needs the upward mode.
+[[nodiscard]] std::vector<Statement> regulator_claims();
+
+}  // namespace veritrack::theorems

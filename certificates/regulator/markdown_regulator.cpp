@@ -1,0 +1,92 @@
+#include "certificates/regulator/markdown_regulator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "certificates/document/markdown_derivation.hpp"
+#include "certificates/document/markdown_text.hpp"
+#include "certificates/document/tracker_kind.hpp"
+#include "certificates/regulator/regulator.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using markdown::escaped;
+
+std::string plant_section(const Certificate& certificate) {
+  const Design& design = certificate.design;
+  const RegulatorTables& tables = regulator_tables(design);
+  std::string text = "## The plant and the regulator\n\n";
+  text += fmt::format("{} — tracker `{}`", escaped(design.name), design.tracker);
+  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
+  text += fmt::format(
+      "The plant is $`A_1 x_{{k+1}} = B_1 u_k`$, the output $`y_k = x_k + v_k`$ with the disturbance $`v`$, a tone. In "
+      "the delay $`q^{{-1}}`$,\n\n```\nA1 = {}\nB1 = {}\n```\n\nThe regulator knows the plant. It hands $`v_k`$, the "
+      "output less the plant's own answer, to a frequency tracker (`{}`), and sets $`B_1 u_k = -(2 \\cos\\hat\\omega_k\\, "
+      "A_1 v_k - A_1 v_{{k-1}})`$. Then $`A_1 y_{{k+1}} = 2 (\\cos\\omega - \\cos\\hat\\omega_k) A_1 v_k`$, so that a bound "
+      "on the frequency error is one on the output (`docs/regulator.md` of the program's sources).\n\n",
+      delay_polynomial("1", tables.plant.a), delay_polynomial(tables.plant.b.front().text, tables.plant.b, 1),
+      tables.design.frequency_tracker.tracker);
+  return text;
+}
+
+std::string output_section(const Certificate& certificate) {
+  const theorems::Derivation& found = certificate.derivations.back();
+  return "## The output: conditions " + markdown::satisfied(found.verdict) + "\n\n" +
+         markdown::conditions_table(found) + "\n" + markdown::quantities_table(found) + "\n";
+}
+
+/// Headings one level below.
+std::string lowered(const std::string& text) {
+  std::string result;
+  bool at_start = true;
+  for (const char letter : text) {
+    result += at_start && letter == '#' ? "#" : "";
+    result += letter;
+    at_start = letter == '\n';
+  }
+  return result;
+}
+
+std::string tracker_section(const Certificate& certificate) {
+  const Certificate& tracker = regulator_particulars(certificate).tracker;
+  return "## The frequency tracker\n\nWhat follows is about the tracker alone.\n\n" +
+         lowered(kind_of(tracker.design).sections(tracker, {}));
+}
+
+std::string loop_coverage() {
+  return "## What this certificate covers, and what it does not\n\n- Covered: every tone and every start of the "
+         "tracker that the tracker's certificate covers, with the frequency in the assumed band at every sample; noise "
+         "in the measured output up to the assumed bound, which the tracker sees and the control law, too. The output "
+         "is the true one, without the noise in its measurement.\n- The tracker is covered as its own certificate "
+         "says. The regulator's own sums are those of exact arithmetic.\n- Not covered: a plant that differs from the "
+         "one given, an input that saturates, a disturbance that is not a tone.\n- Every enclosure was computed with "
+         "outward-rounded interval arithmetic. The simulation proves nothing.\n\n";
+}
+
+}  // namespace
+
+std::string regulator_summary(const Certificate& certificate) {
+  const auto claim = std::find_if(certificate.claims.begin(), certificate.claims.end(),
+                                  [](const Claim& one) { return one.id == "regulator/guarantee"; });
+  if (claim == certificate.claims.end()) {
+    return "";
+  }
+  const bool is_proved = claim->verdict == rigor::Verdict::proved;
+  return fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
+                     is_proved ? "Why" : "Why not", claim->reason);
+}
+
+std::string regulator_sections(const Certificate& certificate, const MarkdownOptions& options) {
+  std::string figures;
+  for (const FigureReference& figure : options.figures) {
+    figures += picture(figure);
+  }
+  return plant_section(certificate) + output_section(certificate) +
+         (figures.empty() ? "" : "## In simulation\n\n" + figures) + tracker_section(certificate) +
+         loop_coverage();
+}
+
+}  // namespace veritrack::certificates

@@ -1,0 +1,148 @@
+// The extended Kalman filters of one tone.
+#include <string>
+
+#include "python/trackers/recordings.hpp"
+#include "trackers/quadrature/quadrature_ekf.hpp"
+#include "trackers/single_channel/single_channel_ekf.hpp"
+
+namespace veritrack::python {
+
+namespace {
+
+using Covariance = trackers::FactoredCovariance<double>;
+using Estimate = trackers::ToneEstimate<double>;
+
+/// A symmetric matrix from its nine entries, row by row.
+Covariance covariance_from(const double* entries) {
+  return Covariance::from_matrix(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(entries));
+}
+
+Estimate start_from(const double* state, const double* covariance) {
+  return {state[0], state[1], state[2], covariance_from(covariance)};
+}
+
+std::array<double, 3> values_of(const Estimate& estimate) {
+  return {estimate.in_phase, estimate.quadrature, estimate.frequency};
+}
+
+struct QuadratureTracker {
+  static constexpr std::size_t kChannels = 2;
+  static constexpr std::size_t kValues = 3;
+
+  trackers::QuadratureEkf<double> ekf;
+
+  [[nodiscard]] const Estimate& estimate() const { return ekf.filtered(); }
+
+  Said<2, 3> step(const double* sample) {
+    if (std::isnan(sample[0]) || std::isnan(sample[1])) {
+      ekf.time_update();
+      ekf = trackers::QuadratureEkf<double>(ekf.design(), ekf.predicted());
+      return {values_of(ekf.filtered()),
+              std::sqrt(ekf.filtered().covariance.frequency_variance),
+              {kNone, kNone},
+              kNone};
+    }
+    ekf.step(sample[0], sample[1]);
+    const Estimate& predicted = ekf.predicted();
+    const Covariance& p = predicted.covariance;
+    const double r = ekf.design().r;
+    const double s11 = p.conditional_11 + p.frequency_variance * p.regression_1 * p.regression_1 + r;
+    const double s12 = p.conditional_12 + p.frequency_variance * p.regression_1 * p.regression_2;
+    const double s22 = p.conditional_22 + p.frequency_variance * p.regression_2 * p.regression_2 + r;
+    const double v1 = sample[0] - predicted.in_phase;
+    const double v2 = sample[1] - predicted.quadrature;
+    return {values_of(ekf.filtered()),
+            std::sqrt(ekf.filtered().covariance.frequency_variance),
+            {v1, v2},
+            (s22 * v1 * v1 - 2.0 * s12 * v1 * v2 + s11 * v2 * v2) / (s11 * s22 - s12 * s12)};
+  }
+};
+
+struct SingleChannelTracker {
+  static constexpr std::size_t kChannels = 1;
+  static constexpr std::size_t kValues = 3;
+
+  trackers::SingleChannelEkf<double> ekf;
+
+  [[nodiscard]] const Estimate& estimate() const { return ekf.filtered(); }
+
+  Said<1, 3> step(const double* sample) {
+    if (std::isnan(*sample)) {
+      ekf.time_update();
+      ekf = trackers::SingleChannelEkf<double>(ekf.design(), ekf.predicted());
+      return {
+          values_of(ekf.filtered()), std::sqrt(ekf.filtered().covariance.frequency_variance), {kNone}, kNone};
+    }
+    ekf.step(*sample);
+    const Estimate& predicted = ekf.predicted();
+    const Covariance& p = predicted.covariance;
+    const double variance =
+        p.conditional_11 + p.frequency_variance * p.regression_1 * p.regression_1 + ekf.design().r;
+    const double innovation = *sample - predicted.in_phase;
+    return {values_of(ekf.filtered()),
+            std::sqrt(ekf.filtered().covariance.frequency_variance),
+            {innovation},
+            innovation * innovation / variance};
+  }
+};
+
+/// `design`: (size, 4), q1, q2, r, epsilon; `state`: (size, 3); `covariance`: (size, 9), P(0|0).
+std::vector<QuadratureTracker> quadrature_trackers(const Array& design, const Array& state,
+                                                   const Array& covariance) {
+  require_shape(design, 4);
+  require_shape(state, 3);
+  require_shape(covariance, 9);
+  std::vector<QuadratureTracker> trackers;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(design.shape(0)); ++i) {
+    const double* chosen = row_of(design, i);
+    const trackers::ToneModel<double> model{chosen[0], chosen[1], chosen[2], chosen[3]};
+    trackers.push_back(
+        {trackers::QuadratureEkf<double>(model, start_from(row_of(state, i), row_of(covariance, i)))});
+  }
+  return trackers;
+}
+
+/// `process_noise`: (size, 9); `design`: (size, 2), r, epsilon; the rest as above.
+std::vector<SingleChannelTracker> single_channel_trackers(const Array& process_noise, const Array& design,
+                                                          const Array& state, const Array& covariance) {
+  require_shape(process_noise, 9);
+  require_shape(design, 2);
+  require_shape(state, 3);
+  require_shape(covariance, 9);
+  std::vector<SingleChannelTracker> trackers;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(design.shape(0)); ++i) {
+    const trackers::SingleChannelEkfDesign<double> model{covariance_from(row_of(process_noise, i)),
+                                                         row_of(design, i)[0], row_of(design, i)[1]};
+    trackers.push_back(
+        {trackers::SingleChannelEkf<double>(model, start_from(row_of(state, i), row_of(covariance, i)))});
+  }
+  return trackers;
+}
+
+/// The filtered states (size, 3) and covariances (size, 3, 3).
+template <typename Tracker>
+py::tuple estimates(const Batch<Tracker>& batch) {
+  const TrackerArithmetic arithmetic;
+  Array state({batch.size(), std::size_t{3}});
+  Array covariance({batch.size(), std::size_t{3}, std::size_t{3}});
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const Estimate& estimate = batch.trackers()[i].estimate();
+    const auto values = values_of(estimate);
+    std::copy(values.begin(), values.end(), state.mutable_data(static_cast<py::ssize_t>(i), 0));
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(
+        covariance.mutable_data(static_cast<py::ssize_t>(i), 0, 0)) = estimate.covariance.matrix();
+  }
+  return py::make_tuple(state, covariance);
+}
+
+}  // namespace
+
+void bind_extended_kalman_filters(py::module_& module) {
+  bind_batch(module, "QuadratureBatch", quadrature_trackers).def("estimates", &estimates<QuadratureTracker>);
+  bind_batch(module, "SingleChannelBatch", single_channel_trackers)
+      .def("estimates", &estimates<SingleChannelTracker>);
+  py::register_exception<trackers::ZeroInnovationVariance>(module, "ZeroInnovationVariance",
+                                                           PyExc_ArithmeticError);
+}
+
+}  // namespace veritrack::python

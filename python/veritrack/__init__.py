@@ -1,0 +1,28 @@
+"""Veritrack: machine-checked certificates for frequency trackers.
+
+    design = veritrack.Design.from_file("my-design.toml")
+    certificate = veritrack.certify(design)
+    certificate.verdict, certificate.bounds["frequency_error_bound"]
+    certificate.verify()                                     # by an independent program
+    veritrack.trackers.QuadratureEkf.from_design(design, frequency=0.5).run(samples)
+
+docs/python.md goes through it. veritrack.sweep certifies many designs.
+"""
+
+from . import trackers
+from ._engine import identity, version
+from .certificate import Certificate, Claim, Figure, certify
+from .checking import Checked, check
+from .design import Design
+from .errors import (ArithmeticNotTrusted, EngineError, InputError, MalformedCertificate, TimeLimit,
+                     VeritrackError)
+from .interval import Bound, Interval
+from .trackers import KklObserver, QuadratureEkf, QuadratureNotch, RealNotch, SingleChannelEkf
+from .verification import Verification, verify
+
+__all__ = [
+    "ArithmeticNotTrusted", "Bound", "Certificate", "Checked", "Claim", "Design", "EngineError", "Figure",
+    "InputError", "Interval", "KklObserver", "MalformedCertificate", "QuadratureEkf", "QuadratureNotch",
+    "RealNotch", "SingleChannelEkf", "TimeLimit", "Verification", "VeritrackError", "certify", "check",
+    "identity", "trackers", "verify", "version",
+]

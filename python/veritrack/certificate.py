@@ -1,0 +1,314 @@
+"""Certificates."""
+
+from __future__ import annotations
+
+import collections
+import contextlib
+import csv
+import dataclasses
+import html
+import io
+import json
+import os
+import pathlib
+import tempfile
+from typing import Any, Mapping
+
+import numpy as np
+
+from . import _engine
+from .design import Design, as_design
+from .interval import Bound
+from .verification import Verification, verify
+
+
+_OF_TRACKERS = ("ekf", "kkl", "model")
+"""How the ids of claims begin that are about a tracker, and not about a publication."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Claim:
+    """A statement about a design, decided.
+
+    Attributes
+    ----------
+    id : str
+        Such as "ekf/guarantee"; `veritrack explain ID` says how it is proved.
+    verdict : str
+        "proved", "refuted" or "undecided".
+    statement : str
+        One sentence with all its hypotheses, with units.
+    required : bool
+        Whether [require] asks for it.
+    requirement : str
+        What is asked for, in short.
+    reason : str
+        The ground for the verdict.
+    position : tuple of int
+        Line and column of the requirement in the design; 0 where there is none.
+    quantities : mapping
+        The numbers of its evidence, by name. Only those of a claim that is "proved" are bounds.
+    """
+
+    id: str
+    verdict: str
+    statement: str
+    required: bool
+    requirement: str
+    reason: str
+    position: tuple[int, int]
+    quantities: Mapping[str, Bound]
+
+
+@dataclasses.dataclass(frozen=True)
+class Figure:
+    """A figure of a certificate: SVG, with the numbers in it.
+
+    Attributes
+    ----------
+    file : str
+        Such as "tube.svg".
+    title, caption : str
+        What it shows, and what is seen, with units.
+    svg : str
+    tables : mapping
+        From names to the CSV of its numbers.
+    """
+
+    file: str
+    title: str
+    caption: str
+    svg: str
+    tables: Mapping[str, str]
+
+    def data(self, table: str | None = None) -> dict[str, np.ndarray]:
+        """The columns of a table by their headings, which have the units; NaN where a value is missing.
+
+        Parameters
+        ----------
+        table : str, optional
+            The first one when it is left out. A column with words is an array of strings.
+        """
+        text = self.tables[table] if table is not None else next(iter(self.tables.values()))
+        heading, *rows = csv.reader(io.StringIO(text, newline=""))
+        return {name: _column([row[i] for row in rows]) for i, name in enumerate(heading)}
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+
+def _column(cells: list[str]) -> np.ndarray:
+    try:
+        return np.array([float(cell) if cell else np.nan for cell in cells])
+    except ValueError:
+        return np.array(cells)
+
+
+def claims_of(answer: Mapping[str, Any]) -> tuple[Claim, ...]:
+    """The claims of an engine's answer."""
+    return tuple(
+        Claim(each["id"], each["verdict"], each["statement"], each["required"], each["requirement"],
+              each["reason"], (each["line"], each["column"]),
+              {name: Bound(float.fromhex(found["lo"]), float.fromhex(found["hi"]), name, found["sense"],
+                           found["words"], found["symbol"], each["id"])
+               for name, found in each["quantities"].items()})
+        for each in answer["claims"])
+
+
+def bounds_of(claims: tuple[Claim, ...]) -> dict[str, Bound]:
+    """The bounds of what is proved of the tracker, under the hypotheses of the claim that each names.
+
+    A name alone stands for what is required, guaranteed, or tolerated under the assumptions of the design. What
+    another claim says, perhaps under other assumptions, has that claim in front: "ekf/lowest-snr/lowest_snr".
+    Where several claims have one id (one for each part of a band), their numbers are in their `quantities` only,
+    as are those of claims about publications.
+    """
+    times = collections.Counter(claim.id for claim in claims)
+    bounds: dict[str, Bound] = {}
+    for claim in sorted(claims, key=lambda claim: not claim.required):
+        column, _, kind = claim.id.partition("/")
+        if claim.verdict != "proved" or times[claim.id] > 1 or column not in _OF_TRACKERS:
+            continue
+        by_name = claim.required or kind in ("guarantee", "invariant-set", "limits")
+        for name, bound in claim.quantities.items():
+            if bound.sense != "sampled":
+                bounds.setdefault(name if by_name else f"{claim.id}/{name}", bound)
+    return bounds
+
+
+class Certificate:
+    """What is proved, refuted and undecided of a design.
+
+    Attributes
+    ----------
+    design : Design
+    verdict : str
+        Of everything required: "proved", "refuted", "undecided", or "nothing-required".
+    headline : str
+        What was required, and the verdict on it.
+    claims : tuple of Claim
+    bounds : dict of str to Bound
+        What is proved of the tracker, by name.
+    files : mapping
+        The documents by their names: certificate.json, report.json, certificate.md, and published-theorems.md
+        where there is one.
+    missing_figures : str
+        Why there are no figures; empty when nothing is missing.
+    """
+
+    def __init__(self, design: Design, answer: Mapping[str, Any]) -> None:
+        self.design = design
+        self.verdict: str = answer["verdict"]
+        self.headline: str = answer["headline"]
+        self.claims = claims_of(answer)
+        self.bounds = bounds_of(self.claims)
+        self.files: Mapping[str, str] = answer["files"]
+        self.sha256: str = answer["certificate_sha256"]
+        self.missing_figures: str = answer["missing_figures"]
+        self._figures = tuple(
+            Figure(each["file"], each["title"], each["caption"], each["svg"],
+                   {table["name"]: table["csv"] for table in each["tables"]})
+            for each in answer["figures"])
+
+    @property
+    def required(self) -> tuple[Claim, ...]:
+        """The claims that [require] asks for."""
+        return tuple(claim for claim in self.claims if claim.required)
+
+    @property
+    def json(self) -> dict[str, Any]:
+        """certificate.json: what is proved or refuted, with the evidence. Numbers are hexadecimal floats."""
+        return json.loads(self.files["certificate.json"])
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """report.json: all that is told of the design."""
+        return json.loads(self.files["report.json"])
+
+    @property
+    def sets(self) -> list[dict[str, Any]]:
+        """The certified sets of the extended Kalman filters.
+
+        Returns
+        -------
+        list of dict
+            Each with `purpose`, `metric` T and `radius` (the set is |T e| <= radius; e in units of the
+            amplitude, rad and rad/sample), `rate`, and what else certificate.json has of it
+            (docs/certificate-format.md), as doubles and arrays of doubles, which are exact.
+        """
+        return [_numbers(each) for each in self.json.get("certified_sets", [])]
+
+    def figures(self) -> tuple[Figure, ...]:
+        """The figures, as SVG with their numbers; none without gnuplot."""
+        return self._figures
+
+    def save(self, folder: str | os.PathLike[str]) -> pathlib.Path:
+        """Writes the documents and the figures into a folder, which is made; each file appears whole.
+
+        Returns
+        -------
+        pathlib.Path
+            certificate.md in it.
+        """
+        target = pathlib.Path(folder)
+        for name, text in self.files.items():
+            write_file(target / name, text)
+        for figure in self._figures:
+            write_file(target / "figures" / figure.file, figure.svg)
+        return target / "certificate.md"
+
+    def verify(self, *, full: bool = False) -> Verification:
+        """Has the checker prove the certificate again, and compare it with the design and its documents."""
+        with tempfile.TemporaryDirectory() as folder:
+            self.save(folder)
+            design = pathlib.Path(folder, "design.toml")
+            write_file(design, self.design.text)
+            documents = [pathlib.Path(folder, name) for name in self.files if name.endswith(".md")]
+            return verify(pathlib.Path(folder, "certificate.json"), design=design, documents=documents,
+                          full=full)
+
+    def __repr__(self) -> str:
+        return f"<Certificate of {self.design.name!r}: {self.headline}>"
+
+    def _repr_html_(self) -> str:
+        def row(claim: Claim) -> str:
+            return (f"<tr><td><b>{claim.verdict.upper()}</b></td><td style='text-align:left'>"
+                    f"{html.escape(claim.requirement or claim.statement)}</td>"
+                    f"<td style='text-align:left'>{html.escape(claim.reason)}</td></tr>")
+
+        def bound_row(name: str, bound: Bound) -> str:
+            return (f"<tr><td style='text-align:left'>{html.escape(bound.words or name.replace('_', ' '))}</td>"
+                    f"<td style='text-align:left'>{html.escape(str(bound))}</td></tr>")
+
+        shown = self.required or tuple(claim for claim in self.claims if claim.id.partition('/')[0] in _OF_TRACKERS)
+        return (f"<p><b>{html.escape(self.headline)}</b></p><p>{html.escape(self.design.name)}</p>"
+                "<table><thead><tr><th>verdict</th><th>of what</th><th>why</th></tr></thead><tbody>"
+                + "".join(map(row, shown)) + "</tbody></table>"
+                "<table><thead><tr><th>bound</th><th></th></tr></thead><tbody>"
+                + "".join(bound_row(*each) for each in self.bounds.items()) + "</tbody></table>")
+
+
+def _numbers(value: Any) -> Any:
+    """Hexadecimal floats as doubles, lists of numbers as arrays."""
+    if isinstance(value, dict):
+        return {key: _numbers(each) for key, each in value.items()}
+    if isinstance(value, list):
+        numbers = [_numbers(each) for each in value]
+        flat = all(isinstance(each, (float, np.ndarray)) for each in numbers)
+        return np.array(numbers) if numbers and flat else numbers
+    if isinstance(value, str) and value.lstrip("-").startswith("0x"):
+        return float.fromhex(value)
+    return value
+
+
+def write_file(path: pathlib.Path, text: str) -> None:
+    """Beside the target first, so that the file appears whole or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=path.name)
+    try:
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(text.encode("utf-8", "surrogateescape"))
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(temporary, 0o666 & ~_umask())
+        os.replace(temporary, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(temporary)
+        raise
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def certify(design: Design | str | os.PathLike[str], *, extent: str = "everything", figures: bool = True,
+            timeout: float | None = None, threads: int = 0) -> Certificate:
+    """Evaluates everything that can be said of a design.
+
+    Ctrl-C ends the work at once.
+
+    Parameters
+    ----------
+    design : Design or path
+    extent : {"everything", "requirements"}
+        "requirements": what decides [require], and not what takes long and is only told beside it.
+    figures : bool
+        Whether figures are drawn (with gnuplot).
+    timeout : float, optional
+        Seconds after which the work is stopped.
+    threads : int
+        At most so many for the searches; 0: as many as there are cores. No result depends on it.
+
+    Raises
+    ------
+    InputError, ArithmeticNotTrusted, TimeLimit, EngineError
+    """
+    if extent not in ("everything", "requirements"):
+        raise ValueError(f"extent {extent!r}; allowed: 'everything' or 'requirements'")
+    design = as_design(design)
+    answer = _engine.ask({"do": "certify", "text": design.text, "file": design.file, "extent": extent,
+                          "figures": figures, "threads": threads}, timeout)
+    return Certificate(design, answer)

@@ -1,0 +1,86 @@
+"""The verdicts of many designs."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import dataclasses
+import os
+from typing import Iterable
+
+from . import _engine
+from .certificate import Claim, bounds_of, claims_of
+from .design import Design
+from .errors import VeritrackError
+from .interval import Bound
+
+
+@dataclasses.dataclass(frozen=True)
+class Checked:
+    """What came of a design.
+
+    Attributes
+    ----------
+    design : Design or path
+        As it was given.
+    verdict : str
+        Of everything required: "proved", "refuted", "undecided", or "nothing-required"; "error" where there is
+        an error.
+    claims : tuple of Claim
+    bounds : dict of str to Bound
+        What is proved of the tracker, as far as it decides [require].
+    certificate_sha256 : str
+        Of the certificate.json that has it.
+    error : Exception, optional
+        Why there are no verdicts: a file that is no design, a time limit, a process that failed.
+    """
+
+    design: Design | str | os.PathLike[str]
+    verdict: str
+    claims: tuple[Claim, ...] = ()
+    bounds: dict[str, Bound] = dataclasses.field(default_factory=dict)
+    certificate_sha256: str = ""
+    error: Exception | None = None
+
+
+def _check_one(design: Design | str | os.PathLike[str], timeout: float | None, threads: int,
+               crew: _engine.Crew) -> Checked:
+    try:
+        read = design if isinstance(design, Design) else Design.from_file(design)
+        answer = _engine.ask({"do": "check", "text": read.text, "file": read.file, "threads": threads}, timeout,
+                             crew)
+    except (VeritrackError, OSError) as error:
+        return Checked(design, "error", error=error)
+    claims = claims_of(answer)
+    return Checked(design, answer["verdict"], claims, bounds_of(claims), answer["certificate_sha256"])
+
+
+def check(designs: Iterable[Design | str | os.PathLike[str]], *, jobs: int | None = None,
+          timeout: float | None = None) -> list[Checked]:
+    """The verdicts of designs, in their order.
+
+    A design that cannot be used or whose process fails does not harm the others: its result has the error.
+    Ctrl-C ends all of the work at once.
+
+    Parameters
+    ----------
+    designs : iterable of Design or path
+    jobs : int, optional
+        Designs at a time, each in a process of its own; default: one for each core.
+    timeout : float, optional
+        Seconds after which a design is stopped.
+    """
+    cores = len(os.sched_getaffinity(0))
+    at_once = cores if jobs is None else jobs
+    if at_once < 1:
+        raise ValueError(f"jobs {jobs}; allowed: 1 or more")
+    threads = max(1, cores // at_once)
+    crew = _engine.Crew()
+    workers = concurrent.futures.ThreadPoolExecutor(at_once)
+    try:
+        return list(workers.map(lambda design: _check_one(design, timeout, threads, crew), designs))
+    except BaseException:
+        workers.shutdown(wait=False, cancel_futures=True)
+        crew.stop()
+        raise
+    finally:
+        workers.shutdown()

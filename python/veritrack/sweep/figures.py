@@ -1,0 +1,166 @@
+"""Figures of sweeps: to be read in grey, the same bytes from the same results."""
+
+from __future__ import annotations
+
+import dataclasses
+import io
+from typing import Sequence
+
+import matplotlib
+import matplotlib.figure
+import matplotlib.ticker
+import numpy as np
+
+from .spec import Axis
+
+_STYLE = {
+    "svg.hashsalt": "veritrack", "svg.fonttype": "path", "font.size": 10, "axes.spines.top": False,
+    "axes.spines.right": False, "axes.edgecolor": "0.4", "font.family": "DejaVu Sans",
+}
+
+_LEAST_COLOUR, _MOST_COLOUR, _COLOURS = 0.25, 0.95, 48
+"""Fewer than 50 colours, of which Matplotlib draws the scale as lines and not as a picture, which pages drop."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Values:
+    """What a figure shows of each point: where it is, and a bound, NaN where none is proved."""
+
+    x: np.ndarray
+    y: np.ndarray
+    bound: np.ndarray
+    words: str
+    is_at_most: bool
+
+
+def _svg(figure: matplotlib.figure.Figure) -> str:
+    out = io.StringIO()
+    figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+    return "".join(line.rstrip() + "\n" for line in out.getvalue().splitlines())
+
+
+def _decorate(axes, x: Axis, y: Axis) -> None:
+    axes.set_xlabel(x.label)
+    axes.set_ylabel(y.label)
+    for axis, scale in ((x, axes.set_xscale), (y, axes.set_yscale)):
+        if axis.is_logarithmic:
+            scale("log")
+
+
+def _edges(centres: np.ndarray, is_logarithmic: bool) -> np.ndarray:
+    """Of the cells around the values of an axis."""
+    values = np.log(centres) if is_logarithmic else centres
+    middles = (values[1:] + values[:-1]) / 2
+    edges = np.concatenate([[2 * values[0] - middles[0]], middles, [2 * values[-1] - middles[-1]]])
+    return np.exp(edges) if is_logarithmic else edges
+
+
+def region_figure(values: Values, x: Axis, y: Axis, level: float | None) -> str:
+    """The bound over the plane of two axes: cells in grey, hatched where nothing is proved; the contour of the
+    level that is asked for, drawn between the points on one and on the other side."""
+    with matplotlib.rc_context(_STYLE):
+        figure = matplotlib.figure.Figure(figsize=(7.2, 5.0), layout="constrained")
+        axes = figure.add_subplot()
+        proved = values.bound[np.isfinite(values.bound) & (values.bound > 0)]
+        norm = (matplotlib.colors.LogNorm(proved.min(), max(proved.max(), proved.min() * 1.001))
+                if proved.size else matplotlib.colors.Normalize(0, 1))
+        # Dark is better, whichever side that is.
+        shades = np.linspace(_LEAST_COLOUR, _MOST_COLOUR, _COLOURS)
+        colours = matplotlib.colors.ListedColormap(
+            [str(shade) for shade in (shades if values.is_at_most else shades[::-1])])
+        xs, ys = np.unique(values.x), np.unique(values.y)
+        if xs.size * ys.size == values.bound.size and xs.size > 1 and ys.size > 1:
+            drawn = _draw_cells(axes, values, x, y, xs, ys, norm, colours, level)
+        else:
+            drawn = axes.scatter(values.x, values.y, c=values.bound, norm=norm, cmap=colours, s=28,
+                                 edgecolors="0.2", linewidths=0.5)
+            missing = np.isnan(values.bound)
+            axes.scatter(values.x[missing], values.y[missing], marker="x", c="0.2", s=22, linewidths=0.9)
+        _decorate(axes, x, y)
+        if proved.size:
+            bar = figure.colorbar(drawn, ax=axes)
+            bar.set_label(_wrapped(values.words))
+            if level is not None and proved.min() < level < proved.max():
+                bar.ax.axhline(level, color="black", linewidth=1.6)
+        return _svg(figure)
+
+
+def _draw_cells(axes, values: Values, x: Axis, y: Axis, xs: np.ndarray, ys: np.ndarray, norm, colours,
+                level: float | None):
+    grid = np.full((ys.size, xs.size), np.nan)
+    grid[np.searchsorted(ys, values.y), np.searchsorted(xs, values.x)] = values.bound
+    x_edges, y_edges = _edges(xs, x.is_logarithmic), _edges(ys, y.is_logarithmic)
+    # Hatched below; cells with a bound cover it.
+    axes.fill_between([x_edges[0], x_edges[-1]], y_edges[0], y_edges[-1], facecolor="white", edgecolor="0.6",
+                      hatch="////", linewidth=0.0)
+    drawn = axes.pcolormesh(x_edges, y_edges, np.ma.masked_invalid(grid), norm=norm, cmap=colours, shading="flat",
+                            edgecolors="face", linewidth=0.1)
+    if level is not None:
+        # Where nothing is proved the bound is beyond every level.
+        is_met = grid <= level if values.is_at_most else grid >= level
+        if is_met.any() and not is_met.all():
+            _draw_border(axes, is_met, x_edges, y_edges)
+    axes.set_xlim(x_edges[0], x_edges[-1])
+    axes.set_ylim(y_edges[0], y_edges[-1])
+    return drawn
+
+
+def _draw_border(axes, is_met: np.ndarray, x_edges: np.ndarray, y_edges: np.ndarray) -> None:
+    """Along the sides of the cells: between points nothing is known, and no line suggests that it is."""
+    for row in range(is_met.shape[0]):
+        for column in range(is_met.shape[1]):
+            if column + 1 < is_met.shape[1] and is_met[row, column] != is_met[row, column + 1]:
+                axes.plot([x_edges[column + 1]] * 2, y_edges[row:row + 2], color="black", linewidth=2.2,
+                          solid_capstyle="projecting")
+            if row + 1 < is_met.shape[0] and is_met[row, column] != is_met[row + 1, column]:
+                axes.plot(x_edges[column:column + 2], [y_edges[row + 1]] * 2, color="black", linewidth=2.2,
+                          solid_capstyle="projecting")
+
+
+def line_figure(values: Values, x: Axis, level: float | None) -> str:
+    """The bound over one axis; crosses at the bottom where nothing is proved."""
+    with matplotlib.rc_context(_STYLE):
+        figure = matplotlib.figure.Figure(figsize=(7.2, 4.0), layout="constrained")
+        axes = figure.add_subplot()
+        order = np.argsort(values.x)
+        axes.plot(values.x[order], values.bound[order], marker="o", color="black", linewidth=1.2, markersize=4)
+        missing = values.x[np.isnan(values.bound)]
+        axes.plot(missing, np.zeros(missing.size), marker="x", linestyle="none", color="0.3", clip_on=False,
+                  transform=axes.get_xaxis_transform())
+        if level is not None:
+            axes.axhline(level, color="0.4", linestyle="--", linewidth=1.2)
+        axes.set_xlabel(x.label)
+        axes.set_ylabel(_wrapped(values.words))
+        if x.is_logarithmic:
+            axes.set_xscale("log")
+        if np.nanmin(values.bound, initial=np.inf) > 0 and np.isfinite(values.bound).any():
+            axes.set_yscale("log")
+        return _svg(figure)
+
+
+def pareto_figure(first: Sequence[float], second: Sequence[float], on_front: Sequence[bool],
+                  words: tuple[str, str]) -> str:
+    """Two bounds of each design; those that no other design beats in both are joined."""
+    with matplotlib.rc_context(_STYLE):
+        figure = matplotlib.figure.Figure(figsize=(7.2, 4.6), layout="constrained")
+        axes = figure.add_subplot()
+        x, y, front = np.array(first), np.array(second), np.array(on_front, bool)
+        axes.scatter(x[~front], y[~front], s=16, c="0.7", edgecolors="0.5", linewidths=0.4)
+        order = np.argsort(x[front], kind="stable")
+        axes.plot(x[front][order], y[front][order], marker="o", color="black", linewidth=1.2, markersize=5)
+        axes.set_xlabel(_wrapped(words[0], 70))
+        axes.set_ylabel(_wrapped(words[1], 42))
+        if (x > 0).all() and x.max() > 5 * x.min():
+            axes.set_xscale("log")
+        if (y > 0).all() and y.max() > 5 * y.min():
+            axes.set_yscale("log")
+        return _svg(figure)
+
+
+def _wrapped(words: str, width: int = 46) -> str:
+    lines = [""]
+    for word in words.split():
+        if len(lines[-1]) + len(word) > width:
+            lines.append("")
+        lines[-1] += (" " if lines[-1] else "") + word
+    return "\n".join(lines)

@@ -1,0 +1,163 @@
+#include "analysis/dft_block/block_lock.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <complex>
+#include <span>
+#include <vector>
+
+#include "analysis/dft_block/lock_claims.hpp"
+#include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "tests/support/random.hpp"
+
+namespace {
+
+using namespace veritrack;
+using dft_block::BlockProblem;
+using dft_block::kStates;
+using rigor::Interval;
+using test::Random;
+
+constexpr double kTurn = 6.283185307179586;
+
+/// Set 1 of the thesis at amplitude 1, a tone 0.3 bins off.
+BlockProblem<Interval> problem() {
+  const double scale = 2.0 * kTurn;
+  return {Interval(5e-5 * scale),
+          Interval(1e-3),
+          Interval(2.5e-3),
+          Interval(12.5 / 4096.0 * scale * scale),
+          Interval(0.3),
+          rigor::pi(),
+          2};
+}
+
+/// The bins of the tone by (4.9), with complex numbers.
+std::vector<trackers::DftBin<double>> bins_of(double root_amplitude, double phase, double offset) {
+  std::vector<trackers::DftBin<double>> bins;
+  for (int m = -2; m <= 2; ++m) {
+    const std::complex<double> value = root_amplitude * root_amplitude * std::polar(1.0, phase) *
+                                       (std::polar(1.0, kTurn * offset) - 1.0) /
+                                       (std::complex<double>(0.0, 1.0) * (offset - m));
+    bins.push_back({value.real(), value.imag()});
+  }
+  return bins;
+}
+
+/// The tracker itself, as it was written: errors of offset and of amplitude after so many blocks.
+struct Followed {
+  double least = INFINITY, most = -INFINITY;  ///< offset error, bins
+};
+Followed follow(const rigor::Vector<kStates>& start, double root_amplitude, double phase, int blocks) {
+  const double square = root_amplitude * root_amplitude;
+  const trackers::DftBlockDesign<double> design{5e-5 * 2.0 * kTurn * square,
+                                                1e-3,
+                                                2.5e-3,
+                                                12.5 / 4096.0 * 4.0 * kTurn * kTurn * square * square,
+                                                0.0,
+                                                0.0};
+  Eigen::Matrix3d covariance;
+  covariance << start(3) * square, start(4) * root_amplitude, start(5) * root_amplitude,
+      start(4) * root_amplitude, start(6), start(7), start(5) * root_amplitude, start(7), start(8);
+  trackers::DftBlockEkf<double> tracker(
+      design, {start(0) * root_amplitude, start(1) + phase, start(2) + 0.3, covariance});
+  Followed result;
+  for (int k = 0; k < blocks; ++k) {
+    phase += kTurn * 0.3;
+    const auto bins = bins_of(root_amplitude, phase, 0.3);
+    tracker.step(std::span<const trackers::DftBin<double>>(bins));
+    const double error = tracker.filtered().offset - 0.3;
+    result.least = std::min(result.least, error);
+    result.most = std::max(result.most, error);
+  }
+  return result;
+}
+
+rigor::Vector<kStates> near_false_lock() {
+  rigor::Vector<kStates> start;
+  start << 0.28, -2.77, -0.944, 0.005, 0.0, 0.0, 0.7, 0.0, 0.006;
+  return start;
+}
+
+}  // namespace
+
+TEST_CASE("a false lock and the exact one: the tracker, started anywhere in the set, stays in it") {
+  const rigor::UpwardRounding upward;
+  rigor::Vector<kStates> exact;
+  exact << 1.0, 0.0, 0.0, 0.001, 0.0, 0.0, 0.01, 0.0, 0.001;
+  for (const bool is_exact : {true, false}) {
+    CAPTURE(is_exact);
+    const auto lock = find_lock(problem(), is_exact ? exact : near_false_lock());
+    REQUIRE(lock);
+    CHECK(lock->contraction < 1.0);
+    CHECK(contains(lock->fixed_offset_error, 0.0) == is_exact);
+    CHECK(is_subset(lock->fixed_offset_error, lock->offset_error));
+    if (!is_exact) {
+      CHECK(lock->set.turns == -1);
+      CHECK(lock->offset_error.upper() < -0.9);
+      CHECK(lock->amplitude.upper() < 0.1);
+    }
+    const rigor::NearestRounding nearest;
+    Random random(4404);
+    const rigor::Matrix<kStates> back = lock->set.metric.inverse();
+    for (int run = 0; run < 20; ++run) {
+      rigor::Vector<kStates> direction;
+      for (int i = 0; i < kStates; ++i) {
+        direction(i) = random.uniform(-1.0, 1.0);
+      }
+      const rigor::Vector<kStates> start =
+          lock->set.centre + back * direction * (0.999 * lock->set.radius / direction.norm());
+      const Followed seen = follow(start, random.uniform(0.3, 2.0), random.uniform(-3.0, 3.0), 200);
+      CHECK(seen.least >= lock->offset_error.lower());
+      CHECK(seen.most <= lock->offset_error.upper());
+    }
+  }
+}
+
+TEST_CASE("what is no lock is not proved") {
+  const rigor::UpwardRounding upward;
+  const auto lock = find_lock(problem(), near_false_lock());
+  REQUIRE(lock);
+  const auto refused = [&](auto change) {
+    dft_block::LockProposal proposal = lock->set;
+    change(proposal);
+    return !verify_lock(problem(), proposal);
+  };
+  REQUIRE_FALSE(refused([](auto&) {}));
+  CHECK(refused([](auto& set) { set.radius *= 100.0; }));
+  CHECK(refused([](auto& set) { set.radius = 0.0; }));
+  CHECK(refused([](auto& set) { set.radius = NAN; }));
+  CHECK(refused([](auto& set) { set.radius = INFINITY; }));
+  CHECK(refused([](auto& set) { set.turns = 0; }));
+  CHECK(refused([](auto& set) { set.centre(2) += 0.01; }));
+  CHECK(refused([](auto& set) { set.centre(0) = NAN; }));
+  CHECK(refused([](auto& set) { set.metric.setZero(); }));
+  CHECK(refused([](auto& set) { set.metric.setIdentity(); }));
+  BlockProblem<Interval> wide = problem();
+  wide.offset = Interval::from_bounds(0.2, 0.4);
+  CHECK_FALSE(verify_lock(wide, lock->set));
+  BlockProblem<Interval> integer = problem();
+  integer.offset = Interval(1.0);
+  CHECK_FALSE(verify_lock(integer, lock->set));
+  // A set for all offsets of a narrow cell.
+  BlockProblem<Interval> cell = problem();
+  cell.offset = Interval::from_bounds(0.3 - 1e-9, 0.3 + 1e-9);
+  dft_block::LockProposal smaller = lock->set;
+  smaller.radius *= 0.5;
+  CHECK(verify_lock(cell, smaller));
+}
+
+TEST_CASE("each printed design has starts from which it never finds the tone") {
+  const rigor::UpwardRounding upward;
+  const auto claims = dft_block::lock_claims();
+  REQUIRE(claims.size() == 3);
+  for (const theorems::Statement& claim : claims) {
+    CAPTURE(claim.id);
+    CHECK(claim.verdict == rigor::Verdict::proved);
+    CHECK(claim.witness.find("-0.9") != std::string::npos);
+  }
+}

@@ -1,0 +1,326 @@
+"""Sweeps: specifications, and results that survive whatever is killed."""
+
+import contextlib
+import csv
+import itertools
+import json
+import math
+import os
+import pathlib
+import signal
+import sqlite3
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import veritrack
+from veritrack import _engine, sweep
+from veritrack.sweep import run as runs
+from veritrack.sweep import store as stores
+from veritrack.sweep.report import bound_of, pareto_front
+from conftest import TEXT
+
+SPEC = """\
+name = "a sweep"
+base = "base.toml"
+
+[[axis]]
+keys = ["design.q1", "design.q2"]
+log_range = [1e-4, 1]
+points = 9
+
+[[axis]]
+keys = ["design.r"]
+values = [0.1, 1, 10]
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "base.toml").write_text(TEXT)
+    return tmp_path
+
+
+@pytest.fixture
+def stand_in(tmp_path_factory, monkeypatch):
+    """Engines that answer at once."""
+    programs = tmp_path_factory.mktemp("programs")
+    (programs / "veritrack-engine").symlink_to(pathlib.Path(__file__).parent / "stand_in_engine.py")
+    (programs / "veritrack-verify").symlink_to(_engine.program("veritrack-verify"))
+    monkeypatch.setenv("VERITRACK_PROGRAMS", str(programs))
+    _engine._pool.kill_idle()
+    yield
+    _engine._pool.kill_idle()
+
+
+def read(folder, text=SPEC):
+    (folder / "sweep.toml").write_text(text)
+    return sweep.read_spec(folder / "sweep.toml")
+
+
+# ---- specifications
+
+def test_points_are_those_of_the_axes_the_last_one_first(folder, stand_in):
+    spec = read(folder)
+    assert spec.size == 27
+    points = list(spec.points(0, 27))
+    expected = itertools.product([f"{10 ** (k / 2 - 4):.6g}" for k in range(9)], ["0.1", "1", "10"])
+    for point, (q, r) in zip(points, expected, strict=True):
+        design = veritrack.Design.from_toml(point.text).values["design"]
+        assert (float(design["q1"]), design["q1"]) == (pytest.approx(float(q), rel=1e-5), design["q2"])
+        assert str(design["r"]) == r
+    assert list(spec.points(5, 9)) == points[5:9]
+
+
+@pytest.mark.parametrize("method", ["sobol", "random"])
+def test_samples_are_the_same_wherever_one_begins(folder, stand_in, method):
+    text = SPEC.replace("points = 9\n", "") + f'\n[samples]\ncount = 40\nmethod = "{method}"\nseed = 7\n'
+    spec = read(folder, text)
+    assert spec.size == 120
+    points = list(spec.points(0, 120))
+    assert [list(spec.points(k, k + 1))[0] for k in range(0, 120, 7)] == points[::7]
+    values = np.array([float(point.values[0]) for point in points[::3]])
+    assert len(set(values)) == 40 and (values >= 1e-4).all() and (values <= 1).all()
+    # As many in each quarter of the range, about: logarithmic.
+    assert np.histogram(np.log10(values), [-4, -3, -2, -1, 0])[0].min() >= 3
+
+
+@pytest.mark.parametrize("change, place, words", [
+    (("points = 9", "points = 1"), (7, 1), "a whole number from 2"),
+    (("log_range = [1e-4, 1]", "log_range = [0, 1]"), (6, 1), "two numbers above 0"),
+    (('keys = ["design.r"]', 'keys = ["r"]'), (10, 1), "a list of keys"),
+    (('keys = ["design.r"]', 'keys = ["design.q1"]'), (10, 1), "in two axes"),
+    (('name = "a sweep"', 'names = "a sweep"'), (1, 1), "unknown key names"),
+    (("values = [0.1, 1, 10]", "values = [0.1, 1, 10]\nrange = [1, 2]"), (9, 1), "needs one of"),
+    (("points = 9\n", ""), (0, 0), "[samples]"),
+    (("values = [0.1, 1, 10]", "values = [0.1, 1, 10"), (12, 1), ""),
+])
+def test_what_is_wrong_with_a_specification_has_its_place(folder, stand_in, change, place, words):
+    with pytest.raises(veritrack.InputError) as error:
+        read(folder, SPEC.replace(*change))
+    assert (error.value.line, error.value.column) == place or not words
+    assert words in str(error.value)
+
+
+def test_ten_million_points_are_never_in_memory(folder, stand_in):
+    text = SPEC.replace("points = 9", "points = 10000").replace(
+        "values = [0.1, 1, 10]", "range = [0.1, 10]\npoints = 1000")
+    spec = read(folder, text)
+    assert spec.size == 10**7
+    with contextlib.closing(sweep.Store(folder / "results.sqlite")) as store:
+        made = 0
+
+        def counted(first, last):
+            nonlocal made
+            made += last - first
+            return type(spec).points(spec, first, last)
+
+        object.__setattr__(spec, "points", counted)
+        taken = list(itertools.islice(runs._batches(spec, store, "program", False, lambda: 7, lambda points: None), 20))
+        assert [point[0] for batch in taken for point in batch.points] == list(range(140))
+        assert made <= 1000
+
+
+# ---- runs
+
+def results(folder):
+    """(point, key, verdict, bounds) of all rows, and that nothing is there twice."""
+    with contextlib.closing(sqlite3.connect(folder / "results.sqlite")) as file:
+        assert file.execute("PRAGMA integrity_check").fetchone() == ("ok",)
+        return file.execute("SELECT point, key, verdict, bounds FROM points JOIN results USING (key) "
+                            "ORDER BY point").fetchall()
+
+
+def run(folder, spec, progress=None, **options):
+    with contextlib.closing(sweep.Store(folder / "results.sqlite")) as store:
+        return sweep.run_sweep(spec, store, sweep.Options(jobs=1, **options), progress)
+
+
+def assert_is_complete(folder, spec):
+    rows = results(folder)
+    assert [row[0] for row in rows] == list(range(spec.size))
+    for point, (_, key, verdict, bounds) in zip(spec.points(0, spec.size), rows, strict=True):
+        q1, r = float(point.values[0]), float(point.values[1])
+        assert key == spec.key(point.text, _engine.identity())
+        assert verdict == ("proved" if q1 * r < 0.5 else "undecided")
+        assert float.fromhex(json.loads(bounds)["frequency_error_bound"][1]) == q1 * r
+
+
+def test_a_worker_that_is_killed_loses_nothing_and_a_second_run_does_nothing(folder, stand_in):
+    spec = read(folder)
+    killed = []
+
+    def kill_a_worker(done, size, rate):
+        if done >= 3 and not killed:
+            killed.append(_worker())
+            os.kill(killed[0], signal.SIGKILL)
+
+    assert run(folder, spec, kill_a_worker) >= 27
+    assert killed
+    assert_is_complete(folder, spec)
+    before = results(folder)
+    told = []
+    assert run(folder, spec, lambda *progress: told.append(progress[:2])) == 0
+    assert told == [(27, 27)] and results(folder) == before
+
+
+def _worker():
+    """The process of a Dask worker of this process."""
+    for child in pathlib.Path(f"/proc/{os.getpid()}/task").glob("*/children"):
+        for pid in child.read_text().split():
+            command = pathlib.Path(f"/proc/{pid}/cmdline").read_bytes()
+            if b"spawn_main" in command:
+                return int(pid)
+    raise AssertionError("no worker")
+
+
+def test_another_sweep_takes_what_is_known_and_another_program_takes_nothing(folder, stand_in, monkeypatch):
+    assert run(folder, read(folder)) == 27
+    finer = read(folder, SPEC.replace("values = [0.1, 1, 10]", "values = [0.1, 0.5, 1, 10]"))
+    assert run(folder, finer) == 9
+    monkeypatch.setenv("STAND_IN_VERSION", "2")
+    _engine._pool.kill_idle()
+    assert run(folder, finer) == 36
+
+
+def test_a_design_that_crashes_or_is_none_is_a_row_of_its_own(folder, stand_in):
+    spec = read(folder, SPEC.replace("log_range = [1e-4, 1]\npoints = 9", "values = [0.001, 0.666, -1]"))
+    assert run(folder, spec) == 9
+    with contextlib.closing(sweep.Store(folder / "results.sqlite")) as store:
+        rows = list(store.rows(spec.identity(_engine.identity())))
+        assert [row.result.verdict for row in rows] == 3 * ["proved"] + 6 * ["error"]
+        assert "signal 6" in rows[3].result.error and rows[3].result.may_be_tried_again
+        assert "q1 below 0" in rows[6].result.error and not rows[6].result.may_be_tried_again
+    assert run(folder, spec) == 0
+    assert run(folder, spec, again=True) == 3
+    with contextlib.closing(sweep.Store(folder / "results.sqlite")) as store:
+        found = sweep.recheck(spec, store)
+        assert not found.verified and len(found.objections) == 3  # what the stand-in writes is no certificate
+
+
+def command(folder, *arguments, **options):
+    return [sys.executable, "-m", "veritrack.sweep", *arguments, str(folder / "sweep.toml"), "--out", str(folder)]
+
+
+def test_a_client_that_is_killed_goes_on_where_it_was(folder, stand_in):
+    spec = read(folder, SPEC.replace("points = 9", "points = 400"))
+    client = subprocess.Popen([*command(folder, "run"), "--jobs", "1"], stdout=subprocess.DEVNULL)
+    before = []
+    while len(before) < 5:
+        assert client.poll() is None, "it ended before it could be killed"
+        with contextlib.suppress(sqlite3.Error):
+            before = results(folder)
+    client.kill()
+    client.wait()
+    before = results(folder)
+    assert 5 <= len(before) < spec.size
+    left = spec.size - len(before)
+    assert run(folder, spec) == left
+    assert_is_complete(folder, spec)
+    assert set(before) <= set(results(folder))
+
+
+def test_a_full_disk_ends_the_run_and_harms_nothing(folder, stand_in):
+    spec = read(folder, SPEC.replace("points = 9", "points = 100"))
+    full = subprocess.run([*command(folder, "run"), "--jobs", "1"], capture_output=True, text=True, check=False,
+                          env={**os.environ, "VERITRACK_SWEEP_MOST_PAGES": "14"})
+    assert full.returncode == 2
+    assert full.stderr.splitlines()[0] == f"veritrack sweep: {folder}/results.sqlite: database or disk is full"
+    before = results(folder)
+    assert 0 < len(before) < spec.size
+    assert run(folder, spec) == spec.size - len(before)
+    assert_is_complete(folder, spec)
+
+
+def test_a_batch_is_stored_as_a_whole_or_not_at_all(folder):
+    with contextlib.closing(sweep.Store(folder / "results.sqlite")) as store:
+        good = sweep.Result("a", "proved", {})
+        with pytest.raises(sweep.StoreError):
+            store.add("s", [(0, "a", ()), (1, None, ())], [good])
+        assert store.known_keys(["a"]) == set() and store.count("s") == 0
+        assert store.add("s", [(0, "a", ())], [good]) == 1
+        assert store.add("s", [(0, "a", ()), (1, "a", ())], [sweep.Result("a", "refuted", {})]) == 1
+        assert [row.result.verdict for row in store.rows("s")] == ["proved", "proved"]
+
+
+# ---- reports
+
+def test_the_front_is_what_no_design_beats_in_both():
+    random = np.random.default_rng(3)
+    pairs = [(int(a), int(b)) for a, b in random.integers(0, 12, (60, 2))]
+    rows = [sweep.Row(i, (), sweep.Result(str(i), "proved", {
+        "cost": [float(a).hex(), float(a).hex(), "at most", "", ""],
+        "gain": [float(b).hex(), float(b).hex(), "at least", "", ""]})) for i, (a, b) in enumerate(pairs)]
+
+    class Asked:
+        report = {"pareto": ["cost", "gain"]}
+
+    front = {row.number for row in pareto_front(Asked, rows).front}
+    for number, (a, b) in enumerate(pairs):
+        is_beaten = any((c <= a and d >= b) and (c, d) != (a, b) for c, d in pairs)
+        assert not (is_beaten and number in front)
+    assert {pairs[number] for number in front} == {
+        (a, b) for a, b in pairs if not any((c <= a and d >= b) and (c, d) != (a, b) for c, d in pairs)}
+
+
+def test_certified_reported_and_verified_from_the_command_line(folder):
+    spec = read(folder, """\
+name = "four designs"
+base = "base.toml"
+record = ["frequency_error_bound", "largest_slew"]
+
+[[axis]]
+keys = ["design.q1", "design.q2"]
+values = [0.001, 0.002]
+
+[[axis]]
+keys = ["design.r"]
+values = [0.01]
+
+[report]
+bound = "frequency_error_bound"
+level = 0.0057
+pareto = ["frequency_error_bound", "largest_slew"]
+""")
+    done = subprocess.run([os.environ["VERITRACK"], "sweep", *command(folder)[3:], "--jobs", "2"],
+                          capture_output=True, text=True, check=False,
+                          env={**os.environ, "VERITRACK_PYTHON": sys.executable})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == f"{folder}/report.md: 2 of 2 designs are PROVED to do all that is required\n"
+    text = (folder / "report.md").read_text()
+    assert "| PROVED | 2 |" in text and "(figures/regions.svg)" in text
+    page = (folder / "report.html").read_text()
+    assert not any("<image" in figure.read_text() for figure in folder.glob("figures/*.svg"))  # pages drop them
+    assert "Certified bound over the designs" in page and "Designs by two bounds" in page and page.count("<svg") >= 2
+    with open(folder / "results.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["design.q2"] for row in rows] == ["0.001", "0.002"]
+    certificate = veritrack.certify(veritrack.Design.from_toml(next(spec.points(1, 2)).text, "base.toml"),
+                                    figures=False, extent="requirements")
+    assert rows[1]["certificate_sha256"] == certificate.sha256
+    bound = certificate.bounds["frequency_error_bound"]
+    assert float(rows[1]["frequency_error_bound hi"]) >= bound.hi
+    # The same results, the same bytes.
+    files = {path: path.read_bytes() for path in folder.rglob("*") if path.suffix in (".md", ".html", ".csv", ".svg")}
+    assert subprocess.run(command(folder, "report"), check=True, capture_output=True).returncode == 0
+    assert files == {path: path.read_bytes() for path in files}
+
+    checked = subprocess.run(command(folder, "verify"), capture_output=True, text=True, check=False)
+    assert (checked.returncode, checked.stdout) == (0, "VERIFIED: 2 of 2 rows\n")
+    with contextlib.closing(sqlite3.connect(folder / "results.sqlite")) as file, file:
+        bounds, = file.execute("SELECT bounds FROM results JOIN points USING (key) WHERE point = 1").fetchone()
+        forged = json.loads(bounds)
+        forged["frequency_error_bound"][:2] = [(1e-6).hex()] * 2
+        file.execute("UPDATE results SET bounds = ? WHERE key = (SELECT key FROM points WHERE point = 1)",
+                     (json.dumps(forged),))
+    checked = subprocess.run(command(folder, "verify"), capture_output=True, text=True, check=False)
+    assert checked.returncode == 1
+    assert checked.stdout == "point 1: the bounds are others\nNOT VERIFIED: 1 of 2 rows\n"
+
+
+def test_nothing_is_not_verified(folder, stand_in):
+    read(folder)
+    checked = subprocess.run(command(folder, "verify"), capture_output=True, text=True, check=False)
+    assert (checked.returncode, checked.stdout) == (1, "NOT VERIFIED: no row with a verdict\n")

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -126,12 +127,13 @@ struct FilterParameters {
   double eta = 0.3;
   double theta = 0.3;
   double lambda = 0.9;
-  double noise = 0.0;   ///< V
-  double slew = 0.0;    ///< W
-  double moving = 0.0;  ///< c
-  double source = 0.0;  ///< b
-  double spread = 0.0;  ///< d
-  VectorXd process;     ///< the diagonal of W
+  double noise = 0.0;     ///< V, or the deviation of Gaussian noise
+  double slew = 0.0;      ///< W
+  double moving = 0.0;    ///< c
+  double source = 0.0;    ///< b
+  double spread = 0.0;    ///< d
+  double exponent = 0.0;  ///< L, for Gaussian noise: see gaussian_drift.hpp; 0: the noise is bounded
+  VectorXd process;       ///< the diagonal of W
 };
 
 /// What is carried along.
@@ -145,6 +147,37 @@ struct FilterGrowth {
   double whole = 0.0;   ///< |F|, about, for |xi| <= 1
   double linear = 0.0;  ///< of it, without noise
 };
+
+/// c0, for proposals.
+inline constexpr double kProposedConstant = 5.0;
+
+/// The root of the largest (log E W+ - log(1 + c0 exp(-L l^2)))/(L l^2), about, over the levels l, where the
+/// step is N xi + B v and what is quadratic: from N N', B deviation, and the square of a bound of the latter.
+inline double gaussian_growth(const Small& gram, const Small& of_noise, double squared, double exponent) {
+  const Small noise = 2.0 * exponent * of_noise * of_noise.transpose();
+  const Index n = gram.rows();
+  constexpr std::array<double, 5> kLevels{1.0, 0.7, 0.5, 0.34, 0.25};
+  std::array<double, kLevels.size()> least{};
+  least.fill(std::numeric_limits<double>::infinity());
+  for (const double a : {0.01, 0.02, 0.04, 0.07, 0.12, 0.2, 0.35}) {
+    const Eigen::LLT<Small> root(Small::Identity(n, n) - (1.0 + a) * noise);
+    if (root.info() != Eigen::Success) {
+      break;
+    }
+    const Small half = root.matrixL().solve(gram);
+    const Small inner = root.matrixL().solve(Small(half.transpose()));
+    const double linear =
+        Eigen::SelfAdjointEigenSolver<Small>(inner, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    const double spread = -std::log(root.matrixLLT().diagonal().prod());
+    for (std::size_t i = 0; i < kLevels.size(); ++i) {
+      const double square = kLevels[i] * kLevels[i];
+      const double all = exponent * square;
+      least[i] = std::min(least[i], (1.0 + a) * linear + (1.0 + 1.0 / a) * squared * square +
+                                        (spread - std::log1p(kProposedConstant * std::exp(-all))) / all);
+    }
+  }
+  return std::sqrt(std::max(0.0, *std::max_element(least.begin(), least.end())));
+}
 
 class FilterOrbit {
  public:
@@ -282,6 +315,16 @@ class FilterOrbit {
       const Small x = stacked(of_x, reach_of_x);
       const Small gram = x * x.transpose();
       const double alone = std::sqrt(largest(gram));
+      if (parameters_.exponent > 0.0) {
+        const Small v = stacked(of_v, reach_of_v);
+        const Wide squares = stacked(of_squares, reach_of_squares);
+        const double drift =
+            gaussian_growth(gram, v, largest(Small(squares * squares.transpose())), parameters_.exponent);
+        if (drift < worst.whole) {
+          worst = {drift, alone};
+        }
+        continue;
+      }
       double linear = alone;
       if (parameters_.noise > 0.0 || slope_ != nullptr) {
         Small other = Small::Zero(gram.rows(), gram.rows());

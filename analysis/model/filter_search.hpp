@@ -29,6 +29,7 @@ struct FilterCoordinates {
   bool finds_noise;
   double given_slew = 0.0;
   bool finds_slew = false;
+  double exponent = 0.0;  ///< of Gaussian noise; 0: the noise is bounded
 
   [[nodiscard]] bool moves() const { return given_slew > 0.0 || finds_slew; }
   [[nodiscard]] bool finds() const { return finds_noise || finds_slew; }
@@ -42,6 +43,7 @@ struct FilterCoordinates {
     parameters.source = std::exp(x[3]);
     parameters.spread = std::exp(x[4]);
     parameters.process = x.segment(5, sizes.size()).array().exp() * sizes.array().square();
+    parameters.exponent = exponent;
     parameters.noise = finds_noise ? std::exp(x[size() - 1]) : given_noise;
     parameters.slew = finds_slew ? std::exp(x[size() - 1]) : given_slew;
     parameters.moving = moves() ? std::exp(x[5 + sizes.size()]) : 0.0;
@@ -111,15 +113,20 @@ class FilterSearch {
       sizes[i] = std::sqrt(std::max(1e-300, state[place]));
       place += n - i;
     }
-    const bool is_for_noise = settings.shape.objective == ShapeObjective::largest_noise;
+    const bool is_gaussian = settings.shape.objective == ShapeObjective::largest_deviation;
+    const bool is_for_noise = settings.shape.objective == ShapeObjective::largest_noise || is_gaussian;
     // The largest reach at a given noise, or the largest noise.
     const bool is_for_slew = settings.shape.objective == ShapeObjective::largest_slew;
-    coordinates_ = {rate * rate,          sizes,
-                    settings.shape.noise, is_for_noise && !(settings.shape.noise > 0.0),
-                    settings.shape.slew,  is_for_slew && !(settings.shape.slew > 0.0)};
+    coordinates_ = {rate * rate,
+                    sizes,
+                    settings.shape.noise,
+                    is_for_noise && !(settings.shape.noise > 0.0),
+                    settings.shape.slew,
+                    is_for_slew && !(settings.shape.slew > 0.0),
+                    is_gaussian ? settings.shape.exponent + std::log(kProposedConstant) : 0.0};
     largest_reach_ = settings.shape.largest_reach;
-    constexpr int kUsual = 100;
-    evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : kUsual;
+    const int usual = is_gaussian ? 150 : 100;
+    evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : usual;
   }
 
   [[nodiscard]] const FilterCoordinates& coordinates() const { return coordinates_; }
@@ -175,8 +182,8 @@ class FilterSearch {
       return grows ? low : -std::numeric_limits<double>::infinity();
     }
     double high = low + kStep;
-    constexpr int kHalvings = 6;
-    for (int i = 0; i < kHalvings; ++i) {
+    const int halvings = coordinates_.exponent > 0.0 ? 12 : 6;  // the value is that of the noise alone
+    for (int i = 0; i < halvings; ++i) {
       const double middle = 0.5 * (low + high);
       (may_be(middle) ? low : high) = middle;
     }
@@ -218,6 +225,7 @@ class FilterSearch {
         FilterSearch without_noise(*this);
         without_noise.coordinates_.finds_noise = without_noise.coordinates_.finds_slew = false;
         without_noise.coordinates_.given_slew = 0.0;
+        without_noise.coordinates_.exponent = 0.0;
         for (const Scored& start : without_noise.best_of(without_noise.first_starts())) {
           for (const double scale : {-0.5, -1.4, -2.8}) {
             if (std::isfinite(start.value)) {

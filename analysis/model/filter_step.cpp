@@ -144,9 +144,10 @@ Eigen::MatrixXd linear_at_middle(const std::vector<BallModel>& vector, int ball,
   return matrix;
 }
 
-/// The mu for which the linear part is shortest, in floating point; 0 when there is none.
+/// The mu for which the linear part is shortest, in floating point; 0 when there is none. `of_gaussian`: what
+/// the square of Gaussian noise is multiplied by; 0: the noise is bounded, or there is none.
 double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& deviation,
-                       const std::vector<BallModel>& reach, bool is_noisy) {
+                       const std::vector<BallModel>& reach, bool is_noisy, double of_gaussian) {
   const auto n = static_cast<Eigen::Index>(spread.rows());
   Eigen::MatrixXd middle(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -193,6 +194,10 @@ double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& d
     if (is_noisy) {
       const Eigen::MatrixXd v = stacked(of_v, reach_of_v);
       const Eigen::MatrixXd other = v * v.transpose();
+      if (of_gaussian > 0.0) {
+        consider(gram + of_gaussian * other, mu);
+        continue;
+      }
       for (const double t : {0.5, 0.68, 0.8, 0.9, 0.96}) {
         consider(gram / t + other / (1.0 - t), mu);
       }
@@ -205,20 +210,19 @@ double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& d
 
 }  // namespace
 
-StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
-                             const FilterStepQuestion& question, const std::vector<double>& scales) {
+FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                                const FilterStepQuestion& question, double of_gaussian) {
   require_sizes(model, tube);
   const double radius = question.radius;
   const bool is_noisy = question.noise > 0.0;
   const bool is_moving = question.slew > 0.0;
-  const rigor::BallModelScope plane(0, 0);
-  const FilterPlace place = place_of_filter(model, tube, cell, question.slew);
-  StepBounds bounds;
-  bounds.steps.assign(scales.size(), std::numeric_limits<double>::quiet_NaN());
+  const FilterPlace place = [&] {
+    const rigor::BallModelScope plane(0, 0);
+    return place_of_filter(model, tube, cell, question.slew);
+  }();
   const std::size_t n = tube.curve.size();
   const std::size_t channels = static_cast<std::size_t>(model.filter->samples);
   const int of_noise = is_noisy ? model.filter->samples : 0;
-  const rigor::BallModelScope scope(static_cast<int>(n), is_moving ? of_noise + 1 : of_noise);
   // Noise and slew are in the unit ball together when the squared length of each is at most 1/2.
   constexpr double kRootOfTwo = 0x1.6a09e667f3bcdp0;
   const double stretch = is_noisy && is_moving ? kRootOfTwo : 1.0;
@@ -272,12 +276,13 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
     }
     reach.push_back(sum);
   }
+  FilterStepOver step;
   const bool is_known = is_shape(here) && is_shape(there);
-  bounds.frequency_error =
+  step.frequency_error =
       is_known ? (frequency_of(model, state) - place.frame.frequency.lifted()).range() : Interval::empty();
-  const double mu = best_multiplier(place.spread, deviation, reach, is_noisy || is_moving);
+  const double mu = best_multiplier(place.spread, deviation, reach, is_noisy || is_moving, of_gaussian);
   if (!is_known || !(mu > 0.0) || !std::isfinite(mu)) {
-    return bounds;
+    return step;
   }
   const BallMatrix root = [&] {
     const rigor::BallModelScope inner(0, 0);
@@ -290,22 +295,39 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
     }
     return cholesky(rest);
   }();
-  std::vector<BallModel> whole = solved(lifted(root), deviation);
+  step.vector = solved(lifted(root), deviation);
   const BallModel root_of_mu(sqrt(Interval(mu)));
   for (const BallModel& each : reach) {
-    whole.push_back(root_of_mu * each);
+    step.vector.push_back(root_of_mu * each);
   }
-  const WidthShares shares = width_shares(whole);
-  bounds.by_phase = shares.by_phase;
-  bounds.by_frequency = shares.by_frequency;
-  const std::vector<double> lengths = length_bounds(whole, scales, is_noisy && is_moving);
-  const bool is_kept = !question.with_covariance || [&] {
+  step.is_known = !question.with_covariance || [&] {
     const rigor::BallModelScope inner(0, 0);
     // A little more, so that another program need not be as sharp.
     constexpr double kRoom = 1.01;
     return keeps_covariance(model, place, {kRoom * radius, question.margin, 1.0});
   }();
-  if (is_kept) {
+  return step;
+}
+
+StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                             const FilterStepQuestion& question, const std::vector<double>& scales) {
+  require_sizes(model, tube);
+  const bool is_noisy = question.noise > 0.0;
+  const bool is_moving = question.slew > 0.0;
+  StepBounds bounds;
+  bounds.steps.assign(scales.size(), std::numeric_limits<double>::quiet_NaN());
+  const int of_noise = is_noisy ? model.filter->samples : 0;
+  const rigor::BallModelScope scope(static_cast<int>(tube.curve.size()), is_moving ? of_noise + 1 : of_noise);
+  const FilterStepOver step = filter_step_over(model, tube, cell, question);
+  bounds.frequency_error = step.frequency_error;
+  if (step.vector.empty()) {
+    return bounds;
+  }
+  const WidthShares shares = width_shares(step.vector);
+  bounds.by_phase = shares.by_phase;
+  bounds.by_frequency = shares.by_frequency;
+  const std::vector<double> lengths = length_bounds(step.vector, scales, is_noisy && is_moving);
+  if (step.is_known) {
     bounds.steps = lengths;
   }
   return bounds;

@@ -23,6 +23,23 @@ struct FilterStepQuestion {
   double margin = 0.0;          ///< that they then have to spare: see RangeQuestion
 };
 
+/// A vector that is at least as long as F over a cell, for every covariance between the bounds of the tube,
+/// as ball models in xi/radius and v/noise. It is affine in v.
+struct FilterStepOver {
+  std::vector<rigor::BallModel> vector;  ///< empty when nothing is known
+  rigor::Interval frequency_error;       ///< of h(C + U xi) - omega; empty when nothing is known
+  bool is_known = false;                 ///< and, if asked, the bounds of the covariance are kept
+};
+
+/// For |xi| <= radius, |v| <= noise and the slew, both stretched as in the bounds below. `of_gaussian`: for
+/// Gaussian noise, 2 L (deviation/noise)^2, for which the multiplier of the vector is chosen; 0: for bounded
+/// noise. Needs the upward rounding mode, and a scope of ball models with as many components as there are
+/// states of the estimate, and disturbances as there are samples (noise > 0) and one more (slew > 0). Throws
+/// std::invalid_argument when sizes do not fit.
+[[nodiscard]] FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube,
+                                              const TubeCell& cell, const FilterStepQuestion& question,
+                                              double of_gaussian = 0.0);
+
 /// Bounds over a cell of |F| for |xi| <= scale radius, for each of the scales, all |v| <= noise, a frequency
 /// that moves by at most the slew, and all covariances between the bounds of the tube; with
 /// `with_covariance`, they are known only where the bounds are shown to be bounds again at the next phase,

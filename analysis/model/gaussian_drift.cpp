@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/model/drift_shells.hpp"
+#include "analysis/model/filter_step.hpp"
 #include "analysis/model/map_bound.hpp"
 #include "analysis/model/tube_verification.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -20,8 +21,29 @@ bool is_positive(double number) {
   return std::isfinite(number) && number > 0.0;
 }
 
+/// The same for a filter whose covariance is between the bounds of the tube.
+CellAnswer filter_drift_over(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
+                             const DriftQuestion& question) {
+  const rigor::UpwardRounding upward;
+  const rigor::BallModelScope scope(static_cast<int>(tube.curve.size()), model.recursion->samples);
+  const double share = question.deviation / question.most_noise;
+  const FilterStepQuestion asked{
+      .radius = question.radius, .noise = question.most_noise, .with_covariance = question.with_covariance};
+  const FilterStepOver step =
+      filter_step_over(model, tube, cell, asked, 2.0 * question.exponent * share * share);
+  if (!step.is_known) {
+    return {};
+  }
+  const WidthShares shares = width_shares(step.vector);
+  const bool holds = drift_holds(VectorParts(step.vector, false), question, model.recursion->samples);
+  return {holds, step.frequency_error, shares.by_phase, shares.by_frequency};
+}
+
 CellAnswer drift_over(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
                       const DriftQuestion& question) {
+  if (tube.bounds_covariance()) {
+    return filter_drift_over(model, tube, cell, question);
+  }
   const rigor::UpwardRounding upward;
   const rigor::BallModelScope scope(model.recursion->states, model.recursion->samples);
   const StepOver step = step_over(model, tube, cell, question.radius, question.most_noise);

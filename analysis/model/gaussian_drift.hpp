@@ -25,6 +25,8 @@ struct DriftQuestion {
   double constant = 0.0;    ///< c0
   /// At least 1: what is not linear counts that many times, so that another program need not be as sharp.
   double room = 1.0;
+  /// Of a filter: that the bounds of the covariance are kept is shown, too.
+  bool with_covariance = true;
 };
 
 struct DriftResult {

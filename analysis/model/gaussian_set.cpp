@@ -159,6 +159,7 @@ class BandSearch {
     double rate = 0.0;
     for (const TubeProposal& cell : band.cells) {
       searches_.emplace_back(model, cell, task);
+      bounds_covariance_ = bounds_covariance_ || cell.tube->bounds_covariance();
       rate = std::max(rate, cell.worth.rate);
     }
     // What the set forgets of a start in a sample; a small part of what the tracker forgets.
@@ -168,7 +169,7 @@ class BandSearch {
   /// The largest deviation; 0 when none is proved.
   [[nodiscard]] double with_largest_deviation() {
     double best = 0.0;
-    for (const double constant : kConstants) {
+    for (const double constant : constants()) {
       double least = INFINITY;
       for (const RadiusSearch& search : searches_) {
         least = std::min(least, least > best ? search.largest_deviation(factor_, constant).first : 0.0);
@@ -199,7 +200,7 @@ class BandSearch {
     return true;
   }
   [[nodiscard]] bool with_any_constant(double deviation) {
-    for (const double constant : kConstants) {
+    for (const double constant : constants()) {
       constant_ = constant;
       if (with_deviation(deviation)) {
         return true;
@@ -213,7 +214,12 @@ class BandSearch {
   [[nodiscard]] const std::vector<RadiusSearch>& searches() const { return searches_; }
 
  private:
-  static constexpr std::array<double, 3> kConstants{1.0, 0.2, 5.0};
+  /// Bounds of a covariance leave less room near the curve.
+  [[nodiscard]] const std::array<double, 3>& constants() const {
+    static constexpr std::array<double, 3> kUsual{1.0, 0.2, 5.0};
+    static constexpr std::array<double, 3> kOfFilters{5.0, 20.0, 1.0};
+    return bounds_covariance_ ? kOfFilters : kUsual;
+  }
 
   /// About the least radius: what is not left is then small.
   [[nodiscard]] bool proves(RadiusSearch& search) const {
@@ -231,6 +237,7 @@ class BandSearch {
 
   const GaussianTask* task_;
   int channels_;
+  bool bounds_covariance_ = false;
   std::vector<RadiusSearch> searches_;
   double factor_ = 0.999;
   double constant_ = 1.0;

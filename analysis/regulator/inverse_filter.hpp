@@ -1,8 +1,9 @@
-// The inverse 1/A of a polynomial A = a_0 + a_1 q^-1 + ... + a_p q^-p, whose coefficients are intervals: that it
-// is stable, and how large it makes bounded signals.
+// The inverse 1/A of a polynomial A = a_0 + a_1 q^-1 + ... + a_p q^-p, whose coefficients are intervals: that
+// it is stable, and how large it makes bounded signals.
 //
-// A finite filter h, in doubles, stands for 1/A. With r = A h - 1, also finite, |r|_1 < 1 implies that A h, and so
-// A, has no zero with |z^-1| <= 1 (|1 + r| >= 1 - |r|_1 there), and the impulse response g of 1/A obeys g = h - g r,
+// A finite filter h, in doubles, stands for 1/A. With r = A h - 1, also finite, |r|_1 < 1 implies that A h,
+// and so A, has no zero with |z^-1| <= 1 (|1 + r| >= 1 - |r|_1 there), and the impulse response g of 1/A
+// obeys g = h - g r,
 //     |g|_1 <= |h|_1 / (1 - |r|_1),   |g - h|_1 <= |g|_1 |r|_1.
 // The same with the weights i + 1 in the sums, since i + j + 1 <= (i + 1)(j + 1).
 // Nothing is iterated in intervals, so nothing grows. docs/regulator.md, section 2.

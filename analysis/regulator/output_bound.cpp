@@ -21,7 +21,7 @@ using theorems::Sense;
 /// A part of the band, and the size of A_1 there.
 struct Cell {
   Interval frequency;
-  Interval plant;   ///< |A_1(e^{j omega})|
+  Interval plant;  ///< |A_1(e^{j omega})|
 };
 
 Interval sum_of_sizes(const std::vector<Interval>& coefficients, Interval (*weight)(double index)) {
@@ -141,7 +141,8 @@ class Loop {
       return of_tone(cell, error) + mismatch(cell, error) * size_ * question_.noise;
     });
   }
-  /// Of the output: -2 cos(omega_k) n_{k-1} + n_{k-2}, whatever the plant, and that the frequency was another one.
+  /// Of the output: -2 cos(omega_k) n_{k-1} + n_{k-2}, whatever the plant, and that the frequency was another
+  /// one.
   [[nodiscard]] Interval straight_noise() const {
     const Interval two(2.0);
     return (Interval(1.0) + two * largest_cosine() +
@@ -210,8 +211,8 @@ struct Text {
 };
 
 void add(Derivation& derivation, const Text& text, const Interval& value) {
-  theorems::add_quantity(derivation, {text.name, text.symbol, "", "docs/regulator.md", text.words, text.sense},
-                         value);
+  theorems::add_quantity(derivation,
+                         {text.name, text.symbol, "", "docs/regulator.md", text.words, text.sense}, value);
 }
 
 void add_bounds(Derivation& derivation, const Loop& loop, const RegulatorQuestion& question) {
@@ -236,7 +237,8 @@ void add_bounds(Derivation& derivation, const Loop& loop, const RegulatorQuestio
               "attenuation in the long run, dB, at least", Sense::at_least},
              loop.output(*tracker.ultimate));
   }
-  add(derivation, {"input_bound", "\\sup_k |u_k|", "the input, at every sample, at most"}, loop.input_for_ever());
+  add(derivation, {"input_bound", "\\sup_k |u_k|", "the input, at every sample, at most"},
+      loop.input_for_ever());
   if (tracker.ultimate) {
     add(derivation, {"ultimate_input", "\\limsup_k |u_k|", "the input in the long run, at most"},
         loop.input(*tracker.ultimate));
@@ -264,23 +266,28 @@ Derivation derive_output_bound(const RegulatorQuestion& question) {
   derivation.title = "The output of the plant under minimum-variance control at the tracker's frequencies";
   const Loop loop(question);
   const auto& [plant, input] = std::pair(&loop.inverse_plant(), &loop.inverse_input());
-  add_condition(derivation, "plant", "A_1(z) \\ne 0 \\text{ for } |z| \\ge 1", plant->is_stable(),
-                "A finite filter is an inverse of it up to an error below 1.",
-                "No finite filter was found that is its inverse up to an error below 1: the plant is unstable, or "
-                "its slowest mode lasts longer than 20000 samples.");
-  add_condition(derivation, "zeros", "B_1(z) \\ne 0 \\text{ for } |z| \\ge 1", input->is_stable(),
-                "A finite filter is an inverse of it up to an error below 1.",
-                "No finite filter was found that is its inverse up to an error below 1: the input would grow, or "
-                "its slowest mode lasts longer than 20000 samples.");
+  add_condition(
+      derivation, "plant", "A_1(z) \\ne 0 \\text{ for } |z| \\ge 1", plant->is_stable(),
+      "A finite filter is an inverse of it up to an error below 1.",
+      "No finite filter was found that is its inverse up to an error below 1: the plant is unstable, or "
+      "its slowest mode lasts longer than 20000 samples.");
+  add_condition(
+      derivation, "zeros", "B_1(z) \\ne 0 \\text{ for } |z| \\ge 1", input->is_stable(),
+      "A finite filter is an inverse of it up to an error below 1.",
+      "No finite filter was found that is its inverse up to an error below 1: the input would grow, or "
+      "its slowest mode lasts longer than 20000 samples.");
   add_condition(derivation, "tracker", "\\sup_k |\\hat\\omega_k - \\omega_k| < \\infty",
-                question.tracker.for_ever.has_value(), "It is the bound that the tracker's certificate proves.",
+                question.tracker.for_ever.has_value(),
+                "It is the bound that the tracker's certificate proves.",
                 "The tracker's certificate proves no bound on its frequency error for ever.");
   if (plant->is_stable()) {
-    add(derivation, {"inverse_plant_norm", "|1/A_1|_1", "sum of the sizes of the impulse response of 1/A1, at most"},
+    add(derivation,
+        {"inverse_plant_norm", "|1/A_1|_1", "sum of the sizes of the impulse response of 1/A1, at most"},
         plant->norm());
   }
   if (input->is_stable()) {
-    add(derivation, {"inverse_input_norm", "|1/B_1|_1", "sum of the sizes of the impulse response of 1/B1, at most"},
+    add(derivation,
+        {"inverse_input_norm", "|1/B_1|_1", "sum of the sizes of the impulse response of 1/B1, at most"},
         input->norm());
   }
   theorems::conclude(derivation);

@@ -18,8 +18,8 @@ namespace veritrack::certificates {
 /// Throws InputError. Holds its own rounding mode.
 [[nodiscard]] Design read_design(std::string_view text, std::string_view file_name);
 
-/// A design inside another one's file: a table with `tracker` and the tables of that tracker. It has no name and no
-/// source. Throws InputError. Needs the upward rounding mode.
+/// A design inside another one's file: a table with `tracker` and the tables of that tracker. It has no name
+/// and no source. Throws InputError. Needs the upward rounding mode.
 [[nodiscard]] Design read_inner_design(const TomlValue& table);
 
 /// The text of a design file. Throws InputError when it is missing, no regular file, unreadable, or larger

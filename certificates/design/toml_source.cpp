@@ -192,9 +192,9 @@ Position TomlSource::end() const {
 }
 
 void TomlSource::fail(Position position, std::string_view message) const {
-  throw InputError(file_name_, position,
-                   table_name_.empty() ? std::string(message)
-                                       : fmt::format("in [{}]: {}", table_name_, message));
+  throw InputError(
+      file_name_, position,
+      table_name_.empty() ? std::string(message) : fmt::format("in [{}]: {}", table_name_, message));
 }
 
 }  // namespace veritrack::certificates

@@ -21,8 +21,8 @@ class TomlSource {
   /// Parses `text` (copied). `file_name` is for messages. Throws InputError for whatever is not TOML 1.0, for
   /// invalid UTF-8, and for text that is empty, larger than kSizeLimit, or nested beyond all use.
   TomlSource(std::string_view text, std::string_view file_name, Origin origin = Origin::file);
-  /// A table of a file as if it were a file: positions are still those in `outer`, and messages begin with the name
-  /// of the table. The table must outlive it.
+  /// A table of a file as if it were a file: positions are still those in `outer`, and messages begin with
+  /// the name of the table. The table must outlive it.
   TomlSource(const TomlSource& outer, const toml::table& table, std::string name);
   TomlSource(const TomlSource&) = delete;
   TomlSource& operator=(const TomlSource&) = delete;

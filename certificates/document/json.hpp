@@ -14,8 +14,8 @@ namespace veritrack::certificates {
 /// report.json.
 [[nodiscard]] std::string to_json(const Certificate& certificate);
 
-/// The certificate of a design inside another one's file, as a member of that one's certificate: without a format, a
-/// name and a hash of its own.
+/// The certificate of a design inside another one's file, as a member of that one's certificate: without a
+/// format, a name and a hash of its own.
 [[nodiscard]] Json inner_certificate_json(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

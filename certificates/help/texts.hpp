@@ -1,5 +1,5 @@
-// Texts that stand in the program: files of the columns for people, and the papers' designs, made a part of it
-// by CMake.
+// Texts that stand in the program: files of the columns for people, and the papers' designs, made a part of
+// it by CMake.
 #pragma once
 
 #include <string_view>

@@ -158,7 +158,8 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
           ? " \"A covariance between its bounds\": the set has a lower and an upper bound, in the order of "
             "symmetric matrices, of the filter's covariance after the sample at each phase of the signal; "
             "the "
-            "covariance at the start is one of these, and every later one is then."
+            "covariance at the start is one of these, and every later one is then" +
+                std::string(is_gaussian ? ", in Gaussian noise until lock is lost." : ".")
           : "");
 }
 

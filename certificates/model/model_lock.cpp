@@ -66,7 +66,10 @@ Claim told_of(const char* id, const ModelLock& lock, std::string hypotheses, con
 ModelLock certify_model_lock(const LockSearch& search, bool lowest_snr, const model::SetProgress& progress) {
   const auto& [table, assume, require] = *search.tables;
   const Interval samples = assume.samples.value().value;
-  const std::vector<Interval> deviations = start_deviations(*search.model, table, assume.start_within);
+  std::vector<Interval> deviations = start_deviations(*search.model, table, assume.start_within);
+  if (search.tone->filter != nullptr) {  // its covariance is bounded: those of the estimate
+    deviations.resize(static_cast<std::size_t>(search.tone->filter->states));
+  }
   model::GaussianTask task;
   task.name = lowest_snr ? "lowest-snr" : "gaussian";
   task.largest_deviation = lowest_snr;
@@ -112,7 +115,7 @@ void add_lock_claims(Certificate& certificate) {
   const ModelTables& tables = model_tables(certificate.design);
   const ModelAssumptions& assume = tables.assume;
   const ModelSets& sets = model_sets(certificate);
-  const ModelWords words(tables);
+  const ModelWords words(tables, std::nullopt, sets.bounds_covariance);
   if (const auto& lock = sets.gaussian; lock && lock->is_proved() && lock->probability < 1.0) {
     certificate.claims.push_back(told_of("model/losing-lock", *lock,
                                          words.constant_tone() +
@@ -140,7 +143,7 @@ Claim required_lock_claim(const Certificate& certificate) {
   const ModelAssumptions& assume = tables.assume;
   const Number& required = *tables.require.sets.probability_of_losing_lock_below;
   const ModelSets& sets = model_sets(certificate);
-  const ModelWords words(tables);
+  const ModelWords words(tables, std::nullopt, sets.bounds_covariance);
   Claim claim;
   claim.id = "model/probability-of-losing-lock";
   claim.requirement =

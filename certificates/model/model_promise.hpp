@@ -6,8 +6,8 @@
 
 namespace veritrack::certificates {
 
-/// The claim "model/guarantee", where it is about the whole band, in rad/sample, and about tones as they are. Needs
-/// the upward mode.
+/// The claim "model/guarantee", where it is about the whole band, in rad/sample, and about tones as they are.
+/// Needs the upward mode.
 [[nodiscard]] FrequencyPromise model_frequency_promise(const Certificate& certificate);
 
 }  // namespace veritrack::certificates

@@ -181,7 +181,7 @@ bool bounds_covariance(const Model& model, const ModelTables& tables) {
   const bool names_covariance =
       std::any_of(assume.start_within.begin(), assume.start_within.end(),
                   [](const NamedText& entry) { return entry.name.text.starts_with("P."); });
-  return model.filter && !assume.gaussian && !names_covariance;
+  return model.filter && !names_covariance;
 }
 
 model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume) {

@@ -63,9 +63,9 @@ class ModelWords {
   }
   /// The same, for statements that depend on how far inside a start is.
   [[nodiscard]] std::string start_inside(const std::string& set) const {
-    return assume_->start_within.empty()
-               ? ", started at a level of at most half of that of the set \"" + set + "\" of the certificate"
-               : start_within(set);
+    return assume_->start_within.empty() ? ", started at a level of at most half of that of the set \"" +
+                                               set + "\" of the certificate" + covariance()
+                                         : start_within(set) + covariance();
   }
 
  private:

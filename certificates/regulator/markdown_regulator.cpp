@@ -22,10 +22,14 @@ std::string plant_section(const Certificate& certificate) {
   text += fmt::format("{} — tracker `{}`", escaped(design.name), design.tracker);
   text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", escaped(design.source));
   text += fmt::format(
-      "The plant is $`A_1 x_{{k+1}} = B_1 u_k`$, the output $`y_k = x_k + v_k`$ with the disturbance $`v`$, a tone. In "
-      "the delay $`q^{{-1}}`$,\n\n```\nA1 = {}\nB1 = {}\n```\n\nThe regulator knows the plant. It hands $`v_k`$, the "
-      "output less the plant's own answer, to a frequency tracker (`{}`), and sets $`B_1 u_k = -(2 \\cos\\hat\\omega_k\\, "
-      "A_1 v_k - A_1 v_{{k-1}})`$. Then $`A_1 y_{{k+1}} = 2 (\\cos\\omega - \\cos\\hat\\omega_k) A_1 v_k`$, so that a bound "
+      "The plant is $`A_1 x_{{k+1}} = B_1 u_k`$, the output $`y_k = x_k + v_k`$ with the disturbance $`v`$, "
+      "a tone. In "
+      "the delay $`q^{{-1}}`$,\n\n```\nA1 = {}\nB1 = {}\n```\n\nThe regulator knows the plant. It hands "
+      "$`v_k`$, the "
+      "output less the plant's own answer, to a frequency tracker (`{}`), and sets $`B_1 u_k = -(2 "
+      "\\cos\\hat\\omega_k\\, "
+      "A_1 v_k - A_1 v_{{k-1}})`$. Then $`A_1 y_{{k+1}} = 2 (\\cos\\omega - \\cos\\hat\\omega_k) A_1 v_k`$, "
+      "so that a bound "
       "on the frequency error is one on the output (`docs/regulator.md` of the program's sources).\n\n",
       delay_polynomial("1", tables.plant.a), delay_polynomial(tables.plant.b.front().text, tables.plant.b, 1),
       tables.design.frequency_tracker.tracker);
@@ -57,12 +61,18 @@ std::string tracker_section(const Certificate& certificate) {
 }
 
 std::string loop_coverage() {
-  return "## What this certificate covers, and what it does not\n\n- Covered: every tone and every start of the "
-         "tracker that the tracker's certificate covers, with the frequency in the assumed band at every sample; noise "
-         "in the measured output up to the assumed bound, which the tracker sees and the control law, too. The output "
-         "is the true one, without the noise in its measurement.\n- The tracker is covered as its own certificate "
-         "says. The regulator's own sums are those of exact arithmetic.\n- Not covered: a plant that differs from the "
-         "one given, an input that saturates, a disturbance that is not a tone.\n- Every enclosure was computed with "
+  return "## What this certificate covers, and what it does not\n\n- Covered: every tone and every start of "
+         "the "
+         "tracker that the tracker's certificate covers, with the frequency in the assumed band at every "
+         "sample; noise "
+         "in the measured output up to the assumed bound, which the tracker sees and the control law, too. "
+         "The output "
+         "is the true one, without the noise in its measurement.\n- The tracker is covered as its own "
+         "certificate "
+         "says. The regulator's own sums are those of exact arithmetic.\n- Not covered: a plant that differs "
+         "from the "
+         "one given, an input that saturates, a disturbance that is not a tone.\n- Every enclosure was "
+         "computed with "
          "outward-rounded interval arithmetic. The simulation proves nothing.\n\n";
 }
 

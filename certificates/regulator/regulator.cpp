@@ -52,14 +52,15 @@ regulator::RegulatorQuestion question_of(const RegulatorTables& tables, const Fr
 std::string hypotheses_of(const RegulatorTables& tables, const FrequencyPromise& promise) {
   const bool noisy = !(promise.noise.value == Interval(0.0));
   return fmt::format(
-      "{} A regulator that takes its frequencies from this tracker, for the plant A1 x(k+1) = B1 u(k) with A1 = {} "
-      "and B1 = {}{}, known exactly and at rest at sample 0, and whose own sums are exact, controls the output y = "
+      "{} A regulator that takes its frequencies from this tracker, for the plant A1 x(k+1) = B1 u(k) with "
+      "A1 = {} "
+      "and B1 = {}{}, known exactly and at rest at sample 0, and whose own sums are exact, controls the "
+      "output y = "
       "x + v from sample 0 on{}. For every such tone v with a frequency between {} and {} at every sample, ",
       promise.sentence, delay_polynomial("1", tables.plant.a),
       delay_polynomial(tables.plant.b.front().text, tables.plant.b, 1),
-      promise.two_channels ? ", the same in both channels" : "",
-      noisy ? "; it sees y with that noise" : "", promise.frequency[0].text,
-      frequency_words(promise.frequency[1]));
+      promise.two_channels ? ", the same in both channels" : "", noisy ? "; it sees y with that noise" : "",
+      promise.frequency[0].text, frequency_words(promise.frequency[1]));
 }
 
 /// The claims, and the derivation that decides them.
@@ -77,8 +78,9 @@ class RegulatorClaims {
     const RegulatorRequirements& require = tables_->require;
     if (const auto& number = require.attenuation_above) {
       const theorems::Quantity* decibels = quantity("ultimate_attenuation");
-      Claim claim = required("regulator/attenuation", *number,
-                             fmt::format("the vibration is attenuated by at least {} dB in the long run", number->text));
+      Claim claim = required(
+          "regulator/attenuation", *number,
+          fmt::format("the vibration is attenuated by at least {} dB in the long run", number->text));
       if (decibels != nullptr) {
         decide(claim, rigor::certainly_less_equal(number->value, decibels->value),
                fmt::format("The proved attenuation in the long run is {} dB",
@@ -108,9 +110,8 @@ class RegulatorClaims {
     for (const theorems::Condition& condition : found_->conditions) {
       if (condition.verdict != Verdict::proved) {
         const std::string& why = regulator_particulars(*certificate_).promise.objection;
-        return condition.id != "tracker" || why.empty()
-                   ? condition.reason
-                   : fmt::format("Of the frequency tracker: {}.", why);
+        return condition.id != "tracker" || why.empty() ? condition.reason
+                                                        : fmt::format("Of the frequency tracker: {}.", why);
       }
     }
     return "The tracker's certificate does not prove what this needs.";
@@ -183,7 +184,9 @@ class RegulatorClaims {
       return;
     }
     const auto most = [](const theorems::Quantity* one) { return rigor::upper_decimal(one->value, kDigits); };
-    const auto least = [](const theorems::Quantity* one) { return rigor::lower_decimal(one->value, kDigits); };
+    const auto least = [](const theorems::Quantity* one) {
+      return rigor::lower_decimal(one->value, kDigits);
+    };
     claim.verdict = Verdict::proved;
     claim.statement += fmt::format("the output never exceeds {}", most(output));
     claim.evidence = {*output};
@@ -191,8 +194,9 @@ class RegulatorClaims {
     const theorems::Quantity* settled = quantity("settled_output");
     const theorems::Quantity* settled_by = quantity("settled_attenuation");
     if (samples != nullptr && settled != nullptr && settled_by != nullptr) {
-      claim.statement += fmt::format("; from sample {} on it stays at or below {}, at least {} dB below the tone",
-                                     most(samples), most(settled), least(settled_by));
+      claim.statement +=
+          fmt::format("; from sample {} on it stays at or below {}, at least {} dB below the tone",
+                      most(samples), most(settled), least(settled_by));
       claim.evidence.insert(claim.evidence.end(), {*samples, *settled, *settled_by});
     }
     const theorems::Quantity* ultimate = quantity("ultimate_output");
@@ -204,8 +208,9 @@ class RegulatorClaims {
     }
     claim.statement += fmt::format("; the input never exceeds {}.", most(input));
     claim.evidence.push_back(*input);
-    claim.reason = "The frequency error is bounded by the tracker's certificate, and the output by the frequency "
-                   "error.";
+    claim.reason =
+        "The frequency error is bounded by the tracker's certificate, and the output by the frequency "
+        "error.";
     certificate_->claims.push_back(std::move(claim));
   }
 

@@ -17,15 +17,16 @@ struct RegulatorParticulars {
 /// Of a certificate of this kind. Throws std::bad_any_cast for another.
 [[nodiscard]] const RegulatorParticulars& regulator_particulars(const Certificate& certificate);
 
-/// Certifies the frequency tracker, adds the derivation "regulator", the claims and their verdict. Needs the upward
-/// mode.
+/// Certifies the frequency tracker, adds the derivation "regulator", the claims and their verdict. Needs the
+/// upward mode.
 void certify_regulator(Certificate& certificate, const CertifyProgress& progress);
 
 /// The members of certificate.json: the design, and the tracker's certificate.
 [[nodiscard]] Json regulator_design_json(const Design& design);
 [[nodiscard]] Json regulator_evidence_json(const Certificate& certificate);
 
-/// "1 - 0.5 q^-1": a polynomial in the delay, from its coefficients as they are written; `first` is the constant.
+/// "1 - 0.5 q^-1": a polynomial in the delay, from its coefficients as they are written; `first` is the
+/// constant.
 [[nodiscard]] std::string delay_polynomial(const std::string& first, const std::vector<Number>& rest,
                                            std::size_t skipped = 0);
 

@@ -70,8 +70,8 @@ constexpr std::int64_t kMostSamples = 10'000'000;
 constexpr std::array kRunKeys{
     Key<Run>{"samples", "a whole number from 1 to 10000000", integer<&Run::samples, 1, kMostSamples>,
              defaults_to("1000")},
-    Key<Run>{"seed", "a whole number, 0 or more", integer<&Run::seed, 0, std::numeric_limits<std::int64_t>::max()>,
-             defaults_to("1")},
+    Key<Run>{"seed", "a whole number, 0 or more",
+             integer<&Run::seed, 0, std::numeric_limits<std::int64_t>::max()>, defaults_to("1")},
 };
 
 std::vector<BoundTable> bind_regulator_tables(std::any& tables) {
@@ -85,13 +85,15 @@ std::vector<BoundTable> bind_regulator_tables(std::any& tables) {
 std::optional<TableObjection> regulator_objection(const std::any& tables) {
   const auto& read = std::any_cast<const RegulatorTables&>(tables);
   if (read.plant.a.size() != read.plant.b.size()) {
-    return TableObjection{"plant", fmt::format("a has {} and b {} numbers; allowed: as many of each, zeros among "
-                                               "them",
-                                               read.plant.a.size(), read.plant.b.size())};
+    return TableObjection{"plant",
+                          fmt::format("a has {} and b {} numbers; allowed: as many of each, zeros among "
+                                      "them",
+                                      read.plant.a.size(), read.plant.b.size())};
   }
   if (read.require.attenuated_within && !read.require.attenuation_above) {
-    return TableObjection{"require", "attenuated_within without attenuation_above; allowed: both, or "
-                                     "attenuation_above alone",
+    return TableObjection{"require",
+                          "attenuated_within without attenuation_above; allowed: both, or "
+                          "attenuation_above alone",
                           read.require.attenuated_within->position};
   }
   return std::nullopt;

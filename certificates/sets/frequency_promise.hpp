@@ -1,5 +1,5 @@
-// What a certificate proves of the frequency error for every tone that its design assumes: what a system that runs
-// on the estimate may rely on.
+// What a certificate proves of the frequency error for every tone that its design assumes: what a system that
+// runs on the estimate may rely on.
 #pragma once
 
 #include <array>

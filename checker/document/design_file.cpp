@@ -142,7 +142,8 @@ class Comparison {
 };
 
 /// The part of a file that is a design of this tracker.
-void compare_design(const Tree& design, const TomlFile& file, const toml::table& part, Objections& objections) {
+void compare_design(const Tree& design, const TomlFile& file, const toml::table& part,
+                    Objections& objections) {
   if (design.at("tracker").text() == "model") {
     compare_model_design(design, file, part, objections);
   } else {
@@ -156,8 +157,7 @@ void compare_regulator(const Tree& certificate, const TomlFile& file, Objections
   outside.leave_aside("design");
   outside.table("", certificate.at("design"), &file.table());
   const toml::table* chosen = file.table().get_as<toml::table>("design");
-  const toml::table* tracker =
-      chosen != nullptr ? chosen->get_as<toml::table>("frequency_tracker") : nullptr;
+  const toml::table* tracker = chosen != nullptr ? chosen->get_as<toml::table>("frequency_tracker") : nullptr;
   if (tracker == nullptr || chosen->size() != 1) {
     objections.emplace_back("[design] of the design file is not the table frequency_tracker alone");
     return;

@@ -245,7 +245,7 @@ bool FilterStep::keeps_covariance(double radius, const BoundsToSpare& spare) con
   return is_kept(high, next_high, true) && is_kept(low, next_low, false);
 }
 
-std::vector<BallPolynomial> FilterStep::map(double radius, double noise) const {
+std::vector<BallPolynomial> FilterStep::map(double radius, double noise, double of_gaussian) const {
   const PlaceMatrix low = updated(symmetric_of(there_.covariance_low, states_));
   const PlaceMatrix high = updated(symmetric_of(there_.covariance_high, states_));
   const BallPolynomial halved(0.5);
@@ -316,16 +316,22 @@ std::vector<BallPolynomial> FilterStep::map(double radius, double noise) const {
       continue;
     }
     const LinearLength linear(vector, *monomials_);
+    const auto consider = [&](double length) {
+      if (std::isfinite(length) && length < least) {
+        least = length;
+        best = vector;
+      }
+    };
+    if (of_gaussian > 0.0) {
+      consider(linear.near_sum(1.0, of_gaussian));
+      continue;
+    }
     for (const double t : {0.5, 0.65, 0.78, 0.88, 0.95, 1.0}) {
       const bool is_alone = noise == 0.0;
       if (is_alone != (t == 1.0)) {
         continue;
       }
-      const double length = linear.near_sum(1.0 / t, is_alone ? 0.0 : 1.0 / (1.0 - t));
-      if (std::isfinite(length) && length < least) {
-        least = length;
-        best = vector;
-      }
+      consider(linear.near_sum(1.0 / t, is_alone ? 0.0 : 1.0 / (1.0 - t)));
     }
   }
   return best.empty() ? std::vector<BallPolynomial>(states_, BallPolynomial::everything()) : best;

@@ -39,8 +39,9 @@ class FilterStep {
   /// radius.
   [[nodiscard]] bool keeps_covariance(double radius, const BoundsToSpare& spare = {}) const;
   /// A vector that is at least as long as F for |xi| <= radius, |v| <= noise and every covariance in the
-  /// bounds, where the ball polynomials are in xi/radius and v/noise.
-  [[nodiscard]] std::vector<BallPolynomial> map(double radius, double noise) const;
+  /// bounds, where the ball polynomials are in xi/radius and v/noise. It is the short one where |v| <= noise;
+  /// `of_gaussian`, if not 0: where the square of its part with v/noise counts that many times.
+  [[nodiscard]] std::vector<BallPolynomial> map(double radius, double noise, double of_gaussian = 0.0) const;
 
  private:
   [[nodiscard]] PlaceMatrix updated(const PlaceMatrix& predicted) const;

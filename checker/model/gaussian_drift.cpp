@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "checker/model/filter_step.hpp"
 #include "checker/model/tube_check.hpp"
 #include "checker/model/tube_cover.hpp"
 
@@ -141,21 +142,44 @@ bool is_seldom_left(const TrackedModel& model, const TubeSet& set, std::int64_t&
     return false;
   }
   const GaussianTerms& terms = *set.gaussian;
-  const VectorMonomials monomials(model.recursion->states(), model.recursion->samples());
+  const bool is_filter = bounds_covariance(set);
+  if (is_filter && !bounds_suit(*model.recursion)) {
+    objections.emplace_back(
+        "bounds of a covariance are for filters with a linear measurement and symmetric Q and R");
+    return false;
+  }
+  const VectorMonomials monomials(is_filter ? model.recursion->filtered() : model.recursion->states(),
+                                  model.recursion->samples());
+  const double share = terms.deviation / terms.most_noise;
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& only) {
     const PhaseTube& tube = set.tubes[number];
     const double radius = tube.levels.front();
     PartAnswer answer;
-    const TubeStep step(model, tube, part, monomials);
-    if (!step.has_shape()) {
-      answer.open = only;
+    const auto decide = [&](const std::vector<BallPolynomial>& map) {
+      const LengthBound bound(map);
+      if (!drift_is_bounded(bound, radius, terms, model.recursion->samples())) {
+        answer.open = only;
+      }
+      answer.halve_frequencies = bound.by_frequency() > bound.by_phase();
+    };
+    const auto ask_step = [&](const auto& step, const auto& map) {
+      if (step.has_shape()) {
+        decide(map());
+      } else {
+        answer.open = only;
+      }
+    };
+    if (!is_filter) {
+      const TubeStep step(model, tube, part, monomials);
+      ask_step(step, [&] { return step.map(radius, terms.most_noise); });
       return answer;
     }
-    const LengthBound bound(step.map(radius, terms.most_noise));
-    if (!drift_is_bounded(bound, radius, terms, model.recursion->samples())) {
+    // The step of the estimate is affine in v, and its covariance does not depend on v.
+    const FilterStep step(model, tube, part, monomials);
+    ask_step(step, [&] { return step.map(radius, terms.most_noise, 2.0 * terms.exponent * share * share); });
+    if (answer.open.empty() && !step.keeps_covariance(radius)) {
       answer.open = only;
     }
-    answer.halve_frequencies = bound.by_frequency() > bound.by_phase();
     return answer;
   };
   std::vector<FirstGrid> grids;

@@ -214,8 +214,9 @@ std::string ModelWords::stretch_of_samples() const {
 
 std::string ModelWords::start_inside(const std::string& set) const {
   return assume().find("start_within") != nullptr
-             ? start_within(set)
-             : ", started at a level of at most half of that of the set \"" + set + "\" of the certificate";
+             ? start_within(set) + covariance()
+             : ", started at a level of at most half of that of the set \"" + set + "\" of the certificate" +
+                   covariance();
 }
 
 std::string ModelWords::assumed_start(const std::string& set) const {

@@ -111,9 +111,6 @@ PhaseTube tube_from(const Tree& cell, std::size_t all_states, std::size_t estima
         tube.covariance_high.size() != tube.shape.size()) {
       objections.emplace_back("bounds of a covariance are for filters, of as many entries as the shape has");
     }
-    if (!shrinks) {
-      objections.emplace_back("bounds of a covariance do not go with Gaussian noise");
-    }
   }
   if (const Tree* entry = cell.find("entry")) {
     tube.entry = LongRunEntry{double_from(entry->at("margin")), double_from(entry->at("ratio"))};

@@ -1,5 +1,5 @@
-// The inverse of a polynomial in the delay: that it is stable, and the sum of the sizes of its impulse response
-// (docs/regulator.md, section 2).
+// The inverse of a polynomial in the delay: that it is stable, and the sum of the sizes of its impulse
+// response (docs/regulator.md, section 2).
 #pragma once
 
 #include <cstddef>

@@ -76,8 +76,8 @@ class ClosedLoop {
     const Ball& error = promise_.for_ever;
     const Ball off = largest([&](const Piece& piece) { return mismatch(piece, error); });
     std::vector<Ball> found;
-    // At sample m, the part of a_i is whole for i <= m - 2, lacks the tone before sample 0 for i = m - 1, and is
-    // the tone at sample 0 for i = m.
+    // At sample m, the part of a_i is whole for i <= m - 2, lacks the tone before sample 0 for i = m - 1, and
+    // is the tone at sample 0 for i = m.
     for (std::size_t m = 0; m <= plant_.a.size(); ++m) {
       Ball of_tone = zero;
       for (std::size_t i = 0; i < plant_.a.size() && i <= m; ++i) {
@@ -142,12 +142,13 @@ Ball decibels(const Ball& ratio) {
   return Ball(20.0) * log(ratio) / log(Ball(10.0));
 }
 
-/// At most this is the output from the sample on that the certificate names. A ball of everything where that is no
-/// sample after the tracker has settled and the memory is full.
+/// At most this is the output from the sample on that the certificate names. A ball of everything where that
+/// is no sample after the tracker has settled and the memory is full.
 Ball settled_output(const ClosedLoop& loop, const DelayPlant& plant, const Settled& tracker,
                     const Ball& settling) {
   const double named = settling.lower_double();
-  const double first = std::max(std::ceil(tracker.samples.upper_double()), static_cast<double>(plant.a.size()));
+  const double first =
+      std::max(std::ceil(tracker.samples.upper_double()), static_cast<double>(plant.a.size()));
   constexpr double kMost = 1e9;
   if (!(named <= kMost) || !(first <= kMost) || !(named > first)) {
     return Ball::everything();

@@ -1,5 +1,5 @@
-// The output and the input of a plant under the minimum-variance law at a tracker's frequencies: the derivation
-// "regulator" (docs/regulator.md).
+// The output and the input of a plant under the minimum-variance law at a tracker's frequencies: the
+// derivation "regulator" (docs/regulator.md).
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ struct DelayPlant {
   std::vector<Ball> b;  ///< b_0, b_1, ..., as many as a_1, ...
 };
 
-/// The derivation as the checker finds it; `promise` is none when nothing of the tracker is verified. `settling`: from
-/// which sample on the certificate says that the output has settled, if it does.
+/// The derivation as the checker finds it; `promise` is none when nothing of the tracker is verified.
+/// `settling`: from which sample on the certificate says that the output has settled, if it does.
 Derivation output_bound(const DelayPlant& plant, const std::optional<FrequencyPromise>& promise,
                         const std::optional<Ball>& settling);
 

@@ -7,8 +7,8 @@
 #include "checker/document/design_number.hpp"
 #include "checker/document/evidence.hpp"
 #include "checker/numbers/decimal_text.hpp"
-#include "checker/regulator/output_bound.hpp"
 #include "checker/registry.hpp"
+#include "checker/regulator/output_bound.hpp"
 
 namespace veritrack::checker {
 
@@ -61,9 +61,9 @@ class RegulatorVerifier {
     if (!inner_.requirements.empty()) {
       all.insert(all.begin(), {kTracker, "the frequency tracker does what its own require asks"});
     }
-    check_claims(certificate_, all,
-                 [this](const Tree& claim, Objections& found) { return check_one_claim(claim, found); },
-                 result_);
+    check_claims(
+        certificate_, all,
+        [this](const Tree& claim, Objections& found) { return check_one_claim(claim, found); }, result_);
   }
 
  private:
@@ -114,17 +114,19 @@ class RegulatorVerifier {
   }
   [[nodiscard]] std::string required_text(const std::string& id) const {
     if (id == kAttenuation) {
-      return "the vibration is attenuated by at least " + asked_text("attenuation_above") + " dB in the long run";
+      return "the vibration is attenuated by at least " + asked_text("attenuation_above") +
+             " dB in the long run";
     }
     if (id == kAttenuatedWithin) {
-      return "from sample " + asked_text("attenuated_within") + " on, the vibration is attenuated by at least " +
-             asked_text("attenuation_above") + " dB";
+      return "from sample " + asked_text("attenuated_within") +
+             " on, the vibration is attenuated by at least " + asked_text("attenuation_above") + " dB";
     }
     return id == kOutput ? "the output stays below " + asked_text("output_below") + " for ever"
                          : "the input stays below " + asked_text("input_below") + " for ever";
   }
 
-  /// With the same checks as alone. A regulator inside a regulator is none of the trackers that promise anything.
+  /// With the same checks as alone. A regulator inside a regulator is none of the trackers that promise
+  /// anything.
   void verify_the_tracker() {
     Objections objections;
     if (tracker_.at("design").at("tracker").text() == design_.at("tracker").text()) {
@@ -149,13 +151,15 @@ class RegulatorVerifier {
     const auto& b = design_.at("plant").at("b").elements();
     const bool noisy = !certainly_equal(promise_->noise, zero);
     return promise_->sentence +
-           " A regulator that takes its frequencies from this tracker, for the plant A1 x(k+1) = B1 u(k) with A1 = 1" +
+           " A regulator that takes its frequencies from this tracker, for the plant A1 x(k+1) = B1 u(k) "
+           "with A1 = 1" +
            in_the_delay(a, 0) + " and B1 = " + text_of(b[0]) + in_the_delay(b, 1) +
            (promise_->two_channels ? ", the same in both channels" : "") +
-           ", known exactly and at rest at sample 0, and whose own sums are exact, controls the output y = x + v from "
+           ", known exactly and at rest at sample 0, and whose own sums are exact, controls the output y = x "
+           "+ v from "
            "sample 0 on" +
-           (noisy ? "; it sees y with that noise" : "") + ". For every such tone v with a frequency between " +
-           promise_->between + " at every sample, ";
+           (noisy ? "; it sees y with that noise" : "") +
+           ". For every such tone v with a frequency between " + promise_->between + " at every sample, ";
   }
 
   void check_one(const Tree& derivation) {
@@ -166,8 +170,8 @@ class RegulatorVerifier {
       return;
     }
     const Tree* settling = derivation.at("quantities").find("settling_samples");
-    const Derivation found =
-        output_bound(plant_, promise_, settling != nullptr ? std::optional(high_of(*settling)) : std::nullopt);
+    const Derivation found = output_bound(
+        plant_, promise_, settling != nullptr ? std::optional(high_of(*settling)) : std::nullopt);
     check_derivation(derivation, found, objections);
     if (objections.empty() && verdict_of(derivation) == Verdict::proved) {
       proved_ = &derivation;
@@ -184,15 +188,18 @@ class RegulatorVerifier {
     return number != nullptr ? exact_number(*number) : Ball::everything();
   }
   static Quantity bounded(const char* name, const Ball& value) { return {name, value, Sense::bounds_above}; }
-  static Quantity at_least_so(const char* name, const Ball& value) { return {name, value, Sense::bounds_below}; }
+  static Quantity at_least_so(const char* name, const Ball& value) {
+    return {name, value, Sense::bounds_below};
+  }
 
   Claim check_one_claim(const Tree& claim, Objections& objections) const {
     const std::string& id = claim.at("id").text();
-    const bool is_asked = (id == kAttenuation && design_.at("require").find("attenuation_above") != nullptr) ||
-                          (id == kAttenuatedWithin && design_.at("require").find("attenuated_within") != nullptr) ||
-                          (id == kOutput && design_.at("require").find("output_below") != nullptr) ||
-                          (id == kInput && design_.at("require").find("input_below") != nullptr) ||
-                          (id == kTracker && !inner_.requirements.empty()) || id == kGuarantee;
+    const bool is_asked =
+        (id == kAttenuation && design_.at("require").find("attenuation_above") != nullptr) ||
+        (id == kAttenuatedWithin && design_.at("require").find("attenuated_within") != nullptr) ||
+        (id == kOutput && design_.at("require").find("output_below") != nullptr) ||
+        (id == kInput && design_.at("require").find("input_below") != nullptr) ||
+        (id == kTracker && !inner_.requirements.empty()) || id == kGuarantee;
     if (!is_asked) {
       objections.emplace_back(kUnknown);
       return {};
@@ -256,7 +263,8 @@ class RegulatorVerifier {
     if (evidence.find("ultimate_output") != nullptr) {
       add("ultimate_output", "ultimate_attenuation", "; in the long run it is at most ");
     }
-    found.statement += "; the input never exceeds " + upper_decimal(high_of(evidence.at("input_bound"))) + ".";
+    found.statement +=
+        "; the input never exceeds " + upper_decimal(high_of(evidence.at("input_bound"))) + ".";
     return found;
   }
 

@@ -55,14 +55,12 @@ std::optional<FrequencyPromise> frequency_promise(const Tree& certificate, const
   }
   const std::string& id = is_model ? kModelGuarantee : kEkfGuarantee;
   const auto sentence =
-      std::find_if(found.sentences.begin(), found.sentences.end(), [&](const Sentence& each) {
-        return each.id == id && each.verdict == Verdict::proved;
-      });
+      std::find_if(found.sentences.begin(), found.sentences.end(),
+                   [&](const Sentence& each) { return each.id == id && each.verdict == Verdict::proved; });
   const Tree* claim = proved_claim(certificate, id);
   const bool all_verified =
-      !found.parts.empty() && std::all_of(found.parts.begin(), found.parts.end(), [](const Part& part) {
-        return part.objections.empty();
-      });
+      !found.parts.empty() && std::all_of(found.parts.begin(), found.parts.end(),
+                                          [](const Part& part) { return part.objections.empty(); });
   // Gaussian noise is not a number.
   const bool has_bound = assume.at("noise").find("text") != nullptr;
   if (!all_verified || sentence == found.sentences.end() || claim == nullptr || !has_bound ||
@@ -76,8 +74,8 @@ std::optional<FrequencyPromise> frequency_promise(const Tree& certificate, const
   promise.band = read_band(assume, objections);
   promise.two_channels =
       is_model ? design.at("model").at("samples").elements().size() == 2 : tracker == "quadrature-ekf";
-  promise.between = text_of(assume.at("frequency").at(0)) + " and " +
-                    words_of(assume.at("frequency").at(1), " rad/sample");
+  promise.between =
+      text_of(assume.at("frequency").at(0)) + " and " + words_of(assume.at("frequency").at(1), " rad/sample");
   promise.sentence = sentence->text;
   std::optional<Ball> for_ever;
   if (is_ekf) {

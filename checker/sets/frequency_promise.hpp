@@ -12,10 +12,11 @@ namespace veritrack::checker {
 
 /// Every number is an upper bound, but for those that are assumed of the tone.
 struct FrequencyPromise {
-  Ball amplitude, noise, slew;  ///< constant; of a sample at most; of the frequency at most, rad/sample per sample
-  Band band;                    ///< rad/sample
-  bool two_channels = false;    ///< the noise is a vector in the plane
-  std::string between;          ///< "0.4 and 2.7 rad/sample"
+  Ball amplitude, noise,
+      slew;   ///< constant; of a sample at most; of the frequency at most, rad/sample per sample
+  Band band;  ///< rad/sample
+  bool two_channels = false;  ///< the noise is a vector in the plane
+  std::string between;        ///< "0.4 and 2.7 rad/sample"
 
   std::string sentence;  ///< the verified guarantee with all its hypotheses
   Ball for_ever;         ///< |frequency error|, rad/sample
@@ -23,8 +24,8 @@ struct FrequencyPromise {
   std::optional<Ball> ultimate;
 };
 
-/// Of a tracker's certificate whose verification is `found`. None unless all of it is verified, its guarantee is
-/// PROVED for the whole band, and the tracker sees the tone alone, with noise that has a bound.
+/// Of a tracker's certificate whose verification is `found`. None unless all of it is verified, its guarantee
+/// is PROVED for the whole band, and the tracker sees the tone alone, with noise that has a bound.
 std::optional<FrequencyPromise> frequency_promise(const Tree& certificate, const Verification& found,
                                                   Objections& objections);
 

@@ -23,8 +23,8 @@ constexpr std::size_t kMostPoints = 250;
 FigureTable table_of_runs(const std::vector<ClosedLoopRun>& runs) {
   const std::size_t samples = runs.front().output.size();
   const std::size_t stretch = (samples + kMostPoints - 1) / kMostPoints;
-  FigureTable table("runs", {"frequency of the disturbance at the start [rad/sample]", "sample", "length of the output",
-                             "length of the input"});
+  FigureTable table("runs", {"frequency of the disturbance at the start [rad/sample]", "sample",
+                             "length of the output", "length of the input"});
   for (const ClosedLoopRun& run : runs) {
     for (std::size_t k = 0; k < samples; k += stretch) {
       const auto from = static_cast<std::ptrdiff_t>(k);
@@ -69,9 +69,10 @@ std::vector<Figure> draw_regulator_figures(const certificates::Certificate& cert
   FigureTable bounds = table_of_bounds(found, samples);
   const theorems::Quantity* ultimate = theorems::applicable_quantity(found, "ultimate_output");
   std::string script = gnuplot_style(400) + "set xlabel 'sample k'\nset ylabel 'output, its units'\n" +
-                       "set logscale y\nset format y '%g'\n" + fmt::format("set xrange [0:{:.6g}]\n", samples) +
-                       of_runs.block() + bounds.block();
-  script += fmt::format("plot {:.9g} with lines {} title 'without a regulator (amplitude)'", amplitude, line::kSignal);
+                       "set logscale y\nset format y '%g'\n" +
+                       fmt::format("set xrange [0:{:.6g}]\n", samples) + of_runs.block() + bounds.block();
+  script += fmt::format("plot {:.9g} with lines {} title 'without a regulator (amplitude)'", amplitude,
+                        line::kSignal);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     script += fmt::format(", $runs index {} using 2:3 with lines {}{}", i, line::kSimulated,
                           i == 0 ? " title 'simulated'" : " notitle");
@@ -85,7 +86,8 @@ std::vector<Figure> draw_regulator_figures(const certificates::Certificate& cert
   data.push_back(std::move(of_runs));
   data.push_back(std::move(bounds));
   return {{"output.svg",
-           "Length of the output in three simulated closed loops (thin), the largest in each stretch of samples, below "
+           "Length of the output in three simulated closed loops (thin), the largest in each stretch of "
+           "samples, below "
            "what is proved at every sample and from some sample on (bold) and in the long run (dash-dotted), "
            "logarithmic; the disturbance has the amplitude of the broad line. The simulations prove nothing.",
            run_gnuplot(script + "\n"), "Output of the closed loop, simulated, below the proved bounds",

@@ -50,6 +50,8 @@ From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian no
 model-gaussian    its tubes for the assumed noise and for as much as was proved
 From tests/certificates/model-filter.toml, an extended Kalman filter at almost one frequency:
 model-filter      its tube for the assumed noise, with bounds of the covariance and three levels: checked fast
+From tests/certificates/model-filter-gaussian.toml, the same filter in Gaussian noise:
+model-filter-gaussian  its tubes for the assumed noise and the lowest ratio, with bounds of the covariance
 From tests/certificates/regulator.toml, a regulator with a tracker of two channels:
 regulator         as it is, its tracker's certificate without what the regulator does not need
 From tests/certificates/model-filter-long-run.toml, the same filter:
@@ -397,6 +399,7 @@ KINDS = {
     "model-moving": model_moving,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
+    "model-filter-gaussian": model_gaussian,
     "regulator": regulator,
     "model-filter-long-run": model_long_run,
     "model-filter-moving": model_filter_moving,

@@ -63,8 +63,14 @@ TEST_CASE("one pole: the sums are those of geometric series") {
 
 TEST_CASE("what is not certainly stable is not") {
   const rigor::UpwardRounding upward;
-  for (const std::vector<double>& unstable : {std::vector{1.0, -1.0}, {1.0, 1.0}, {1.0, -1.0001}, {1.0, 0.0, 1.0},
-                                              {1.0, -2.0, 1.0}, {0.0, 1.0}, {1.0, -3.0, 2.0}, {1.0, NAN}}) {
+  for (const std::vector<double>& unstable : {std::vector{1.0, -1.0},
+                                              {1.0, 1.0},
+                                              {1.0, -1.0001},
+                                              {1.0, 0.0, 1.0},
+                                              {1.0, -2.0, 1.0},
+                                              {0.0, 1.0},
+                                              {1.0, -3.0, 2.0},
+                                              {1.0, NAN}}) {
     const InverseFilter inverse(intervals(unstable));
     CHECK_FALSE(inverse.is_stable());
     CHECK(is_empty(inverse.norm()));

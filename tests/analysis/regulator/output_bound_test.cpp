@@ -59,7 +59,8 @@ TEST_CASE("no bound without a tracker that has one, a stable plant and a stable 
   const rigor::UpwardRounding upward;
   const auto nothing = [](const RegulatorQuestion& question) {
     const Derivation found = derive_output_bound(question);
-    return found.verdict == rigor::Verdict::undecided && applicable_quantity(found, "output_bound") == nullptr &&
+    return found.verdict == rigor::Verdict::undecided &&
+           applicable_quantity(found, "output_bound") == nullptr &&
            applicable_quantity(found, "ultimate_output") == nullptr;
   };
   RegulatorQuestion question = thesis_question();
@@ -77,8 +78,10 @@ TEST_CASE("no bound without a tracker that has one, a stable plant and a stable 
   CHECK(applicable_quantity(derive_output_bound(question), "output_bound") == nullptr);
 }
 
-TEST_CASE("no loop exceeds the bounds: estimates at the ends of what is allowed, noise of either sign, a frequency that "
-          "moves") {
+TEST_CASE(
+    "no loop exceeds the bounds: estimates at the ends of what is allowed, noise of either sign, a frequency "
+    "that "
+    "moves") {
   const rigor::UpwardRounding upward;
   Random random(4402);
   double closest = 0.0;
@@ -125,8 +128,8 @@ TEST_CASE("no loop exceeds the bounds: estimates at the ends of what is allowed,
       for (int k = 0; k < 300; ++k) {
         const double v = std::cos(phase);
         // So that what is left pushes the output the way it goes.
-        const double push = attempt % 2 == 0 ? (random.uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0)
-                                             : (v * last > 0.0 ? -1.0 : 1.0);
+        const double push =
+            attempt % 2 == 0 ? (random.uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0) : (v * last > 0.0 ? -1.0 : 1.0);
         const double output = plant.step(input) + v;
         last = output;
         const double n = noise * (random.uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0);

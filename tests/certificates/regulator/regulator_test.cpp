@@ -64,14 +64,16 @@ std::string message_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the sentence begins with the tracker's guarantee, word for word, and names what the regulator rests on") {
+TEST_CASE(
+    "the sentence begins with the tracker's guarantee, word for word, and names what the regulator rests "
+    "on") {
   const Claim& guarantee = claim_of(certificate(), "regulator/guarantee");
   CHECK(guarantee.verdict == Verdict::proved);
   const Claim& tracker = claim_of(regulator_particulars(certificate()).tracker, "ekf/guarantee");
   CHECK(guarantee.statement.starts_with(tracker.statement + " A regulator"));
-  for (const char* words : {"A1 = 1 - 1.2 q^-1 + 0.45 q^-2 and B1 = 0.5 - 0.2 q^-1", "known exactly", "at rest at sample 0",
-                            "whose own sums are exact", "it sees y with that noise", "the same in both channels",
-                            "between 0.2 and 0.5 rad/sample"}) {
+  for (const char* words : {"A1 = 1 - 1.2 q^-1 + 0.45 q^-2 and B1 = 0.5 - 0.2 q^-1", "known exactly",
+                            "at rest at sample 0", "whose own sums are exact", "it sees y with that noise",
+                            "the same in both channels", "between 0.2 and 0.5 rad/sample"}) {
     CHECK_MESSAGE(guarantee.statement.find(words) != std::string::npos, words);
   }
   CHECK(*certificate().verdict == Verdict::proved);
@@ -79,7 +81,8 @@ TEST_CASE("the sentence begins with the tracker's guarantee, word for word, and 
         claim_of(regulator_particulars(certificate()).tracker, "ekf/settling-time").statement);
 }
 
-TEST_CASE("the loop with the tracker itself stays below what is proved, from the corners of the assumed starts") {
+TEST_CASE(
+    "the loop with the tracker itself stays below what is proved, from the corners of the assumed starts") {
   constexpr std::array kFrequencies{0.2, 0.35, 0.5};
   const double ever = upper("output_bound");
   const double settled = upper("settled_output");
@@ -92,9 +95,9 @@ TEST_CASE("the loop with the tracker itself stays below what is proved, from the
   // M of the sentence.
   Eigen::Matrix3d covariance;
   covariance << 0.0096353, 0, 0, 0, 0.03095, 0.0066192, 0, 0.0066192, 0.0053772;
-  REQUIRE(claim_of(certificate(), "regulator/guarantee").statement.find("M = [0.0096353, 0, 0; 0, 0.03095, "
-                                                                        "0.0066192; 0, 0.0066192, 0.0053772]") !=
-          std::string::npos);
+  REQUIRE(claim_of(certificate(), "regulator/guarantee")
+              .statement.find("M = [0.0096353, 0, 0; 0, 0.03095, "
+                              "0.0066192; 0, 0.0066192, 0.0053772]") != std::string::npos);
   test::Random random(4403);
   double closest = 0.0;
   for (int run = 0; run < 24; ++run) {
@@ -161,7 +164,8 @@ TEST_CASE("the simulated loops of the figure stay below the bounds, too, and the
 
 TEST_CASE("where the tracker promises nothing, nothing is claimed, and the reason says so") {
   std::string text = replaced(design_text(), "noise = 0.002", "noise = { snr_db = 30 }\nsamples = 1e6");
-  text = replaced(text, "[design.frequency_tracker.require]\nsettles_within = 100\nsettled_below = 0.003\n", "");
+  text =
+      replaced(text, "[design.frequency_tracker.require]\nsettles_within = 100\nsettled_below = 0.003\n", "");
   text = replaced(text, "slew = 0.00001\n", "");
   const Certificate gaussian = certificate_of(text);
   CHECK(*gaussian.verdict == Verdict::undecided);
@@ -186,10 +190,11 @@ TEST_CASE("bad design files: where, and what is allowed") {
         std::string::npos);
   CHECK(message_of(replaced(design_text(), "b = [0.5, -0.2]", "b = [0, -0.2]")).find("b_0 not 0") !=
         std::string::npos);
-  CHECK(message_of(replaced(design_text(), "attenuation_above = 30\n", "")).find("attenuated_within without") !=
-        std::string::npos);
-  CHECK(message_of(replaced(design_text(), "q1 = 0.0023", "q3 = 0.0023")).find(
-            "x.toml:12:1: in [design.frequency_tracker]: unknown key design.q3") != std::string::npos);
+  CHECK(
+      message_of(replaced(design_text(), "attenuation_above = 30\n", "")).find("attenuated_within without") !=
+      std::string::npos);
+  CHECK(message_of(replaced(design_text(), "q1 = 0.0023", "q3 = 0.0023"))
+            .find("x.toml:12:1: in [design.frequency_tracker]: unknown key design.q3") != std::string::npos);
   CHECK(message_of(replaced(design_text(), "tracker = \"quadrature-ekf\"", "tracker = \"oracle\""))
             .find("in [design.frequency_tracker]: tracker is \"oracle\"") != std::string::npos);
   const std::string within = message_of(

@@ -24,9 +24,12 @@ TEST_CASE("the inverse of 1 - p q^-1 is a geometric series") {
 }
 
 TEST_CASE("what is not certainly stable has no bounds") {
-  for (const std::vector<Ball>& unstable :
-       {std::vector<Ball>{Ball(1.0), Ball(-1.0)}, {Ball(1.0), Ball(-1.1)}, {Ball(1.0), Ball(0.0), Ball(1.0)},
-        {Ball(0.0), Ball(1.0)}, {Ball(1.0), Ball::everything()}, {Ball(1.0), Ball::hull(Ball(-1.1), Ball(-0.2))}}) {
+  for (const std::vector<Ball>& unstable : {std::vector<Ball>{Ball(1.0), Ball(-1.0)},
+                                            {Ball(1.0), Ball(-1.1)},
+                                            {Ball(1.0), Ball(0.0), Ball(1.0)},
+                                            {Ball(0.0), Ball(1.0)},
+                                            {Ball(1.0), Ball::everything()},
+                                            {Ball(1.0), Ball::hull(Ball(-1.1), Ball(-0.2))}}) {
     const InverseFilter inverse(unstable);
     CHECK_FALSE(inverse.is_stable());
     CHECK_FALSE(inverse.norm().finite());

@@ -256,7 +256,7 @@ void prove_guarantee(Proofs& proofs, const QuadratureEkfTables& tables, const St
   const Promises settled = promises_of(question, long_run->set);
   proofs.write(all_parts());
   proofs.write(
-      "\nModule ekf.\nImport QArith filter positive leaf cover guarantee.\n"
+      "\nModule ekf.\nImport Reals QArith filter positive leaf cover guarantee.\n"
       "Local Open Scope Q_scope.\n");
   proofs.write(certificate_text("set_for_ever", texts, for_ever->set, *for_ever->cells, always));
   proofs.write(certificate_text("set_for_the_long_run", texts, long_run->set, *long_run->cells, settled));

@@ -58,7 +58,9 @@ Update<S> update(const Setting& setting, const Covariance<Ball>& p, const S& rho
       {setting.r * k1, setting.r * k2, setting.r * k3, p.p33 + setting.q2 - square(p23) * over}, k1, k2, k3};
 }
 
-/// The two rows that take g - f to |g| - |f| and to arg g - arg f. `dot` must be certainly positive.
+/// The two rows that take g - f to |g| - |f| and to arg g - arg f. `dot` must be certainly positive. Of all
+/// rows that do, these are the same for f and g exchanged, and so differ from the derivatives in the middle
+/// by terms of the second order: where they multiply vectors other than g - f, less is lost.
 template <typename S>
 struct Secant {
   std::array<S, 2> length, angle;
@@ -70,8 +72,10 @@ Secant<S> secant(const std::array<S, 2>& f, const std::array<S, 2>& g) {
   const S over = reciprocal(sqrt(square(f[0]) + square(f[1])) + sqrt(square(g[0]) + square(g[1])));
   const S dot = f[0] * g[0] + f[1] * g[1];
   const S tangent = (f[0] * g[1] - f[1] * g[0]) / dot;
-  const S turn = arctangent_over(tangent) / dot;
-  return {{(f[0] + g[0]) * over, (f[1] + g[1]) * over}, {-(turn * f[1]), turn * f[0]}, dot};
+  // f x (g - f) = (f + g)/2 x (g - f).
+  const S turn = half * arctangent_over(tangent) / dot;
+  const std::array<S, 2> both{f[0] + g[0], f[1] + g[1]};
+  return {{both[0] * over, both[1] * over}, {-(turn * both[1]), turn * both[0]}, dot};
 }
 
 /// The correction at amplitude error a and predicted phase error chi, in the frame of the predicted phase,

@@ -88,6 +88,30 @@ TEST_CASE("the set is verified as it stands") {
   CHECK(refusal({}).empty());
 }
 
+TEST_CASE("a set of a design with large corrections, as tight as the program proves it") {
+  // q1 = q2 = r = 0.1, noise 0.02, slew 0.0005: secants that are not the same from both ends lose it.
+  WrittenSet set;
+  set.metric = {{{"0x1.336bf14a7ef5ep+1", "0x0p+0", "0x0p+0"},
+                 {"0x0p+0", "0x1.be7e341a25e8ap+1", "-0x1.7cecb947b70fep+1"},
+                 {"0x0p+0", "0x0p+0", "0x1.f8983cf69999cp+1"}}};
+  set.lower = {{{"0x1.e9eb83b56446ep-5", "0x0p+0", "0x0p+0"},
+                {"0x0p+0", "0x1.4808f225f032ap-4", "0x1.406421518bca7p-5"},
+                {"0x0p+0", "0x1.406421518bca7p-5", "0x1.7dc20e87ec3c1p-3"}}};
+  set.upper = {{{"0x1.065716d782d36p-4", "0x0p+0", "0x0p+0"},
+                {"0x0p+0", "0x1.5958336e3cf4ep-4", "0x1.73359c99a451cp-5"},
+                {"0x0p+0", "0x1.73359c99a451cp-5", "0x1.a0a93a7c21acfp-3"}}};
+  set.numbers = {{"radius", "0x1.9723d7d783074p-4"},    {"noise", "0x1.47ae147ae1491p-6"},
+                 {"slew", "0x1.0624dd2f1aa0ep-11"},     {"rate", "0x1.95662b0d86ebbp-1"},
+                 {"noise_gain", "0x1.3de818f78f85p+1"}, {"slew_gain", "0x1.7acdaf78725b9p+4"}};
+  Design design = the_design();
+  design.q1 = design.q2 = design.r = Ball::hull(Ball(0x1.9999999999999p-4), Ball(0x1.999999999999ap-4));
+  design.noise = Ball(0.02);
+  design.slew = Ball(0.0005);
+  CHECK(refusal(set, design).empty());
+  set.numbers.at("rate") = "0x1.8p-1";
+  CHECK(mentions(refusal(set, design), "step inequality"));
+}
+
 TEST_CASE("numbers of a set have their sign, though the theorem's inequality knows only their squares") {
   CHECK(mentions(refusal_with("radius", "-0x1.efdab44e59523p-4"), kRange));
   CHECK(mentions(refusal_with("noise", "-0x1.0624dd2f1a9fcp-10"), kRange));

@@ -152,7 +152,7 @@ std::optional<SteadyLimit> propose_steady_size(const SteadyRequest& request, dou
   Eigen::VectorXd x = point;
   for (int round = 0; round < kRounds; ++round) {
     search.improve(x, request.*size, round == 0 ? 0.5 : 0.3);
-    if (const auto found = search.limit_of(x, request.*size, target)) {
+    if (auto found = search.limit_of(x, request.*size, target)) {
       return found;
     }
   }

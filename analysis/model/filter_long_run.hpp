@@ -53,13 +53,14 @@ class LongRunSearch {
     if (nearby.size() == of_around.size()) {
       points.push_back(nearby);
     }
-    std::vector<Scored> starts(points.size());
+    std::vector<ScoredPoint> starts(points.size());
     tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
       starts[i] = score(points[i]);
       improve(starts[i], 1.0);
     });
-    Scored best = *std::max_element(starts.begin(), starts.end(),
-                                    [](const Scored& a, const Scored& b) { return a.value < b.value; });
+    ScoredPoint best =
+        *std::max_element(starts.begin(), starts.end(),
+                          [](const ScoredPoint& a, const ScoredPoint& b) { return a.value < b.value; });
     improve(best, 0.4);
     if (!std::isfinite(best.value)) {
       return std::nullopt;
@@ -72,11 +73,6 @@ class LongRunSearch {
 
  private:
   static constexpr std::array<double, 3> kPlaces{-1.0, 0.0, 1.0};
-  struct Scored {
-    double value = -std::numeric_limits<double>::infinity();
-    VectorXd point;
-  };
-
   [[nodiscard]] FilterWorth worth_there(std::size_t place, const FilterParameters& parameters, double share,
                                         int samples) const {
     return worth_on_orbit(*tone_, nodes_.at(place), parameters,
@@ -116,7 +112,7 @@ class LongRunSearch {
     }
     return high;
   }
-  [[nodiscard]] Scored score(const VectorXd& x) const {
+  [[nodiscard]] ScoredPoint score(const VectorXd& x) const {
     constexpr int kSamples = 20;
     const auto at_middle = [&](const FilterParameters& parameters) {
       return worth_there(1, parameters, 1e-2, kSamples);
@@ -125,31 +121,12 @@ class LongRunSearch {
     if (!std::isfinite(logarithm)) {
       return {};
     }
-    Scored scored{0.0, scaled(x, logarithm)};
+    ScoredPoint scored{0.0, scaled(x, logarithm)};
     scored.value = -std::log(at_middle(coordinates_.at(scored.point)).most_reach);
     return scored;
   }
-  void improve(Scored& best, double step) const {
-    if (!std::isfinite(best.value)) {
-      return;
-    }
-    const rigor::NearestRounding nearest;
-    search::SearchSpace space;
-    space.start = best.point;
-    space.step = VectorXd::Constant(best.point.size(), step);
-    space.lower = VectorXd::Constant(best.point.size(), -30.0);
-    space.upper = VectorXd::Constant(best.point.size(), 12.0);
-    space.evaluations = evaluations_;
-    space.tolerance = 1e-3;
-    (void)search::maximize(
-        [&](const VectorXd& x) {
-          const Scored here = score(x);
-          if (here.value > best.value) {
-            best = here;
-          }
-          return here.value;
-        },
-        space);
+  void improve(ScoredPoint& best, double step) const {
+    climb(best, step, evaluations_, [&](const VectorXd& x) { return score(x); });
   }
 
   const TrackedTone* tone_;

@@ -97,6 +97,38 @@ inline int memory_of(double rate_squared, const FilterParameters& parameters, do
   return std::clamp(static_cast<int>(std::ceil(std::log(share) / std::log(factor))), 12, 4000);
 }
 
+/// A point of a search and what it is worth; minus infinity: nothing.
+struct ScoredPoint {
+  double value = -std::numeric_limits<double>::infinity();
+  VectorXd point;
+};
+
+/// Climbs from `best`, with so many evaluations of `score(point)`, a ScoredPoint; it may return another point
+/// than it was asked for. Steps of the logarithms of parameters.
+template <typename Score>
+void climb(ScoredPoint& best, double step, int evaluations, const Score& score) {
+  if (!std::isfinite(best.value)) {
+    return;
+  }
+  const rigor::NearestRounding nearest;
+  search::SearchSpace space;
+  space.start = best.point;
+  space.step = VectorXd::Constant(best.point.size(), step);
+  space.lower = VectorXd::Constant(best.point.size(), -30.0);
+  space.upper = VectorXd::Constant(best.point.size(), 12.0);
+  space.evaluations = evaluations;
+  space.tolerance = 1e-3;
+  (void)search::maximize(
+      [&](const VectorXd& x) {
+        const ScoredPoint here = score(x);
+        if (here.value > best.value) {
+          best = here;
+        }
+        return here.value;
+      },
+      space);
+}
+
 /// The search for parameters: at the middle of the cell, and then scaled so that they do at its ends.
 class FilterSearch {
  public:
@@ -189,11 +221,7 @@ class FilterSearch {
     }
     return low;
   }
-  struct Scored {
-    double value = -std::numeric_limits<double>::infinity();
-    VectorXd point;
-  };
-  [[nodiscard]] Scored score(const VectorXd& x) const {
+  [[nodiscard]] ScoredPoint score(const VectorXd& x) const {
     constexpr int kSamples = 20;
     const auto at_middle = [&](const FilterParameters& parameters) {
       return worth_on_orbit(*tone_, nodes_[1], parameters,
@@ -204,7 +232,7 @@ class FilterSearch {
     if (!std::isfinite(logarithm)) {
       return {};
     }
-    Scored scored{0.0, scaled(x, logarithm)};
+    ScoredPoint scored{0.0, scaled(x, logarithm)};
     const FilterParameters parameters = coordinates_.at(scored.point);
     scored.value = std::log(coordinates_.finds_noise  ? parameters.noise
                             : coordinates_.finds_slew ? parameters.slew
@@ -213,7 +241,7 @@ class FilterSearch {
   }
   /// The best point found, scaled for the whole cell.
   [[nodiscard]] std::optional<VectorXd> run(const VectorXd& nearby) const {
-    std::vector<Scored> starts;
+    std::vector<ScoredPoint> starts;
     if (nearby.size() == coordinates_.size()) {
       starts.push_back(score(nearby));
     } else {
@@ -226,7 +254,7 @@ class FilterSearch {
         without_noise.coordinates_.finds_noise = without_noise.coordinates_.finds_slew = false;
         without_noise.coordinates_.given_slew = 0.0;
         without_noise.coordinates_.exponent = 0.0;
-        for (const Scored& start : without_noise.best_of(without_noise.first_starts())) {
+        for (const ScoredPoint& start : without_noise.best_of(without_noise.first_starts())) {
           for (const double scale : {-0.5, -1.4, -2.8}) {
             if (std::isfinite(start.value)) {
               const VectorXd smaller = without_noise.scaled(start.point, scale);
@@ -246,8 +274,9 @@ class FilterSearch {
       return std::nullopt;
     }
     tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) { improve(starts[i], 1.0); });
-    Scored best = *std::max_element(starts.begin(), starts.end(),
-                                    [](const Scored& a, const Scored& b) { return a.value < b.value; });
+    ScoredPoint best =
+        *std::max_element(starts.begin(), starts.end(),
+                          [](const ScoredPoint& a, const ScoredPoint& b) { return a.value < b.value; });
     if (starts.size() > 1) {
       improve(best, 0.5);
       improve(best, 0.8);
@@ -262,7 +291,7 @@ class FilterSearch {
 
  private:
   /// Of the reach.
-  [[nodiscard]] std::vector<Scored> first_starts() const {
+  [[nodiscard]] std::vector<ScoredPoint> first_starts() const {
     std::vector<VectorXd> points;
     for (const double source : {-8.0, -4.0, -1.0}) {
       for (const double eta : {-2.3, -1.0}) {
@@ -280,39 +309,20 @@ class FilterSearch {
         }
       }
     }
-    std::vector<Scored> starts(points.size());
+    std::vector<ScoredPoint> starts(points.size());
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) { starts[i] = score(points[i]); });
     return starts;
   }
   /// The three best ones, the best first.
-  [[nodiscard]] static std::vector<Scored> best_of(std::vector<Scored> starts) {
+  [[nodiscard]] static std::vector<ScoredPoint> best_of(std::vector<ScoredPoint> starts) {
     std::stable_sort(starts.begin(), starts.end(),
-                     [](const Scored& a, const Scored& b) { return a.value > b.value; });
+                     [](const ScoredPoint& a, const ScoredPoint& b) { return a.value > b.value; });
     constexpr std::size_t kMost = 3;
     starts.resize(std::min(kMost, starts.size()));
     return starts;
   }
-  void improve(Scored& best, double step) const {
-    if (!std::isfinite(best.value)) {
-      return;
-    }
-    const rigor::NearestRounding nearest;
-    search::SearchSpace space;
-    space.start = best.point;
-    space.step = VectorXd::Constant(best.point.size(), step);
-    space.lower = VectorXd::Constant(best.point.size(), -30.0);
-    space.upper = VectorXd::Constant(best.point.size(), 12.0);
-    space.evaluations = evaluations_;
-    space.tolerance = 1e-3;
-    (void)search::maximize(
-        [&](const VectorXd& x) {
-          const Scored here = score(x);
-          if (here.value > best.value) {
-            best = here;
-          }
-          return here.value;
-        },
-        space);
+  void improve(ScoredPoint& best, double step) const {
+    climb(best, step, evaluations_, [&](const VectorXd& x) { return score(x); });
   }
 
   const TrackedTone* tone_;

@@ -101,14 +101,15 @@ Interval largest_distance(const Tone& tone, Formula&& formula) {
   return largest;
 }
 
-const std::string kWitness =
-    "A tone of amplitude 1, phase 0.5 rad and offset 1/4 in a block of T = 64 samples with M = 16: over the "
-    "bins 14 to 18 the formula is off by ";
+const std::string kTone =
+    "For a tone of amplitude 1, phase 0.5 rad and offset 1/4 in a block of T = 64 samples, M = 16, bins 14 "
+    "to "
+    "18, ";
 
-Statement agreement(const std::string& id, const std::string& sentence, const Interval& off,
+Statement agreement(const std::string& id, const std::string& claim, const Interval& off,
                     const Interval& allowed) {
-  return make_statement(id, sentence, decide(off, allowed, Strictness::weak),
-                        kWitness + enclosed(off) + " at most.", {});
+  return make_statement(id, kTone + claim, decide(off, allowed, Strictness::weak),
+                        "The formula is off by " + enclosed(off) + " at most.", {});
 }
 
 std::vector<Statement> transform_statements() {
@@ -179,10 +180,11 @@ Statement jacobian_statement() {
       off = rigor::max(off, abs(printed(row, column) - value.derivative(column)));
     }
   }
-  return make_statement(
-      "chapter-4/jacobian", "(4.19) to (4.24) are the derivatives of (4.16) and (4.17), to nine digits.",
-      decide(off, Interval(1e-9), Strictness::weak),
-      "At x = (0.75, 0.5, 0.25), L = 2: the entries differ by " + enclosed(off) + " at most.", {});
+  return make_statement("chapter-4/jacobian",
+                        "At x = (0.75, 0.5, 0.25), L = 2, (4.19) to (4.24) are the derivatives of (4.16) and "
+                        "(4.17), to nine digits.",
+                        decide(off, Interval(1e-9), Strictness::weak),
+                        "The entries differ by " + enclosed(off) + " at most.", {});
 }
 
 /// Row m of the third column at the offset 1, where the factor of the first two columns vanishes.

@@ -114,12 +114,11 @@ Statement variance_statement() {
   const Interval kept = square(Interval(1.0) - epsilon);
   const Interval variance = q2 / (Interval(1.0) - kept);
   const Interval off = abs(kept * variance + q2 - variance);
-  return make_statement("chapter-3/frequency-variance",
-                        "(3.12) is the stationary variance of (3.11), to nine digits.",
-                        decide(off, Interval(1e-9) * variance, Strictness::weak),
-                        "At the leak 0.05 and q2 = 0.0005 one step changes the variance " +
-                            enclosed(variance) + " by " + enclosed(off) + " at most.",
-                        {});
+  return make_statement(
+      "chapter-3/frequency-variance",
+      "With the leak 0.05 and q2 = 0.0005, (3.12) is the stationary variance of (3.11), to nine digits.",
+      decide(off, Interval(1e-9) * variance, Strictness::weak),
+      "One step changes the variance " + enclosed(variance) + " by " + enclosed(off) + " at most.", {});
 }
 
 }  // namespace

@@ -265,15 +265,17 @@ void prove_guarantee(Proofs& proofs, const QuadratureEkfTables& tables, const St
       "frequency_error_for_ever", proposition(texts, "", always.error_bound), proof("set_for_ever", "proj1"),
       "ekf/frequency-error-bound",
       fmt::format(
-          "The recursion (2.3)-(2.9) over the real numbers, from every start that is assumed and every "
+          "The recursion (2.3)-(2.9) over the real numbers, for every tone of amplitude 1 and every noise "
+          "and "
+          "change of the frequency within what is assumed, from every start that is assumed and every "
           "P(0|0) from {} M to {} M: the frequency error never exceeds {} rad/sample.",
           texts.multiples[0], texts.multiples[1], always.error_bound));
   proofs.prove(
       "frequency_error_in_the_long_run",
       proposition(texts, fmt::format("({} <= k)%nat -> ", settled.settled_after), settled.settled_bound),
       proof("set_for_the_long_run", "proj2"), "ekf/settling-time",
-      fmt::format("And from sample {} on it never exceeds {} rad/sample.", settled.settled_after,
-                  settled.settled_bound));
+      fmt::format("With these hypotheses it never exceeds {1} rad/sample from sample {0} on.",
+                  settled.settled_after, settled.settled_bound));
   proofs.write("End ekf.\nImport ekf.\n\n");
 }
 

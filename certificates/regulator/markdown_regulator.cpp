@@ -28,9 +28,12 @@ std::string plant_section(const Certificate& certificate) {
       "$`v_k`$, the "
       "output less the plant's own answer, to a frequency tracker (`{}`), and sets $`B_1 u_k = -(2 "
       "\\cos\\hat\\omega_k\\, "
-      "A_1 v_k - A_1 v_{{k-1}})`$. Then $`A_1 y_{{k+1}} = 2 (\\cos\\omega - \\cos\\hat\\omega_k) A_1 v_k`$, "
-      "so that a bound "
-      "on the frequency error is one on the output (`docs/regulator.md` of the program's sources).\n\n",
+      "A_1 v_k - A_1 v_{{k-1}})`$. At a constant frequency, without noise and after the first samples, then "
+      "$`A_1 "
+      "y_{{k+1}} = 2 (\\cos\\omega - \\cos\\hat\\omega_k) A_1 v_k`$, so that a bound on the frequency error "
+      "is "
+      "one on the output; what a slew, noise and the first samples add is in `docs/regulator.md` of the "
+      "program's sources.\n\n",
       delay_polynomial("1", tables.plant.a), delay_polynomial(tables.plant.b.front().text, tables.plant.b, 1),
       tables.design.frequency_tracker.tracker);
   return text;

@@ -25,10 +25,10 @@ struct TrialLength {
   int samples = 4000;  ///< of each run, of which the first quarter does not count
 };
 
-/// Over runs with seeds 1, 2, ..., which start as far off the truth as is assumed: noise as assumed (a bound:
-/// uniform in the disc), the frequency walking as assumed, or going up and down the band as fast as the slew
-/// allows. Nothing when an estimate is not a number. Holds round-to-nearest; the result does not depend on
-/// the number of threads.
+/// Over runs with seeds 1, 2, ..., which start with the largest errors that are assumed: noise as assumed (a
+/// bound: uniform in the disc), the frequency walking as assumed, or going up and down the band as fast as
+/// the slew allows. Nothing when an estimate is not a number. Holds round-to-nearest; the result does not
+/// depend on the number of threads.
 [[nodiscard]] std::optional<SimulatedRms> simulated_rms(const Design& design, const Assumptions& assume,
                                                         const TrialLength& length = {});
 

@@ -97,7 +97,7 @@ Promises check_steady_contraction(const Tree& claimed, const Design& design, std
   promises.covariance = covariance ? covariance->words : "";
   promises.about_steady_state = true;
   if (fine && evidence != nullptr) {
-    covers = check_steady_piecess(*evidence, design, {*branch, *fine}, cells, objections);
+    covers = check_steady_covers(*evidence, design, {*branch, *fine}, cells, objections);
     for (const SteadyPieces& cover : covers) {
       if (cover.verified) {
         improve(promises.noise, noise_of(cover));

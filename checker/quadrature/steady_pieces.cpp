@@ -85,9 +85,9 @@ std::vector<SteadyCell> part_of(const std::vector<SteadyCell>& branch, const Bal
   return part;
 }
 
-std::vector<SteadyPieces> check_steady_piecess(const Tree& evidence, const Design& design,
-                                               const SteadyBranches& branches, std::int64_t& cells,
-                                               Objections& objections) {
+std::vector<SteadyPieces> check_steady_covers(const Tree& evidence, const Design& design,
+                                              const SteadyBranches& branches, std::int64_t& cells,
+                                              Objections& objections) {
   std::vector<SteadyPieces> covers;
   std::vector<PieceEnds> ends;  // of the pieces of the last cover; none when it is one set for the whole band
   const auto finish = [&] {

@@ -37,9 +37,9 @@ std::vector<SteadyCell> part_of(const std::vector<SteadyCell>& branch, const Bal
 
 /// Checks all sets of the evidence. Those with `from` and `to` that follow each other and have the same name
 /// are one cover; a set without is one for the whole band. What fails is an objection.
-std::vector<SteadyPieces> check_steady_piecess(const Tree& evidence, const Design& design,
-                                               const SteadyBranches& branches, std::int64_t& cells,
-                                               Objections& objections);
+std::vector<SteadyPieces> check_steady_covers(const Tree& evidence, const Design& design,
+                                              const SteadyBranches& branches, std::int64_t& cells,
+                                              Objections& objections);
 
 /// The least noise, and the least slew, that a piece tolerates.
 Ball noise_of(const SteadyPieces& cover);

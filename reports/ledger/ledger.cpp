@@ -115,8 +115,8 @@ bool Row::is_uniform() const {
 }
 
 bool Row::is_everywhere(Verdict verdict) const {
-  return std::all_of(verdicts.begin(), verdicts.end(),
-                     [&](const DesignVerdict& each) { return each.verdict == verdict; });
+  return !verdicts.empty() && std::all_of(verdicts.begin(), verdicts.end(),
+                                          [&](const DesignVerdict& each) { return each.verdict == verdict; });
 }
 
 bool Row::is_anywhere(Verdict verdict) const {

@@ -26,7 +26,7 @@ using experiments::SonarStart;
 constexpr std::array<double, 3> kDopplers{1.5, 1.0, 0.1};
 constexpr Conditions kDopplerSearched{
     Conditions::Kind::searched,
-    "for none of three Doppler shifts, started by the initialisation or at the truth"};
+    "for any of three Doppler shifts, started by the initialisation or at the truth"};
 
 struct SetStudy {
   /// By Doppler shift, then by start (initialisation, truth), at the printed noise.

@@ -80,7 +80,7 @@ CheckedPieces check_pieces(const std::vector<WrittenPiece>& pieces) {
   CheckedPieces result;
   std::int64_t cells = 0;
   result.covers =
-      check_steady_piecess(evidence, design_in_pieces(), {*branch, *branch}, cells, result.objections);
+      check_steady_covers(evidence, design_in_pieces(), {*branch, *branch}, cells, result.objections);
   return result;
 }
 

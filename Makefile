@@ -5,12 +5,12 @@
 
 MAKEFLAGS += --no-print-directory
 
-BUILD_PACKAGES := g++ cmake ninja-build pkg-config libeigen3-dev libboost-dev coinor-libipopt-dev libnlopt-cxx-dev \
+BUILD_PACKAGES := g++ cmake ninja-build pkg-config libeigen3-dev coinor-libipopt-dev libnlopt-cxx-dev \
   libmpfr-dev nettle-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtbb-dev gnuplot-nox \
   libflint-arb-dev libflint-dev tao-pegtl-dev libsndfile1-dev libcmark-gfm-dev libcmark-gfm-extensions-dev \
   libkainjow-mustache-dev libpugixml-dev libjs-katex
 # clang also compiles the arithmetic tests: the promise must hold under both compilers
-TEST_PACKAGES  := doctest-dev python3-jsonschema python3-yaml clang git
+TEST_PACKAGES  := doctest-dev libboost-dev python3-jsonschema python3-yaml clang git
 # The package for Python: what it is built with, and what it and its tests run with (sweeps: Dask, Matplotlib, Sobol points)
 PYTHON_PACKAGES := pybind11-dev python3-dev python3-numpy
 PYTHON_TEST_PACKAGES := $(PYTHON_PACKAGES) python3-pytest python3-distributed python3-matplotlib python3-scipy \
@@ -20,7 +20,7 @@ PYTHON_NIGHTLY_PACKAGES := mypy python3-nbconvert python3-ipykernel
 LINT_PACKAGES  := clang clang-format clang-tidy git $(PYTHON_PACKAGES)
 FUZZ_PACKAGES  := clang libclang-rt-14-dev doctest-dev
 PROOF_PACKAGES := coq libcoq-interval libcoq-coquelicot
-BENCH_PACKAGES := libbenchmark-dev libmpfi-dev
+BENCH_PACKAGES := libbenchmark-dev libboost-dev libmpfi-dev
 # a browser for the pages, LaTeX for the tables, and npm for what tests/pages/package.json names (node's own where it is)
 PAGE_PACKAGES  := chromium texlive-latex-recommended $(if $(shell command -v npm),,npm)
 # dpkg-shlibdeps, which finds what the package needs

@@ -19,6 +19,7 @@
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/trackers/textbook_ekf.hpp"
+#include "trackers/batch/quadrature_batch.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
 #include "trackers/signals/test_signals.hpp"
@@ -87,14 +88,14 @@ double double_step() {
 /// Times `run`, which processes all samples of the signal, and reports the cost of one sample, also in double
 /// steps.
 template <typename Run>
-void measure(benchmark::State& state, const Run& run) {
+void measure(benchmark::State& state, const Run& run, std::size_t trackers = 1) {
   const double seconds = processor_time([&] {
     for (auto _ : state) {
       run();
     }
   });
   const double step =
-      seconds / (static_cast<double>(state.iterations()) * static_cast<double>(signal().size()));
+      seconds / (static_cast<double>(state.iterations()) * static_cast<double>(signal().size() * trackers));
   state.counters["ns_per_step"] = step * 1e9;
   state.counters["double_steps"] = step / double_step();
 }
@@ -104,6 +105,30 @@ void step_double(benchmark::State& state) {
   measure(state, [&] { run_double(tracker); });
 }
 BENCHMARK(step_double);
+
+/// 64 trackers side by side, of which the estimates are wanted at the end only.
+template <InstructionSet set>
+void step_in_a_batch(benchmark::State& state) {
+  if (!has(set)) {
+    state.SkipWithError("this processor has no such instructions");
+    return;
+  }
+  constexpr std::size_t kTrackers = 64;
+  std::vector<double> samples;
+  for (const Sample& sample : signal()) {
+    samples.insert(samples.end(), {sample.in_phase, sample.quadrature});
+  }
+  QuadratureBatch batch(std::vector(kTrackers, design<double>()), std::vector(kTrackers, start<double>()));
+  measure(
+      state,
+      [&] {
+        batch.run({samples.data(), 0, signal().size()}, {}, set);
+      },
+      kTrackers);
+}
+BENCHMARK(step_in_a_batch<InstructionSet::sse2>);
+BENCHMARK(step_in_a_batch<InstructionSet::avx2>);
+BENCHMARK(step_in_a_batch<InstructionSet::avx512>);
 
 void step_textbook(benchmark::State& state) {
   const auto d = design<double>();

@@ -95,7 +95,7 @@ std::string work_on(const CheckTask& task, const CheckOptions& options, std::siz
       options.seconds > 0.0 ? search::Deadline(options.seconds) : search::Deadline();
   const certificates::Certificate certificate =
       certificates::certify(*task.design, fs::path(task.path).filename().string(), task.text, std::cref(line),
-                            certificates::Extent::requirements, deadline);
+                            certificates::Extent::verdicts, deadline);
   return reports::to_text({task.path, reports::requirements_of(certificate), std::nullopt});
 }
 

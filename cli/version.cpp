@@ -10,7 +10,6 @@
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
-#include <boost/version.hpp>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <tao/pegtl/version.hpp>

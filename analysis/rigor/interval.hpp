@@ -17,59 +17,27 @@
 #pragma once
 
 #include <algorithm>
-#include <boost/numeric/interval/arith.hpp>
-#include <boost/numeric/interval/checking.hpp>
-#include <boost/numeric/interval/interval.hpp>
-#include <boost/numeric/interval/policies.hpp>
-#include <boost/numeric/interval/utility.hpp>
 #include <cmath>
 #include <limits>
 
 #include "analysis/rigor/call_site.hpp"
+#include "analysis/rigor/packed_bounds.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::rigor {
-
-namespace detail {
-
-/// Boost.Interval's rounding policy, over the operations of rounding.hpp: the caller sets the mode.
-struct HeldUpwardPolicy {
-  using unprotected_rounding = HeldUpwardPolicy;
-  static double conv_down(double x) { return x; }
-  static double conv_up(double x) { return x; }
-  static double add_down(double x, double y) { return rigor::add_down(x, y); }
-  static double add_up(double x, double y) { return rigor::add_up(x, y); }
-  static double sub_down(double x, double y) { return rigor::sub_down(x, y); }
-  static double sub_up(double x, double y) { return rigor::sub_up(x, y); }
-  static double mul_down(double x, double y) { return rigor::mul_down(x, y); }
-  static double mul_up(double x, double y) { return rigor::mul_up(x, y); }
-  static double div_down(double x, double y) { return rigor::div_down(x, y); }
-  static double div_up(double x, double y) { return rigor::div_up(x, y); }
-  static double sqrt_down(double x) { return rigor::sqrt_down(x); }
-  static double sqrt_up(double x) { return rigor::sqrt_up(x); }
-};
-
-using BoostInterval = boost::numeric::interval<
-    double, boost::numeric::interval_lib::policies<HeldUpwardPolicy,
-                                                   boost::numeric::interval_lib::checking_base<double>>>;
-
-}  // namespace detail
 
 /// A closed, possibly unbounded interval of reals, or the empty set. See the top of this file for its
 /// promise.
 class Interval {
  public:
   /// The empty interval, so that a forgotten value can never certify anything.
-  Interval() noexcept : value_(kNaN, kNaN, true) {}
+  Interval() noexcept : bounds_(packed::nothing()) {}
 
   /// The single real number that this double is. NaN and the infinities are not real numbers: empty.
-  explicit Interval(double point) noexcept : Interval() {
-    if (std::isfinite(point)) {
-      value_ = detail::BoostInterval(point, point, true);
-    }
-  }
+  explicit Interval(double point) noexcept
+      : bounds_(std::isfinite(point) ? packed::pack(point, point) : packed::nothing()) {}
   explicit Interval(float point) noexcept : Interval(static_cast<double>(point)) {}
-  explicit Interval(int point) noexcept : Interval(static_cast<double>(point)) {}
+  explicit Interval(int point) noexcept : bounds_(packed::pack(point, point)) {}
   template <typename T>
   explicit Interval(T) = delete;  // wider integers and long double would be rounded silently
 
@@ -77,11 +45,8 @@ class Interval {
   /// real number.
   [[nodiscard]] static Interval from_bounds(double lower, double upper) noexcept {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Interval result;
-    if (lower <= upper && lower < kInfinity && upper > -kInfinity) {
-      result.value_ = detail::BoostInterval(lower, upper, true);
-    }
-    return result;
+    const bool is_set = lower <= upper && lower < kInfinity && upper > -kInfinity;
+    return Interval(is_set ? packed::pack(lower, upper) : packed::nothing());
   }
   [[nodiscard]] static Interval empty() noexcept { return {}; }
   /// (-inf, +inf): a real number of which nothing else is known.
@@ -90,37 +55,35 @@ class Interval {
   }
 
   /// NaN when empty.
-  [[nodiscard]] double lower() const noexcept { return value_.lower(); }
+  [[nodiscard]] double lower() const noexcept { return packed::lower(bounds_); }
   /// NaN when empty.
-  [[nodiscard]] double upper() const noexcept { return value_.upper(); }
+  [[nodiscard]] double upper() const noexcept { return packed::upper(bounds_); }
 
-  Interval operator-() const noexcept { return Interval(-value_); }
-  Interval& operator+=(const Interval& other) {
-    value_ += other.value_;
-    return *this;
-  }
-  Interval& operator-=(const Interval& other) {
-    value_ -= other.value_;
-    return *this;
-  }
-  Interval& operator*=(const Interval& other) {
-    value_ *= other.value_;
-    return *this;
-  }
+  Interval operator-() const noexcept { return Interval(packed::negated(bounds_)); }
+  Interval& operator+=(const Interval& other) { return *this = *this + other; }
+  Interval& operator-=(const Interval& other) { return *this = *this - other; }
+  Interval& operator*=(const Interval& other) { return *this = *this * other; }
   /// Empty when the divisor contains zero.
-  Interval& operator/=(const Interval& other) {
-    const bool divisor_is_nonzero = other.lower() > 0.0 || other.upper() < 0.0;
-    if (divisor_is_nonzero) {
-      value_ /= other.value_;
-    } else {
-      *this = Interval();
-    }
-    return *this;
+  Interval& operator/=(const Interval& other) { return *this = *this / other; }
+  friend Interval operator+(const Interval& a, const Interval& b) {
+    return Interval(packed::sum(a.bounds_, b.bounds_));
   }
-  friend Interval operator+(Interval a, const Interval& b) { return a += b; }
-  friend Interval operator-(Interval a, const Interval& b) { return a -= b; }
-  friend Interval operator*(Interval a, const Interval& b) { return a *= b; }
-  friend Interval operator/(Interval a, const Interval& b) { return a /= b; }
+  friend Interval operator-(const Interval& a, const Interval& b) {
+    return Interval(packed::sum(a.bounds_, packed::negated(b.bounds_)));
+  }
+  friend Interval operator*(const Interval& a, const Interval& b) {
+    return Interval(packed::product(a.bounds_, b.bounds_));
+  }
+  friend Interval operator/(const Interval& a, const Interval& b) {
+    return Interval(packed::quotient(a.bounds_, b.bounds_));
+  }
+  /// {t^2 : t in x}: never negative, unlike x * x.
+  [[nodiscard]] friend Interval square(const Interval& x) { return Interval(packed::square(x.bounds_)); }
+  /// The smallest interval that contains both; empty when either is, because the empty interval means that
+  /// nothing is known.
+  [[nodiscard]] friend Interval hull(const Interval& a, const Interval& b) noexcept {
+    return Interval(packed::hull(a.bounds_, b.bounds_));
+  }
 
   /// Certain equality of real numbers: both are the same single point. Its negation would prove nothing, so
   /// there is none.
@@ -130,10 +93,12 @@ class Interval {
   friend bool operator!=(const Interval& a, const Interval& b) = delete;
 
  private:
-  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  explicit Interval(const detail::BoostInterval& value) noexcept : value_(value) {}
-  detail::BoostInterval value_;
+  explicit Interval(__m128d bounds) noexcept : bounds_(bounds) {}
+  __m128d bounds_;
 };
+
+[[nodiscard]] Interval square(const Interval& x);
+[[nodiscard]] Interval hull(const Interval& a, const Interval& b) noexcept;
 
 // ---- properties
 
@@ -232,15 +197,6 @@ class Interval {
 
 // ---- set operations
 
-/// The smallest interval that contains both; empty when either is, because the empty interval means that
-/// nothing is known.
-[[nodiscard]] inline Interval hull(const Interval& a, const Interval& b) noexcept {
-  if (is_empty(a) || is_empty(b)) {
-    return Interval::empty();
-  }
-  return Interval::from_bounds(std::min(a.lower(), b.lower()), std::max(a.upper(), b.upper()));
-}
-
 /// The common points; empty when there are none.
 [[nodiscard]] inline Interval intersection(const Interval& a, const Interval& b) noexcept {
   if (is_empty(a) || is_empty(b)) {
@@ -275,16 +231,6 @@ class Interval {
     return Interval::empty();
   }
   return Interval::from_bounds(std::max(a.lower(), b.lower()), std::max(a.upper(), b.upper()));
-}
-
-/// {t^2 : t in x}: never negative, unlike x * x.
-[[nodiscard]] inline Interval square(const Interval& x) {
-  if (is_empty(x)) {
-    return x;
-  }
-  const double smallest = mignitude(x);
-  const double largest = magnitude(x);
-  return Interval::from_bounds(mul_down(smallest, smallest), mul_up(largest, largest));
 }
 
 /// Empty when x reaches below zero: for a quantity that is known to be non-negative write sqrt(max(x,

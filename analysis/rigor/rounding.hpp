@@ -71,6 +71,10 @@ inline double opaque(double value) noexcept {
   asm volatile("" : "+x"(value));
   return value;
 }
+inline __m128d opaque(__m128d values) noexcept {
+  asm volatile("" : "+x"(values));
+  return values;
+}
 
 }  // namespace detail
 

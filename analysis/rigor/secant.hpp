@@ -19,7 +19,6 @@
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/elementary_ratios.hpp"
 #include "analysis/rigor/interval.hpp"
-#include "analysis/rigor/product.hpp"
 
 namespace veritrack::rigor {
 
@@ -65,7 +64,7 @@ class Secant {
     Interval value = center_;
     for (std::size_t k = 0; k < kSize; ++k) {
       if (depends_[k]) {
-        value += product(slopes_[k], offset[k]);
+        value += slopes_[k] * offset[k];
       }
     }
     return value;
@@ -86,7 +85,7 @@ class Secant {
     result.depends_ = depends_;
     for (std::size_t k = 0; k < kSize; ++k) {
       if (depends_[k]) {
-        result.slopes_[k] = product(slope, slopes_[k]);
+        result.slopes_[k] = slope * slopes_[k];
       }
     }
     return result;
@@ -122,18 +121,18 @@ class Secant {
   /// f g - f(c) g(c) = (f + f(c))/2 (g - g(c)) + (g + g(c))/2 (f - f(c)).
   friend Secant operator*(const Secant& a, const Secant& b) {
     Secant result;
-    result.center_ = product(a.center_, b.center_);
-    result.range_ = product(a.range_, b.range_);
+    result.center_ = a.center_ * b.center_;
+    result.range_ = a.range_ * b.range_;
     const Interval of_a = a.mean();
     const Interval of_b = b.mean();
     for (std::size_t k = 0; k < kSize; ++k) {
       if (a.depends_[k]) {
-        result.slopes_[k] = product(of_b, a.slopes_[k]);
+        result.slopes_[k] = of_b * a.slopes_[k];
         if (b.depends_[k]) {
-          result.slopes_[k] += product(of_a, b.slopes_[k]);
+          result.slopes_[k] += of_a * b.slopes_[k];
         }
       } else if (b.depends_[k]) {
-        result.slopes_[k] = product(of_a, b.slopes_[k]);
+        result.slopes_[k] = of_a * b.slopes_[k];
       }
       result.depends_[k] = a.depends_[k] || b.depends_[k];
     }
@@ -148,7 +147,7 @@ class Secant {
     for (std::size_t k = 0; k < kSize; ++k) {
       result.depends_[k] = a.depends_[k] || b.depends_[k];
       if (result.depends_[k]) {
-        result.slopes_[k] = product(a.slope(k) - product(result.center_, b.slope(k)), reciprocal);
+        result.slopes_[k] = (a.slope(k) - result.center_ * b.slope(k)) * reciprocal;
       }
     }
     return result;

@@ -46,13 +46,16 @@ constexpr double kNarrowRadius = 0x1p-10;
 
 /// u (c1 - u (c2 - ... - u (c8 - u t))) for 0 <= u < 1 and t in [0, c9].
 Bounds alternating_series(const Bounds& u, const Coefficients& coefficients) {
-  Bounds inner{0.0, coefficients.back().high};
+  // As (-low, high), both rounded up: a step is (-c.low + u.high inner.high, c.high + u.low (-inner.low)).
+  const __m128d factors = detail::opaque(_mm_set_pd(u.low, u.high));
+  __m128d inner = packed::pack(0.0, coefficients.back().high);
   for (int term = kTerms - 2; term >= 0; --term) {
     const Bounds& coefficient = coefficients[static_cast<std::size_t>(term)];
-    inner = {sub_down(coefficient.low, mul_up(u.high, inner.high)),
-             sub_up(coefficient.high, mul_down(u.low, inner.low))};
+    inner = _mm_add_pd(packed::pack(coefficient.low, coefficient.high),
+                       _mm_mul_pd(factors, packed::negated(inner)));
   }
-  return {mul_down(u.low, inner.low), mul_up(u.high, inner.high)};
+  const __m128d result = detail::opaque(_mm_mul_pd(packed::negated(factors), inner));
+  return {packed::lower(result), packed::upper(result)};
 }
 
 /// r - r w for r in `r` and w in `w`, where 0 <= w < 1: a bound on r times the largest or the smallest 1 - w,

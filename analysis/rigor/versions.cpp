@@ -3,7 +3,6 @@
 #include <mpfr.h>
 
 #include <Eigen/Core>
-#include <boost/version.hpp>
 
 namespace veritrack::rigor {
 
@@ -18,11 +17,9 @@ std::vector<std::pair<std::string, std::string>> arithmetic_versions() {
   const auto dotted = [](int major, int minor, int patch) {
     return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
   };
-  return {
-      {compiler, compiler_version},
-      {"Boost (Interval)", dotted(BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
-      {"MPFR", mpfr_get_version()},
-      {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+  return {{compiler, compiler_version},
+          {"MPFR", mpfr_get_version()},
+          {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
 }
 
 }  // namespace veritrack::rigor

@@ -17,6 +17,7 @@ constexpr double kLowest = -std::numeric_limits<double>::max();
 struct Search {
   const std::function<double(const Eigen::VectorXd&)>& objective;
   const Eigen::VectorXd& step;
+  double enough;
   BestPoint best;
   int evaluations_left;
   std::exception_ptr thrown;
@@ -38,6 +39,9 @@ struct Search {
     }
     if (found > best.value) {
       best = {point, found};
+    }
+    if (found >= enough) {
+      throw nlopt::forced_stop();
     }
     return found;
   }
@@ -71,7 +75,7 @@ BestPoint run(nlopt::algorithm algorithm, const std::function<double(const Eigen
   if (size == 0 || space.step.size() != size || space.lower.size() != size || space.upper.size() != size) {
     throw std::invalid_argument("start, step, lower and upper must have the same size, not zero");
   }
-  Search search{objective, space.step, {space.start, kLowest}, space.evaluations, nullptr};
+  Search search{objective, space.step, space.enough, {space.start, kLowest}, space.evaluations, nullptr};
   try {
     nlopt::opt optimizer(algorithm, static_cast<unsigned int>(size));
     optimizer.set_max_objective(evaluate, &search);

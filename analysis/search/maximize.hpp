@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 
 namespace veritrack::search {
 
@@ -19,6 +20,8 @@ struct SearchSpace {
   int evaluations = 200;  ///< at most
   SearchMethod method = SearchMethod::subplex;
   double tolerance = 1e-4;  ///< of the point, relative
+  /// The search ends at the first point of at least this value.
+  double enough = std::numeric_limits<double>::infinity();
 };
 
 /// The best point that was evaluated, the start at worst.

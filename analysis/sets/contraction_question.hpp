@@ -10,6 +10,20 @@
 
 namespace veritrack::sets {
 
+/// How far a search goes.
+enum class SearchEffort {
+  everything,  ///< for the best value of every quantity
+  sufficient,  ///< until what is required is proved, and for everything where one set does not prove it
+  quick        ///< only for one set that proves what is required
+};
+
+/// What [require] asks of the assumed starts.
+struct RequiredBounds {
+  std::optional<double> frequency_error;  ///< rad/sample: never reached
+  std::optional<double> samples;          ///< after which the error is at most `settled_frequency_error`
+  [[nodiscard]] bool any() const { return frequency_error || samples; }
+};
+
 /// What is asked, for a signal of amplitude 1: design, noise and amplitudes relative to the true one
 /// (trackers::at_unit_amplitude).
 struct ContractionQuestion {
@@ -27,6 +41,9 @@ struct ContractionQuestion {
   /// |omega(k)| <= largest_frequency, rad/sample; by default pi, from above.
   rigor::Interval amplitude = rigor::Interval(1.0);
   double largest_frequency = 0x1.921fb54442d19p+1;
+  RequiredBounds required;
+  /// Other than `everything` only where `required` is all that a verdict needs.
+  SearchEffort effort = SearchEffort::everything;
   int search_evaluations = 40;  ///< per set
   bool with_samples = true;     ///< also what a search finds, which proves nothing
   /// Also as much noise, and as much slew, as sets of their own tolerate. Without, they are looked for only

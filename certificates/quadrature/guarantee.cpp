@@ -51,9 +51,18 @@ void add_contraction(Certificate& certificate) {
     const rigor::NearestRounding nearest;
     covariance = start_covariance_text(quadrature_tables(certificate.design));
   }
+  const Requirements& require = quadrature_tables(certificate.design).require;
+  const bool requires_limits = require.largest_noise_at_least || require.largest_slew_at_least ||
+                               require.frequency_error_radius_at_least;
   if (quadrature_tables(certificate.design).design.without_leak()) {
-    quadrature::ContractionCertificate found =
-        quadrature::certify_contraction(contraction_question(certificate.design));
+    sets::ContractionQuestion question = contraction_question(certificate.design);
+    if (!requires_limits && question.required.any()) {
+      question.effort = certificate.extent == Extent::quick      ? sets::SearchEffort::quick
+                        : certificate.extent == Extent::verdicts ? sets::SearchEffort::sufficient
+                                                                 : sets::SearchEffort::everything;
+      question.with_samples = question.effort == sets::SearchEffort::everything;
+    }
+    quadrature::ContractionCertificate found = quadrature::certify_contraction(question);
     certificate.derivations.push_back(std::move(found.derivation));
     certificate.contraction = std::move(found.result);
     const auto keep = [&](const char* purpose, const std::optional<quadrature::Verification>& verification) {
@@ -69,11 +78,9 @@ void add_contraction(Certificate& certificate) {
     keep("settling", found.settling_set);
   } else {
     const Assumptions& assume = quadrature_tables(certificate.design).assume;
-    const Requirements& require = quadrature_tables(certificate.design).require;
     sets::ContractionQuestion question = contraction_question(certificate.design);
     question.with_samples = certificate.extent == Extent::everything;
-    question.with_limits = certificate.extent == Extent::everything || require.largest_noise_at_least ||
-                           require.largest_slew_at_least || require.frequency_error_radius_at_least;
+    question.with_limits = certificate.extent == Extent::everything || requires_limits;
     quadrature::LeakCertificate found = quadrature::certify_with_leak(
         {question, rigor::hull(assume.frequency[0].value, assume.frequency[1].value)});
     certificate.derivations.push_back(std::move(found.derivation));

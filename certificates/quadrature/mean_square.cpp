@@ -91,7 +91,7 @@ void add_mean_square(Certificate& certificate, const quadrature::LockQuestion& q
                      const quadrature::LockCertificate& found) {
   quadrature::LockQuestion asked = question;
   const auto& required = quadrature_tables(certificate.design).require.rms_frequency_error_below;
-  if (certificate.extent == Extent::requirements && required) {
+  if (certificate.extent != Extent::everything && required) {
     asked.enough_rms = required->nearest;
   }
   quadrature::MeanSquareCertificate mean_square = quadrature::certify_mean_square(asked, found);

@@ -136,10 +136,19 @@ void certify_quadrature(Certificate& certificate, const CertifyProgress& progres
     add_lock(certificate);
     return;
   }
-  quadrature_published_results(certificate);
+  const bool only_verdicts = certificate.extent == Extent::verdicts || certificate.extent == Extent::quick;
+  if (only_verdicts) {
+    certificate.particulars = QuadratureParticulars{};
+  } else {
+    quadrature_published_results(certificate);
+  }
   add_contraction(certificate);
-  add_capture(certificate, progress);
-  add_comparison(certificate);
+  if (certificate.extent != Extent::quick) {
+    add_capture(certificate, progress);
+  }
+  if (!only_verdicts) {
+    add_comparison(certificate);
+  }
   const GuaranteeTerms terms{tables.assume,
                              tables.require,
                              !tables.design.without_leak(),

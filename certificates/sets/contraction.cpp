@@ -41,6 +41,12 @@ sets::ContractionQuestion contraction_question(const trackers::ToneModel<Interva
   if (const auto given = covariance_at_unit_amplitude(assume)) {
     question.start_covariance = sets::StartCovariance{*given, Interval(1.0), true, std::nullopt, {}};
   }
+  if (require.frequency_error_below) {
+    question.required.frequency_error = require.frequency_error_below->value.lower();
+  }
+  if (require.settles_within) {
+    question.required.samples = require.settles_within->value.lower();
+  }
   if (require.settled_below) {
     question.settled_frequency_error = std::nextafter(require.settled_below->value.lower(), 0.0);
   }

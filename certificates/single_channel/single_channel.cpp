@@ -239,8 +239,12 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
                         i == middle ? "single-channel-bias" : "single-channel-bias/" + frequencies[i].text,
                         quadrature_bias(quadrature, frequencies[i].value)));
   }
-  single_channel::PhaseCertificate contraction = single_channel::certify_over_phases(
-      {contraction_question(design, tables.assume, tables.require), band});
+  single_channel::PhaseQuestion question{contraction_question(design, tables.assume, tables.require), band};
+  if (certificate.extent == Extent::verdicts || certificate.extent == Extent::quick) {
+    question.tracker.with_limits =
+        tables.require.largest_noise_at_least || tables.require.largest_slew_at_least;
+  }
+  single_channel::PhaseCertificate contraction = single_channel::certify_over_phases(question);
   certificate.derivations.push_back(std::move(contraction.derivation));
   certificate.contraction = std::move(contraction.result);
   const std::string covariance = start_covariance_words(contraction.bound_set);

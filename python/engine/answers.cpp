@@ -105,9 +105,12 @@ Json positions_json(const certificates::Design& design) {
 
 /// `otherwise`: the extent where the request names none.
 Certificate certified(const AskedDesign& asked, const Json& request, const char* otherwise) {
-  const auto extent = request.value("extent", otherwise) == std::string("everything")
-                          ? certificates::Extent::everything
-                          : certificates::Extent::requirements;
+  using certificates::Extent;
+  const auto name = request.value("extent", otherwise);
+  const Extent extent = name == std::string("everything") ? Extent::everything
+                        : name == std::string("quick")    ? Extent::quick
+                        : name == std::string("verdicts") ? Extent::verdicts
+                                                          : Extent::requirements;
   return certificates::certify(asked.design, fs::path(asked.file).filename().string(), asked.text, {},
                                extent);
 }

@@ -1,7 +1,13 @@
 // The extended Kalman filters of one tone.
+#include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl.h>
 
 #include "python/trackers/recordings.hpp"
+#include "trackers/batch/quadrature_batch.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/single_channel/single_channel_ekf.hpp"
 
@@ -86,20 +92,99 @@ struct SingleChannelTracker {
   }
 };
 
-/// `design`: (size, 4), q1, q2, r, epsilon; `state`: (size, 3); `covariance`: (size, 9), P(0|0).
-std::vector<QuadratureTracker> quadrature_trackers(const Array& design, const Array& state,
-                                                   const Array& covariance) {
+/// Designs and starts: `design`: (size, 4), q1, q2, r, epsilon; `state`: (size, 3); `covariance`: (size, 9),
+/// P(0|0).
+std::pair<std::vector<trackers::ToneModel<double>>, std::vector<Estimate>> quadrature_starts(
+    const Array& design, const Array& state, const Array& covariance) {
   require_shape(design, 4);
   require_shape(state, 3);
   require_shape(covariance, 9);
-  std::vector<QuadratureTracker> trackers;
+  std::vector<trackers::ToneModel<double>> designs;
+  std::vector<Estimate> starts;
   for (std::size_t i = 0; i < static_cast<std::size_t>(design.shape(0)); ++i) {
     const double* chosen = row_of(design, i);
-    const trackers::ToneModel<double> model{chosen[0], chosen[1], chosen[2], chosen[3]};
-    trackers.push_back(
-        {trackers::QuadratureEkf<double>(model, start_from(row_of(state, i), row_of(covariance, i)))});
+    designs.push_back({chosen[0], chosen[1], chosen[2], chosen[3]});
+    starts.push_back(start_from(row_of(state, i), row_of(covariance, i)));
+  }
+  return {designs, starts};
+}
+
+std::vector<QuadratureTracker> quadrature_trackers(const Array& design, const Array& state,
+                                                   const Array& covariance) {
+  const auto [designs, starts] = quadrature_starts(design, state, covariance);
+  std::vector<QuadratureTracker> trackers;
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    trackers.push_back({trackers::QuadratureEkf<double>(designs[i], starts[i])});
   }
   return trackers;
+}
+
+/// Those of trackers/batch/, with the interface of Batch.
+class PackedQuadratureBatch {
+ public:
+  PackedQuadratureBatch(const Array& design, const Array& state, const Array& covariance)
+      : batch_(made(design, state, covariance)) {}
+
+  [[nodiscard]] std::size_t size() const { return batch_.size(); }
+  [[nodiscard]] Estimate estimate(std::size_t i) const { return batch_.filtered(i); }
+
+  /// As Batch::run; instructions: "sse2", "avx2" or "avx512", or "" for the widest.
+  py::tuple run(const Array& samples, std::size_t threads, const std::string& instructions) {
+    const trackers::InstructionSet set = named(instructions);
+    require_samples(samples, 2, size());
+    const auto length = static_cast<std::size_t>(samples.shape(1));
+    const std::size_t stride = samples.shape(0) == 1 ? 0 : length * 2;
+    Array state({size(), length, std::size_t{3}});
+    Array deviation({size(), length});
+    Array innovation({size(), length, std::size_t{2}});
+    Array nis({size(), length});
+    const trackers::BatchTargets targets{state.mutable_data(), deviation.mutable_data(),
+                                         innovation.mutable_data(), nis.mutable_data()};
+    const double* input = samples.data();
+    trackers::QuadratureBatch moved = batch_;
+    {
+      const py::gil_scoped_release free;
+      constexpr std::size_t kGroup = trackers::QuadratureBatch::kGroup;
+      in_threads((size() + kGroup - 1) / kGroup, threads, [&](std::size_t first, std::size_t last) {
+        const TrackerArithmetic arithmetic;
+        moved.run({input, stride, length}, targets, first * kGroup, std::min(last * kGroup, size()), set);
+      });
+    }
+    batch_ = std::move(moved);
+    return py::make_tuple(state, deviation, innovation, nis);
+  }
+
+ private:
+  static trackers::QuadratureBatch made(const Array& design, const Array& state, const Array& covariance) {
+    const TrackerArithmetic arithmetic;
+    const auto [designs, starts] = quadrature_starts(design, state, covariance);
+    return {designs, starts};
+  }
+  static trackers::InstructionSet named(const std::string& instructions) {
+    using trackers::InstructionSet;
+    const InstructionSet set = instructions == "sse2"     ? InstructionSet::sse2
+                               : instructions == "avx2"   ? InstructionSet::avx2
+                               : instructions == "avx512" ? InstructionSet::avx512
+                                                          : trackers::widest_instruction_set();
+    if (!trackers::has(set)) {
+      throw std::invalid_argument("this processor has no " + instructions);
+    }
+    return set;
+  }
+  trackers::QuadratureBatch batch_;
+};
+
+/// The sets that this processor has, the widest last.
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> names;
+  for (const auto& [set, name] :
+       {std::pair(trackers::InstructionSet::sse2, "sse2"), std::pair(trackers::InstructionSet::avx2, "avx2"),
+        std::pair(trackers::InstructionSet::avx512, "avx512")}) {
+    if (trackers::has(set)) {
+      names.emplace_back(name);
+    }
+  }
+  return names;
 }
 
 /// `process_noise`: (size, 9); `design`: (size, 2), r, epsilon; the rest as above.
@@ -119,14 +204,22 @@ std::vector<SingleChannelTracker> single_channel_trackers(const Array& process_n
   return trackers;
 }
 
-/// The filtered states (size, 3) and covariances (size, 3, 3).
 template <typename Tracker>
-py::tuple estimates(const Batch<Tracker>& batch) {
+Estimate estimate_of(const Batch<Tracker>& batch, std::size_t i) {
+  return batch.trackers()[i].estimate();
+}
+Estimate estimate_of(const PackedQuadratureBatch& batch, std::size_t i) {
+  return batch.estimate(i);
+}
+
+/// The filtered states (size, 3) and covariances (size, 3, 3).
+template <typename Trackers>
+py::tuple estimates(const Trackers& batch) {
   const TrackerArithmetic arithmetic;
   Array state({batch.size(), std::size_t{3}});
   Array covariance({batch.size(), std::size_t{3}, std::size_t{3}});
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    const Estimate& estimate = batch.trackers()[i].estimate();
+    const Estimate estimate = estimate_of(batch, i);
     const auto values = values_of(estimate);
     std::copy(values.begin(), values.end(), state.mutable_data(static_cast<py::ssize_t>(i), 0));
     Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(
@@ -138,9 +231,18 @@ py::tuple estimates(const Batch<Tracker>& batch) {
 }  // namespace
 
 void bind_extended_kalman_filters(py::module_& module) {
-  bind_batch(module, "QuadratureBatch", quadrature_trackers).def("estimates", &estimates<QuadratureTracker>);
+  bind_batch(module, "QuadratureBatch", quadrature_trackers)
+      .def("estimates", &estimates<Batch<QuadratureTracker>>);
   bind_batch(module, "SingleChannelBatch", single_channel_trackers)
-      .def("estimates", &estimates<SingleChannelTracker>);
+      .def("estimates", &estimates<Batch<SingleChannelTracker>>);
+  py::class_<PackedQuadratureBatch>(module, "PackedQuadratureBatch")
+      .def(py::init<const Array&, const Array&, const Array&>())
+      .def("__len__", &PackedQuadratureBatch::size)
+      .def("__copy__", [](const PackedQuadratureBatch& batch) { return PackedQuadratureBatch(batch); })
+      .def("run", &PackedQuadratureBatch::run, py::arg("samples"), py::arg("threads"),
+           py::arg("instructions") = "")
+      .def("estimates", &estimates<PackedQuadratureBatch>);
+  module.def("instruction_sets", &instruction_sets);
   py::register_exception<trackers::ZeroInnovationVariance>(module, "ZeroInnovationVariance",
                                                            PyExc_ArithmeticError);
 }

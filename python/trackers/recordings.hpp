@@ -47,6 +47,42 @@ class TrackerArithmetic {
   rigor::NearestRounding nearest_;
 };
 
+/// Throws std::invalid_argument unless the array is (1 or size, n, channels).
+inline void require_samples(const Array& samples, std::size_t channels, std::size_t size) {
+  if (samples.ndim() != 3 || samples.shape(2) != static_cast<py::ssize_t>(channels) ||
+      (samples.shape(0) != 1 && samples.shape(0) != static_cast<py::ssize_t>(size))) {
+    throw std::invalid_argument("samples of another shape than the batch");
+  }
+}
+
+/// Parts of the batch, a thread each; what the first part that failed has thrown is thrown.
+template <typename Work>
+void in_threads(std::size_t size, std::size_t threads, const Work& work) {
+  const std::size_t parts = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(size, 1));
+  std::vector<std::exception_ptr> failures(parts);
+  const auto part = [&](std::size_t number) {
+    try {
+      work(size * number / parts, size * (number + 1) / parts);
+    } catch (...) {
+      failures[number] = std::current_exception();
+    }
+  };
+  std::vector<std::thread> others;
+  others.reserve(parts - 1);
+  for (std::size_t number = 1; number < parts; ++number) {
+    others.emplace_back(part, number);
+  }
+  part(0);
+  for (std::thread& other : others) {
+    other.join();
+  }
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) {
+      std::rethrow_exception(failure);
+    }
+  }
+}
+
 /// A batch of trackers of one kind. `Tracker` is copyable, has kChannels, kValues, and
 ///     Said<kChannels, kValues> step(const double* sample),
 /// which is told kChannels doubles, and may throw.
@@ -66,10 +102,7 @@ class Batch {
   /// deviation (size, n), innovation (size, n, channels) and nis (size, n). The interpreter is free
   /// meanwhile; the results do not depend on `threads`. When a tracker throws, no tracker has moved.
   py::tuple run(const Array& samples, std::size_t threads) {
-    if (samples.ndim() != 3 || samples.shape(2) != static_cast<py::ssize_t>(kChannels) ||
-        (samples.shape(0) != 1 && samples.shape(0) != static_cast<py::ssize_t>(size()))) {
-      throw std::invalid_argument("samples of another shape than the batch");
-    }
+    require_samples(samples, kChannels, size());
     const auto length = static_cast<std::size_t>(samples.shape(1));
     const std::size_t stride = samples.shape(0) == 1 ? 0 : length * kChannels;
     Array state({size(), length, kValues});
@@ -111,34 +144,6 @@ class Batch {
       std::copy(said.innovation.begin(), said.innovation.end(), targets.innovation + row * kChannels);
       targets.deviation[row] = said.deviation;
       targets.nis[row] = said.nis;
-    }
-  }
-
-  /// Parts of the batch, a thread each; what the first part that failed has thrown is thrown.
-  template <typename Work>
-  static void in_threads(std::size_t size, std::size_t threads, const Work& work) {
-    const std::size_t parts = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(size, 1));
-    std::vector<std::exception_ptr> failures(parts);
-    const auto part = [&](std::size_t number) {
-      try {
-        work(size * number / parts, size * (number + 1) / parts);
-      } catch (...) {
-        failures[number] = std::current_exception();
-      }
-    };
-    std::vector<std::thread> others;
-    others.reserve(parts - 1);
-    for (std::size_t number = 1; number < parts; ++number) {
-      others.emplace_back(part, number);
-    }
-    part(0);
-    for (std::thread& other : others) {
-      other.join();
-    }
-    for (const std::exception_ptr& failure : failures) {
-      if (failure) {
-        std::rethrow_exception(failure);
-      }
     }
   }
 

@@ -17,12 +17,14 @@ from .design import Design
 from .errors import (ArithmeticNotTrusted, EngineError, InputError, MalformedCertificate, TimeLimit,
                      VeritrackError)
 from .interval import Bound, Interval
-from .trackers import KklObserver, QuadratureEkf, QuadratureNotch, RealNotch, SingleChannelEkf
+from .trackers import (KklObserver, QuadratureBatch, QuadratureEkf, QuadratureNotch, RealNotch,
+                       SingleChannelEkf)
 from .verification import Verification, verify
 
 __all__ = [
     "ArithmeticNotTrusted", "Bound", "Certificate", "Checked", "Claim", "Design", "EngineError", "Figure",
-    "InputError", "Interval", "KklObserver", "MalformedCertificate", "QuadratureEkf", "QuadratureNotch",
+    "InputError", "Interval", "KklObserver", "MalformedCertificate", "QuadratureBatch", "QuadratureEkf",
+    "QuadratureNotch",
     "RealNotch", "SingleChannelEkf", "TimeLimit", "Verification", "VeritrackError", "certify", "check",
     "identity", "trackers", "verify", "version",
 ]

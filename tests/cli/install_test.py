@@ -43,7 +43,7 @@ class Install(CliTestCase):
             self.assertNotIn(str(ROOT), path.read_text(), path)
 
     def test_the_trackers_alone_need_eigen_only(self):
-        build = self.consumer("trackers", "-DCONSUMER_TRACKERS_ALONE=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON",
+        build = self.consumer("trackers", "-DCONSUMER_TRACKERS_ALONE=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON",
                               "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
         self.assertEqual(quietly(build / "track"), "0.5000 rad/sample\n")
 

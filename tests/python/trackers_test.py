@@ -99,6 +99,36 @@ def test_a_batch_is_its_trackers_one_by_one_to_the_last_bit():
                 assert np.array_equal(track.phasor[i, j], alone.phasor)
 
 
+def test_trackers_side_by_side_are_the_trackers_up_to_the_rounding_of_sine_and_cosine():
+    q2 = np.geomspace(1e-5, 1e-2, 7)
+    r = np.array([[0.01], [0.1], [0.03]])
+    rows = np.stack([tone(400, 0.4, noise=0.1, seed=seed) for seed in range(21)]).reshape(3, 7, 400)
+    rows[1, 2, 50:60] = np.nan
+    alone = veritrack.QuadratureEkf(0.001, q2, r, 0.001, frequency=0.3).run(rows)
+    for threads in (1, 2):
+        batch = veritrack.QuadratureBatch(0.001, q2, r, 0.001, frequency=0.3)
+        assert batch.shape == (3, 7)
+        halves = [batch.run(part, threads=threads) for part in (rows[..., :150], rows[..., 150:])]
+        for name in ("frequency", "phasor", "deviation", "innovation", "nis"):
+            together = np.concatenate([getattr(half, name) for half in halves], axis=-1)
+            np.testing.assert_allclose(together, getattr(alone, name), rtol=1e-9, atol=1e-10)
+    assert np.isnan(alone.nis).sum() == 10
+
+
+def test_all_sets_of_instructions_give_the_same_bits():
+    from veritrack import _trackers
+    random = np.random.default_rng(SEED)
+    design = np.column_stack([random.uniform(1e-4, 1e-2, 21), random.uniform(1e-5, 1e-2, 21),
+                              random.uniform(0.01, 1, 21), random.uniform(0, 0.01, 21)])
+    state = np.column_stack([np.ones(21), np.zeros(21), random.uniform(-100, 100, 21)])
+    samples = tone(300, 0.4, noise=0.3).view(float).reshape(1, 300, 2)
+    found = []
+    for name in _trackers.instruction_sets():
+        batch = _trackers.PackedQuadratureBatch(design, state, np.tile(np.eye(3).ravel(), (21, 1)))
+        found.append(b"".join(each.tobytes() for each in batch.run(samples, 1, name)))
+    assert found[0] and all(each == found[0] for each in found)
+
+
 def test_a_row_of_samples_for_each_tracker():
     rows = np.stack([tone(100, 0.4), tone(100, 0.9)])
     track = veritrack.QuadratureEkf(0.001, 0.001, 0.01, frequency=[0.4, 0.9]).run(rows)

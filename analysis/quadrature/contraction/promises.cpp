@@ -63,6 +63,24 @@ Interval Promises::samples_until(const Interval& frequency_error) const {
   return samples;
 }
 
+bool Promises::satisfy(const sets::RequiredBounds& required VERITRACK_DECLARED_CALL_SITE) const {
+  VERITRACK_MUTANT_RETURNS(true)
+  if (!starts_inside_) {
+    return false;
+  }
+  if (required.frequency_error &&
+      !certainly_less(frequency_error_bound(), Interval(*required.frequency_error))) {
+    return false;
+  }
+  if (!required.samples) {
+    return true;
+  }
+  const std::optional<Settling> settled = settling();
+  // cannot bind (settled->frequency_error): the level that is asked for is the first that is tried.
+  return settled && settled_ && settled->frequency_error == Interval(*settled_) &&
+         certainly_less_equal(settled->samples, Interval(*required.samples));
+}
+
 std::optional<Promises::Settling> Promises::settling() const {
   std::vector<Interval> levels;
   if (settled_) {

@@ -29,6 +29,8 @@ class Promises {
     rigor::Interval frequency_error, samples;
   };
   [[nodiscard]] std::optional<Settling> settling() const;
+  /// True only when all that is required of the assumed starts is certainly so.
+  [[nodiscard]] bool satisfy(const sets::RequiredBounds& required VERITRACK_CALL_SITE) const;
   /// The multiples of the start covariance for which all this is true; nothing when no set contains the
   /// starts.
   [[nodiscard]] const std::optional<rigor::Interval>& covariance_multiples() const { return multiples_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "analysis/quadrature/contraction/shape_search.hpp"
@@ -107,6 +108,44 @@ std::vector<Shape> propose_shapes(const ProposalRequest& request) {
     shapes.push_back(shape);
   }
   return shapes;
+}
+
+std::vector<SufficientShape> propose_sufficient_shapes(const ProposalRequest& request) {
+  constexpr double kFirst = -0.8;  // good enough for a try
+  constexpr double kRoom = 0.98;   // for rounding, and for what sampling does not see
+  constexpr int kEvaluations = 100;
+  const auto steady = steady_covariance(request.design);
+  if (!steady) {
+    return {};
+  }
+  const ShapeSearch proposer(request, *steady);
+  search::SearchSpace space = proposer.space();
+  space.evaluations = kEvaluations;
+  std::vector<SufficientShape> found;
+  for (const double enough : {kFirst, std::numeric_limits<double>::infinity()}) {
+    space.enough = enough;
+    const search::BestPoint best =
+        search::maximize([&](const Eigen::VectorXd& x) { return proposer.worth(proposer.shape(x)); }, space);
+    Shape shape = proposer.shape(best.point);
+    const auto promise = proposer.promise(shape);
+    if (!promise) {
+      break;
+    }
+    shape.radius = promise->radius;
+    shape.objective = best.value;
+    // The less is claimed, the fewer cells prove it.
+    for (const double part : {0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9}) {
+      if (proposer.shortfall(shape, *promise, part) < kRoom) {
+        found.push_back({shape, part});
+        break;
+      }
+    }
+    if (!(best.value >= kFirst)) {
+      break;  // the search has gone to its end
+    }
+    space.start = best.point;
+  }
+  return found;
 }
 
 std::optional<CertifiedSet> propose_set(const ProposalRequest& request, const Shape& shape, double fraction) {

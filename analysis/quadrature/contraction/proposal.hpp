@@ -8,6 +8,7 @@
 #include "analysis/quadrature/contraction/certified_set.hpp"
 #include "analysis/quadrature/contraction/covariance_proposal.hpp"
 #include "analysis/quadrature/contraction/step_inequality.hpp"
+#include "analysis/sets/contraction_question.hpp"
 #include "trackers/tone_model.hpp"
 
 namespace veritrack::quadrature {
@@ -20,7 +21,8 @@ enum class Objective {
   slew,             ///< the largest slew that the set tolerates, without noise
   frequency_bound,  ///< the least bound on the frequency error from the start on
   ultimate_error,   ///< the least bound on the frequency error in the long run
-  settling          ///< the least number of samples until the frequency error is below `settled_error`
+  settling,         ///< the least number of samples until the frequency error is below `settled_error`
+  requirement       ///< all that `required` asks, with room
 };
 
 /// What is asked of a proposal. The design has epsilon = 0 and belongs to amplitude 1.
@@ -32,7 +34,8 @@ struct ProposalRequest {
   /// Bounds on |amplitude|, |phase| (rad) and |frequency error| (rad/sample) at the start.
   rigor::Vector<3> start = rigor::Vector<3>::Zero();
   std::optional<CovarianceRange> start_covariance;  ///< to be held by the set; for objectives about a start
-  double settled_error = 0.0;                       ///< rad/sample, for Objective::settling
+  double settled_error = 0.0;                       ///< rad/sample, for settling and requirement
+  sets::RequiredBounds required;                    ///< for Objective::requirement
   int evaluations = 150;  ///< of the search; a hundred take about a quarter of a second
 };
 
@@ -47,6 +50,16 @@ struct Shape {
 /// The best shapes found, one or two, the best first; none when sampling finds no set at all (q1 = 0, say).
 /// Deterministic.
 [[nodiscard]] std::vector<Shape> propose_shapes(const ProposalRequest& request);
+
+/// A shape, and the part of its contraction that is to be claimed of it (propose_set).
+struct SufficientShape {
+  Shape shape;
+  double fraction = 0.0;
+};
+
+/// For Objective::requirement: shapes of which sampling says that a set does all that is required, the one
+/// found first and the best; none when the search finds none. Deterministic.
+[[nodiscard]] std::vector<SufficientShape> propose_sufficient_shapes(const ProposalRequest& request);
 
 /// A set of this shape at `fraction` of its objective, 0 < fraction <= 1, with as much room for the
 /// verification as noise and slew leave; nothing when sampling finds that none is there. For objectives about

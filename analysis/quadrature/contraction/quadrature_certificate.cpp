@@ -137,6 +137,10 @@ Condition invariant_set(const sets::ContractionQuestion& question,
     condition.reason = certificate.set->reason;
     return condition;
   }
+  if (question.effort == sets::SearchEffort::quick) {
+    condition.reason = "a quick search found no set that does all that is required.";
+    return condition;
+  }
   const auto& noisy = certificate.noise_set;
   const auto& slewing = certificate.slew_set;
   condition.reason = "no set could be certified for this noise and slew: " +
@@ -189,7 +193,8 @@ void share_sets(const sets::ContractionQuestion& question, ContractionCertificat
   }
 }
 
-void find_sets(const sets::ContractionQuestion& question, ContractionCertificate& certificate) {
+/// The sets of every purpose.
+void find_all_sets(const sets::ContractionQuestion& question, ContractionCertificate& certificate) {
   certificate.set = find_set(question, Objective::start_error);
   if (question.with_limits || !certificate.set) {
     certificate.noise_set = find_set(question, Objective::noise);
@@ -218,6 +223,23 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
   certificate.settling_set = find_set(question, Objective::settling,
                                       question.settled_frequency_error.value_or(2.0 * ultimate.upper()));
   share_sets(question, certificate);
+}
+
+/// As far as the question wants. What a quick search proves, one for everything proves, too.
+void find_sets(const sets::ContractionQuestion& question, ContractionCertificate& certificate) {
+  if (question.effort != sets::SearchEffort::everything) {
+    certificate.set = find_sufficient_set(question);
+    if (certificate.set || question.effort == sets::SearchEffort::quick) {
+      return;
+    }
+  }
+  find_all_sets(question, certificate);
+  if (question.effort == sets::SearchEffort::everything && question.required.any() &&
+      !Promises(question, sets_of(question, certificate)).satisfy(question.required)) {
+    if (auto sufficient = find_sufficient_set(question)) {
+      (certificate.set ? certificate.settling_set : certificate.set) = std::move(sufficient);
+    }
+  }
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/quadrature/contraction/start_bounds.hpp"
+#include "analysis/quadrature/contraction/promises.hpp"
 
 namespace veritrack::quadrature {
 
@@ -34,28 +34,38 @@ ProposalRequest request_for(const sets::ContractionQuestion& question, Objective
     request.start_covariance = CovarianceRange{block(question.start_covariance->lower_end()),
                                                block(question.start_covariance->upper_end())};
   }
+  request.required = question.required;
   request.evaluations = question.search_evaluations;
   return request;
+}
+
+/// The proposal, when it verifies, and tolerates the assumed noise and slew where the objective does not set
+/// them.
+std::optional<Verification> verified(const sets::ContractionQuestion& question,
+                                     const ProposalRequest& request,
+                                     const std::optional<CertifiedSet>& proposal) {
+  if (!proposal) {
+    return std::nullopt;
+  }
+  Verification verification =
+      verify_certified_set(question.design, *proposal, {question.amplitude, question.largest_frequency});
+  // A proposal is not trusted, not even to tolerate the noise and slew that it was searched for.
+  const rigor::UpwardRounding upward;
+  // cannot bind (question.noise, question.slew): it copies them from the request as they are.
+  const bool tolerates_assumptions =
+      sets_its_own_disturbance(request.objective) ||
+      (certainly_less_equal(question.noise, Interval(verification.set.noise)) &&
+       certainly_less_equal(question.slew, Interval(verification.set.slew)));
+  return verification.verdict == rigor::Verdict::proved && tolerates_assumptions
+             ? std::optional(std::move(verification))
+             : std::nullopt;
 }
 
 std::optional<Verification> first_that_verifies(const sets::ContractionQuestion& question,
                                                 const ProposalRequest& request, const Shape& shape) {
   for (const double fraction : {0.85, 0.8, 0.7, 0.6, 0.45, 0.3, 0.15, 0.05}) {
-    const auto proposal = propose_set(request, shape, fraction);
-    if (!proposal) {
-      continue;
-    }
-    Verification verification =
-        verify_certified_set(question.design, *proposal, {question.amplitude, question.largest_frequency});
-    // A proposal is not trusted, not even to tolerate the noise and slew that it was searched for.
-    const rigor::UpwardRounding upward;
-    // cannot bind (question.noise, question.slew): it copies them from the request as they are.
-    const bool tolerates_assumptions =
-        sets_its_own_disturbance(request.objective) ||
-        (certainly_less_equal(question.noise, Interval(verification.set.noise)) &&
-         certainly_less_equal(question.slew, Interval(verification.set.slew)));
-    if (verification.verdict == rigor::Verdict::proved && tolerates_assumptions) {
-      return verification;
+    if (auto found = verified(question, request, propose_set(request, shape, fraction))) {
+      return found;
     }
   }
   return std::nullopt;
@@ -86,6 +96,23 @@ std::optional<Verification> find_set(const sets::ContractionQuestion& question, 
   ProposalRequest request = request_for(question, objective);
   request.settled_error = settled_error;
   return best_that_verifies(question, request);
+}
+
+std::optional<Verification> find_sufficient_set(const sets::ContractionQuestion& question) {
+  if (!question.required.any() || (question.required.samples && !question.settled_frequency_error)) {
+    return std::nullopt;
+  }
+  ProposalRequest request = request_for(question, Objective::requirement);
+  request.settled_error = question.settled_frequency_error.value_or(0.0);
+  const rigor::NearestRounding nearest;
+  for (const SufficientShape& found : propose_sufficient_shapes(request)) {
+    auto set = verified(question, request, propose_set(request, found.shape, found.fraction));
+    const rigor::UpwardRounding upward;
+    if (set && Promises(question, {set->set}).satisfy(question.required)) {
+      return set;
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<Verification> with_slew(const sets::ContractionQuestion& question, const CertifiedSet& noisy) {

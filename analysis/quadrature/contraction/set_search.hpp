@@ -16,6 +16,10 @@ namespace veritrack::quadrature {
 [[nodiscard]] std::optional<Verification> find_set(const sets::ContractionQuestion& question,
                                                    Objective objective, double settled_error = 0.0);
 
+/// A set that by itself proves all of `question.required`, with as few cells as sampling promises; nothing
+/// when none is found, or nothing is required.
+[[nodiscard]] std::optional<Verification> find_sufficient_set(const sets::ContractionQuestion& question);
+
 /// `noisy`, which tolerates the assumed noise without slew, as a set for the assumed noise and slew: what the
 /// noise leaves is given to the slew. Nothing when it does not verify.
 [[nodiscard]] std::optional<Verification> with_slew(const sets::ContractionQuestion& question,

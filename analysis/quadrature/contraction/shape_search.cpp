@@ -9,6 +9,7 @@ namespace veritrack::quadrature {
 namespace {
 
 constexpr double kLargestRateSquared = 0.985;  // a slower set is useless
+constexpr double kClaimedPart = 0.8;           // of the contraction: the rest is left for the verification
 
 /// The largest |T e| of the start.
 double start_level(const BlockMetric<double>& t, const rigor::Vector<3>& start) {
@@ -146,7 +147,6 @@ double ShapeSearch::largest_disturbance(const Shape& shape) const {
 
 std::optional<ShapeSearch::Promise> ShapeSearch::promise(const Shape& shape) const {
   constexpr double kRoom = 1.001;
-  constexpr double kShare = 0.8;  // of the contraction: the rest is left for the verification
   constexpr int kMostGrowths = 4;
   Promise promise;
   promise.start_level = start_level(shape.metric, request_.start);
@@ -156,13 +156,35 @@ std::optional<ShapeSearch::Promise> ShapeSearch::promise(const Shape& shape) con
     if (!(promise.rate_squared < kLargestRateSquared)) {
       return std::nullopt;
     }
-    promise.ultimate = std::sqrt(pushed(shape) / (kShare * (1.0 - promise.rate_squared)));
+    promise.ultimate = std::sqrt(pushed(shape) / (kClaimedPart * (1.0 - promise.rate_squared)));
     if (promise.ultimate <= promise.radius) {
       return promise;
     }
     promise.radius = 1.05 * promise.ultimate;
   }
   return std::nullopt;
+}
+
+double ShapeSearch::shortfall(const Shape& shape, const Promise& promise, double part) const {
+  const double rate_squared = 1.0 - part * (1.0 - promise.rate_squared);
+  const double ultimate = std::sqrt(pushed(shape) / (1.0 - rate_squared));
+  const double start = promise.start_level;
+  double worst = 0.0;
+  if (request_.required.frequency_error) {
+    const double bound = std::max(start, ultimate) / shape.metric.frequency;
+    worst = bound / *request_.required.frequency_error;
+  }
+  if (request_.required.samples) {
+    const double settled = request_.settled_error * shape.metric.frequency;
+    const double above = settled * settled - ultimate * ultimate;
+    const double excess = start * start - ultimate * ultimate;
+    constexpr double kNever = 1e3;  // worse the further away
+    const double samples = !(above > 0.0)   ? kNever * *request_.required.samples * (ultimate / settled)
+                           : excess > above ? std::log(above / excess) / std::log(rate_squared) + 1.0
+                                            : 0.0;
+    worst = std::max(worst, samples / *request_.required.samples);
+  }
+  return worst;
 }
 
 double ShapeSearch::worth(const Shape& shape) const {
@@ -184,6 +206,8 @@ double ShapeSearch::worth(const Shape& shape) const {
       }
       return start > above ? -std::log(above / start) / std::log(found->rate_squared) : 0.0;
     }
+    case Objective::requirement:
+      return -shortfall(shape, *found, kClaimedPart);
     default:
       return -std::max(found->start_level, found->ultimate) / shape.metric.frequency;
   }

@@ -14,7 +14,7 @@ constexpr double kWorthless = -std::numeric_limits<double>::max();
 
 [[nodiscard]] constexpr bool is_about_a_start(Objective objective) {
   return objective == Objective::frequency_bound || objective == Objective::ultimate_error ||
-         objective == Objective::settling;
+         objective == Objective::settling || objective == Objective::requirement;
 }
 
 [[nodiscard]] constexpr bool sets_a_disturbance(Objective objective) {
@@ -58,6 +58,10 @@ class ShapeSearch {
   };
 
   [[nodiscard]] std::optional<Promise> promise(const Shape& shape) const;
+
+  /// What a set claims at most, over what is required, when it claims this part of its contraction: the worst
+  /// ratio. Below 1 where it does all that is required.
+  [[nodiscard]] double shortfall(const Shape& shape, const Promise& promise, double part) const;
 
   /// What is to be maximised among the sets about a start.
   [[nodiscard]] double worth(const Shape& shape) const;

@@ -106,23 +106,3 @@ TEST_CASE("secants: what is undefined somewhere in the box says nothing") {
   CHECK(rigor::is_empty((Secant<1>(0.0) * sqrt(x)).moved_by(none)));
   CHECK_FALSE(rigor::is_empty(sqrt(x + Secant<1>(2.0)).moved_by(none)));
 }
-
-TEST_CASE("products by all ends are those of the interval type") {
-  test::Random random(12);
-  const rigor::UpwardRounding upward;
-  const std::array<double, 6> special{0.0, -0.0, 1.0, -1.0, std::numeric_limits<double>::infinity(), 1e300};
-  const auto some = [&]() {
-    const double a = random.uniform() < 0.3 ? special[random.below(6)] : random.uniform(-2.0, 2.0);
-    const double b = random.uniform() < 0.3 ? special[random.below(6)] : random.uniform(-2.0, 2.0);
-    return Interval::from_bounds(std::min(a, b), std::max(a, b));
-  };
-  for (int i = 0; i < 2000; ++i) {
-    const Interval a = some();
-    const Interval b = some();
-    CAPTURE(a.lower());
-    CAPTURE(a.upper());
-    CAPTURE(b.lower());
-    CAPTURE(b.upper());
-    CHECK(rigor::identical(rigor::product(a, b), a * b));
-  }
-}

@@ -1,0 +1,71 @@
+#include "trackers/batch/quadrature_batch.hpp"
+
+#include <stdexcept>
+
+#include "trackers/batch/quadrature_lanes.hpp"
+
+namespace veritrack::trackers {
+
+bool has(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::sse2:
+      return true;
+    case InstructionSet::avx2:
+      return __builtin_cpu_supports("avx2") != 0;
+    case InstructionSet::avx512:
+      return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0;
+  }
+  return false;
+}
+
+InstructionSet widest_instruction_set() {
+  static const InstructionSet widest = has(InstructionSet::avx512) ? InstructionSet::avx512
+                                       : has(InstructionSet::avx2) ? InstructionSet::avx2
+                                                                   : InstructionSet::sse2;
+  return widest;
+}
+
+QuadratureBatch::QuadratureBatch(const std::vector<ToneModel<double>>& designs,
+                                 const std::vector<QuadratureEstimate<double>>& starts)
+    : size_(designs.size()), groups_((size_ + kGroup - 1) / kGroup) {
+  if (starts.size() != size_) {
+    throw std::invalid_argument("as many starts as designs");
+  }
+  for (std::size_t t = 0; t < groups_.size() * kGroup; ++t) {
+    // The last group is filled up with copies, so that no lane computes with numbers that are none.
+    const ToneModel<double>& design = designs[t < size_ ? t : size_ - 1];
+    const QuadratureEstimate<double>& start = starts[t < size_ ? t : size_ - 1];
+    const FactoredCovariance<double>& p = start.covariance;
+    const std::array<double, kNumbers> numbers{design.q1,           design.q2,        design.r,
+                                               design.epsilon,      start.in_phase,   start.quadrature,
+                                               start.frequency,     p.conditional_11, p.conditional_12,
+                                               p.conditional_22,    p.regression_1,   p.regression_2,
+                                               p.frequency_variance};
+    for (std::size_t row = 0; row < kNumbers; ++row) {
+      groups_[t / kGroup][row][t % kGroup] = numbers[row];
+    }
+  }
+}
+
+QuadratureEstimate<double> QuadratureBatch::filtered(std::size_t t) const {
+  const auto number = [&](std::size_t row) { return groups_.at(t / kGroup)[row][t % kGroup]; };
+  return {
+      number(4), number(5), number(6), {number(7), number(8), number(9), number(10), number(11), number(12)}};
+}
+
+void QuadratureBatch::run(const BatchSamples& samples, const BatchTargets& targets, std::size_t first,
+                          std::size_t last, InstructionSet set) {
+  const bool is_part = first % kGroup == 0 && (last == size_ || (last < size_ && last % kGroup == 0));
+  if (!is_part || !has(set)) {
+    throw std::invalid_argument(
+        "a part of the batch that is none, or instructions that this processor lacks");
+  }
+  detail::RunGroups* run_groups = set == InstructionSet::avx512 ? detail::run_groups_avx512
+                                  : set == InstructionSet::avx2 ? detail::run_groups_avx2
+                                                                : detail::run_groups_sse2;
+  if (first < last) {
+    run_groups(groups_.front().front().data(), samples, targets, first, last);
+  }
+}
+
+}  // namespace veritrack::trackers

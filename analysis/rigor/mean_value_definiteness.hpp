@@ -69,15 +69,44 @@ template <std::size_t Size, typename Entry>
 
 namespace detail {
 
-/// Calls visit(matrix, determinant) with enclosures C A C' at each corner of a cell and of det C^2, until it
+/// True only when every symmetric matrix with entries in sum + t way, |t| <= 1, for each of the ways, has
+/// positive diagonal entries that exceed the rest of their rows: it is positive definite then.
+template <std::size_t Size, std::size_t N>
+[[nodiscard]] bool certainly_dominant(const LowerTriangle<Size>& sum,
+                                      const std::array<LowerTriangle<Size>, N>& ways VERITRACK_CALL_SITE) {
+  VERITRACK_MUTANT_RETURNS(true)
+  std::array<double, Size> rest{};
+  for (std::size_t i = 0; i < Size; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      double most = magnitude(sum[i][j]);
+      for (const LowerTriangle<Size>& way : ways) {
+        most = add_up(most, magnitude(way[i][j]));
+      }
+      rest[i] = add_up(rest[i], most);
+      rest[j] = add_up(rest[j], most);
+    }
+  }
+  for (std::size_t i = 0; i < Size; ++i) {
+    for (const LowerTriangle<Size>& way : ways) {
+      rest[i] = add_up(rest[i], magnitude(way[i][i]));
+    }
+    if (!certainly_less(Interval(rest[i]), sum[i][i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// True when settled(sum, ways) is, for what it says of all corners at once; else calls
+/// visit(matrix, determinant) with enclosures C A C' at each corner of a cell and of det C^2, until it
 /// returns false; false when it does, or without a C. Every A in the cell is a convex combination of matrices
 /// out of these enclosures.
-template <std::size_t Size, int N, typename Visit>
+template <std::size_t Size, int N, typename Settled, typename Visit>
 [[nodiscard]] bool visit_corners(const LowerTriangle<Size>& middle,
                                  const LowerTriangle<Size, Dual<Interval, N>>& over,
                                  const std::array<double, static_cast<std::size_t>(N)>& half_widths,
                                  std::array<double, static_cast<std::size_t>(N)>& influence,
-                                 const Visit& visit) {
+                                 const Settled& settled, const Visit& visit) {
   LowerTriangle<Size, double> rough{};
   for (std::size_t i = 0; i < Size; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
@@ -113,6 +142,9 @@ template <std::size_t Size, int N, typename Visit>
       }
     }
   }
+  if (settled(sum, ways)) {
+    return true;
+  }
   // C A C' is definite with A, as C is triangular; a singular C would leave C A C' singular.
   for (unsigned corner = 0; corner < (1U << static_cast<unsigned>(N)); ++corner) {
     LowerTriangle<Size> there = sum;
@@ -142,10 +174,12 @@ template <std::size_t Size, int N>
                                            const LowerTriangle<Size, Dual<Interval, N>>& over,
                                            const std::array<double, static_cast<std::size_t>(N)>& half_widths,
                                            std::array<double, static_cast<std::size_t>(N)>& influence) {
-  return detail::visit_corners<Size, N>(middle, over, half_widths, influence,
-                                        [](const LowerTriangle<Size>& there, const Interval&) {
-                                          return certainly_positive_definite<Size>(there);
-                                        });
+  return detail::visit_corners<Size, N>(
+      middle, over, half_widths, influence,
+      [](const auto& sum, const auto& ways) { return detail::certainly_dominant<Size>(sum, ways); },
+      [](const LowerTriangle<Size>& there, const Interval&) {
+        return certainly_positive_definite<Size>(there);
+      });
 }
 
 /// A lower bound on the determinant everywhere in the cell; empty when the matrix is not proved positive
@@ -158,7 +192,8 @@ template <std::size_t Size, int N>
   Interval least = Interval::empty();
   std::array<double, static_cast<std::size_t>(N)> influence{};
   const bool definite = detail::visit_corners<Size, N>(
-      middle, over, half_widths, influence, [&](LowerTriangle<Size> there, const Interval& determinant) {
+      middle, over, half_widths, influence, [](const auto&, const auto&) { return false; },
+      [&](LowerTriangle<Size> there, const Interval& determinant) {
         if (!eliminate(there, Size)) {
           return false;
         }

@@ -293,8 +293,10 @@ def certify(design: Design | str | os.PathLike[str], *, extent: str = "everythin
     Parameters
     ----------
     design : Design or path
-    extent : {"everything", "requirements"}
-        "requirements": what decides [require], and not what takes long and is only told beside it.
+    extent : {"everything", "requirements", "verdicts", "quick"}
+        "requirements": what decides [require], and not what takes long and is only told beside it. "verdicts": the
+        same verdicts, with bounds no better than they need. "quick": one search for a set that does all that is
+        required, and no other; what it leaves undecided, another extent may prove.
     figures : bool
         Whether figures are drawn (with gnuplot).
     timeout : float, optional
@@ -306,8 +308,8 @@ def certify(design: Design | str | os.PathLike[str], *, extent: str = "everythin
     ------
     InputError, ArithmeticNotTrusted, TimeLimit, EngineError
     """
-    if extent not in ("everything", "requirements"):
-        raise ValueError(f"extent {extent!r}; allowed: 'everything' or 'requirements'")
+    if extent not in ("everything", "requirements", "verdicts", "quick"):
+        raise ValueError(f"extent {extent!r}; allowed: 'everything', 'requirements', 'verdicts' or 'quick'")
     design = as_design(design)
     answer = _engine.ask({"do": "certify", "text": design.text, "file": design.file, "extent": extent,
                           "figures": figures, "threads": threads}, timeout)

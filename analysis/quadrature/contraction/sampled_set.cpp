@@ -71,7 +71,7 @@ SampledSet sample_set(const SampleRequest& request, const BlockCovariance<double
   if (!(amplitude < 0.9) || !(chi < 2.9) || !find_covariance_bounds(result.setting, steady, request)) {
     return result;
   }
-  double rate_squared = 0.0;
+  RayRate worst{0.0, 0.0};
   // The boundary with the corners of the covariance bounds decides; the middle of the set seldom does.
   struct Sample {
     double scale, along, across;
@@ -89,13 +89,21 @@ SampledSet sample_set(const SampleRequest& request, const BlockCovariance<double
       if (!(form.least_along > kLeastComponent) || !(form.mean_real > kLeastComponent)) {
         return result;
       }
-      rate_squared = std::max(rate_squared, propose_rate(form, metric, request.constants).rate_squared);
-      if (!(rate_squared < 1.0)) {
+      // Where the multiplier of the worst sample so far gives no more, the best multiplier does not either.
+      if (worst.multiplier > 0.0 &&
+          rate_squared_with(form, metric, request.constants, worst.multiplier) <= worst.rate_squared) {
+        continue;
+      }
+      const RayRate rate = propose_rate(form, metric, request.constants);
+      if (!(rate.rate_squared < 1.0)) {
         return result;
+      }
+      if (rate.rate_squared > worst.rate_squared) {
+        worst = rate;
       }
     }
   }
-  result.rate_squared = rate_squared;
+  result.rate_squared = worst.rate_squared;
   return result;
 }
 

@@ -121,10 +121,15 @@ void add_angle(rigor::LowerTriangle<6, Scalar>& a, const Scalar& multiplier, con
 
 }  // namespace
 
+double rate_squared_with(const PolarStepForm<double, double>& form, const BlockMetric<double>& metric,
+                         const StepConstants<double>& constants, double multiplier) {
+  return rate_squared_with(form, metric, reduced_form(form, metric, constants, multiplier));
+}
+
 RayRate propose_rate(const PolarStepForm<double, double>& form, const BlockMetric<double>& metric,
                      const StepConstants<double>& constants) {
   const auto bound = [&](double log_lambda) {
-    return rate_squared_with(form, metric, reduced_form(form, metric, constants, std::exp(log_lambda)));
+    return rate_squared_with(form, metric, constants, std::exp(log_lambda));
   };
   const auto [low, high] = range_of_multipliers(form, constants);
   if (!(low < high)) {

@@ -109,6 +109,11 @@ struct RayRate {
 [[nodiscard]] RayRate propose_rate(const PolarStepForm<double, double>& form,
                                    const BlockMetric<double>& metric, const StepConstants<double>& constants);
 
+/// The rate squared that this one multiplier certifies there, infinity when none: never below the smallest.
+[[nodiscard]] double rate_squared_with(const PolarStepForm<double, double>& form,
+                                       const BlockMetric<double>& metric,
+                                       const StepConstants<double>& constants, double multiplier);
+
 /// The matrix of the inequality over a cell is that in its middle plus, for each of s, beta, along and
 /// across, an enclosure of the derivative times the way from the middle.
 constexpr int kCellVariables = 4;

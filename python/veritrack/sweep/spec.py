@@ -205,8 +205,8 @@ def spec_from_toml(text: str, file: str = "sweep.toml") -> Spec:
     axes = _axes(reader, document)
     count, method, seed = _samples(reader, document, axes)
     extent = document.get("extent", "requirements")
-    if extent not in ("requirements", "everything"):
-        reader.fail(f'extent {extent!r}; allowed: "requirements" or "everything"', "extent")
+    if extent not in ("requirements", "everything", "verdicts", "quick"):
+        reader.fail(f'extent {extent!r}; allowed: "requirements", "everything", "verdicts" or "quick"', "extent")
     record = document.get("record", [])
     if not isinstance(record, list) or not all(isinstance(name, str) for name in record):
         reader.fail("record; allowed: a list of names of bounds", "record")

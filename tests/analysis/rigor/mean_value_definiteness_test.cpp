@@ -97,4 +97,41 @@ TEST_CASE("a cell in which one point is not definite has no least determinant") 
   }
 }
 
+TEST_CASE("rows that their diagonal dominates for all ways make definite matrices, and only those count") {
+  test::Random random(4371);
+  const UpwardRounding upward;
+  int dominant = 0;
+  for (int k = 0; k < 2000; ++k) {
+    LowerTriangle<3> sum;
+    std::array<LowerTriangle<3>, 2> ways;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        sum[i][j] = Interval(i == j ? 1.0 : random.uniform(-0.3, 0.3)) + symmetric(0.02);
+        for (LowerTriangle<3>& way : ways) {
+          way[i][j] = Interval(random.uniform(-0.15, 0.15));
+        }
+      }
+    }
+    if (!detail::certainly_dominant<3>(sum, ways)) {
+      continue;
+    }
+    ++dominant;
+    for (int corner = 0; corner < 4; ++corner) {
+      LowerTriangle<3> there = sum;
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+          there[i][j] += (corner % 2 == 0 ? ways[0][i][j] : -ways[0][i][j]);
+          there[i][j] += (corner / 2 == 0 ? ways[1][i][j] : -ways[1][i][j]);
+        }
+      }
+      CHECK(certainly_positive_definite<3>(there));
+    }
+    // An entry of which nothing is known.
+    sum[static_cast<std::size_t>(k) % 3][0] = k % 2 == 0 ? Interval::empty() : Interval::entire();
+    CHECK_FALSE(detail::certainly_dominant<3>(sum, ways));
+  }
+  CHECK(dominant > 100);
+  CHECK(dominant < 1900);
+}
+
 }  // namespace veritrack::rigor

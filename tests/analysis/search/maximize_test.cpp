@@ -30,6 +30,21 @@ TEST_CASE("finds the top of a concave function with a kink") {
   CHECK(best.value == with_a_kink(best.point));
 }
 
+TEST_CASE("stops at the first point that is good enough") {
+  SearchSpace space = plane();
+  space.enough = -2.0;
+  int evaluations = 0;
+  const BestPoint best = maximize(
+      [&](const Eigen::VectorXd& x) {
+        ++evaluations;
+        return with_a_kink(x);
+      },
+      space);
+  CHECK(best.value >= space.enough);
+  CHECK(best.value < -0.05);
+  CHECK(evaluations < 50);
+}
+
 TEST_CASE("climbs a smooth hill to its top, in five variables") {
   const auto hill = [](const Eigen::VectorXd& x) {
     const double ridge = x[1] - x[0] * x[0];

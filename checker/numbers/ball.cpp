@@ -9,8 +9,6 @@ namespace veritrack::checker {
 
 namespace {
 
-slong bits = 128;
-
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -49,7 +47,8 @@ Ball end_of(Function* function, const Ball& x, slong to_bits) {
 /// x = |t| at the two ends of a ball: an even function that is monotone in |t| lies between its values there.
 template <typename Function>
 Ball between_ends(const Ball& t, const Function& f) {
-  return Ball::hull(f(end_of(arb_get_abs_lbound_arf, t, bits)), f(end_of(arb_get_abs_ubound_arf, t, bits)));
+  return Ball::hull(f(end_of(arb_get_abs_lbound_arf, t, precision())),
+                    f(end_of(arb_get_abs_ubound_arf, t, precision())));
 }
 
 /// Below this the ratios are replaced by bounds that are true between 0 and here: (1 +- 2^-38) of their
@@ -64,11 +63,8 @@ Ball near_limit(const Ball& limit) {
 
 }  // namespace
 
-slong precision() {
-  return bits;
-}
-void set_precision(slong new_bits) {
-  bits = std::clamp<slong>(new_bits, 64, 4096);
+void set_precision(slong bits) {
+  detail::precision_bits = std::clamp<slong>(bits, 64, 4096);
 }
 
 Ball Ball::everything() {
@@ -79,7 +75,7 @@ Ball Ball::everything() {
 
 Ball Ball::hull(const Ball& low, const Ball& high) {
   Ball z;
-  arb_union(z.x_, low.x_, high.x_, bits);
+  arb_union(z.x_, low.x_, high.x_, precision());
   return z;
 }
 
@@ -90,7 +86,7 @@ Ball Ball::from_end(const Ball& end, const Ball& other) {
   const bool upward = arb_is_positive(way.x_) != 0;
   arf_t most;
   arf_init(most);
-  arb_get_abs_ubound_arf(most, way.x_, bits);
+  arb_get_abs_ubound_arf(most, way.x_, precision());
   arf_mul_2exp_si(most, most, -1);
   arf_get_mag(arb_radref(z.x_), most);
   arf_set_mag(most, arb_radref(z.x_));
@@ -146,7 +142,7 @@ std::string Ball::text(slong digits) const {
 
 Ball pi() {
   Ball z;
-  arb_const_pi(z.raw(), bits);
+  arb_const_pi(z.raw(), precision());
   return z;
 }
 

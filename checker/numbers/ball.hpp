@@ -14,8 +14,13 @@
 
 namespace veritrack::checker {
 
+namespace detail {
+inline slong precision_bits = 128;
+}
 /// The precision of all arithmetic, in bits. Set once, before anything is computed.
-slong precision();
+inline slong precision() {
+  return detail::precision_bits;
+}
 void set_precision(slong bits);
 
 /// A set of reals, midpoint +- radius. Not a number is possible, and is certain of nothing.
@@ -26,7 +31,13 @@ class Ball {
   Ball(double value) : Ball() { arb_set_d(x_, value); }  // NOLINT(google-explicit-constructor)
   Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
   Ball(Ball&& other) noexcept : Ball() { arb_swap(x_, other.x_); }
-  ~Ball() { arb_clear(x_); }
+  ~Ball() {
+    // Numbers of at most two limbs lie in x_ itself; to ask saves the calls of nearly every ball.
+    if (ARF_HAS_PTR(arb_midref(x_)) || COEFF_IS_MPZ(ARF_EXP(arb_midref(x_))) ||
+        COEFF_IS_MPZ(MAG_EXP(arb_radref(x_)))) {
+      arb_clear(x_);
+    }
+  }
   Ball& operator=(const Ball& other) {
     arb_set(x_, other.x_);
     return *this;

@@ -64,7 +64,8 @@ GaussianTask task_of(double deviation) {
   return task;
 }
 
-TEST_CASE("a phase-locked loop: the drift that is proved is above the integral over the noise") {
+TEST_CASE("a phase-locked loop: the drift that is proved is above the integral over the noise" *
+          doctest::test_suite("nightly")) {
   const Example loop(test::phase_locked_loop());
   const TubeSet set = prove_gaussian_set(test::tone_of(loop.tracker), loop.model, 0.28, 0.32, task_of(0.0));
   REQUIRE(set.is_complete);

@@ -167,7 +167,7 @@ TEST_CASE("proposals are the same each time, and kept parameters fit neighbourin
   }
 }
 
-TEST_CASE("a filter with covariances among its states") {
+TEST_CASE("a filter with covariances among its states" * doctest::test_suite("nightly")) {
   const rigor::NearestRounding nearest;
   const TrackedTone tone = tone_of(test::kalman_filter(2, 0.0023, 0.05), true);
   TubeSettings settings = settings_for(ShapeObjective::largest_starts);

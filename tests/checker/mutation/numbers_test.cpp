@@ -37,7 +37,7 @@ Json design_number(double value) {
 }  // namespace
 
 TEST_CASE("numbers one part in a thousand away") {
-  for (const Subject& subject : kSubjects) {
+  for (const Subject& subject : subjects()) {
     const std::string name = subject.name;
     const Json certificate = accepted(name);
     REQUIRE(verified(certificate));
@@ -65,7 +65,7 @@ TEST_CASE("numbers one part in a thousand away") {
 }
 
 TEST_CASE("numbers of the design: another design, of which everything is proved anew, or refused") {
-  for (const Subject& subject : kSubjects) {
+  for (const Subject& subject : subjects()) {
     const std::string name = subject.name;
     const Json certificate = accepted(name);
     Count count;

@@ -142,7 +142,8 @@ TEST_CASE("Clopper and Pearson's limits are those of their tables") {
   CHECK(test::clopper_pearson(5, 10, 0.025).upper == doctest::Approx(0.8129).epsilon(1e-3));
 }
 
-TEST_CASE("the program leaves the set no more often than is proved, for random designs") {
+TEST_CASE("the program leaves the set no more often than is proved, for random designs" *
+          doctest::test_suite("nightly")) {
   trackers::RandomStream noise(20261122);
   test::Random random(4390);
   const std::int64_t all = test::effort(1000);

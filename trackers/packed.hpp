@@ -130,11 +130,6 @@ template <int Lanes>
   constexpr double kToInteger = 0x1.8p+52;  // adding it leaves the nearest integer in the lowest bits
 
   const Numbers& angle = x.numbers();
-  const Bits magnitude = std::bit_cast<Bits>(angle) & 0x7fffffffffffffffLL;
-  if (detail::any(Bits(~(std::bit_cast<Numbers>(magnitude) <= detail::kLargestPackedAngle)))) {
-    return {Number::of([&](int i) { return std::sin(x.lane(i)); }),
-            Number::of([&](int i) { return std::cos(x.lane(i)); })};
-  }
   const Numbers shifted = angle * kTwoOverPi + kToInteger;
   const Bits quadrant = std::bit_cast<Bits>(shifted);
   const Numbers n = shifted - kToInteger;
@@ -166,8 +161,18 @@ template <int Lanes>
   const Bits cosine_sign = ((quadrant + 1LL) & 2LL) << 62;
   const Number first = select(odd, Number(cosine), Number(sine));
   const Number second = select(odd, Number(sine), Number(cosine));
-  return {Number(std::bit_cast<Numbers>(std::bit_cast<Bits>(first.numbers()) ^ sine_sign)),
-          Number(std::bit_cast<Numbers>(std::bit_cast<Bits>(second.numbers()) ^ cosine_sign))};
+  const std::pair<Number, Number> found{
+      Number(std::bit_cast<Numbers>(std::bit_cast<Bits>(first.numbers()) ^ sine_sign)),
+      Number(std::bit_cast<Numbers>(std::bit_cast<Bits>(second.numbers()) ^ cosine_sign))};
+
+  // Large angles, and NaN: lane by lane, so that no lane depends on its neighbours.
+  const Bits magnitude = std::bit_cast<Bits>(angle) & 0x7fffffffffffffffLL;
+  const Bits outside = ~(std::bit_cast<Numbers>(magnitude) <= detail::kLargestPackedAngle);
+  if (!detail::any(outside)) {
+    return found;
+  }
+  return {Number::of([&](int i) { return outside[i] != 0 ? std::sin(x.lane(i)) : found.first.lane(i); }),
+          Number::of([&](int i) { return outside[i] != 0 ? std::cos(x.lane(i)) : found.second.lane(i); })};
 }
 
 }  // namespace veritrack::trackers

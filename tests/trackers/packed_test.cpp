@@ -80,5 +80,6 @@ TEST_CASE("special angles") {
   const auto [sine, cosine] = sin_cos(Packed<2>::of([&](int lane) { return lane == 0 ? none : 0.5; }));
   CHECK(std::isnan(sine.lane(0)));
   CHECK(std::isnan(cosine.lane(0)));
-  CHECK(sine.lane(1) == std::sin(0.5));
+  CHECK(sine.lane(1) == at(0.5).first.lane(0));
+  CHECK(at(1e6).second.lane(1) == std::cos(1e6));
 }

@@ -17,11 +17,11 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-constexpr std::array<std::array<double, 2>, 4> kDesigns{
+constexpr std::array<std::array<double, 2>, 4> kPublishedDesigns{
     {{0.0005, 0.01}, {0.0013, 0.01}, {0.0065, 0.01}, {0.0023, 0.05}}};
 
 /// A start of 0.005 in each coordinate, noise of 0.001; the error is to stay below 0.05 and to settle.
-sets::ContractionQuestion question(double q, double r) {
+sets::ContractionQuestion question_with_requirements(double q, double r) {
   sets::ContractionQuestion question;
   question.design = {Interval(q), Interval(q), Interval(r), Interval(0.0)};
   question.noise = Interval(0.001);
@@ -40,8 +40,8 @@ sets::ContractionQuestion complete(const sets::ContractionQuestion& asked) {
 }
 
 TEST_CASE("a sufficient set is a certified set that does all that is required") {
-  for (const auto& [q, r] : kDesigns) {
-    const sets::ContractionQuestion asked = complete(question(q, r));
+  for (const auto& [q, r] : kPublishedDesigns) {
+    const sets::ContractionQuestion asked = complete(question_with_requirements(q, r));
     const std::optional<Verification> found = find_sufficient_set(asked);
     REQUIRE(found.has_value());
     CHECK(verify_certified_set(asked.design, found->set).verdict == Verdict::proved);
@@ -54,7 +54,7 @@ TEST_CASE("a sufficient set is a certified set that does all that is required") 
 }
 
 TEST_CASE("a search stops there when that is all it is asked for") {
-  sets::ContractionQuestion asked = question(0.0023, 0.05);
+  sets::ContractionQuestion asked = question_with_requirements(0.0023, 0.05);
   asked.effort = sets::SearchEffort::sufficient;
   const ContractionCertificate found = certify_contraction(asked);
   CHECK(found.derivation.verdict == Verdict::proved);
@@ -69,7 +69,7 @@ TEST_CASE("what is beyond every set is not proved, quickly or not") {
        {sets::RequiredBounds{0.004, std::nullopt}, sets::RequiredBounds{0.05, 0.0},
         sets::RequiredBounds{std::numeric_limits<double>::quiet_NaN(), std::nullopt},
         sets::RequiredBounds{0.05, std::numeric_limits<double>::quiet_NaN()}}) {
-    sets::ContractionQuestion asked = question(0.0023, 0.05);
+    sets::ContractionQuestion asked = question_with_requirements(0.0023, 0.05);
     asked.required = required;
     CHECK_FALSE(find_sufficient_set(complete(asked)).has_value());
     asked.effort = sets::SearchEffort::quick;
@@ -77,7 +77,7 @@ TEST_CASE("what is beyond every set is not proved, quickly or not") {
     CHECK(found.derivation.verdict == Verdict::undecided);
     CHECK_FALSE(found.set.has_value());
   }
-  sets::ContractionQuestion asked = question(0.0023, 0.05);
+  sets::ContractionQuestion asked = question_with_requirements(0.0023, 0.05);
   asked.settled_frequency_error = 1e-6;
   CHECK_FALSE(find_sufficient_set(complete(asked)).has_value());
   asked.settled_frequency_error.reset();
@@ -85,13 +85,13 @@ TEST_CASE("what is beyond every set is not proved, quickly or not") {
 }
 
 TEST_CASE("nothing that is required makes nothing sufficient") {
-  sets::ContractionQuestion asked = question(0.0023, 0.05);
+  sets::ContractionQuestion asked = question_with_requirements(0.0023, 0.05);
   asked.required = {};
   CHECK_FALSE(find_sufficient_set(complete(asked)).has_value());
 }
 
 TEST_CASE("promises satisfy what they prove, and no less") {
-  const sets::ContractionQuestion asked = complete(question(0.0023, 0.05));
+  const sets::ContractionQuestion asked = complete(question_with_requirements(0.0023, 0.05));
   const std::optional<Verification> found = find_sufficient_set(asked);
   REQUIRE(found.has_value());
   const rigor::UpwardRounding upward;

@@ -19,6 +19,7 @@ const std::string* default_of(const std::string& path) {
                                                            {"assume.slew", "0"},
                                                            {"assume.initial_covariance", "steady-state"},
                                                            {"design.epsilon", "0"},
+                                                           {"design.half_width", "2"},
                                                            {"source", ""},
                                                            {"theorem_2_9.R_x", "7"},
                                                            {"theorem_2_9.sigma", "1e-3"},

@@ -134,31 +134,31 @@ void add_bounds(Derivation& derivation, const Found& found, const LockFrame& fra
                 const LockQuestion& question) {
   const Interval rest = resting_length(found.disturbance, found.rate);
   const Interval ever = max(found.start, rest);
-  add(derivation, {"contraction_rate", "\\kappa", "factor by which a block shortens errors, at most"},
+  add(derivation, {"contraction_rate", "\\kappa", "factor by which a block shortens errors"},
       Interval(found.rate.rate));
-  add(derivation, {"offset_error_bound", "\\sup_k |\\tilde\\delta_k|", "the offset error in every block, bins, at most"},
+  add(derivation, {"offset_error_bound", "\\sup_k |\\tilde\\delta_k|", "the offset error in every block, bins"},
       ever * frame.reach(2));
   add(derivation,
       {"phase_error_bound", "\\sup_k |\\tilde\\varphi_k|",
-       "the phase error of the prediction at the middle of every block, rad, at most"},
+       "the phase error of the prediction at the middle of every block, rad"},
       ever * frame.reach(1));
   add(derivation,
       {"amplitude_error_bound", "\\sup_k |\\hat x_1/x_1 - 1|",
-       "the error of x1 in every prediction, relative to the tone's, at most"},
+       "the error of x1 in every prediction, relative to the tone's"},
       ever * frame.reach(0));
   const Interval last =
       found.late ? resting_length(found.disturbance, *found.late) : rest;
   add(derivation,
-      {"ultimate_offset_error", "\\limsup_k |\\tilde\\delta_k|", "the offset error in the long run, bins, at most"},
+      {"ultimate_offset_error", "\\limsup_k |\\tilde\\delta_k|", "the offset error in the long run, bins"},
       last * frame.reach(2));
   const double wanted = question.settled_error ? *question.settled_error
                                                : 2.0 * (last * frame.reach(2)).upper();
   const Interval length((Interval(wanted) / frame.reach(2)).lower());
   if (rigor::certainly_positive(length)) {
     if (const auto blocks = blocks_until(length, found)) {
-      add(derivation, {"settling_blocks", "k_s", "the block from which the offset error has settled, at most"},
+      add(derivation, {"settling_blocks", "k_s", "the block from which the offset error has settled"},
           Interval(*blocks));
-      add(derivation, {"settled_offset_error", "\\delta_s", "the offset error from then on, bins, at most"},
+      add(derivation, {"settled_offset_error", "\\delta_s", "the offset error from then on, bins"},
           Interval(wanted));
     }
   }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include "analysis/dft_block/lock_search.hpp"
 #include "analysis/dft_block/tone_sums.hpp"
@@ -154,7 +157,8 @@ void add_bounds(Derivation& derivation, const Found& found, const LockFrame& fra
   const double wanted = question.settled_error ? *question.settled_error
                                                : 2.0 * (last * frame.reach(2)).upper();
   const Interval length((Interval(wanted) / frame.reach(2)).lower());
-  if (rigor::certainly_positive(length)) {
+  const bool says_more = question.settled_error || rigor::certainly_less(length, ever);
+  if (says_more && rigor::certainly_positive(length)) {
     if (const auto blocks = blocks_until(length, found)) {
       add(derivation, {"settling_blocks", "k_s", "the block from which the offset error has settled"},
           Interval(*blocks));
@@ -168,6 +172,7 @@ void add_evidence(Derivation& derivation, const Found& found) {
   theorems::Evidence evidence{"lock",
                               {{"above", found.set.above},
                                {"below", found.set.below},
+                               {"floor", found.set.floor},
                                {"radius", found.rate.radius},
                                {"rate", found.rate.rate},
                                {"weight", found.rate.weight}},
@@ -178,6 +183,25 @@ void add_evidence(Derivation& derivation, const Found& found) {
                                                      {"late_weight", found.late->weight}});
   }
   derivation.evidence.push_back(std::move(evidence));
+}
+
+/// With which covariance to start, in floating point.
+std::string steady_note(const LockSearch& search, const LockProblem& problem) {
+  const rigor::NearestRounding nearest;
+  const double amplitude = midpoint(problem.amplitude);
+  rigor::Matrix<3> from_middle = rigor::Matrix<3>::Identity();
+  from_middle(0, 0) = std::sqrt(amplitude / (4.0 * std::numbers::pi));
+  from_middle(1, 2) = -std::numbers::pi;
+  const rigor::Matrix<3> p = from_middle * search.steady() * from_middle.transpose();
+  std::ostringstream text;
+  text.precision(5);
+  for (int i = 0; i < 3; ++i) {
+    text << (i == 0 ? "[" : ", ") << "[" << p(i, 0) << ", " << p(i, 1) << ", " << p(i, 2) << "]";
+  }
+  text << "]";
+  return "In exact lock in the middle of the offsets and amplitudes, the covariance of the prediction of (x1, phase at "
+         "the start of the block, offset) settles at about " +
+         text.str() + ".";
 }
 
 }  // namespace
@@ -211,10 +235,13 @@ Derivation derive_lock(const LockQuestion& question) {
                 is_found ? "The covariance at the start is not certainly between the bounds of the set."
                          : "There is no set.");
   theorems::conclude(derivation);
-  if (derivation.verdict == Verdict::proved) {
-    add_bounds(derivation, *result.found, *frame, question);
+  if (is_found) {
     add_evidence(derivation, *result.found);
   }
+  if (derivation.verdict == Verdict::proved) {
+    add_bounds(derivation, *result.found, *frame, question);
+  }
+  derivation.notes.push_back(steady_note(search, question.problem));
   return derivation;
 }
 

@@ -179,8 +179,13 @@ std::optional<LockSet> LockSearch::set_for(double radius) const {
   if (!(above < kMost) || !(below < kMost)) {
     return std::nullopt;
   }
+  double floor = 1.0;
+  const PointMatrix inverse = frame_.inverse();
+  for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
+    floor = std::min(floor, smallest_eigenvalue(inverse * process_noise(amplitude) * inverse.transpose()));
+  }
   constexpr double kRoom = 1.03;
-  return LockSet{frame_, above * kRoom, below * kRoom};
+  return LockSet{frame_, above * kRoom, below * kRoom, std::max(0.0, floor / kRoom)};
 }
 
 std::optional<LockRate> LockSearch::rate_for(const LockSet& set, double radius) const {

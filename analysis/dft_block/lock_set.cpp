@@ -192,15 +192,11 @@ Interval LockFrame::length_of(const Vector3& bounds) const {
 Interval LockFrame::disturbance() const {
   // C^-1 F P H'R^-1 n with P H'R^-1 H P <= P and F P F' <= above - Q: docs/block-tracker.md, section 3.
   const Matrix3 q = process_noise(problem_.amplitude);
-  // Q >= least I in the frame, if it is so; found by halving.
-  double least = 0.0;
-  for (double share = 1.0; share > 1e-3; share *= 0.9) {
-    if (is_definite(Matrix3(q - scaled_identity(Interval(share))))) {
-      least = share;
-      break;
-    }
+  if (!(set_.floor >= 0.0) || !(set_.floor < set_.above) ||
+      !is_definite(Matrix3(q - scaled_identity(Interval(set_.floor))))) {
+    return Interval::empty();
   }
-  const Interval gain = sqrt(max(Interval(set_.above) - Interval(least), Interval(0.0)));
+  const Interval gain = sqrt(Interval(set_.above) - Interval(set_.floor));
   Interval moved(0.0);
   for (int i = 0; i < 3; ++i) {
     moved += square(rigor::pi() * inverse_(i, 1) + inverse_(i, 2));

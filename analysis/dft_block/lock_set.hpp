@@ -31,6 +31,7 @@ struct LockSet {
   rigor::Matrix<3> frame;  ///< C
   double above = 0.0;
   double below = 0.0;
+  double floor = 0.0;  ///< the process noise is at least floor I in the coordinates e
 };
 
 /// Proposed as well: what one block does to errors up to a radius.

@@ -32,7 +32,7 @@ std::string block_filter_section(const Certificate& certificate) {
 std::string block_set_section(const Certificate& certificate) {
   const theorems::Derivation& found = certificate.derivations.back();
   return "## The set about the exact lock: conditions " + markdown::satisfied(found.verdict) + "\n\n" +
-         markdown::conditions_table(found) + "\n" + markdown::values_table(found) + "\n";
+         markdown::conditions_table(found) + "\n" + markdown::values_table(found) + "\n" + markdown::notes_list(found) + "\n";
 }
 
 std::string block_coverage() {

@@ -247,7 +247,7 @@ class BlockVerifier {
     }
     const Tree& numbers = evidence->at("numbers");
     Proposal found{{exact_matrix(evidence->at("matrices").at("frame")), exact_number(numbers.at("above")),
-                    exact_number(numbers.at("below"))},
+                    exact_number(numbers.at("below")), exact_number(numbers.at("floor"))},
                    read_rate(numbers, ""),
                    std::nullopt};
     if (numbers.find("late_radius") != nullptr) {
@@ -280,6 +280,13 @@ class BlockVerifier {
     found.conditions = {{"rate", "errors fall", proved_if(falls)},
                         {"noise", "noise and slew do not push errors out", proved_if(bears)},
                         {"start", "the starts are in the set", proved_if(starts)}};
+    // The evidence is there for these two; whether it holds the starts is the certificate's to say.
+    if (!falls) {
+      objections.emplace_back("errors do not certainly fall at that rate");
+    }
+    if (!bears) {
+      objections.emplace_back("noise and slew may push errors out of the set");
+    }
     if (!falls || !bears || !starts) {
       return found;
     }

@@ -140,8 +140,9 @@ Ball BlockLock::length_of(const Vector3& bounds) const {
 
 Ball BlockLock::disturbance() const {
   const Ball amplitude = Ball::hull(problem_.amplitude_low, problem_.amplitude_high);
-  const Ball least = extreme_eigenvalues(process_noise(amplitude)).low.lower();
-  const Ball gain = certainly_positive(least) ? set_.above - least : set_.above;
+  const bool is_floor = certainly_not_negative(set_.floor) && certainly_less(set_.floor, set_.above) &&
+                        definite(process_noise(amplitude) - identity(set_.floor));
+  const Ball gain = is_floor ? set_.above - set_.floor : Ball::everything();
   Ball moved = zero;
   for (const auto& row : back_) {
     moved += square(pi() * row[1] + row[2]);

@@ -24,6 +24,7 @@ struct BlockProblem {
 struct BlockSet {
   Matrix3 frame;
   Ball above, below;
+  Ball floor;  ///< C^-1 Q C^-T is at least floor I
 };
 
 /// Of errors with |C^-1 z| <= radius.

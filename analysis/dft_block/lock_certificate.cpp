@@ -45,8 +45,8 @@ Interval resting_length(const Interval& disturbance, const LockRate& rate) {
 /// The smallest set of a ladder that holds the starts and that noise and slew do not push out of.
 struct LadderResult {
   std::optional<Found> found;
-  bool had_rate = false;        ///< some set contracts
-  bool had_room = false;        ///< and bears noise and slew
+  bool had_rate = false;  ///< some set contracts
+  bool had_room = false;  ///< and bears noise and slew
 };
 
 LadderResult climb(const LockQuestion& question, const LockSearch& search) {
@@ -123,8 +123,8 @@ struct Text {
 };
 
 void add(Derivation& derivation, const Text& text, const Interval& value) {
-  theorems::add_quantity(derivation,
-                         {text.name, text.symbol, "", "docs/block-tracker.md", text.words, text.sense}, value);
+  theorems::add_quantity(
+      derivation, {text.name, text.symbol, "", "docs/block-tracker.md", text.words, text.sense}, value);
 }
 
 void add_condition(Derivation& derivation, const char* id, const char* statement, bool is_proved,
@@ -139,7 +139,8 @@ void add_bounds(Derivation& derivation, const Found& found, const LockFrame& fra
   const Interval ever = max(found.start, rest);
   add(derivation, {"contraction_rate", "\\kappa", "factor by which a block shortens errors"},
       Interval(found.rate.rate));
-  add(derivation, {"offset_error_bound", "\\sup_k |\\tilde\\delta_k|", "the offset error in every block, bins"},
+  add(derivation,
+      {"offset_error_bound", "\\sup_k |\\tilde\\delta_k|", "the offset error in every block, bins"},
       ever * frame.reach(2));
   add(derivation,
       {"phase_error_bound", "\\sup_k |\\tilde\\varphi_k|",
@@ -149,13 +150,12 @@ void add_bounds(Derivation& derivation, const Found& found, const LockFrame& fra
       {"amplitude_error_bound", "\\sup_k |\\hat x_1/x_1 - 1|",
        "the error of x1 in every prediction, relative to the tone's"},
       ever * frame.reach(0));
-  const Interval last =
-      found.late ? resting_length(found.disturbance, *found.late) : rest;
+  const Interval last = found.late ? resting_length(found.disturbance, *found.late) : rest;
   add(derivation,
       {"ultimate_offset_error", "\\limsup_k |\\tilde\\delta_k|", "the offset error in the long run, bins"},
       last * frame.reach(2));
-  const double wanted = question.settled_error ? *question.settled_error
-                                               : 2.0 * (last * frame.reach(2)).upper();
+  const double wanted =
+      question.settled_error ? *question.settled_error : 2.0 * (last * frame.reach(2)).upper();
   const Interval length((Interval(wanted) / frame.reach(2)).lower());
   const bool says_more = question.settled_error || rigor::certainly_less(length, ever);
   if (says_more && rigor::certainly_positive(length)) {
@@ -199,7 +199,8 @@ std::string steady_note(const LockSearch& search, const LockProblem& problem) {
     text << (i == 0 ? "[" : ", ") << "[" << p(i, 0) << ", " << p(i, 1) << ", " << p(i, 2) << "]";
   }
   text << "]";
-  return "In exact lock in the middle of the offsets and amplitudes, the covariance of the prediction of (x1, phase at "
+  return "In exact lock in the middle of the offsets and amplitudes, the covariance of the prediction of "
+         "(x1, phase at "
          "the start of the block, offset) settles at about " +
          text.str() + ".";
 }
@@ -223,11 +224,13 @@ Derivation derive_lock(const LockQuestion& question) {
     }
   }
   const bool is_found = result.found && frame;
-  add_condition(derivation, "rate", "|e_{k+1}| \\le \\kappa |e_k| + d,\\ \\kappa < 1", is_found,
-                "Verified over cells of errors, offsets and amplitudes.",
-                !result.had_rate   ? "No set about the exact lock was found in which errors fall."
-                : !result.had_room ? "The noise or the slew pushes errors out of every set that was found."
-                                   : "No set that was found holds the assumed starts, or the cells did not suffice to verify it.");
+  add_condition(
+      derivation, "rate", "|e_{k+1}| \\le \\kappa |e_k| + d,\\ \\kappa < 1", is_found,
+      "Verified over cells of errors, offsets and amplitudes.",
+      !result.had_rate ? "No set about the exact lock was found in which errors fall."
+      : !result.had_room
+          ? "The noise or the slew pushes errors out of every set that was found."
+          : "No set that was found holds the assumed starts, or the cells did not suffice to verify it.");
   add_condition(derivation, "noise", "d \\le (1 - \\kappa) \\rho", is_found,
                 "Noise and slew do not push errors out of the set.", "There is no set.");
   add_condition(derivation, "start", "|e_1| \\le \\rho", is_found && starts,

@@ -31,7 +31,8 @@ PointTap tap(double offset, int m) {
 }
 
 /// One more block: P is that of the prediction, before and after.
-PointMatrix next_covariance(const PointMatrix& p, const PointMatrix& information, const PointMatrix& turn, const PointMatrix& noise) {
+PointMatrix next_covariance(const PointMatrix& p, const PointMatrix& information, const PointMatrix& turn,
+                            const PointMatrix& noise) {
   return turn * (p.inverse() + information).inverse() * turn.transpose() + noise;
 }
 
@@ -56,9 +57,9 @@ std::vector<PointVector> directions(int count) {
 }  // namespace
 
 LockSearch::LockSearch(const LockProblem& problem)
-    : model_{midpoint(problem.q1),           midpoint(problem.q2),      midpoint(problem.q3),
-             midpoint(problem.r),            problem.half_width,        problem.amplitude.lower(),
-             problem.amplitude.upper(),      problem.offset.lower(),    problem.offset.upper()} {
+    : model_{midpoint(problem.q1),      midpoint(problem.q2),   midpoint(problem.q3),
+             midpoint(problem.r),       problem.half_width,     problem.amplitude.lower(),
+             problem.amplitude.upper(), problem.offset.lower(), problem.offset.upper()} {
   const rigor::NearestRounding nearest;
   turn_.setIdentity();
   turn_(1, 2) = 2.0 * kPi;
@@ -81,8 +82,8 @@ LockSearch::LockSearch(const LockProblem& problem)
 
 PointMatrix LockSearch::process_noise(double amplitude) const {
   PointMatrix q;
-  q << model_.q1 * 4.0 * kPi / amplitude, 0.0, 0.0, 0.0, model_.q2 + kPi * kPi * model_.q3, kPi * model_.q3, 0.0,
-      kPi * model_.q3, model_.q3;
+  q << model_.q1 * 4.0 * kPi / amplitude, 0.0, 0.0, 0.0, model_.q2 + kPi * kPi * model_.q3, kPi * model_.q3,
+      0.0, kPi * model_.q3, model_.q3;
   return q;
 }
 
@@ -203,8 +204,7 @@ std::optional<LockRate> LockSearch::rate_for(const LockSet& set, double radius) 
       for (const PointVector& direction : directions(kDirections)) {
         const PointVector error = frame_ * direction * length;
         for (int i = 0; i <= kOffsets; ++i) {
-          const double offset =
-              model_.offset_low + (model_.offset_high - model_.offset_low) * i / kOffsets;
+          const double offset = model_.offset_low + (model_.offset_high - model_.offset_low) * i / kOffsets;
           const PointMatrix j =
               frame_.transpose() * jacobian(amplitude, 1.0 + error(0), offset + error(2)) * frame_;
           const PointMatrix s = frame_.transpose() * secant(amplitude, error, offset) * frame_;

@@ -18,8 +18,8 @@ using rigor::Interval;
 using Matrix3 = rigor::IntervalMatrix<3>;
 using Vector3 = rigor::IntervalVector<3>;
 
-/// The inverse of every symmetric matrix in `a`, to second order: with X near it and G = I - A X, A^-1 = X (I +
-/// G + G^2 (I - G)^-1). None when |G| may be 1.
+/// The inverse of every symmetric matrix in `a`, to second order: with X near it and G = I - A X, A^-1 = X (I
+/// + G + G^2 (I - G)^-1). None when |G| may be 1.
 std::optional<Matrix3> inverse_of(const Matrix3& a) {
   const rigor::Matrix<3> near = rigor::midpoint(a).inverse();
   if (!near.allFinite()) {
@@ -88,8 +88,7 @@ std::pair<Interval, Interval> turned_ratios(const Interval& x) {
   // Derivatives: of the first at most |x|/3, of the second at most 1/2.
   const Interval middle(midpoint(x));
   const Interval from_middle = x - middle;
-  const Interval around =
-      rigor::symmetric(magnitude(from_middle * Interval(magnitude(x)) / Interval(3.0)));
+  const Interval around = rigor::symmetric(magnitude(from_middle * Interval(magnitude(x)) / Interval(3.0)));
   const Interval turned = rigor::symmetric(magnitude(from_middle / Interval(2.0)));
   constexpr double kNear = 1e-3;
   if (magnitude(middle) < kNear) {
@@ -122,9 +121,10 @@ Information information_over(const Interval& first, const Interval& turn, const 
   result.jacobian << Interval(4.0) * scale * sums.value_value, zero, scale * twice * sums.value_slope, zero,
       scale * power * sums.value_value, zero, scale * twice * sums.value_slope, zero,
       scale * power * sums.slope_slope;
-  result.secant << weight * twice * sums.value_value * growth, weight * twice * sums.value_true * cosine_ratio,
-      weight * twice * sums.value_secant, zero, scale * sums.value_true * sine_ratio, zero,
-      scale * sums.value_slope * growth, scale * sums.slope_true * cosine_ratio, scale * sums.slope_secant;
+  result.secant << weight * twice * sums.value_value * growth,
+      weight * twice * sums.value_true * cosine_ratio, weight * twice * sums.value_secant, zero,
+      scale * sums.value_true * sine_ratio, zero, scale * sums.value_slope * growth,
+      scale * sums.slope_true * cosine_ratio, scale * sums.slope_secant;
   result.more = result.secant;
   result.more(0, 0) = -(weight * twice * sums.value_value * first);
   result.more(0, 2) = weight * twice * (sums.value_secant - power * sums.value_slope);
@@ -243,18 +243,20 @@ bool LockFrame::verify_cell(const Cell& cell, const LockRate& rate) const {
       !is_definite(Matrix3(moved(*lowest) + noise - scaled_identity(Interval(1.0) / below)))) {
     return false;
   }
-  // With A = J + I/above, B = J + below I: I - (A^-1 + B^-1) J/2 = (A^-1/above + below B^-1)/2 and A^-1 - B^-1 =
-  // A^-1 (B - A) B^-1.
+  // With A = J + I/above, B = J + below I: I - (A^-1 + B^-1) J/2 = (A^-1/above + below B^-1)/2 and A^-1 -
+  // B^-1 = A^-1 (B - A) B^-1.
   const Interval half(0.5);
   const Matrix3 centre = half * (*highest + *lowest);
   const Matrix3 product = *highest * *lowest;
-  const Matrix3 spread = half * (below - Interval(1.0) / above) * rigor::intersection(product, product.transpose());
+  const Matrix3 spread =
+      half * (below - Interval(1.0) / above) * rigor::intersection(product, product.transpose());
   const Matrix3 secant = frame_.transpose() * information.secant * frame_;
   const Matrix3 more = frame_.transpose() * information.more * frame_;
   const Interval petersen(rate.weight);
-  const Matrix3 step = turn_ * (half * ((Interval(1.0) / above) * *highest + below * *lowest) - centre * more);
-  const Matrix3 first = scaled_identity(square(Interval(rate.rate))) -
-                        petersen * Matrix3(secant.transpose() * spread * secant);
+  const Matrix3 step =
+      turn_ * (half * ((Interval(1.0) / above) * *highest + below * *lowest) - centre * more);
+  const Matrix3 first =
+      scaled_identity(square(Interval(rate.rate))) - petersen * Matrix3(secant.transpose() * spread * secant);
   const Matrix3 second = scaled_identity(Interval(1.0)) - (Interval(1.0) / petersen) * moved(spread);
   return is_definite(first, step, second);
 }

@@ -48,8 +48,8 @@ class LockFrame {
   static std::optional<LockFrame> make(const LockProblem& problem, const LockSet& set);
 
   /// True only when the covariances stay between their bounds and errors fall at that rate, for all errors up
-  /// to that radius, all offsets and amplitudes, without noise and slew: at most `most_cells` cells. Needs the
-  /// upward mode.
+  /// to that radius, all offsets and amplitudes, without noise and slew: at most `most_cells` cells. Needs
+  /// the upward mode.
   [[nodiscard]] bool verify(const LockRate& rate, std::int64_t most_cells) const;
 
   /// What noise and slew add to |e| at most in a block. Needs the upward mode.

@@ -15,7 +15,8 @@ struct Jet {
   Interval value, slope, bend;
 };
 
-/// sinc and its first two derivatives near 0: sum (-1)^k pi^2k d^2k / (2k+1)!, whose terms alternate and fall.
+/// sinc and its first two derivatives near 0: sum (-1)^k pi^2k d^2k / (2k+1)!, whose terms alternate and
+/// fall.
 Jet jet_near_zero(const Interval& d) {
   constexpr int kTerms = 14;
   const Interval square_of_pi = square(rigor::pi());
@@ -37,8 +38,8 @@ Jet jet_near_zero(const Interval& d) {
   return {value + rest, slope + rest, bend + rest};
 }
 
-/// (-1)^m of it is s_m: with sine and cosine of pi x, s = sine/(pi d), s' = (cosine - s)/d, and d s'' + 2 s' +
-/// pi^2 d s = 0.
+/// (-1)^m of it is s_m: with sine and cosine of pi x, s = sine/(pi d), s' = (cosine - s)/d, and d s'' + 2 s'
+/// + pi^2 d s = 0.
 Jet jet_from(const Interval& d, const Interval& sine, const Interval& cosine) {
   const Interval value = sine / (rigor::pi() * d);
   const Interval slope = (cosine - value) / d;

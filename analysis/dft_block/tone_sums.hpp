@@ -28,13 +28,13 @@ struct Taps {
 
 /// For the estimated offset x and the true one d: sums over m of products of s_m.
 struct ToneSums {
-  rigor::Interval value_value;    ///< s(x) s(x)
-  rigor::Interval value_slope;    ///< s(x) s'(x)
-  rigor::Interval slope_slope;    ///< s'(x) s'(x)
-  rigor::Interval value_true;     ///< s(x) s(d)
-  rigor::Interval slope_true;     ///< s'(x) s(d)
-  rigor::Interval value_secant;   ///< s(x) (s(x) - s(d))/(x - d), the derivative where x = d
-  rigor::Interval slope_secant;   ///< s'(x) (s(x) - s(d))/(x - d)
+  rigor::Interval value_value;   ///< s(x) s(x)
+  rigor::Interval value_slope;   ///< s(x) s'(x)
+  rigor::Interval slope_slope;   ///< s'(x) s'(x)
+  rigor::Interval value_true;    ///< s(x) s(d)
+  rigor::Interval slope_true;    ///< s'(x) s(d)
+  rigor::Interval value_secant;  ///< s(x) (s(x) - s(d))/(x - d), the derivative where x = d
+  rigor::Interval slope_secant;  ///< s'(x) (s(x) - s(d))/(x - d)
 };
 
 /// For all true offsets in `offset` and all errors x - d in `error`. Needs the upward mode.

@@ -52,22 +52,27 @@ dft_block::LockQuestion lock_question(const BlockTables& tables) {
 /// Everything up to what is claimed.
 std::string lock_hypotheses(const BlockTables& tables) {
   const BlockAssumptions& assume = tables.assume;
-  const std::string amplitude =
-      assume.one_amplitude
-          ? fmt::format("the amplitude {}", assume.amplitude[0].text)
-          : fmt::format("a constant amplitude from {} to {}", assume.amplitude[0].text, assume.amplitude[1].text);
+  const std::string amplitude = assume.one_amplitude
+                                    ? fmt::format("the amplitude {}", assume.amplitude[0].text)
+                                    : fmt::format("a constant amplitude from {} to {}",
+                                                  assume.amplitude[0].text, assume.amplitude[1].text);
   std::string covariance = "of the steady state in exact lock in the middle of these offsets";
   if (!assume.initial_covariance.empty()) {
     const auto entry = [&](std::size_t i) -> const std::string& { return assume.initial_covariance[i].text; };
-    covariance = fmt::format("[[{}, {}, {}], [{}, {}, {}], [{}, {}, {}]]", entry(0), entry(1), entry(2), entry(3),
-                             entry(4), entry(5), entry(6), entry(7), entry(8));
+    covariance = fmt::format("[[{}, {}, {}], [{}, {}, {}], [{}, {}, {}]]", entry(0), entry(1), entry(2),
+                             entry(3), entry(4), entry(5), entry(6), entry(7), entry(8));
   }
   return fmt::format(
-      "In exact arithmetic, the block tracker without leaks, with Q = diag({}, {}, {}), R = {} I and the bins M - "
-      "{} ... M + {}, is fed with the bins (4.9) of a tone of {}, constant within each block, whose offset is "
-      "between {} and {} bins in every block and changes by at most {} bins from one to the next, plus noise whose "
-      "length in all bins of a block together is at most {}. Its first prediction has a root amplitude x1 within {} "
-      "of the tone's, relative to it, a phase within {} rad at the middle of the block, an offset within {} bins, "
+      "In exact arithmetic, the block tracker without leaks, with Q = diag({}, {}, {}), R = {} I and the "
+      "bins M - "
+      "{} ... M + {}, is fed with the bins (4.9) of a tone of {}, constant within each block, whose offset "
+      "is "
+      "between {} and {} bins in every block and changes by at most {} bins from one to the next, plus noise "
+      "whose "
+      "length in all bins of a block together is at most {}. Its first prediction has a root amplitude x1 "
+      "within {} "
+      "of the tone's, relative to it, a phase within {} rad at the middle of the block, an offset within {} "
+      "bins, "
       "and the covariance {}. Then ",
       tables.design.q1.text, tables.design.q2.text, tables.design.q3.text, tables.design.r.text,
       tables.design.half_width.text, tables.design.half_width.text, amplitude, assume.offset[0].text,
@@ -129,8 +134,9 @@ class BlockClaims {
     if (const theorems::Quantity* bound = quantity("offset_error_bound")) {
       const bool is_met = rigor::certainly_less(bound->value, below.value);
       claim.verdict = is_met ? Verdict::proved : Verdict::undecided;
-      claim.reason = fmt::format("The proved bound is {} bins{}.", rigor::upper_decimal(bound->value, kBlockDigits),
-                                 is_met ? "" : ", which is not what is required");
+      claim.reason =
+          fmt::format("The proved bound is {} bins{}.", rigor::upper_decimal(bound->value, kBlockDigits),
+                      is_met ? "" : ", which is not what is required");
       if (is_met) {
         claim.evidence = {*bound};
       }
@@ -139,9 +145,9 @@ class BlockClaims {
   }
 
   void add_settles(const Number& within, const Number& below) {
-    Claim claim = required(
-        "dft-block/settles", within,
-        fmt::format("from block {} on, the offset error is below {} bins", within.text, below.text));
+    Claim claim =
+        required("dft-block/settles", within,
+                 fmt::format("from block {} on, the offset error is below {} bins", within.text, below.text));
     const theorems::Quantity* blocks = quantity("settling_blocks");
     const theorems::Quantity* settled = quantity("settled_offset_error");
     if (blocks != nullptr && settled != nullptr) {
@@ -177,7 +183,8 @@ class BlockClaims {
     };
     claim.verdict = Verdict::proved;
     claim.statement += fmt::format(
-        "the offset error of every estimate and prediction is at most {} bins, and in the long run at most {} bins",
+        "the offset error of every estimate and prediction is at most {} bins, and in the long run at most "
+        "{} bins",
         most(ever), most(last));
     claim.evidence = {*ever, *last};
     const theorems::Quantity* blocks = quantity("settling_blocks");

@@ -21,14 +21,15 @@ struct BlockDesignTable {
 
 /// [assume]
 struct BlockAssumptions {
-  std::array<Number, 2> amplitude;  ///< [lowest, highest], constant, signal units; the same where one is given
+  std::array<Number, 2>
+      amplitude;  ///< [lowest, highest], constant, signal units; the same where one is given
   bool one_amplitude = true;
-  std::array<Number, 2> offset;           ///< [lowest, highest], bins
-  Number noise;                           ///< in all bins of a block together, signal units
-  Number slew;                            ///< of the offset, bins per block
-  Number initial_amplitude_error;         ///< of x1, relative to the tone's
-  Number initial_phase_error;             ///< at the middle of the first block, rad
-  Number initial_offset_error;            ///< bins
+  std::array<Number, 2> offset;            ///< [lowest, highest], bins
+  Number noise;                            ///< in all bins of a block together, signal units
+  Number slew;                             ///< of the offset, bins per block
+  Number initial_amplitude_error;          ///< of x1, relative to the tone's
+  Number initial_phase_error;              ///< at the middle of the first block, rad
+  Number initial_offset_error;             ///< bins
   std::vector<Number> initial_covariance;  ///< nine, row by row; none: the steady state
 };
 

@@ -101,12 +101,14 @@ constexpr std::array kBlockAssumeKeys{
                  kRequired},
     Key<Assumed>{"initial_offset_error", kNotNegative, real<&Assumed::initial_offset_error, not_negative>,
                  kRequired},
-    Key<Assumed>{"initial_covariance", "\"steady-state\", or a symmetric array of three arrays of three numbers",
-                 block_covariance, defaults_to("\"steady-state\"")},
+    Key<Assumed>{"initial_covariance",
+                 "\"steady-state\", or a symmetric array of three arrays of three numbers", block_covariance,
+                 defaults_to("\"steady-state\"")},
 };
 using Required = BlockRequirements;
 constexpr std::array kBlockRequireKeys{
-    Key<Required>{"offset_error_below", kPositive, block_requirement<&Required::offset_error_below>, kOptional},
+    Key<Required>{"offset_error_below", kPositive, block_requirement<&Required::offset_error_below>,
+                  kOptional},
     Key<Required>{"settles_within", "a whole number of blocks, 1 or more; with settled_below",
                   settles_within_blocks, kOptional},
     Key<Required>{"settled_below", "a number above 0; with settles_within",

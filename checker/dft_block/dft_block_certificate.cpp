@@ -193,10 +193,10 @@ class BlockVerifier {
     return read_number(design_.at("require").at(key), read_before);
   }
   [[nodiscard]] std::string required_text(const std::string& id) const {
-    return id == kOffsetError ? "the offset error is below " + asked_text("offset_error_below") +
-                                    " bins in every block"
-                              : "from block " + asked_text("settles_within") +
-                                    " on, the offset error is below " + asked_text("settled_below") + " bins";
+    return id == kOffsetError
+               ? "the offset error is below " + asked_text("offset_error_below") + " bins in every block"
+               : "from block " + asked_text("settles_within") + " on, the offset error is below " +
+                     asked_text("settled_below") + " bins";
   }
 
   [[nodiscard]] std::string hypotheses() const {
@@ -204,8 +204,8 @@ class BlockVerifier {
     const auto text = [](const Tree& table, const char* key) { return text_of(table.at(key)); };
     const Tree& amplitude = assume_.at("amplitude");
     const std::string half_width = text(chosen, "half_width");
-    return "In exact arithmetic, the block tracker without leaks, with Q = diag(" + text(chosen, "q1") + ", " +
-           text(chosen, "q2") + ", " + text(chosen, "q3") + "), R = " + text(chosen, "r") +
+    return "In exact arithmetic, the block tracker without leaks, with Q = diag(" + text(chosen, "q1") +
+           ", " + text(chosen, "q2") + ", " + text(chosen, "q3") + "), R = " + text(chosen, "r") +
            " I and the bins M - " + half_width + " ... M + " + half_width +
            ", is fed with the bins (4.9) of a tone of " +
            (one_amplitude_ ? "the amplitude " + text_of(amplitude)
@@ -393,8 +393,8 @@ class BlockVerifier {
                       most("offset_error_bound") + " bins, and in the long run at most " +
                       most("ultimate_offset_error") + " bins";
     if (evidence.find("settling_blocks") != nullptr || evidence.find("settled_offset_error") != nullptr) {
-      found.statement += "; from block " + most("settling_blocks") + " on at most " +
-                         most("settled_offset_error") + " bins";
+      found.statement +=
+          "; from block " + most("settling_blocks") + " on at most " + most("settled_offset_error") + " bins";
     }
     found.statement += ".";
     return found;

@@ -59,8 +59,8 @@ Matrix3 middle_of(const Matrix3& a) {
   return c;
 }
 
-/// The inverse: with M the middle, X = M^-1 and D = A - M, A^-1 = X - X D X + X D A^-1 D X, and |A^-1| <= |X|/(1 -
-/// |X D|). Balls of everything where that may fail.
+/// The inverse: with M the middle, X = M^-1 and D = A - M, A^-1 = X - X D X + X D A^-1 D X, and |A^-1| <=
+/// |X|/(1 - |X D|). Balls of everything where that may fail.
 Matrix3 inverse_near(const Matrix3& a) {
   const Matrix3 m = middle_of(a);
   const Matrix3 x = inverse(m);
@@ -93,8 +93,8 @@ bool definite_together(const Matrix3& a, const Matrix3& b, const Matrix3& c) {
   return definite(all);
 }
 
-/// sin(x)/x, by the values at the middle and |(sin(x)/x)'| <= |x|/3; and (1 - cos x)/x, whose derivative is at most
-/// 1/2.
+/// sin(x)/x, by the values at the middle and |(sin(x)/x)'| <= |x|/3; and (1 - cos x)/x, whose derivative is
+/// at most 1/2.
 std::pair<Ball, Ball> ratios(const Ball& x) {
   const Ball at = x.middle();
   const Ball away = x.radius();
@@ -119,7 +119,8 @@ BlockLock::BlockLock(const BlockProblem& problem, const BlockSet& set)
 }
 
 Matrix3 BlockLock::process_noise(const Ball& amplitude) const {
-  Matrix3 q = diagonal(problem_.q1 * four * pi() / amplitude, problem_.q2 + square(pi()) * problem_.q3, problem_.q3);
+  Matrix3 q =
+      diagonal(problem_.q1 * four * pi() / amplitude, problem_.q2 + square(pi()) * problem_.q3, problem_.q3);
   q[1][2] = pi() * problem_.q3;
   q[2][1] = q[1][2];
   return about(back_, q);
@@ -182,8 +183,8 @@ bool BlockLock::falls_in(const Cell& cell, const TonePolynomial& tone, const Blo
   jacobian[2][0] = jacobian[0][2];
   // H'R^-1 (h(truth) - h(estimate)) = -secant z, and what the secant has more than the Jacobian.
   const Ball grown = two + first;
-  Matrix3 secant = diagonal(two * weight * x * grown * sums.aa, weight * power * sums.at * sine,
-                            weight * power * sums.bc);
+  Matrix3 secant =
+      diagonal(two * weight * x * grown * sums.aa, weight * power * sums.at * sine, weight * power * sums.bc);
   secant[0][1] = two * weight * x * sums.at * cosine;
   secant[0][2] = two * weight * x * sums.ac;
   secant[2][0] = weight * power * grown * sums.ab;
@@ -208,14 +209,14 @@ bool BlockLock::falls_in(const Cell& cell, const TonePolynomial& tone, const Blo
   // high J = 1 - least high and low J = 1 - below low; high - low = high (below - least) low.
   const Matrix3 spread = scaled(half * (set_.below - least), product(high, low));
   const Matrix3 kept = scaled(half * least, high) + scaled(half * set_.below, low);
-  const Matrix3 step =
-      product(turn_, kept - product(scaled(half, high + low), about(into, more)));
+  const Matrix3 step = product(turn_, kept - product(scaled(half, high + low), about(into, more)));
   const Matrix3 along = about(transposed(about(into, secant)), spread);
   return definite_together(identity(square(rate.rate)) - scaled(rate.weight, along), step,
                            identity(one) - scaled(one / rate.weight, about(turn_, spread)));
 }
 
-bool BlockLock::falls_near(const Ball& low, const Ball& high, const BlockRate& rate, std::int64_t& cells) const {
+bool BlockLock::falls_near(const Ball& low, const Ball& high, const BlockRate& rate,
+                           std::int64_t& cells) const {
   const Ball middle = (half * (low + high)).middle();
   const TonePolynomial tone(middle, problem_.half_width);
   Cell whole;
@@ -280,10 +281,10 @@ bool BlockLock::falls(const BlockRate& rate, std::int64_t& cells) const {
                             .middle();
   };
   std::vector<std::int64_t> counts(count, 0);
-  const bool all = first_failure(count, [&](std::size_t i) {
-                     return falls_near(i == 0 ? problem_.offset_low.lower() : border(i), border(i + 1), rate,
-                                       counts[i]);
-                   }) == count;
+  const bool all =
+      first_failure(count, [&](std::size_t i) {
+        return falls_near(i == 0 ? problem_.offset_low.lower() : border(i), border(i + 1), rate, counts[i]);
+      }) == count;
   for (const std::int64_t one_count : counts) {
     cells += one_count;
   }

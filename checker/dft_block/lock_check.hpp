@@ -1,5 +1,5 @@
-// Whether a set of errors and covariances about the exact lock of the block tracker is never left, and how fast
-// its errors fall: docs/block-tracker.md, sections 2 to 4.
+// Whether a set of errors and covariances about the exact lock of the block tracker is never left, and how
+// fast its errors fall: docs/block-tracker.md, sections 2 to 4.
 #pragma once
 
 #include <array>
@@ -50,7 +50,8 @@ class BlockLock {
  private:
   struct Cell;
   [[nodiscard]] bool is_outside(const Cell& cell, const Ball& radius) const;
-  [[nodiscard]] bool falls_in(const Cell& cell, const class TonePolynomial& tone, const BlockRate& rate) const;
+  [[nodiscard]] bool falls_in(const Cell& cell, const class TonePolynomial& tone,
+                              const BlockRate& rate) const;
   [[nodiscard]] bool falls_near(const Ball& low, const Ball& high, const BlockRate& rate,
                                 std::int64_t& cells) const;
   [[nodiscard]] Matrix3 process_noise(const Ball& amplitude) const;

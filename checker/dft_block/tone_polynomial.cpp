@@ -7,8 +7,8 @@ namespace veritrack::checker {
 
 namespace {
 
-/// Taylor coefficients of sinc about `d`, exact but for rounding. d y'' + 2 y' + pi^2 d y = 0 gives, with y = sum
-/// c_n t^n: d (n+2)(n+1) c_{n+2} + (n+1)(n+2) c_{n+1} + pi^2 (d c_n + c_{n-1}) = 0.
+/// Taylor coefficients of sinc about `d`, exact but for rounding. d y'' + 2 y' + pi^2 d y = 0 gives, with y =
+/// sum c_n t^n: d (n+2)(n+1) c_{n+2} + (n+1)(n+2) c_{n+1} + pi^2 (d c_n + c_{n-1}) = 0.
 std::vector<Ball> coefficients_far(const Ball& d, std::size_t count) {
   const Ball angle = pi() * d;
   const Ball square_of_pi = square(pi());
@@ -22,8 +22,8 @@ std::vector<Ball> coefficients_far(const Ball& d, std::size_t count) {
   return c;
 }
 
-/// The same near 0, where that divides by little: sum over j of a_j d^j with a_2k = (-1)^k pi^2k / (2k+1)!, each
-/// power expanded by the binomial theorem.
+/// The same near 0, where that divides by little: sum over j of a_j d^j with a_2k = (-1)^k pi^2k / (2k+1)!,
+/// each power expanded by the binomial theorem.
 std::vector<Ball> coefficients_near(const Ball& d, std::size_t count) {
   constexpr std::size_t kPowers = 60;
   const Ball square_of_pi = square(pi());
@@ -86,9 +86,9 @@ TonePolynomial::TonePolynomial(const Ball& middle, int half_width) {
       }
     }
   }
-  // |c_n| <= pi^n/(n+1)!, so that the coefficients of all products with i + k = n are together at most (2 pi)^n/n!
-  // for each bin. What is left out has n >= kTerms, and two factors i, k <= n and two powers less at most: n^2 (2
-  // pi)^n/n! reach^(n-2), of which each is less than half of the one before where reach < 1/2.
+  // |c_n| <= pi^n/(n+1)!, so that the coefficients of all products with i + k = n are together at most (2
+  // pi)^n/n! for each bin. What is left out has n >= kTerms, and two factors i, k <= n and two powers less at
+  // most: n^2 (2 pi)^n/n! reach^(n-2), of which each is less than half of the one before where reach < 1/2.
   rest_ = square(Ball(static_cast<double>(kTerms)));
   for (std::size_t n = 1; n <= kTerms; ++n) {
     rest_ = rest_ * two * pi() / Ball(static_cast<double>(n));

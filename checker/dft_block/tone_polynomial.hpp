@@ -1,5 +1,5 @@
-// How a tone and an estimate of it meet in the bins of a block, as polynomials in how far both offsets are from a
-// middle: the checker's own way, from the differential equation of sinc.
+// How a tone and an estimate of it meet in the bins of a block, as polynomials in how far both offsets are
+// from a middle: the checker's own way, from the differential equation of sinc.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace veritrack::checker {
 
-/// Sums over m = -L ... L of products of s_m(x) = (-1)^m sinc(m + x), at the estimate x and the true offset d.
+/// Sums over m = -L ... L of products of s_m(x) = (-1)^m sinc(m + x), at the estimate x and the true offset
+/// d.
 struct MeetingSums {
   Ball aa;  ///< s(x) s(x)
   Ball ab;  ///< s(x) s'(x)

@@ -51,6 +51,38 @@ Statement printed_number(const std::string& id, const std::string& sentence, con
       "The value is " + enclosed(value) + ".", {});
 }
 
+/// Is 2 (1 - alpha + gamma)(1 - alpha) - (1 - 2 alpha + gamma)(2 - alpha) = alpha (1 - gamma), for all alpha and gamma?
+/// Both sides have at most the second power of either, so that nine points decide.
+bool is_difference_as_said() {
+  bool all = true;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const Interval alpha(i);
+      const Interval gamma(k);
+      const Interval one(1.0);
+      const Interval two(2.0);
+      const Interval difference = two * (one - alpha + gamma) * (one - alpha) -
+                                  (one - two * alpha + gamma) * (two - alpha);
+      all = all && difference == alpha * (one - gamma);
+    }
+  }
+  return all;
+}
+
+/// For every admissible choice: docs/regulator.md, section 7.
+Statement efra_interval() {
+  return make_statement(
+      "chapter-5/efra-interval/corrected",
+      "For all alpha and gamma = (1 - lambda)/lambda between 0 and 1 and all beta, delta > 0 with (gamma - alpha)^2 + 4 "
+      "beta delta < (1 - alpha)^2, and whatever the regressors: mu I <= P(k) <= nu I implies the same of P(k+1), with mu "
+      "as corrected, (alpha - gamma)^2 under the root, and nu as printed.",
+      is_difference_as_said() ? rigor::Verdict::proved : rigor::Verdict::undecided,
+      "(1 + gamma - alpha) P + beta - delta P^2 <= P(k+1) <= (1 + gamma) P + beta - delta P^2; the right side rises up to "
+      "nu since gamma^2 + 4 beta delta < 1, the left side is concave, mu at mu and (1 - alpha) nu at nu, and (1 - alpha) "
+      "nu >= mu because 2 (1 - alpha + gamma)(1 - alpha) - (1 - 2 alpha + gamma)(2 - alpha) = alpha (1 - gamma) >= 0.",
+      {});
+}
+
 std::vector<Statement> efra_statements() {
   const Efra efra;
   const Interval gamma = efra.gamma();
@@ -84,7 +116,8 @@ std::vector<Statement> efra_statements() {
                      decide(printed_lower, successor, Strictness::weak),
                      "One parameter, P = mu = " + enclosed(printed_lower) +
                          ", phi beyond every bound: P(k+1) tends to " + enclosed(successor) + ".",
-                     {})};
+                     {}),
+      efra_interval()};
 }
 
 /// The coefficients of A = A1 A2 and B = A2 B1 of the examples, A1 = 1 - 0.5 q^-1, B1 = 3.

@@ -103,3 +103,10 @@ Definition turn (angle : R) : matrix 3 3 :=
 Definition start_estimate (phi omega a psi nu : R) (m : symmetric) : estimate :=
   {| x := vector_3 ((1 + a) * cos (phi + psi)) ((1 + a) * sin (phi + psi)) (omega + nu);
      P := (turn (phi + psi) * full m * (turn (phi + psi))^T)%matrix |}.
+
+(* P*: the covariance that the filter keeps on a tone that it follows without error (of frequency 0 and phase 0; by
+   symmetry the frame of the estimated phase keeps it at every frequency). *)
+Definition is_steady (design : noise_model) (m : symmetric) : Prop :=
+  (forall a b c, 0 <= form m a b c) /\
+  forall i j, (1 <= i <= 3)%nat -> (1 <= j <= 3)%nat ->
+    P (step design {| x := vector_3 1 0 0; P := full m |} (vector_2 1 0)) i j = full m i j.

@@ -32,8 +32,14 @@ struct Statement {
         from(literal(texts.multiples[0])),
         to(literal(texts.multiples[1])) {}
 
-  /// For the samples that `condition` selects.
-  [[nodiscard]] std::string proposition(const std::string& condition, const std::string& bound) const {
+  /// What is assumed of P(0|0).
+  [[nodiscard]] std::string between() const {
+    return fmt::format("below (multiple {} lowest_start) m -> below m (multiple {} highest_start)", from, to);
+  }
+
+  /// For those P(0|0), and the samples that `condition` selects.
+  [[nodiscard]] std::string proposition(const std::string& covariance, const std::string& condition,
+                                        const std::string& bound) const {
     return fmt::format(
         "forall (phi omega v1 v2 : nat -> R) (a psi nu : R) (m : symmetric),\n"
         "  (* the tone, (3.1): phase and frequency, amplitude 1 *) (forall k, phi (S k) = phi k + omega k) "
@@ -44,11 +50,11 @@ struct Statement {
         "  (* the errors of x(0|0): amplitude, phase in rad, frequency in rad/sample *)\n"
         "  Rabs a <= {} -> Rabs psi <= {} -> Rabs nu <= {} ->\n"
         "  (* P(0|0), in the frame of the estimated phase *)\n"
-        "  below (multiple {} lowest_start) m -> below m (multiple {} highest_start) ->\n"
+        "  {} ->\n"
         "  (* x3(k|k) of the recursion (2.3)-(2.9), and how far it is from the frequency *)\n"
         "  forall k, {}Rabs (x (run tracker (start_estimate (phi 0%nat) (omega 0%nat) a psi nu m)\n"
         "    (measurement phi v1 v2) k) 3%nat 1%nat - omega k) <= {}",
-        noise, slew, amplitude_error, phase_error, frequency_error, from, to, condition, literal(bound));
+        noise, slew, amplitude_error, phase_error, frequency_error, covariance, condition, literal(bound));
   }
 };
 
@@ -69,6 +75,38 @@ std::string proof(const std::string& certificate, const char* which) {
       "  intros phi omega v1 v2 a psi nu m H1 H2 H3 H4 H5 H6 H7 H8.\n"
       "  exact ({0} (check_sound {1} {1}_is_checked phi omega v1 v2 a psi nu m H1 H2 H3 H4 H5 H6 H7 H8)).",
       which, certificate);
+}
+
+/// The same for P(0|0) = P*, by the convergence of the Riccati iteration.
+void prove_steady_state(Proofs& proofs, const EllipsoidQuestion& question, const Statement& statement,
+                        const EkfPromises& promises) {
+  const auto bounds =
+      quadrature::steady_bounds(question.design, question.start_lowest, question.start_highest);
+  if (!bounds) {
+    proofs.leave_out(
+        "The theorem for a start at the filter's steady state is not in this file: a step at zero errors "
+        "does "
+        "not make the largest P(0|0) smaller and the smallest one larger.");
+    return;
+  }
+  proofs.write(steady_text("bounds_of_the_steady_state", "set_for_ever", *bounds));
+  proofs.prove(
+      "steady_state_is_covered",
+      fmt::format("forall m : symmetric, is_steady tracker m ->\n"
+                  "  below (multiple {} lowest_start) m /\\ below m (multiple {} highest_start)",
+                  statement.from, statement.to),
+      "  exact (steady_is_between set_for_ever bounds_of_the_steady_state set_for_ever_is_checked\n"
+      "    bounds_of_the_steady_state_are_checked).",
+      "ekf/frequency-error-bound",
+      "The steady state P*, the covariance that a step at zero errors keeps, lies between these two.");
+  proofs.prove(
+      "frequency_error_from_the_steady_state",
+      statement.proposition("is_steady tracker m", "", promises.error_bound),
+      "  intros phi omega v1 v2 a psi nu m H1 H2 H3 H4 H5 H6 S.\n"
+      "  destruct (steady_state_is_covered m S) as [H7 H8].\n"
+      "  exact (frequency_error_for_ever phi omega v1 v2 a psi nu m H1 H2 H3 H4 H5 H6 H7 H8).",
+      "ekf/frequency-error-bound",
+      fmt::format("From P(0|0) = P* the frequency error never exceeds {} rad/sample.", promises.error_bound));
 }
 
 constexpr const char* kNotHere = "The theorem about the filter's recursion is not in this file: ";
@@ -131,14 +169,14 @@ Proofs guarantee_proofs(const QuadratureEkfTables& tables, const StartCovariance
   const EkfPromises always = promises_of(question, for_ever->set);
   const EkfPromises settled = promises_of(question, long_run->set);
   proofs.write(
-      "\nModule ekf.\nImport Reals QArith filter positive leaf cover guarantee.\n"
+      "\nModule ekf.\nImport Reals QArith filter positive leaf cover guarantee steady.\n"
       "Local Open Scope Q_scope.\n");
   proofs.write(certificate_text("set_for_ever", texts, *for_ever, always));
   proofs.write(certificate_text("set_for_the_long_run", texts, *long_run, settled));
   proofs.write("Local Open Scope R_scope.\n" + definitions(texts));
   const Statement statement(texts);
   proofs.prove(
-      "frequency_error_for_ever", statement.proposition("", always.error_bound),
+      "frequency_error_for_ever", statement.proposition(statement.between(), "", always.error_bound),
       proof("set_for_ever", "proj1"), "ekf/frequency-error-bound",
       fmt::format(
           "The recursion (2.3)-(2.9) over the real numbers, for every tone of amplitude 1, every noise of at "
@@ -150,10 +188,14 @@ Proofs guarantee_proofs(const QuadratureEkfTables& tables, const StartCovariance
           texts.multiples[0], texts.multiples[1], always.error_bound));
   proofs.prove(
       "frequency_error_in_the_long_run",
-      statement.proposition(fmt::format("({} <= k)%nat -> ", settled.settled_after), settled.settled_bound),
+      statement.proposition(statement.between(), fmt::format("({} <= k)%nat -> ", settled.settled_after),
+                            settled.settled_bound),
       proof("set_for_the_long_run", "proj2"), "ekf/settling-time",
       fmt::format("With these hypotheses it never exceeds {1} rad/sample from sample {0} on.",
                   settled.settled_after, settled.settled_bound));
+  if (!start.is_given) {
+    prove_steady_state(proofs, question, statement, always);
+  }
   proofs.write("End ekf.\nImport ekf.\n\n");
   return proofs;
 }

@@ -19,8 +19,8 @@ using quadrature::EllipsoidQuestion;
 using quadrature::ErrorEllipsoid;
 using rigor::Interval;
 
-constexpr std::array kParts{"filter",   "frame", "error", "order", "induction",
-                            "positive", "leaf",  "cell",  "cover", "guarantee"};
+constexpr std::array kParts{"filter", "frame", "error", "order",     "induction", "positive",
+                            "leaf",   "cell",  "cover", "guarantee", "steady"};
 
 /// A double as a number of type Q, exactly.
 std::string exact(double x) {
@@ -32,6 +32,14 @@ std::string exact(const Eigen::Matrix3d& m) {
                      exact(m(1, 1)), exact(m(1, 2)), exact(m(2, 2)));
 }
 
+std::string exact(const Eigen::Matrix<double, 3, 2>& gain) {
+  std::string result;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    result += fmt::format(" {} {}", exact(gain(i, 0)), exact(gain(i, 1)));
+  }
+  return result;
+}
+
 std::string exact(const CellTree& tree) {
   constexpr std::array kAxes{"e1", "e2", "nu"};
   switch (tree.kind) {
@@ -39,12 +47,8 @@ std::string exact(const CellTree& tree) {
       return "Outside";
     case CellTree::Kind::checked: {
       const quadrature::CellNumbers& cell = tree.numbers;
-      std::string gain;
-      for (Eigen::Index i = 0; i < 3; ++i) {
-        gain += fmt::format(" {} {}", exact(cell.gain(i, 0)), exact(cell.gain(i, 1)));
-      }
       return fmt::format("(Checked (Build_leaf {} {}{} {} {}))", exact(cell.lowest), exact(cell.highest),
-                         gain, exact(cell.lambda), exact(cell.mu));
+                         exact(cell.gain), exact(cell.lambda), exact(cell.mu));
     }
     case CellTree::Kind::cut:
       break;
@@ -174,6 +178,19 @@ std::string certificate_text(const std::string& name, const EkfTexts& texts,
       exact(quadrature::stored(kWider * std::sqrt(set.inverse(1, 1)))), q(promises.error_bound),
       q(promises.ultimate_level), promises.settled_after, q(promises.settled_bound), exact(*found.cells),
       name, name);
+}
+
+std::string steady_text(const std::string& name, const std::string& certificate,
+                        const quadrature::SteadyBounds& bounds) {
+  const auto leaf = [](const Eigen::Matrix<double, 3, 2>& gain) {
+    return fmt::format("Build_leaf none none{} 1 1", exact(gain));
+  };
+  return fmt::format(
+      "\nDefinition {0} : steady_numbers := {{|\n  above := {2};\n  beneath := {3};\n  least_share := {4}; "
+      "least_size := {5} |}}.\n"
+      "Lemma {0}_are_checked : check_steady {1} {0} = true.\nProof. vm_cast_no_check (eq_refl true). Qed.\n",
+      name, certificate, leaf(bounds.gain_above), leaf(bounds.gain_beneath), exact(bounds.least_share),
+      exact(bounds.least_size));
 }
 
 }  // namespace veritrack::certificates::coq

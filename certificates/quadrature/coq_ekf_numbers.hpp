@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "analysis/quadrature/true_phase/ellipsoid_search.hpp"
+#include "analysis/quadrature/true_phase/steady_bounds.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/start_covariance.hpp"
 
@@ -39,6 +40,10 @@ struct EkfPromises {
 [[nodiscard]] std::string certificate_text(const std::string& name, const EkfTexts& texts,
                                            const quadrature::CoveredEllipsoid& found,
                                            const EkfPromises& promises);
+
+/// The definition `name`, of type steady_numbers, and the lemma `name`_are_checked about that certificate.
+[[nodiscard]] std::string steady_text(const std::string& name, const std::string& certificate,
+                                      const quadrature::SteadyBounds& bounds);
 
 /// The upper triangle of a symmetric matrix, row by row, each entry written by `write`.
 template <typename Write>

@@ -83,7 +83,8 @@ class Search {
                        question.frequency_error);
   }
 
-  /// The ellipsoid of that shape around the starts, with e' M e = 1 above what noise and slew hold up; none when the start covariances are not inside.
+  /// The ellipsoid of that shape around the starts, with e' M e = 1 above what noise and slew hold up; none
+  /// when the start covariances are not inside.
   [[nodiscard]] std::optional<ErrorEllipsoid> ellipsoid(const Shape& shape) const {
     constexpr double kSlack = 1e-3;
     ErrorEllipsoid set;
@@ -94,8 +95,7 @@ class Search {
     added(2, 2) += parts / rest * question_.slew * question_.slew;
     for (Eigen::Index i = 0; i < 3; ++i) {
       constexpr double kLeast = 1e-14;
-      added(i, i) +=
-          shape.spread_of_start.at(static_cast<std::size_t>(i)) * corner_(i) * corner_(i) + kLeast;
+      added(i, i) += shape.spread_of_start.at(static_cast<std::size_t>(i)) * corner_(i) * corner_(i) + kLeast;
     }
     Matrix3d n = accumulated(closed_loop_, added, set.kappa2 * (1.0 - kSlack));
     n *= (1.0 + kSlack) * std::max(farthest_start(n.inverse()), 1.0);

@@ -1,10 +1,22 @@
 """certificate.v in two parts: what is the same for all designs of a kind, compiled once, and the design."""
 
 import hashlib
+import os
 import pathlib
 import subprocess
+import tempfile
+import typing
 
 END_OF_ALL_DESIGNS = "(* What stands above is the same for all designs of the kind. *)\n"
+
+
+class Outcome(typing.NamedTuple):
+    """Of a run of coqc; seconds of the processor."""
+    returncode: int
+    stdout: str
+    stderr: str
+    seconds: float
+    mebibytes: int
 
 
 def coqc(folder, name, parts=None):
@@ -12,7 +24,14 @@ def coqc(folder, name, parts=None):
     command = ["coqc", "-w", "-ambiguous-paths", "-R", ".", ""]
     if parts is not None:
         command += ["-R", str(parts), ""]
-    return subprocess.run([*command, f"{name}.v"], cwd=folder, capture_output=True, text=True, check=False, timeout=900)
+    with tempfile.TemporaryFile("w+") as stdout, tempfile.TemporaryFile("w+") as stderr:
+        process = subprocess.Popen([*command, f"{name}.v"], cwd=folder, stdout=stdout, stderr=stderr)
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        stdout.seek(0)
+        stderr.seek(0)
+        return Outcome(process.returncode, stdout.read(), stderr.read(), used.ru_utime + used.ru_stime,
+                       used.ru_maxrss // 1024)
 
 
 def split(text):
@@ -34,6 +53,8 @@ def compile_part(for_all, folder):
         outcome = coqc(folder, name)
         if outcome.returncode != 0:
             raise RuntimeError(outcome.stderr)
+        print(f"{name}, for all designs of a kind: accepted, {outcome.seconds:.0f} processor seconds, "
+              f"{outcome.mebibytes} MiB", flush=True)
     return name
 
 

@@ -144,8 +144,9 @@ class Proofs(CliTestCase):
         statement = real_numbers + re.search(
             r"(\n\(\* The design, Q.*?)\nLemma frequency_error_in_the_long_run", rest, re.DOTALL).group(1)
         self.assertIn("Rabs (omega (S k) - omega k) <= 0.0005)", statement)
+        steady = re.search(r"\nDefinition bounds_of_the_steady_state.*?_are_checked : .*?Qed\.\n", rest, re.DOTALL).group(0)
         axioms = "\nPrint Assumptions frequency_error_for_ever.\n"
-        self.check_axioms(self.check_accepted(part, numbers + statement + axioms))
+        self.check_axioms(self.check_accepted(part, numbers + statement + steady + axioms))
         bound = int(re.search(r"error_bound := \((\d+) #", numbers).group(1))
         unchecked = self.changed(numbers, "Proof. vm_cast_no_check (eq_refl true). Qed.", "Admitted.")
         stated = re.search(r"omega k\) <= (0\.\d+)\.\nProof", statement).group(1)
@@ -156,6 +157,9 @@ class Proofs(CliTestCase):
             ("smaller_bound", self.changed(numbers, f"error_bound := ({bound} #", f"error_bound := ({bound * 99 // 100} #")),
             ("dropped_cell", re.sub(r"\(Checked \(Build_leaf .*?\)\)\n", "Outside\n", numbers, count=1)),
             ("another_design", self.changed(numbers, "design_r := (5 # 100)", "design_r := (6 # 100)")),
+            # A step makes 0.995 of the steady state larger, so that it is no upper bound of it.
+            ("steady_state", self.changed(unchecked, "to_multiple := (101 # 100)", "to_multiple := (995 # 1000)") +
+             real_numbers + steady),
             # What is said is what was checked.
             ("another_bound", unchecked + self.changed(statement, stated, stated[:-1] + str(int(stated[-1]) - 1)
                                                        if stated[-1] != "0" else stated + "1")),

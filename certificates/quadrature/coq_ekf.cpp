@@ -14,7 +14,6 @@ namespace veritrack::certificates::coq {
 
 namespace {
 
-using quadrature::CoveredEllipsoid;
 using quadrature::EllipsoidAim;
 using quadrature::EllipsoidQuestion;
 using rigor::Interval;

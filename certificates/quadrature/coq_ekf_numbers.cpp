@@ -17,7 +17,6 @@ namespace {
 using quadrature::CellTree;
 using quadrature::EllipsoidQuestion;
 using quadrature::ErrorEllipsoid;
-using rigor::Interval;
 
 constexpr std::array kParts{"filter", "frame", "error", "order",     "induction", "positive",
                             "leaf",   "cell",  "cover", "guarantee", "steady"};

@@ -66,4 +66,18 @@ std::array<DiscCell, 2> DiscCell::halves(std::size_t side) const {
   return parts;
 }
 
+bool DiscDivision::may_hold(std::size_t node, double level) const {
+  constexpr double kWellBelow = 0.85;
+  return !is_cut(part(node, 0)) && !is_cut(part(node, 1)) && level < kWellBelow * nodes_[node].level;
+}
+
+void DiscDivision::cut(std::size_t node, std::size_t side, double level) {
+  nodes_[node].level = level;
+  if (!is_cut(node)) {
+    nodes_[node].side = side;
+    nodes_[node].first = nodes_.size();
+    nodes_.resize(nodes_.size() + 2);
+  }
+}
+
 }  // namespace veritrack::checker

@@ -231,35 +231,29 @@ ErrorCheck check_errors(const Row<Chord>& row, const Way& way, const std::vector
 }  // namespace
 
 bool SteadyCover::maps_into_next(const SteadyLevel& level) {
-  // Levels differ little, so that the cells of one are a good beginning for the next.
-  constexpr int kRestart = 4;
   constexpr int kDepth = 24;
-  if (levels_++ % kRestart == 0) {
-    proved_ = {{{-1.0, -1.0}, {1.0, 1.0}, steady_.from, steady_.to}};
-  }
-  for (const DiscCell& cell : std::exchange(proved_, {})) {
-    if (!is_proved(level, cell, kDepth)) {
-      return false;
-    }
-  }
-  return true;
+  return is_proved(level, {{-1.0, -1.0}, {1.0, 1.0}, steady_.from, steady_.to}, DiscDivision::kWhole, kDepth);
 }
 
-bool SteadyCover::is_proved(const SteadyLevel& level, const DiscCell& cell, int depth) {
+bool SteadyCover::is_proved(const SteadyLevel& level, const DiscCell& cell, std::size_t node, int depth) {
   if (cell.is_outside()) {
     return true;
   }
-  std::size_t side = kX;
-  ++cells_;
-  if (proves(level, cell, side)) {
-    proved_.push_back(cell);
-    return true;
+  if (!division_.is_cut(node) || division_.may_hold(node, level.level.near())) {
+    std::size_t side = kX;
+    ++cells_;
+    if (proves(level, cell, side)) {
+      division_.mend(node);
+      return true;
+    }
+    if (depth == 0 || hopeless_) {
+      return false;
+    }
+    division_.cut(node, side, level.level.near());
   }
-  if (depth == 0 || hopeless_) {
-    return false;
-  }
-  const auto [first, second] = cell.halves(side);
-  return is_proved(level, first, depth - 1) && is_proved(level, second, depth - 1);
+  const auto [first, second] = cell.halves(division_.side(node));
+  return is_proved(level, first, division_.part(node, 0), depth - 1) &&
+         is_proved(level, second, division_.part(node, 1), depth - 1);
 }
 
 bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::size_t& side) {

@@ -232,6 +232,7 @@ ErrorCheck check_errors(const Row<Chord>& row, const Way& way, const std::vector
 
 bool SteadyCover::maps_into_next(const SteadyLevel& level) {
   constexpr int kDepth = 24;
+  updates_.clear();
   return is_proved(level, {{-1.0, -1.0}, {1.0, 1.0}, steady_.from, steady_.to}, DiscDivision::kWhole, kDepth);
 }
 
@@ -259,7 +260,12 @@ bool SteadyCover::is_proved(const SteadyLevel& level, const DiscCell& cell, std:
 bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::size_t& side) {
   const Whereabouts where = whereabouts_of(cell);
   const SteadyPlace<Chord> place = place_of(level, where, steady_);
-  const SteadyStep<Chord> step = steady_step(setting_, place);
+  const SteadyTurn<Chord> turn_of_place = steady_turn(setting_, place);
+  const auto [update, is_new] = updates_.try_emplace({cell.low[0], cell.high[0], cell.from, cell.to});
+  if (is_new) {
+    update->second = steady_update(setting_, place, turn_of_place);
+  }
+  const SteadyStep<Chord> step = steady_step(setting_, place, turn_of_place, update->second);
   const Added more = added(setting_, level, step, where.way);
   side = cell.high[0] - cell.low[0] >= cell.high[1] - cell.low[1] ? kX : kY;
   if (!more.meaningful) {
@@ -297,8 +303,9 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
     Chord turn = step.turn;
     turn.centre += shift;
     turn.range += shift + Ball::within(half_part);
-    const Symmetric<Chord> low = turned_deviation(place, step.low, turn);
-    const Symmetric<Chord> high = turned_deviation(place, step.high, turn);
+    const DeviationTurn<Chord> turned_by = deviation_turn(place, turn);
+    const Symmetric<Chord> low = turned_deviation(step.low, turned_by);
+    const Symmetric<Chord> high = turned_deviation(step.high, turned_by);
     const std::array<Symmetric<Ball>, 2> reach{reach_of(place, low, where.way, half_part),
                                                reach_of(place, high, where.way, half_part)};
     if (part == 0) {
@@ -314,10 +321,11 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
         return false;
       }
     }
-    const bool kept = std::all_of(corners.begin(), corners.end(), [&](const Way& corner) {
-      return keeps_covariance(moved_by(low, corner), moved_by(high, corner), reach, setting_, share);
-    });
-    if (!kept) {
+    // All of the cell at once, or else its corners.
+    const auto keeps = [&](const Way& way) {
+      return keeps_covariance(moved_by(low, way), moved_by(high, way), reach, setting_, share);
+    };
+    if (!keeps(where.way) && !std::all_of(corners.begin(), corners.end(), keeps)) {
       return false;
     }
   }

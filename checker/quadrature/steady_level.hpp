@@ -1,13 +1,16 @@
 // Does every step from one level of a set around the steady state end in the next one? With a leak.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <utility>
 
 #include "checker/quadrature/disc_cell.hpp"
 #include "checker/quadrature/steady_rate.hpp"
 #include "checker/quadrature/steady_state.hpp"
+#include "checker/quadrature/steady_step.hpp"
 
 namespace veritrack::checker {
 
@@ -42,6 +45,8 @@ class SteadyCover {
   const SteadySetting& setting_;
   const SteadyCell& steady_;
   DiscDivision division_;
+  /// Of this level, by the ranges of x and of the frequency, which are all that they depend on.
+  std::map<std::array<double, 4>, SteadyUpdate<Chord>> updates_;
   Multipliers multipliers_;  ///< of the last cell: where to begin
   std::int64_t cells_ = 0;
   bool hopeless_ = false;  ///< a small cell fails in its middle

@@ -172,8 +172,9 @@ std::string refusal_of(SteadySet& set, const std::vector<SteadyCell>& branch, co
                        ((next - motion.covariance) / level).lower(), set.noise};
   };
   // Other frequencies need much the same cells as those in the middle do.
+  constexpr std::size_t kSeveral = 3;
   DiscDivision division;
-  if (!branch.empty()) {
+  if (branch.size() >= kSeveral) {
     SteadyCover middle(s, branch[branch.size() / 2]);
     static_cast<void>(middle.maps_into_next(level_at(0)));
     division = middle.division();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "analysis/quadrature/contraction/shape_search.hpp"
@@ -34,15 +33,7 @@ search::BestPoint best_point(const ProposalRequest& request, const BlockCovarian
   }
   space.evaluations *= 6;  // one sample instead of a bisection each time
   if (is_about_a_start(request.objective)) {
-    const auto worth = [&](const Shape& shape) { return proposer.worth(shape); };
-    search::BestPoint best = search(worth);
-    if (request.objective == Objective::frequency_bound) {
-      // Begun again where it ended it often goes on; else a bound for more noise may be the better one.
-      space.start = best.point;
-      search::BestPoint again = search(worth);
-      best = again.value > best.value ? std::move(again) : std::move(best);
-    }
-    return best;
+    return search([&](const Shape& shape) { return proposer.worth(shape); });
   }
   const double start = proposer.largest_radius(proposer.shape(space.start));
   if (start > 0.0) {

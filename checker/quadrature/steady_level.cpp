@@ -157,7 +157,7 @@ std::array<Ball, N> centre_of(const std::array<Chord, N>& row) {
 /// Ways from the middle of a cell to its corners.
 std::vector<Way> ways_to_corners(const DiscCell& cell, const Way& middle) {
   std::vector<Way> ways;
-  for (const Point& point : cell.corners()) {
+  for (const DiscPoint& point : cell.corners()) {
     for (const double frequency : {cell.from, cell.to}) {
       ways.push_back(
           {Ball(point[0]) - middle[kX], Ball(point[1]) - middle[kY], Ball(frequency) - middle[kFrequency]});

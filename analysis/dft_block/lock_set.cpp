@@ -225,7 +225,7 @@ bool LockFrame::is_outside(const Cell& cell, double radius) const {
 }
 
 bool LockFrame::verify_cell(const Cell& cell, const LockRate& rate) const {
-  const Interval amplitude = cell(4);
+  const Interval& amplitude = cell(4);
   const Interval weight = square(amplitude) / (Interval(4.0) * problem_.r);
   const Information information =
       information_over(cell(0), cell(1), cell(2), cell(3), weight, problem_.half_width);
@@ -295,7 +295,7 @@ bool LockFrame::verify(const LockRate& rate, std::int64_t most_cells) const {
         widest = i;
       }
     }
-    const Interval side = cell(widest);
+    const Interval& side = cell(widest);
     const double middle = midpoint(side);
     if (!(side.lower() < middle && middle < side.upper())) {
       return false;

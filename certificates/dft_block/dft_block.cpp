@@ -13,7 +13,6 @@ namespace veritrack::certificates {
 
 namespace {
 
-using rigor::Interval;
 using rigor::Verdict;
 
 constexpr int kBlockDigits = 3;

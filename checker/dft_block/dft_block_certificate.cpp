@@ -357,7 +357,7 @@ class BlockVerifier {
       objections.emplace_back(kUnknown);
       return {};
     }
-    const Claim found = id == kGuarantee ? guarantee(claim) : required_claim(id);
+    Claim found = id == kGuarantee ? guarantee(claim) : required_claim(id);
     if (proved_ == nullptr) {
       objections.emplace_back(kUnverified);
     }

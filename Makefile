@@ -37,9 +37,12 @@ SANITIZED_EFFORT ?= 0.02
 LINT_SCOPE   ?= --changed
 # One of each kind, and the models that take seconds, because all of them take long; .ci/nightly takes all of both folders.
 # Of those with a leak in Gaussian noise the one that takes half of the time.
-VERIFY_DESIGNS ?= $(subst 3.3-with-leak-at-22,3.4-with-leak-at-22,$(shell scripts/one-of-each-kind)) $(addprefix designs/models/,aranovskiy.toml sogi-fll.toml type-2-pll.toml) designs/regulator/rotor-two-axes.toml
+VERIFY_DESIGNS ?= $(subst 3.3-with-leak-at-22,3.4-with-leak-at-22,$(shell scripts/one-of-each-kind)) $(addprefix designs/models/,aranovskiy.toml sogi-fll.toml type-2-pll.toml) designs/regulator/rotor-two-axes.toml designs/block/la-scala-1994-set-3.toml
+# One of each kind, and all four of Table 3.2 with a theorem about their recursion.
 PROOF_DESIGNS  ?= designs/praly-section-v-proved-ell.toml designs/la-scala-1994-figure-3.5.toml \
-  designs/la-scala-1994-figure-3.5-without-leak.toml designs/bittanti-savaresi-2000-example-1.toml
+  $(wildcard designs/la-scala-1994-figure-3.?-without-leak.toml) designs/bittanti-savaresi-2000-example-1.toml
+# --whole: each file as it stands, not in two parts
+PROOF_OPTIONS  ?=
 
 .PHONY: certificate verify proofs pages test lint format sanitize fuzz mutation bench wheel deb clean
 
@@ -61,7 +64,7 @@ proofs:
 	@scripts/install-packages $(BUILD_PACKAGES) $(PROOF_PACKAGES) python3
 	@cmake --preset release -DVERITRACK_BUILD_TESTS=OFF >&2
 	@cmake --build --preset release --parallel $(JOBS) --target veritrack >&2
-	@scripts/proofs "$(CURDIR)/build/release/veritrack" $(PROOF_DESIGNS)
+	@scripts/proofs $(PROOF_OPTIONS) "$(CURDIR)/build/release/veritrack" $(PROOF_DESIGNS)
 	@VERITRACK="$(CURDIR)/build/release/veritrack" python3 -B tests/cli/proofs_test.py
 
 # Pages in a browser, formulas rendered, tables through LaTeX: minutes, and large packages.

@@ -79,6 +79,11 @@ ExitStatus run_certify(const CertifyOptions& options) {
     fmt::print(stderr, "{}: written without its figures; {}\n", files.document.string(),
                files.missing_figures);
   }
+  if (certificate.formal_proofs && !options.quiet) {
+    for (const std::string& sentence : certificate.formal_proofs->left_out) {
+      fmt::print(stderr, "{}: {}\n", options.design, sentence);
+    }
+  }
   fmt::print("{}: {}\n", files.document.string(), certificates::headline(certificate));
   const ExitStatus status = status_of(certificate);
   if (status == not_proved && certificates::can_be_tuned(certificate.design) && !options.quiet) {

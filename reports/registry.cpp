@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "certificates/design/request_error.hpp"
+#include "reports/dft_block/dft_block_reports.hpp"
 #include "reports/kkl_observer/kkl_observer_reports.hpp"
 #include "reports/model/model_reports.hpp"
 #include "reports/quadrature/quadrature_reports.hpp"
@@ -50,7 +51,7 @@ std::vector<std::string_view> given_options(const MapRequest& request) {
 
 std::span<const TrackerReports* const> tracker_reports() {
   static const std::array all{&quadrature_reports(), &kkl_observer_reports(), &single_channel_reports(),
-                              &model_reports(), &regulator_reports()};
+                              &model_reports(),      &regulator_reports(),    &dft_block_reports()};
   return all;
 }
 

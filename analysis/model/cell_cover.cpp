@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -109,7 +110,8 @@ class Cover {
         include(result.range, answer.range);
         continue;
       }
-      if (result.cells + open.size() >= most || first_failure.load() < number || !may_be_proved(cell)) {
+      if (result.cells + open.size() >= most || first_failure.load() < number || is_tiny(cell) ||
+          !may_be_proved(cell)) {
         result.failed = cell;
         return result;
       }
@@ -124,10 +126,22 @@ class Cover {
     return (*ask_)({cell.turn, 0.0, cell.z, 0.0}).is_proved;
   }
 
+  /// Parts of a turn that are as wide as all frequencies, about.
+  static constexpr double kPhasesAsWide = 48.0;
+
+  /// Where halving does not help any more: a part is one in a million in each direction.
+  [[nodiscard]] static bool is_tiny(const TubeCell& cell) {
+    return cell.half_turn < 0x1p-26 || cell.half_z < 0x1p-20;
+  }
+
   static void halve(const TubeCell& cell, const CellAnswer& answer, std::vector<TubeCell>& open) {
     TubeCell first = cell;
     TubeCell second = cell;
-    const bool by_frequency = answer.by_frequency > answer.by_phase;  // a guess; false with NaN
+    // A guess. Where nothing is known of what varies, both directions take their turns.
+    const double sum = answer.by_frequency + answer.by_phase;
+    const bool is_known = std::isfinite(sum) && sum > 0.0;
+    const bool by_frequency =
+        is_known ? answer.by_frequency > answer.by_phase : cell.half_z > kPhasesAsWide * cell.half_turn;
     if (by_frequency) {
       first.half_z = second.half_z = cell.half_z / 2.0;
       first.z -= first.half_z;

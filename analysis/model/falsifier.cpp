@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "analysis/rigor/rounding.hpp"
 
@@ -46,12 +47,15 @@ class AttackRun {
         directions_(attack_directions(model.recursion->samples, tone.noise)),
         nexts_(directions_.size()) {}
 
+  /// Where covariances of a filter with bounds begin, between them: see PointTracker::state.
+  void begin_with_covariance(Eigen::MatrixXd place) { place_ = std::move(place); }
+
   void begin(const Eigen::VectorXd& coordinates) {
     phase_ = tone_.phase;
     frequency_ = tone_.frequency;
     tubes_.front().move_to(frequency_);
     tubes_.front().at(phase_, frame_);
-    state_ = tracker_.state(frame_, coordinates);
+    state_ = tracker_.state(frame_, coordinates, place_);
     level_ = coordinates.norm();
   }
   /// The coordinates after the next sample, under the worst disturbances.
@@ -99,6 +103,7 @@ class AttackRun {
   std::vector<Eigen::VectorXd> directions_, nexts_;
   PointFrame frame_;
   Eigen::VectorXd state_, coordinates_;
+  Eigen::MatrixXd place_;
   double phase_ = 0.0;
   double frequency_ = 0.0;
   double level_ = 0.0;
@@ -135,6 +140,15 @@ Eigen::VectorXd random_direction(std::mt19937_64& engine, Eigen::Index size) {
     }
   } while (direction.norm() < 0.1 || direction.norm() > 1.0);
   return direction.normalized();
+}
+
+/// At the border of the symmetric matrices of a norm of at most 1: eigenvalues 1 and -1, often only one of
+/// them.
+Eigen::MatrixXd extreme_place(std::mt19937_64& engine, Eigen::Index size) {
+  const double sign = uniform(engine) < 0.5 ? -1.0 : 1.0;
+  const double turned = uniform(engine) < 0.5 ? 0.0 : 2.0;
+  const Eigen::VectorXd direction = random_direction(engine, size);
+  return sign * (Eigen::MatrixXd::Identity(size, size) - turned * direction * direction.transpose());
 }
 
 }  // namespace
@@ -177,6 +191,9 @@ TubeAttack attack_tubes(const TrackerModel& model, const TubeSet& set, const Att
     AttackRun run(model, proved.tube, {frequency, kTurn * uniform(engine), set.noise, set.slew});
     Eigen::VectorXd start =
         proved.levels.front() * random_direction(engine, static_cast<Eigen::Index>(proved.tube.curve.size()));
+    if (proved.tube.bounds_covariance()) {
+      run.begin_with_covariance(extreme_place(engine, start.size()));
+    }
     for (int i = 0; i < settings.ascents; ++i) {
       start = steeper(run, start);
     }

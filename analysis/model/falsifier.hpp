@@ -50,7 +50,8 @@ struct TubeAttack {
 };
 
 /// Starts on the rim of R_0, in all tubes in turn, at frequencies, phases and in directions drawn at random;
-/// a direction is improved until the next level is large. With the noise and the slew of the set.
+/// a direction is improved until the next level is large. With the noise and the slew of the set. The
+/// covariance of a filter with bounds begins at one of them, or between them with nothing to spare.
 /// Deterministic, whatever the number of threads. For a set without tubes nothing is tried.
 [[nodiscard]] TubeAttack attack_tubes(const TrackerModel& model, const TubeSet& set,
                                       const AttackSettings& settings = {});

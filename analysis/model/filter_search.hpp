@@ -179,15 +179,19 @@ class FilterSearch {
     }
     return worth;
   }
+  /// The point with a larger or smaller tube.
+  [[nodiscard]] VectorXd with_size(VectorXd x, double logarithm) const {
+    x[3] += logarithm;
+    x.segment(5, coordinates_.sizes.size() + (coordinates_.moves() ? 1 : 0)).array() += logarithm;
+    return x;
+  }
   /// The point with a larger or smaller scale: of the tube, or of the noise.
   [[nodiscard]] VectorXd scaled(VectorXd x, double logarithm) const {
     if (coordinates_.finds()) {
       x[coordinates_.size() - 1] += logarithm;
-    } else {
-      x[3] += logarithm;
-      x.segment(5, coordinates_.sizes.size() + (coordinates_.moves() ? 1 : 0)).array() += logarithm;
+      return x;
     }
-    return x;
+    return with_size(std::move(x), logarithm);
   }
   /// The largest scale at which the growth is what it may be; -infinity when there is none nearby.
   template <typename Worth>
@@ -281,10 +285,22 @@ class FilterSearch {
       improve(best, 0.5);
       improve(best, 0.8);
     }
+    // At the ends of the cell a smaller tube may be needed, not only less noise.
     constexpr int kSamples = 40;
-    const double logarithm = largest_scale(
-        best.point, [&](const FilterParameters& parameters) { return worth_at(parameters, kSamples); });
-    return std::isfinite(logarithm) ? std::optional(scaled(best.point, logarithm)) : std::nullopt;
+    ScoredPoint whole;
+    for (const double shrink : {0.0, -0.3, -0.7, -1.4}) {
+      const VectorXd smaller = shrink < 0.0 ? with_size(best.point, shrink) : best.point;
+      const double logarithm = largest_scale(
+          smaller, [&](const FilterParameters& parameters) { return worth_at(parameters, kSamples); });
+      // The value is that of the scale alone.
+      if (std::isfinite(logarithm) && logarithm > whole.value) {
+        whole = {logarithm, scaled(smaller, logarithm)};
+      }
+      if (!coordinates_.finds()) {
+        break;
+      }
+    }
+    return std::isfinite(whole.value) ? std::optional(whole.point) : std::nullopt;
   }
 
   static constexpr double kLargestGrowth = 0.985;
@@ -294,7 +310,7 @@ class FilterSearch {
   [[nodiscard]] std::vector<ScoredPoint> first_starts() const {
     std::vector<VectorXd> points;
     for (const double source : {-8.0, -4.0, -1.0}) {
-      for (const double eta : {-2.3, -1.0}) {
+      for (const double eta : {-3.6, -2.3, -1.0}) {
         for (const double logit : {0.0, 1.4, 2.6}) {
           for (const double spread : {-5.0, -2.0}) {
             // The scale of W is found by itself.

@@ -324,8 +324,9 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
     return bounds;
   }
   const WidthShares shares = width_shares(step.vector);
-  bounds.by_phase = shares.by_phase;
-  bounds.by_frequency = shares.by_frequency;
+  // What the bounds of the covariance lack is not in these.
+  bounds.by_phase = step.is_known ? shares.by_phase : std::numeric_limits<double>::quiet_NaN();
+  bounds.by_frequency = step.is_known ? shares.by_frequency : std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> lengths = length_bounds(step.vector, scales, is_noisy && is_moving);
   if (step.is_known) {
     bounds.steps = lengths;

@@ -32,7 +32,7 @@ class Division {
         untried.outcome = TubeOutcome::time_limit;
         untried.frequency = middle;
         untried.half_width = 0.5 * (to - from);
-        decide(std::move(untried));
+        (void)decide(std::move(untried), false);
         continue;
       }
       TubeProposal proposal = propose_tube(*tone_, middle, 0.5 * (to - from), settings_->tube, nearby_,
@@ -49,11 +49,21 @@ class Division {
         waiting.emplace_back(from, middle);
         continue;
       }
-      failing_from_ = is_proposed ? std::nullopt : std::optional(failing_from_.value_or(from));
+      // A wide cell that is not proved may be in two parts, unless the last one was not, either.
+      constexpr double kProofs = 9.0;
+      const bool may_be_halved = is_proposed && !settings_->one_shape && !failing_from_ &&
+                                 to - from > std::max(settings_->widest / kProofs, 2.0 * narrowest);
       if (is_proposed && !(settings_->one_shape && nearby_)) {
         nearby_ = proposal.shape.parameters;
       }
-      decide(std::move(proposal));
+      const bool is_good = decide(std::move(proposal), may_be_halved) && is_proposed;
+      if (!is_good && may_be_halved) {
+        cells_.pop_back();
+        waiting.emplace_back(middle, to);
+        waiting.emplace_back(from, middle);
+        continue;
+      }
+      failing_from_ = is_good ? std::nullopt : std::optional(failing_from_.value_or(from));
     }
   }
 
@@ -61,11 +71,11 @@ class Division {
   [[nodiscard]] std::vector<TubeProposal> take() { return std::move(cells_); }
 
  private:
-  void decide(TubeProposal cell) {
-    if (settings_->decided) {
-      settings_->decided(cell);
-    }
+  /// Whether the cell is good.
+  bool decide(TubeProposal cell, bool may_be_halved) {
+    const bool is_good = !settings_->decided || settings_->decided(cell, may_be_halved);
     cells_.push_back(std::move(cell));
+    return is_good;
   }
 
   const TrackedTone* tone_;

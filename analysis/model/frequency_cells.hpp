@@ -18,9 +18,9 @@ struct BandSettings {
   /// fit together, for a frequency that moves.
   bool one_shape = false;
   search::Deadline deadline = {};  ///< cells that are tried later are not proposed: `time_limit`
-  /// Told each cell when it is decided, proposed or not, so that it can be proved before the next one is
-  /// tried.
-  std::function<void(TubeProposal& cell)> decided = {};
+  /// Told each cell when it is proposed, or is not, so that it can be proved before the next one is tried.
+  /// Where `may_be_halved`, the answer false has the cell halved: it is as if it had not been proposed.
+  std::function<bool(TubeProposal& cell, bool may_be_halved)> decided = {};
 };
 
 /// low <= omega <= high, rad/sample.

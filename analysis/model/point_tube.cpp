@@ -82,12 +82,15 @@ void PointTube::at(double phase, PointFrame& frame) const {
     return;
   }
   frame.covariance.setZero(states, states);
+  frame.spread.setZero(states, states);
   for (int bound = 0; bound < 2; ++bound) {
     for (Eigen::Index i = 0; i < states; ++i) {
       for (Eigen::Index j = 0; j <= i; ++j) {
         const double half = 0.5 * value();
         frame.covariance(i, j) += half;
         frame.covariance(j, i) += i == j ? 0.0 : half;
+        frame.spread(i, j) += bound == 0 ? -half : half;
+        frame.spread(j, i) += i == j ? 0.0 : bound == 0 ? -half : half;
       }
     }
   }
@@ -113,7 +116,8 @@ Eigen::VectorXd PointTracker::samples(double phase) {
   return values;
 }
 
-Eigen::VectorXd PointTracker::state(const PointFrame& frame, const Eigen::VectorXd& coordinates) {
+Eigen::VectorXd PointTracker::state(const PointFrame& frame, const Eigen::VectorXd& coordinates,
+                                    const Eigen::MatrixXd& between) {
   if (frame.covariance.size() == 0) {
     return frame.state(coordinates);
   }
@@ -126,9 +130,14 @@ Eigen::VectorXd PointTracker::state(const PointFrame& frame, const Eigen::Vector
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Eigen::MatrixXd measured = Eigen::Map<const RowMajor>(values.measured.data(), channels(), n);
   const Eigen::MatrixXd noise = Eigen::Map<const RowMajor>(values.noise.data(), channels(), channels());
-  const Eigen::MatrixXd cross = measured * frame.covariance;
+  Eigen::MatrixXd predicted = frame.covariance;
+  if (between.size() > 0) {
+    const Eigen::MatrixXd root = Eigen::LLT<Eigen::MatrixXd>(frame.spread).matrixL();
+    predicted += root * between * root.transpose();
+  }
+  const Eigen::MatrixXd cross = measured * predicted;
   const Eigen::MatrixXd updated =
-      frame.covariance - cross.transpose() * (cross * measured.transpose() + noise).ldlt().solve(cross);
+      predicted - cross.transpose() * (cross * measured.transpose() + noise).ldlt().solve(cross);
   Eigen::VectorXd result(states());
   result.head(n) = estimate;
   Eigen::Index place = n;

@@ -18,6 +18,7 @@ struct PointFrame {
   /// Of a tube that bounds a covariance: the middle of the bounds of the predicted one; otherwise without
   /// rows.
   Eigen::MatrixXd covariance;
+  Eigen::MatrixXd spread;  ///< and half of their difference
 
   /// Of a filter with such a tube: the estimate alone.
   [[nodiscard]] Eigen::VectorXd state(const Eigen::VectorXd& coordinates) const {
@@ -61,8 +62,9 @@ class PointTracker {
   /// The samples at this phase, without noise.
   [[nodiscard]] Eigen::VectorXd samples(double phase);
   /// The state at these coordinates; of a filter with a tube that bounds the covariance, with the covariance
-  /// that the middle of its bounds leads to.
-  [[nodiscard]] Eigen::VectorXd state(const PointFrame& frame, const Eigen::VectorXd& coordinates);
+  /// that the middle of its bounds leads to, or this one `between` them: symmetric, of a norm of at most 1.
+  [[nodiscard]] Eigen::VectorXd state(const PointFrame& frame, const Eigen::VectorXd& coordinates,
+                                      const Eigen::MatrixXd& between = {});
   /// The next state.
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& state, const Eigen::VectorXd& samples);
   /// The estimated frequency, rad/sample.

@@ -29,9 +29,10 @@ TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low
   double noise = task.largest_noise ? INFINITY : task.noise;
   std::vector<std::pair<double, double>> noises;  // of the tube about a frequency
   FailedCells failures;
-  const auto prove_cell = [&](TubeProposal& cell) {
+  const auto prove_cell = [&](TubeProposal& cell, bool may_be_halved) {
     const double from = cell.frequency - cell.half_width;
     const double to = cell.frequency + cell.half_width;
+    bool is_good = cell.outcome == TubeOutcome::proposed;
     if (cell.outcome == TubeOutcome::proposed) {
       widen(*cell.tube);
       LevelSearch search(model, cell, task);
@@ -47,7 +48,10 @@ TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low
       if (proved) {
         set.tubes.push_back(*std::move(proved));
         noises.emplace_back(cell.frequency, noise);
+      } else if (may_be_halved && !task.deadline.is_over()) {
+        return false;
       } else {
+        is_good = false;
         failures.add(task.deadline.is_over() ? std::string(kTimeLimit)
                      : noise > 0.0 && std::isfinite(noise)
                          ? fmt::format("no radius was proved for noise {:.4g}", noise)
@@ -59,6 +63,7 @@ TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low
     if (progress) {
       progress((to - low) / (high - low));
     }
+    return is_good;
   };
   BandSettings settings = settings_of(task, low, high);
   settings.decided = prove_cell;

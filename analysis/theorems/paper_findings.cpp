@@ -96,6 +96,8 @@ const std::vector<PaperFinding>& paper_findings() {
        "thesis, section 5.4, the formula; the printed number is right"},
       {"chapter-5/efra-lower-bound-holds", slip_without_consequence,
        "thesis, section 5.4, the formula; the printed number is right"},
+      {"chapter-5/corollary-5.2.1/step", slip_without_consequence,
+       "thesis, corollary 5.2.1; the factor Lambda is missing"},
       // Bittanti and Savaresi 2000.
       {"proposition-1/denominator-printed", slip_without_consequence, "paper, (4) and (6)"},
       {"proposition-1/response-printed", slip_without_consequence, "paper, (6)"},

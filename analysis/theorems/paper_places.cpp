@@ -56,6 +56,8 @@ constexpr std::array kFamilies{
     Family{"chapter-4/initial-estimate/", la_scala_1994, sentence, "thesis, section 4.5.2"},
     Family{"chapter-4/", la_scala_1994, sentence, "thesis, section 4.3"},
     Family{"chapter-5/example", la_scala_1994, sentence, "thesis, section 5.4, the examples"},
+    Family{"chapter-5/theorem-5.2/", la_scala_1994, sentence, "thesis, theorem 5.2, its proof"},
+    Family{"chapter-5/corollary-5.2.1/", la_scala_1994, sentence, "thesis, corollary 5.2.1, its proof"},
     Family{"chapter-5/", la_scala_1994, sentence, "thesis, section 5.4, EFRA"},
     Family{"baras-bensoussan-james/units", cited, sentence, "thesis, theorem 2.2",
            "a condition without units (docs/published-results.md, section 4)"},

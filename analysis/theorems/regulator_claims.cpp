@@ -51,6 +51,42 @@ Statement printed_number(const std::string& id, const std::string& sentence, con
       "The value is " + enclosed(value) + ".", {});
 }
 
+/// Is 2 (1 - alpha + gamma)(1 - alpha) - (1 - 2 alpha + gamma)(2 - alpha) = alpha (1 - gamma), for all alpha
+/// and gamma? Both sides have at most the second power of either, so that nine points decide.
+bool is_difference_as_said() {
+  bool all = true;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const Interval alpha(i);
+      const Interval gamma(k);
+      const Interval one(1.0);
+      const Interval two(2.0);
+      const Interval difference =
+          two * (one - alpha + gamma) * (one - alpha) - (one - two * alpha + gamma) * (two - alpha);
+      all = all && difference == alpha * (one - gamma);
+    }
+  }
+  return all;
+}
+
+/// For every admissible choice: docs/regulator.md, section 7.
+Statement efra_interval() {
+  return make_statement("chapter-5/efra-interval/corrected",
+                        "For all alpha and gamma = (1 - lambda)/lambda between 0 and 1 and all beta, delta > "
+                        "0 with (gamma - alpha)^2 + 4 "
+                        "beta delta < (1 - alpha)^2, and whatever the regressors: mu I <= P(k) <= nu I "
+                        "implies the same of P(k+1), with mu "
+                        "as corrected, (alpha - gamma)^2 under the root, and nu as printed.",
+                        is_difference_as_said() ? rigor::Verdict::proved : rigor::Verdict::undecided,
+                        "(1 + gamma - alpha) P + beta - delta P^2 <= P(k+1) <= (1 + gamma) P + beta - delta "
+                        "P^2; the right side rises up to "
+                        "nu since gamma^2 + 4 beta delta < 1, the left side is concave, mu at mu and (1 - "
+                        "alpha) nu at nu, and (1 - alpha) "
+                        "nu >= mu because 2 (1 - alpha + gamma)(1 - alpha) - (1 - 2 alpha + gamma)(2 - "
+                        "alpha) = alpha (1 - gamma) >= 0.",
+                        {});
+}
+
 std::vector<Statement> efra_statements() {
   const Efra efra;
   const Interval gamma = efra.gamma();
@@ -84,7 +120,67 @@ std::vector<Statement> efra_statements() {
                      decide(printed_lower, successor, Strictness::weak),
                      "One parameter, P = mu = " + enclosed(printed_lower) +
                          ", phi beyond every bound: P(k+1) tends to " + enclosed(successor) + ".",
-                     {})};
+                     {}),
+      efra_interval()};
+}
+
+/// Do two polynomials of two variables agree, none of which has more than the second power of either? Nine
+/// points decide, and small integers are exact.
+bool agree(Interval (*left)(const Interval& x, const Interval& y),
+           Interval (*right)(const Interval& x, const Interval& y)) {
+  bool all = true;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      all = all && left(Interval(i), Interval(k)) == right(Interval(i), Interval(k));
+    }
+  }
+  return all;
+}
+
+/// The algebra of the proofs of section 5.3, with g = phi'P phi before the update and eta = y - phi'theta
+/// after it.
+std::vector<Statement> least_squares_statements() {
+  const auto proved_if = [](bool holds) {
+    return holds ? rigor::Verdict::proved : rigor::Verdict::undecided;
+  };
+  const bool is_lyapunov = agree(
+      [](const Interval& g, const Interval& eta) {
+        const Interval t = -eta;
+        return square(t) + Interval(2.0) * t * eta - g * square(eta);
+      },
+      [](const Interval& g, const Interval& eta) { return -((Interval(1.0) + g) * square(eta)); });
+  const bool is_posterior =
+      agree([](const Interval& g, const Interval& y) { return (Interval(1.0) + g) * y - g * y; },
+            [](const Interval& /*g*/, const Interval& y) { return y; });
+  const bool is_product =
+      agree([](const Interval& p, const Interval& limit) { return limit * p - square(p); },
+            [](const Interval& p, const Interval& limit) { return p * (limit - p); });
+  // One parameter: P = 1 and r = 2 keep r lambda_max(P) <= Lambda = 2.
+  const Interval left(1.0);
+  const Interval right = Interval(1.0) / Interval(2.0);
+  return {
+      make_statement(
+          "chapter-5/theorem-5.2/a-posteriori-error",
+          "(5.22): what the updated estimate leaves of y is y/(1 + phi'P phi), for every P, phi and y.",
+          proved_if(is_posterior), "(1 + g) y - g y = y.", {}),
+      make_statement(
+          "chapter-5/theorem-5.2/lyapunov-function",
+          "In the proof of Theorem 5.2, beta V(k) = V(k-1) - eta^2 - phi'P phi eta^2, for every P, phi and "
+          "error of the parameters.",
+          proved_if(is_lyapunov),
+          "With phi'(theta - theta0) = -eta: eta^2 - 2 eta^2 - g eta^2 = -(1 + g) eta^2.", {}),
+      make_statement(
+          "chapter-5/corollary-5.2.1/step/printed",
+          "r lambda_max(P) <= Lambda implies phi'P^2 phi <= phi'P phi/r, as the proof of Corollary 5.2.1 "
+          "has it.",
+          decide(left, right, Strictness::weak),
+          "One parameter, P = 1, r = 2, Lambda = 2, phi = 1: 1 on the left, 0.5 on the right.", {}),
+      make_statement(
+          "chapter-5/corollary-5.2.1/step/corrected",
+          "r lambda_max(P) <= Lambda implies phi'P^2 phi <= Lambda phi'P phi/r, for every positive "
+          "semidefinite P and every phi, so that the corollary follows all the same.",
+          proved_if(is_product), "For an eigenvalue p of P, (Lambda/r) p - p^2 = p (Lambda/r - p) >= 0.",
+          {})};
 }
 
 /// The coefficients of A = A1 A2 and B = A2 B1 of the examples, A1 = 1 - 0.5 q^-1, B1 = 3.
@@ -125,7 +221,7 @@ Statement variance_statement() {
 
 std::vector<Statement> regulator_claims() {
   std::vector<Statement> statements{variance_statement()};
-  for (auto part : {plant_statements(), efra_statements()}) {
+  for (auto part : {plant_statements(), efra_statements(), least_squares_statements()}) {
     statements.insert(statements.end(), part.begin(), part.end());
   }
   return statements;

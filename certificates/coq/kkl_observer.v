@@ -1,12 +1,12 @@
-From Coq Require Import Reals Lra Psatz.
-From Coquelicot Require Import Coquelicot.
-From Interval Require Import Tactic Specific_ops Specific_stdz.
+From Coq Require Export Reals Lra Psatz.
+From Coquelicot Require Export Coquelicot.
+From Interval Require Export Tactic Specific_ops Specific_stdz.
 
 (* The interval tactic on Coq's own integers: it needs no axiom beyond those of the real numbers. *)
 Module IntegerFloats := SpecificFloat StdZRadix2.
 Module IntegerIntervals := IntervalTactic IntegerFloats.
-Import IntegerIntervals.
-Local Open Scope R_scope.
+Export IntegerIntervals.
+Open Scope R_scope.
 
 (* The KKL observer of L. Praly, L. Marconi and A. Isidori with four filters, for all filter rates l1, ..., l4.
    Equation numbers are those of "A new observer for an unknown harmonic oscillator". *)

@@ -1,11 +1,11 @@
-From Coq Require Import Reals Lra Psatz.
-From Interval Require Import Tactic Specific_ops Specific_stdz.
+From Coq Require Export Reals Lra Psatz.
+From Interval Require Export Tactic Specific_ops Specific_stdz.
 
 (* The interval tactic on Coq's own integers: it needs no axiom beyond those of the real numbers. *)
 Module IntegerFloats := SpecificFloat StdZRadix2.
 Module IntegerIntervals := IntervalTactic IntegerFloats.
-Import IntegerIntervals.
-Local Open Scope R_scope.
+Export IntegerIntervals.
+Open Scope R_scope.
 
 (* Proposition 1 of S. Bittanti and S. M. Savaresi, "On the parameterization and design of an extended Kalman filter
    frequency tracker", IEEE Trans. Automatic Control 45(9), 2000, for all gains and frequencies. Equation numbers are

@@ -1,11 +1,11 @@
-From Coq Require Import Reals Lra Psatz.
-From Interval Require Import Tactic Specific_ops Specific_stdz.
+From Coq Require Export Reals Lra Psatz.
+From Interval Require Export Tactic Specific_ops Specific_stdz.
 
 (* The interval tactic on Coq's own integers: it needs no axiom beyond those of the real numbers. *)
 Module IntegerFloats := SpecificFloat StdZRadix2.
 Module IntegerIntervals := IntervalTactic IntegerFloats.
-Import IntegerIntervals.
-Local Open Scope R_scope.
+Export IntegerIntervals.
+Open Scope R_scope.
 
 (* The constants of Theorem 2.9 of B. F. La Scala, "Approaches to Frequency Tracking and Vibration Control", PhD thesis,
    Australian National University, 1994, as they are written there (sections 2.4 and 3.5), and with its errata sheet;
@@ -72,7 +72,7 @@ Ltac choose :=
     first [ rewrite (Rmax_right a b) by interval with (i_prec 180)
           | rewrite (Rmax_left a b) by interval with (i_prec 180) ]
   end.
-Ltac evaluate design := expand design; repeat choose; interval with (i_prec 180).
+Ltac evaluate design := expand design; repeat choose; first [ interval with (i_prec 100) | interval with (i_prec 180) ].
 
 
 (* What the theorem admits. *)

@@ -11,10 +11,27 @@ namespace veritrack::certificates {
 
 namespace coq {
 
+Proofs::Proofs(std::string_view for_all_designs) {
+  write(for_all_designs);
+  write("\n(* What stands above is the same for all designs of the kind. *)\n");
+}
+
 void Proofs::prove(const std::string& lemma, const std::string& proposition, const std::string& proof,
                    std::string of, std::string statement) {
   write(fmt::format("\nLemma {} :\n  {}.\nProof.\n{}\nQed.\n", lemma, proposition, proof));
   cite(lemma, std::move(of), std::move(statement));
+}
+
+void Proofs::append(const Proofs& other) {
+  write(other.proofs_.text);
+  proofs_.proofs.insert(proofs_.proofs.end(), other.proofs_.proofs.begin(), other.proofs_.proofs.end());
+  proofs_.left_out.insert(proofs_.left_out.end(), other.proofs_.left_out.begin(),
+                          other.proofs_.left_out.end());
+}
+
+void Proofs::leave_out(std::string what_and_why) {
+  write(fmt::format("\n(* {} *)\n", what_and_why));
+  proofs_.left_out.push_back(std::move(what_and_why));
 }
 
 FormalProofs Proofs::finished() const {

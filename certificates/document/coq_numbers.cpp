@@ -80,6 +80,24 @@ DecimalParts parts_of(std::string_view text) {
   return {negative, digits, exponent};
 }
 
+/// digits / 10^decimals, with a sign, and one decimal at least.
+struct FractionParts {
+  bool negative = false;
+  std::string digits;
+  std::size_t decimals = 1;
+};
+
+/// Throws rigor::NumberFormatError.
+FractionParts fraction_of(std::string_view text) {
+  const DecimalParts parts = parts_of(text);
+  if (parts.digits.empty()) {
+    return {false, "0", 1};
+  }
+  const int zeros = std::max(parts.exponent + 1, 0);
+  return {parts.negative, parts.digits + std::string(static_cast<std::size_t>(zeros), '0'),
+          static_cast<std::size_t>(zeros - parts.exponent)};
+}
+
 }  // namespace
 
 std::string decimal(std::string_view text) {
@@ -87,14 +105,20 @@ std::string decimal(std::string_view text) {
   return parts.digits.empty() ? "0" : scaled(parts.negative, parts.digits, 10, parts.exponent);
 }
 
-std::string quotient(std::string_view text, std::string_view sign_between) {
-  const DecimalParts parts = parts_of(text);
-  if (parts.digits.empty()) {
-    return fmt::format("(0 {} 1)", sign_between);
+std::string literal(std::string_view text) {
+  const FractionParts parts = fraction_of(text);
+  std::string digits = parts.digits;
+  if (digits.size() <= parts.decimals) {
+    digits.insert(0, parts.decimals + 1 - digits.size(), '0');
   }
-  const auto zeros = [](int count) { return std::string(static_cast<std::size_t>(std::max(count, 0)), '0'); };
-  return fmt::format("({}{}{} {} 1{})", parts.negative ? "-" : "", parts.digits, zeros(parts.exponent),
-                     sign_between, zeros(-parts.exponent));
+  digits.insert(digits.size() - parts.decimals, ".");
+  return parts.negative ? "(-" + digits + ")" : digits;
+}
+
+std::string fraction(std::string_view text) {
+  const FractionParts parts = fraction_of(text);
+  return fmt::format("({}{} # 1{})", parts.negative ? "-" : "", parts.digits,
+                     std::string(parts.decimals, '0'));
 }
 
 std::string exactly(double value) {

@@ -12,9 +12,13 @@ namespace veritrack::certificates::coq {
 /// and with underscores. Throws rigor::NumberFormatError.
 [[nodiscard]] std::string decimal(std::string_view text);
 
-/// The same as a quotient of two integers even where the number is one: "(1 / 1)" for 1.0 and "/", and of
-/// type Q for "#". Coq sees that the two are the same number. Throws rigor::NumberFormatError.
-[[nodiscard]] std::string quotient(std::string_view text, std::string_view sign_between);
+/// The same as a decimal of Coq's, with one digit after the point at least: "0.0023", "1.0", "(-0.5)". Throws
+/// rigor::NumberFormatError.
+[[nodiscard]] std::string literal(std::string_view text);
+
+/// The same as a fraction of type Q, "(23 # 10000)", which Coq sees to be what literal() writes. Throws
+/// rigor::NumberFormatError.
+[[nodiscard]] std::string fraction(std::string_view text);
 
 /// The number that a finite double is. Throws std::invalid_argument for NaN and infinities.
 [[nodiscard]] std::string exactly(double value);

@@ -18,7 +18,9 @@ namespace veritrack::certificates::coq {
 /// Appends to the text and lists what is proved.
 class Proofs {
  public:
-  explicit Proofs(std::string_view for_all_designs = {}) { proofs_.text = for_all_designs; }
+  Proofs() = default;
+  /// The text for all designs, which comes first; a line says where it ends.
+  explicit Proofs(std::string_view for_all_designs);
 
   /// Text that proves nothing by itself: a definition, say.
   void write(std::string_view text) { proofs_.text += text; }
@@ -31,6 +33,14 @@ class Proofs {
   /// Writes the lemma with its proof, and lists it.
   void prove(const std::string& lemma, const std::string& proposition, const std::string& proof,
              std::string of, std::string statement);
+
+  /// Is nothing proved?
+  [[nodiscard]] bool empty() const { return proofs_.proofs.empty(); }
+  /// All of the other one, after this.
+  void append(const Proofs& other);
+
+  /// Says there that something is not proved, and why.
+  void leave_out(std::string what_and_why);
 
   /// All of it, with a list of the axioms it rests on as Coq's last word.
   [[nodiscard]] FormalProofs finished() const;

@@ -20,6 +20,7 @@ struct FormalProof {
 struct FormalProofs {
   std::string text;
   std::vector<FormalProof> proofs;
+  std::vector<std::string> left_out;  ///< what is not proved there and why, a sentence or two each
 };
 
 }  // namespace veritrack::certificates

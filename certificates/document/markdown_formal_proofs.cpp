@@ -48,7 +48,11 @@ std::string formal_proofs_section(const Certificate& certificate) {
   for (const Row& row : rows_of(certificate.formal_proofs->proofs)) {
     cells.push_back({"`" + row.of + "`", markdown::escaped(row.statement), row.lemmas});
   }
-  return text + markdown::table({"Part of the certificate", "Statement", "Lemma"}, cells) + "\n";
+  text += markdown::table({"Part of the certificate", "Statement", "Lemma"}, cells) + "\n";
+  for (const std::string& sentence : certificate.formal_proofs->left_out) {
+    text += "*Not proved there:* " + markdown::escaped(sentence) + "\n\n";
+  }
+  return text;
 }
 
 }  // namespace veritrack::certificates

@@ -97,6 +97,9 @@ Json formal_proofs_json(const FormalProofs& proofs) {
   for (const FormalProof& proof : proofs.proofs) {
     json["proofs"].push_back({{"lemma", proof.lemma}, {"of", proof.of}, {"statement", proof.statement}});
   }
+  if (!proofs.left_out.empty()) {
+    json["left_out"] = proofs.left_out;
+  }
   return json;
 }
 

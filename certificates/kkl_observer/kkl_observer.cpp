@@ -97,6 +97,13 @@ Claim bound_claim(const Certificate& certificate, const std::string& id, const s
   if (!bound) {
     claim.statement += ".";
     claim.reason = "No bound is certified for the assumed range and disturbance";
+    constexpr std::size_t kFiltersOfInverse = 4;
+    if (kkl_observer_tables(certificate.design).design.lambda.size() != kFiltersOfInverse) {
+      claim.reason +=
+          ": the inverse (9) and its ell are given for four filters, and with more of them only injectivity "
+          "is "
+          "decided here";
+    }
     if (const theorems::Derivation* derivation = find_derivation(certificate, kRobustness)) {
       for (const theorems::Condition& condition : derivation->conditions) {
         if (condition.verdict != Verdict::proved) {

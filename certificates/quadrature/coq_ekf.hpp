@@ -7,10 +7,8 @@
 
 namespace veritrack::certificates::coq {
 
-/// Appends the files of certificates/coq/ekf/, the numbers that Coq checks, and the theorems
-/// frequency_error_for_ever and frequency_error_in_the_long_run. Appends nothing for a design with a leak,
-/// with Gaussian noise, of another amplitude than 1 or with an error of the start in Hz, nor where no numbers
-/// are found. Needs the upward mode.
-void prove_guarantee(Proofs& proofs, const QuadratureEkfTables& tables, const StartCovarianceText& start);
+/// The numbers that Coq checks and the theorems frequency_error_for_ever and frequency_error_in_the_long_run,
+/// to be read after ekf_parts(); or nothing but the reason why they are not there. Needs the upward mode.
+[[nodiscard]] Proofs guarantee_proofs(const QuadratureEkfTables& tables, const StartCovarianceText& start);
 
 }  // namespace veritrack::certificates::coq

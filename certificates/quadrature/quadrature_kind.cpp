@@ -9,7 +9,7 @@
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/tracker_kind.hpp"
 #include "certificates/quadrature/comparison_table.hpp"
-#include "certificates/quadrature/coq_theorem_2_9.hpp"
+#include "certificates/quadrature/coq_quadrature.hpp"
 #include "certificates/quadrature/guarantee.hpp"
 #include "certificates/quadrature/lock.hpp"
 #include "certificates/quadrature/lowest_snr.hpp"

@@ -15,16 +15,11 @@ namespace {
 
 /// What a design file means that leaves a key out (docs/design-file.md).
 const std::string* default_of(const std::string& path) {
-  static const std::map<std::string, std::string> defaults{{"assume.amplitude", "1"},
-                                                           {"assume.slew", "0"},
-                                                           {"assume.initial_covariance", "steady-state"},
-                                                           {"design.epsilon", "0"},
-                                                           {"source", ""},
-                                                           {"theorem_2_9.R_x", "7"},
-                                                           {"theorem_2_9.sigma", "1e-3"},
-                                                           {"theorem_2_9.gamma_fraction", "0.5"},
-                                                           {"theorem_2_9.c1", "3"},
-                                                           {"theorem_2_9.c2", "3"}};
+  static const std::map<std::string, std::string> defaults{
+      {"assume.amplitude", "1"}, {"assume.slew", "0"},          {"assume.initial_covariance", "steady-state"},
+      {"design.epsilon", "0"},   {"design.half_width", "2"},    {"source", ""},
+      {"theorem_2_9.R_x", "7"},  {"theorem_2_9.sigma", "1e-3"}, {"theorem_2_9.gamma_fraction", "0.5"},
+      {"theorem_2_9.c1", "3"},   {"theorem_2_9.c2", "3"}};
   const auto found = defaults.find(path);
   return found == defaults.end() ? nullptr : &found->second;
 }

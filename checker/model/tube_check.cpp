@@ -59,6 +59,7 @@ PartAnswer ask_of_filter(const TubeSet& set, std::size_t number, const FilterSte
   }
   double by_phase = 0.0;
   double by_frequency = 0.0;
+  bool lacks_bounds = false;  // what the widths do to these is not known
   for (const std::size_t j : pairs) {
     const double radius = tube.levels[j];
     const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, set.noise)); };
@@ -70,9 +71,12 @@ PartAnswer ask_of_filter(const TubeSet& set, std::size_t number, const FilterSte
       answer.open.push_back(j);
       by_phase += bound.by_phase() / radius;
       by_frequency += bound.by_frequency() / radius;
+      lacks_bounds = lacks_bounds || !has_bounds;
     }
   }
-  answer.halve_frequencies = by_frequency > by_phase;
+  if (!lacks_bounds && std::isfinite(by_phase + by_frequency)) {
+    answer.halve_frequencies = by_frequency > by_phase;
+  }
   return answer;
 }
 

@@ -38,9 +38,10 @@ bool is_certain(std::size_t tube, const TubePart& first, std::size_t count, cons
         (is_time && !ask(tube, here.part.middle(), answer.open).open.empty())) {
       return false;
     }
+    // Where it is not known what helps, both directions take their turns.
+    const bool by_frequency = answer.halve_frequencies.value_or(here.halvings % 2 == 0);
     for (const bool second : {true, false}) {
-      open.push_back({answer.halve_frequencies ? here.part.half_of_frequencies(second)
-                                               : here.part.half_of_phases(second),
+      open.push_back({by_frequency ? here.part.half_of_frequencies(second) : here.part.half_of_phases(second),
                       answer.open, here.halvings + 1});
     }
   }

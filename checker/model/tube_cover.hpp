@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "checker/model/tube_step.hpp"
@@ -16,7 +17,7 @@ namespace veritrack::checker {
 /// to halve its frequencies than its phases.
 struct PartAnswer {
   std::vector<std::size_t> open;
-  bool halve_frequencies = false;
+  std::optional<bool> halve_frequencies;  ///< nothing: not known
 };
 /// Asks some questions of a part of a tube, or of something else with this number. Called from several
 /// threads.

@@ -2,23 +2,52 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace veritrack::checker {
 
-using Point = std::array<double, 2>;
+using DiscPoint = std::array<double, 2>;
 
 /// A box of (x, y) and of frequencies, rad/sample.
 struct DiscCell {
-  Point low, high;
+  DiscPoint low, high;
   double from, to;
 
   /// No point of the box is in the unit disc, for certain.
   [[nodiscard]] bool is_outside() const;
   /// Corners of a polygon that contains what the box has in the unit disc.
-  [[nodiscard]] std::vector<Point> corners() const;
+  [[nodiscard]] std::vector<DiscPoint> corners() const;
   /// The two halves: 0 and 1 along x and y, 2 along the frequencies.
   [[nodiscard]] std::array<DiscCell, 2> halves(std::size_t side) const;
+};
+
+/// Where the cells of a level were cut: a good beginning for the level below it, and for other frequencies.
+/// It decides which cells are looked at, and the parts of a cell cover it: no division proves anything.
+class DiscDivision {
+ public:
+  static constexpr std::size_t kWhole = 0;  ///< the node of the cell that holds all
+
+  DiscDivision() : nodes_(1) {}
+
+  [[nodiscard]] bool is_cut(std::size_t node) const { return nodes_[node].first != 0; }
+  /// A cut cell whose parts are not, and which failed at a level that was well above this one: it may hold.
+  [[nodiscard]] bool may_hold(std::size_t node, double level) const;
+  void cut(std::size_t node, std::size_t side, double level);
+  void mend(std::size_t node) { nodes_[node].first = 0; }
+  /// Of a cut node.
+  [[nodiscard]] std::size_t side(std::size_t node) const { return nodes_[node].side; }
+  [[nodiscard]] std::size_t part(std::size_t node, std::size_t which) const {
+    return nodes_[node].first + which;
+  }
+
+ private:
+  struct Node {
+    std::size_t first = 0;  ///< of two parts; 0 when it is not cut
+    std::size_t side = 0;
+    double level = 0.0;  ///< at which it failed
+  };
+  std::vector<Node> nodes_;
 };
 
 }  // namespace veritrack::checker

@@ -157,7 +157,7 @@ std::array<Ball, N> centre_of(const std::array<Chord, N>& row) {
 /// Ways from the middle of a cell to its corners.
 std::vector<Way> ways_to_corners(const DiscCell& cell, const Way& middle) {
   std::vector<Way> ways;
-  for (const Point& point : cell.corners()) {
+  for (const DiscPoint& point : cell.corners()) {
     for (const double frequency : {cell.from, cell.to}) {
       ways.push_back(
           {Ball(point[0]) - middle[kX], Ball(point[1]) - middle[kY], Ball(frequency) - middle[kFrequency]});
@@ -231,41 +231,41 @@ ErrorCheck check_errors(const Row<Chord>& row, const Way& way, const std::vector
 }  // namespace
 
 bool SteadyCover::maps_into_next(const SteadyLevel& level) {
-  // Levels differ little, so that the cells of one are a good beginning for the next.
-  constexpr int kRestart = 4;
   constexpr int kDepth = 24;
-  if (levels_++ % kRestart == 0) {
-    proved_ = {{{-1.0, -1.0}, {1.0, 1.0}, steady_.from, steady_.to}};
-  }
-  for (const DiscCell& cell : std::exchange(proved_, {})) {
-    if (!is_proved(level, cell, kDepth)) {
-      return false;
-    }
-  }
-  return true;
+  updates_.clear();
+  return is_proved(level, {{-1.0, -1.0}, {1.0, 1.0}, steady_.from, steady_.to}, DiscDivision::kWhole, kDepth);
 }
 
-bool SteadyCover::is_proved(const SteadyLevel& level, const DiscCell& cell, int depth) {
+bool SteadyCover::is_proved(const SteadyLevel& level, const DiscCell& cell, std::size_t node, int depth) {
   if (cell.is_outside()) {
     return true;
   }
-  std::size_t side = kX;
-  ++cells_;
-  if (proves(level, cell, side)) {
-    proved_.push_back(cell);
-    return true;
+  if (!division_.is_cut(node) || division_.may_hold(node, level.level.near())) {
+    std::size_t side = kX;
+    ++cells_;
+    if (proves(level, cell, side)) {
+      division_.mend(node);
+      return true;
+    }
+    if (depth == 0 || hopeless_) {
+      return false;
+    }
+    division_.cut(node, side, level.level.near());
   }
-  if (depth == 0 || hopeless_) {
-    return false;
-  }
-  const auto [first, second] = cell.halves(side);
-  return is_proved(level, first, depth - 1) && is_proved(level, second, depth - 1);
+  const auto [first, second] = cell.halves(division_.side(node));
+  return is_proved(level, first, division_.part(node, 0), depth - 1) &&
+         is_proved(level, second, division_.part(node, 1), depth - 1);
 }
 
 bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::size_t& side) {
   const Whereabouts where = whereabouts_of(cell);
   const SteadyPlace<Chord> place = place_of(level, where, steady_);
-  const SteadyStep<Chord> step = steady_step(setting_, place);
+  const SteadyTurn<Chord> turn_of_place = steady_turn(setting_, place);
+  const auto [update, is_new] = updates_.try_emplace({cell.low[0], cell.high[0], cell.from, cell.to});
+  if (is_new) {
+    update->second = steady_update(setting_, place, turn_of_place);
+  }
+  const SteadyStep<Chord> step = steady_step(setting_, place, turn_of_place, update->second);
   const Added more = added(setting_, level, step, where.way);
   side = cell.high[0] - cell.low[0] >= cell.high[1] - cell.low[1] ? kX : kY;
   if (!more.meaningful) {
@@ -303,8 +303,9 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
     Chord turn = step.turn;
     turn.centre += shift;
     turn.range += shift + Ball::within(half_part);
-    const Symmetric<Chord> low = turned_deviation(place, step.low, turn);
-    const Symmetric<Chord> high = turned_deviation(place, step.high, turn);
+    const DeviationTurn<Chord> turned_by = deviation_turn(place, turn);
+    const Symmetric<Chord> low = turned_deviation(step.low, turned_by);
+    const Symmetric<Chord> high = turned_deviation(step.high, turned_by);
     const std::array<Symmetric<Ball>, 2> reach{reach_of(place, low, where.way, half_part),
                                                reach_of(place, high, where.way, half_part)};
     if (part == 0) {
@@ -320,10 +321,11 @@ bool SteadyCover::proves(const SteadyLevel& level, const DiscCell& cell, std::si
         return false;
       }
     }
-    const bool kept = std::all_of(corners.begin(), corners.end(), [&](const Way& corner) {
-      return keeps_covariance(moved_by(low, corner), moved_by(high, corner), reach, setting_, share);
-    });
-    if (!kept) {
+    // All of the cell at once, or else its corners.
+    const auto keeps = [&](const Way& way) {
+      return keeps_covariance(moved_by(low, way), moved_by(high, way), reach, setting_, share);
+    };
+    if (!keeps(where.way) && !std::all_of(corners.begin(), corners.end(), keeps)) {
       return false;
     }
   }

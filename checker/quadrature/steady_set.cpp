@@ -165,14 +165,26 @@ std::string refusal_of(SteadySet& set, const std::vector<SteadyCell>& branch, co
   motion.covariance += rounding.covariance;
   const std::size_t steps = std::max<std::size_t>(set.levels.size(), 2) - 1;
   std::atomic<std::int64_t> looked_at = 0;
+  const auto level_at = [&](std::size_t j) {
+    const Ball& level = set.levels[j];
+    const Ball& next = set.levels[std::min(j + 1, set.levels.size() - 1)];
+    return SteadyLevel{level, ((next - motion.errors) / level).lower(),
+                       ((next - motion.covariance) / level).lower(), set.noise};
+  };
+  // Other frequencies need much the same cells as those in the middle do.
+  constexpr std::size_t kSeveral = 3;
+  DiscDivision division;
+  if (branch.size() >= kSeveral) {
+    SteadyCover middle(s, branch[branch.size() / 2]);
+    static_cast<void>(middle.maps_into_next(level_at(0)));
+    division = middle.division();
+    looked_at += middle.cells();
+  }
   const std::size_t failed = first_failure(branch.size(), [&](std::size_t k) {
-    SteadyCover cover(s, branch[k]);
+    SteadyCover cover(s, branch[k], division);
     bool maps = true;
     for (std::size_t j = 0; j < steps && maps; ++j) {
-      const Ball& level = set.levels[j];
-      const Ball& next = set.levels[std::min(j + 1, set.levels.size() - 1)];
-      maps = cover.maps_into_next({level, ((next - motion.errors) / level).lower(),
-                                   ((next - motion.covariance) / level).lower(), set.noise});
+      maps = cover.maps_into_next(level_at(j));
     }
     looked_at += cover.cells();
     return maps;

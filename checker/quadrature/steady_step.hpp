@@ -255,11 +255,11 @@ void add_gains(const SteadySetting& setting, const std::array<S, 2>& z, const St
   step.gram = {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
 }
 
+/// `update` is that of the place; it depends on x, the frequency and the level alone.
 template <typename S>
-SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& place) {
+SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& place,
+                          const SteadyTurn<S>& turn, const SteadyUpdate<S>& update) {
   const S& s = place.level;
-  const SteadyTurn<S> turn = steady_turn(setting, place);
-  const SteadyUpdate<S> update = steady_update(setting, place, turn);
   SteadyStep<S> step;
   step.swing = turn.swing;
   step.spread = update.spread;
@@ -275,16 +275,33 @@ SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& pl
   return step;
 }
 
-/// (P+ - P*)/s when P* + s `image` is turned by -(s `turn`).
 template <typename S>
-Symmetric<S> turned_deviation(const SteadyPlace<S>& place, const Symmetric<S>& image, const S& turn) {
+SteadyStep<S> steady_step(const SteadySetting& setting, const SteadyPlace<S>& place) {
+  const SteadyTurn<S> turn = steady_turn(setting, place);
+  return steady_step(setting, place, turn, steady_update(setting, place, turn));
+}
+
+/// What a turn by -(s `turn`) does to deviations of the covariance from P*.
+template <typename S>
+struct DeviationTurn {
+  S sine, less;         ///< of the angle: its sine, and its cosine less 1
+  Symmetric<S> steady;  ///< (P* turned - P*)/s
+};
+
+template <typename S>
+DeviationTurn<S> deviation_turn(const SteadyPlace<S>& place, const S& turn) {
   const S angle = -(place.level * turn);
   const S slope = -(turn * sine_over(angle));  // sin(angle)/s
   const S sine = place.level * slope;
   const S less = -(two * square(sin(half * angle)));
   const S less_slope = half * (turn * angle * square(sine_over(half * angle)));
-  return image + turned_difference(image, sine, less, sine) +
-         turned_difference(place.steady.covariance, slope, less_slope, sine);
+  return {sine, less, turned_difference(place.steady.covariance, slope, less_slope, sine)};
+}
+
+/// (P+ - P*)/s when P* + s `image` is turned.
+template <typename S>
+Symmetric<S> turned_deviation(const Symmetric<S>& image, const DeviationTurn<S>& turn) {
+  return image + turned_difference(image, turn.sine, turn.less, turn.sine) + turn.steady;
 }
 
 }  // namespace veritrack::checker

@@ -58,6 +58,9 @@ From tests/certificates/model-filter-long-run.toml, the same filter:
 model-filter-long-run  its tubes for the assumed noise, and in the long run
 From tests/certificates/model-filter-moving.toml, the same filter and a frequency that moves through two cells:
 model-filter-moving  its tubes for what is assumed
+From tests/certificates/dft-block.toml and dft-block-covariance.toml, as they are:
+dft-block            a block tracker near one offset, with noise and slew
+dft-block-covariance  the same with more bins, a range of amplitudes and a given P(1|0)
 """
 import fractions
 import json
@@ -403,6 +406,8 @@ KINDS = {
     "regulator": regulator,
     "model-filter-long-run": model_long_run,
     "model-filter-moving": model_filter_moving,
+    "dft-block": lambda certificate: None,
+    "dft-block-covariance": lambda certificate: None,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

@@ -12,7 +12,7 @@ DIGITS = "1" * 400
 
 # what is wrong -> (the design file, the line it must be reported at or None, what the message must say)
 REJECTED = {
-    "unknown key": (DESIGN.replace("q1 =", "q3 ="), 5, r"q3.*nearest known key: .*q[12]"),
+    "unknown key": (DESIGN.replace("q1 =", "q4 ="), 5, r"q4.*nearest known key: .*q[12]"),
     "unknown table": (DESIGN + "[requires]\n", 21, r"require"),
     "wrong type": (DESIGN.replace("r = 0.05", 'r = "0.05"'), 7, r"string"),
     "missing key": (DESIGN.replace("r = 0.05\n", ""), None, r"\br\b"),
@@ -108,7 +108,7 @@ class BadInput(CliTestCase):
         self.write(DESIGN)
         self.assertEqual(self.run_here("certify", "design.toml", "--out", "out").returncode, 0)
         before = {name: (self.folder / name).read_bytes() for name in self.files()}
-        self.write(DESIGN.replace("q1 =", "q3 ="))
+        self.write(DESIGN.replace("q1 =", "q4 ="))
         self.reject("certify", "design.toml", "--out", "out")
         self.assertEqual(before, {name: (self.folder / name).read_bytes() for name in self.files()})
 

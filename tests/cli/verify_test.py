@@ -7,7 +7,7 @@ import re
 import subprocess
 import unittest
 
-from support import ROOT, CliTestCase
+from support import DESIGN, ROOT, CliTestCase
 
 CHECKER = os.environ["VERITRACK_VERIFY"]
 
@@ -56,6 +56,15 @@ class Verify(CliTestCase):
         self.assertEqual(result.returncode, 0)
         sentences = {one["claim"]: one["sentence"] for one in json.loads(result.stdout)["sentences"]}
         self.assertIn(", measured from the steady state", sentences["ekf/frequency-error-radius"])
+
+    def test_what_is_found_on_the_way_into_a_set_has_room_for_other_enclosures(self):
+        text = DESIGN.replace("0.0023", "1e-4").replace("r = 0.05", "r = 0.1")
+        design = self.write(text)
+        self.run_here("certify", design, "--out", "out")
+        folder = self.folder / "out"
+        result = verify("--design", design, *documents(folder), folder / "certificate.json")
+        self.assertEqual(result.returncode, 1, result.stdout)  # nothing is required of it
+        self.assertRegex(result.stdout, r"\nverified +claim ekf/capture\n")
 
     def test_another_design_and_another_document(self):
         name = "la-scala-1994-figure-3.5-without-leak"

@@ -24,6 +24,9 @@ constexpr int kDegrees[] = {0, 7, 7, 5};
 constexpr int kSlopeDegrees[] = {0, 3, 3, 2};
 /// Deviations this large (relative amplitude, rad/sample) are beyond all hope.
 constexpr double kLargestDeviation = 0.5;
+/// What is found on the way is told a little larger: a checker that encloses the same states by other means
+/// may find them larger by as much.
+constexpr double kRoom = 1.0 + 1e-6;
 
 template <typename Scalar, typename Constant = Scalar>
 trackers::ToneModel<Scalar> embedded(const trackers::ToneModel<Interval>& design) {
@@ -189,8 +192,9 @@ CaptureResult follow(const CaptureProblem& problem, const CaptureTarget& target,
   auto curvatures = states.curvatures();
   while (states.usable()) {
     const Interval frequency_error = states.hull()[trackers::kFrequencyError];
-    result.frequency_errors.push_back(is_finite(frequency_error) ? magnitude(frequency_error)
-                                                                 : std::numeric_limits<double>::infinity());
+    result.frequency_errors.push_back(is_finite(frequency_error)
+                                          ? rigor::mul_up(kRoom, magnitude(frequency_error))
+                                          : std::numeric_limits<double>::infinity());
     if (const std::optional<Settled> settled = target.settled(states.enclosure())) {
       result.outcome = settled->turns == 0 ? CaptureOutcome::locked : CaptureOutcome::locked_elsewhere;
       result.turns = settled->turns;

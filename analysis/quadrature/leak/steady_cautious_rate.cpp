@@ -1,19 +1,15 @@
 #include "analysis/quadrature/leak/steady_cautious_rate.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "analysis/quadrature/leak/rate_descent.hpp"
 #include "analysis/rigor/matrix.hpp"
-#include "analysis/search/golden_section.hpp"
 
 namespace veritrack::quadrature {
 
 namespace {
-
-constexpr double kNoRate = std::numeric_limits<double>::infinity();
 
 /// T e+ / s = constant + slope u.
 struct AffineStep {
@@ -22,7 +18,8 @@ struct AffineStep {
 };
 
 AffineStep affine_step(const SteadySetting<double>& setting, const SteadyPlace<double>& place) {
-  const detail::StepForms<double> forms = detail::step_forms(setting, place);
+  const detail::StepForms<double> forms =
+      detail::step_forms(setting, place, covariance_image(setting, place.level, place.x));
   const auto& t = setting.metric;
   rigor::Matrix<3> metric;
   metric << t.t11, t.t12, t.t13, 0.0, t.t22, t.t23, 0.0, 0.0, t.t33;
@@ -74,35 +71,16 @@ CautiousBounds cautious_bounds(const SteadySetting<double>& setting, double leve
   return result;
 }
 
-/// The least mu + lambda eta^2 + c' (I - N N'/mu - G/lambda)^-1 c over mu and lambda.
-double least_rate_squared(const AffineStep& step, const rigor::Matrix<3>& gram, double eta_squared) {
-  const rigor::Matrix<3> products = step.slope * step.slope.transpose();
-  const auto cost = [&](double log_lambda, double log_mu) {
-    const double lambda = std::exp(log_lambda) * gram.trace();
-    const double mu = std::exp(log_mu);
-    const Eigen::LLT<rigor::Matrix<3>> gap(rigor::Matrix<3>::Identity() - products / mu - gram / lambda);
-    return gap.info() == Eigen::Success
-               ? mu + lambda * eta_squared + step.constant.dot(gap.solve(step.constant))
-               : kNoRate;
-  };
-  const auto best_mu = [&](double log_lambda) {
-    return search::golden_section(-3.0, 0.3, 9, [&](double log_mu) { return cost(log_lambda, log_mu); })
-        .point;
-  };
-  const double log_lambda =
-      search::golden_section(-0.2, 6.0, 9, [&](double x) { return cost(x, best_mu(x)); }).point;
-  return cost(log_lambda, best_mu(log_lambda));
-}
-
 }  // namespace
 
 double cautious_rate(const SteadySetting<double>& setting, const SteadyPlace<double>& place,
                      const SteadyStep<double>& step, const SteadyBounds<double>& bounds, double noise) {
   constexpr double kMore = 1.1;  // of the noise than there is
   const CautiousBounds cautious = cautious_bounds(setting, place.level, step, bounds, noise);
-  const double squared =
-      least_rate_squared(affine_step(setting, place), cautious.gram, std::max(step.eta_squared, 1e-300));
-  return std::sqrt(squared) + kMore * cautious.noise_gain * noise / place.level;
+  const AffineStep affine = affine_step(setting, place);
+  const RateDescent<2> descent(affine.constant, {affine.slope * affine.slope.transpose(), cautious.gram},
+                               {1.0, step.eta_squared});
+  return std::sqrt(descent.least().value) + kMore * cautious.noise_gain * noise / place.level;
 }
 
 }  // namespace veritrack::quadrature

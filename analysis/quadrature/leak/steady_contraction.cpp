@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "analysis/quadrature/leak/steady_multipliers.hpp"
@@ -19,18 +20,22 @@ using rigor::Interval;
 class Cover {
  public:
   Cover(const SteadySettings& settings, double level, double next, const SteadyDisturbance& disturbance,
-        std::int64_t most_cells)
+        std::int64_t most_cells, SteadyDivision& division)
       : settings_(settings),
         middle_(convert<double>(settings.over_cell)),
         level_(level),
         rate_(Interval(next) / Interval(level)),
         disturbance_(disturbance),
-        most_cells_(most_cells) {}
+        most_cells_(most_cells),
+        division_(division) {}
 
   /// False when a cell cannot be proved to map into the next level; `reason` then says where.
-  bool proves(const SteadyCell& cell, int depth) {
+  bool proves(const SteadyCell& cell, std::size_t node, int depth) {
     if (cell.is_outside()) {
       return true;
+    }
+    if (division_.skips(node, level_)) {
+      return proves_parts(cell, node, depth);
     }
     if (++cells_ > most_cells_) {
       reason_ = "more than " + std::to_string(most_cells_) + " cells were needed.";
@@ -38,6 +43,7 @@ class Cover {
     }
     const CellOutcome outcome = try_cell(cell);
     if (outcome.contracts) {
+      division_.close(node);
       return true;
     }
     const SteadyOrder& order = outcome.order;
@@ -49,8 +55,8 @@ class Cover {
                             : " of the set the covariance could not be proved to stay between its bounds.");
       return false;
     }
-    const auto [first, second] = halves(cell, order.kept ? outcome.blur : order.blur);
-    return proves(first, depth - 1) && proves(second, depth - 1);
+    division_.open(node, level_, side_to_cut(cell, order.kept ? outcome.blur : order.blur));
+    return proves_parts(cell, node, depth);
   }
 
   [[nodiscard]] SteadyContraction result(bool proved) const {
@@ -72,18 +78,20 @@ class Cover {
 
   /// Does every step from the cell lead to the next level?
   [[nodiscard]] CellOutcome try_cell(const SteadyCell& cell) {
+    const SteadySecant level_of_all{Interval(level_)};
+    const SteadySecant x = SteadySecant::variable(cell.side(kX), cell.middle(kX), kX);
+    const SteadySecant y = SteadySecant::variable(cell.side(kY), cell.middle(kY), kY);
     const SteadyStep<SteadySecant> secants =
-        steady_step(settings_.secants, {SteadySecant(Interval(level_)),
-                                        SteadySecant::variable(cell.side(kX), cell.middle(kX), kX),
-                                        SteadySecant::variable(cell.side(kY), cell.middle(kY), kY)});
-    const SteadyStep<Interval> step = enclosure(secants, offset_box(cell, settings_.frequencies));
+        steady_step(settings_.secants, {level_of_all, x, y}, image_over(cell, x));
+    const SteadyOffset box = offset_box(cell, settings_.frequencies);
+    const SteadyStep<Interval> step = enclosure(secants, box);
     const std::vector<SteadyOffset> corners = corner_offsets(cell, settings_.frequencies);
     const Interval level(level_);
     const SteadyBounds<Interval> bounds = steady_bounds(step, settings_.over_cell, level, disturbance_.noise);
     CellOutcome outcome;
     outcome.left = Interval((rate_ - bounds.remainder - disturbance_.motion / level).lower());
     const Interval share((rate_ - disturbance_.covariance_motion / level).lower());
-    outcome.order = keeps_covariance(settings_, corners, secants, level_, bounds.tangent_reach, share);
+    outcome.order = keeps_covariance(settings_, corners, box, secants, level_, bounds.tangent_reach, share);
     for (const std::size_t variable : {kX, kY}) {
       for (const SteadySecant& entry : secants.image) {
         outcome.blur[variable] += width(entry.slope(variable));
@@ -101,14 +109,29 @@ class Cover {
   }
 
   /// Cut where the covariance, if it is what fails, or else the image is blurred the most.
-  static std::pair<SteadyCell, SteadyCell> halves(const SteadyCell& cell, const std::array<double, 2>& blur) {
+  static std::size_t side_to_cut(const SteadyCell& cell, const std::array<double, 2>& blur) {
     const double blur_x = blur[kX] * cell.width(kX);
     const double blur_y = blur[kY] * cell.width(kY);
     const bool known = std::isfinite(blur_x + blur_y) && blur_x + blur_y > 0.0;
-    const std::size_t side = (known ? blur_x >= blur_y : cell.width(kX) >= cell.width(kY)) ? kX : kY;
-    std::pair<SteadyCell, SteadyCell> both{cell, cell};
-    both.first.high[side] = both.second.low[side] = cell.middle(side);
-    return both;
+    return (known ? blur_x >= blur_y : cell.width(kX) >= cell.width(kY)) ? kX : kY;
+  }
+
+  bool proves_parts(const SteadyCell& cell, std::size_t node, int depth) {
+    const std::size_t side = division_.side(node);
+    const std::size_t part = division_.first_part(node);
+    SteadyCell low = cell;
+    SteadyCell high = cell;
+    low.high[side] = high.low[side] = cell.middle(side);
+    return proves(low, part, depth - 1) && proves(high, part + 1, depth - 1);
+  }
+
+  /// The covariance_image of the cell, which it shares with all that have the same range of x.
+  const CovarianceImage<SteadySecant>& image_over(const SteadyCell& cell, const SteadySecant& x) {
+    const auto [found, is_new] = images_.try_emplace({cell.low[kX], cell.high[kX]});
+    if (is_new) {
+      found->second = covariance_image(settings_.secants, SteadySecant(Interval(level_)), x);
+    }
+    return found->second;
   }
 
   /// By multipliers that have served another cell, or by new ones.
@@ -173,19 +196,41 @@ class Cover {
   Interval rate_;
   SteadyDisturbance disturbance_;
   std::int64_t most_cells_;
+  SteadyDivision& division_;
   SteadyMultipliers multipliers_{};
+  std::map<std::pair<double, double>, CovarianceImage<SteadySecant>> images_;  ///< by ranges of x
   std::int64_t cells_ = 0;
   std::string reason_;
 };
 
 }  // namespace
 
+bool SteadyDivision::skips(std::size_t node, double level) const {
+  constexpr double kLittle = 0.85;
+  const Node& cell = nodes_[node];
+  if (cell.first == 0) {
+    return false;
+  }
+  const bool parts_hold = nodes_[cell.first].first == 0 && nodes_[cell.first + 1].first == 0;
+  return !parts_hold || level > kLittle * cell.failed_at;
+}
+
+void SteadyDivision::open(std::size_t node, double level, std::size_t side) {
+  nodes_[node].failed_at = level;
+  if (nodes_[node].first == 0) {
+    nodes_[node].first = nodes_.size();
+    nodes_[node].side = side;
+    nodes_.resize(nodes_.size() + 2);
+  }
+}
+
 SteadyContraction prove_contraction(const SteadySettings& settings, double level, double next,
-                                    const SteadyDisturbance& disturbance, std::int64_t most_cells) {
+                                    const SteadyDisturbance& disturbance, std::int64_t most_cells,
+                                    SteadyDivision& division) {
   constexpr int kDepth = 18;
   rigor::require_upward_rounding();
-  Cover cover(settings, level, next, disturbance, most_cells);
-  const bool proved = cover.proves({{-1.0, -1.0}, {1.0, 1.0}}, kDepth);
+  Cover cover(settings, level, next, disturbance, most_cells, division);
+  const bool proved = cover.proves({{-1.0, -1.0}, {1.0, 1.0}}, SteadyDivision::kWhole, kDepth);
   return cover.result(proved);
 }
 

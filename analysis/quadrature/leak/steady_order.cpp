@@ -52,7 +52,7 @@ int parts_of(double reach) {
 }  // namespace
 
 SteadyOrder keeps_covariance(const SteadySettings& settings, const std::vector<SteadyOffset>& corners,
-                             const SteadyStep<SteadySecant>& step, double level,
+                             const SteadyOffset& box, const SteadyStep<SteadySecant>& step, double level,
                              const Interval& tangent_reach, const Interval& share) {
   const CovarianceBand<Interval>& band = settings.over_cell.band;
   const SteadySecant levels{Interval(level)};
@@ -81,12 +81,13 @@ SteadyOrder keeps_covariance(const SteadySettings& settings, const std::vector<S
     // Positive definite matrices are a convex set: what is affine in the variables needs to be looked at in
     // the corners only, with whichever slopes there are.
     result.kept = result.kept && known && !result.hopeless &&
-                  std::all_of(corners.begin(), corners.end(), [&](SteadyOffset corner) {
-                    return std::all_of(kEnds.begin(), kEnds.end(), [&](double across) {
-                      corner[kAcross] = Interval(across);
-                      return is_within(band, moved_by(image, corner), share);
-                    });
-                  });
+                  (is_within(band, moved_by(image, box), share) ||
+                   std::all_of(corners.begin(), corners.end(), [&](SteadyOffset corner) {
+                     return std::all_of(kEnds.begin(), kEnds.end(), [&](double across) {
+                       corner[kAcross] = Interval(across);
+                       return is_within(band, moved_by(image, corner), share);
+                     });
+                   }));
   }
   return result;
 }

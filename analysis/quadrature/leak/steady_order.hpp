@@ -17,10 +17,10 @@ struct SteadyOrder {
 };
 
 /// Are the images of both bounds on the covariance within `share` s of them, for every state of a cell at
-/// level s? `step` is the step over the cell, `corners` its corner_offsets, `tangent_reach` as of
-/// SteadyBounds. Needs the upward mode.
+/// level s? `step` is the step over the cell, `corners` its corner_offsets, `box` its offset_box,
+/// `tangent_reach` as of SteadyBounds. Needs the upward mode.
 [[nodiscard]] SteadyOrder keeps_covariance(const SteadySettings& settings,
-                                           const std::vector<SteadyOffset>& corners,
+                                           const std::vector<SteadyOffset>& corners, const SteadyOffset& box,
                                            const SteadyStep<SteadySecant>& step, double level,
                                            const rigor::Interval& tangent_reach,
                                            const rigor::Interval& share);

@@ -1,13 +1,10 @@
 #include "analysis/quadrature/leak/steady_rate.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
+#include "analysis/quadrature/leak/rate_descent.hpp"
 #include "analysis/rigor/small_definiteness.hpp"
 
 namespace veritrack::quadrature {
@@ -15,8 +12,6 @@ namespace veritrack::quadrature {
 namespace {
 
 using rigor::Interval;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// N N' of a 3x2 matrix given row by row.
 template <typename Scalar>
@@ -28,68 +23,6 @@ Symmetric<Scalar> row_products(const std::array<Scalar, 6>& n) {
   const auto norm = [&n](std::size_t i) -> Scalar { return square(n[2 * i]) + square(n[2 * i + 1]); };
   return {norm(0), dot(0, 1), dot(0, 2), norm(1), dot(1, 2), norm(2)};
 }
-
-using Multipliers = Eigen::Vector3d;
-
-/// The rate squared as a function of the logarithms of the multipliers, which is convex: sums of w_i mu_i and
-/// of c'(I - sum_i X_i/mu_i)^-1 c, in which the inverse is operator monotone and convex.
-class RateSquared {
- public:
-  explicit RateSquared(const SteadyReach& reach)
-      : image_(reach.image[0], reach.image[1], reach.image[2]),
-        weights_(least(reach.hidden_squared), least(reach.eta_squared), least(reach.noise_squared)) {
-    const Eigen::Vector3d hidden(reach.hidden[0], reach.hidden[1], reach.hidden[2]);
-    gains_ << hidden * hidden.transpose(), reach.gram.matrix(), reach.noise.matrix();
-  }
-
-  /// Multipliers for which I - sum X_i/mu_i is positive definite.
-  [[nodiscard]] Multipliers feasible() const {
-    constexpr double kRoom = 1.5;
-    Multipliers roots;
-    for (int i = 0; i < 3; ++i) {
-      roots[i] = std::sqrt(std::max(gain(i).trace(), 1e-300) / weights_[i]);
-    }
-    return (kRoom * roots.dot(weights_) * roots).array().log();
-  }
-
-  /// Infinity where the inverse is not positive definite.
-  [[nodiscard]] double value(const Multipliers& logarithms) const {
-    const Multipliers mu = logarithms.array().exp();
-    const Eigen::LLT<Eigen::Matrix3d> gap(left_by(mu));
-    if (gap.info() != Eigen::Success) {
-      return kInfinity;
-    }
-    return weights_.dot(mu) + image_.dot(gap.solve(image_));
-  }
-
-  /// Newton's step down from there.
-  [[nodiscard]] Multipliers newton_step(const Multipliers& logarithms) const {
-    const Multipliers mu = logarithms.array().exp();
-    const Eigen::Matrix3d inverse = left_by(mu).inverse();
-    const Eigen::Vector3d y = inverse * image_;
-    Eigen::Matrix3d pushed;
-    for (int i = 0; i < 3; ++i) {
-      pushed.col(i) = gain(i) * y / mu[i];
-    }
-    const Eigen::Vector3d pulled = pushed.transpose() * y;
-    const Eigen::Vector3d held = weights_.cwiseProduct(mu);
-    Eigen::Matrix3d curvature = 2.0 * pushed.transpose() * inverse * pushed;
-    curvature.diagonal() += held + pulled;
-    return curvature.ldlt().solve(pulled - held);
-  }
-
-  [[nodiscard]] const Eigen::Vector3d& weights() const { return weights_; }
-
- private:
-  static double least(double weight) { return std::max(weight, 1e-9); }
-  [[nodiscard]] Eigen::Matrix3d gain(Eigen::Index i) const { return gains_.middleCols<3>(3 * i); }
-  [[nodiscard]] Eigen::Matrix3d left_by(const Multipliers& mu) const {
-    return Eigen::Matrix3d::Identity() - gain(0) / mu[0] - gain(1) / mu[1] - gain(2) / mu[2];
-  }
-
-  Eigen::Vector3d image_, weights_;
-  Eigen::Matrix<double, 3, 9> gains_;  ///< X_0, X_1, X_2, side by side
-};
 
 }  // namespace
 
@@ -105,39 +38,16 @@ SteadyReach reach_of(const SteadyStep<double>& step, const SteadyBounds<double>&
 }
 
 SteadyRate propose_rate(const SteadyReach& reach, double target_squared) {
-  constexpr int kSteps = 12;
-  constexpr double kEnough = 1e-4;
-  constexpr double kLongest = 2.0;
-  const RateSquared rate_squared(reach);
-  Multipliers best = rate_squared.feasible();
-  double least = rate_squared.value(best);
-  if (!std::isfinite(least)) {
-    return {kInfinity, {1.0, 1.0, 1.0, 0.0}};
-  }
-  for (int i = 0; i < kSteps; ++i) {
-    Multipliers step = rate_squared.newton_step(best);
-    step *= std::min(1.0, kLongest / step.cwiseAbs().maxCoeff());
-    double trial = rate_squared.value(best + step);
-    for (int halving = 0; halving < 6 && !(trial < least); ++halving) {
-      step *= 0.5;
-      trial = rate_squared.value(best + step);
-    }
-    if (!(trial < least)) {
-      break;
-    }
-    const double gained = least - trial;
-    best += step;
-    least = trial;
-    if (gained < kEnough * least) {
-      break;
-    }
-  }
-  Multipliers mu = best.array().exp();
+  const Eigen::Vector3d hidden(reach.hidden[0], reach.hidden[1], reach.hidden[2]);
+  const RateDescent<3> descent({reach.image[0], reach.image[1], reach.image[2]},
+                               {hidden * hidden.transpose(), reach.gram.matrix(), reach.noise.matrix()},
+                               {reach.hidden_squared, reach.eta_squared, reach.noise_squared});
+  auto [least, mu] = descent.least();
   const double left = target_squared - least;
   if (left > 0.0) {
     constexpr double kShare = 0.22;  // of what is left, for each of the multipliers
     for (int i = 0; i < 3; ++i) {
-      mu[i] += std::min(kShare * left / rate_squared.weights()[i], 3.0 * mu[i]);
+      mu[i] += std::min(kShare * left / descent.weights()[i], 3.0 * mu[i]);
     }
   }
   return {least, {mu[0], mu[1], mu[2], 0.0}};

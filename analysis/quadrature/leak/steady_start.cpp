@@ -50,9 +50,9 @@ SteadyStart start_of(const sets::ContractionQuestion& question, const sets::Quad
   return result;
 }
 
-/// Follows the starts of a part of the frequencies of a cell.
+/// Follows the starts of a part of the frequencies of a cell, for at most so many samples.
 SteadyStart follow_part(const sets::ContractionQuestion& question, const sets::QuadratureTube& cell,
-                        const Interval& part, const SteadySet& set) {
+                        const Interval& part, const SteadySet& set, int most_samples) {
   SteadyStart result = start_of(question, cell, part, set);
   if (result.reached || !(question.slew == Interval(0.0)) || !question.start_covariance) {
     return result;
@@ -60,13 +60,12 @@ SteadyStart follow_part(const sets::ContractionQuestion& question, const sets::Q
   const IntervalMatrix<3> covariance = question.start_covariance->enclosure();
   // Beyond the boundary, which gives a smaller bound.
   constexpr double kLevel = 0.5;
-  constexpr int kMostSamples = 100;
   const CaptureProblem problem{question.design,
                                covariance,
                                part,
                                set.noise,
                                0.0,
-                               kMostSamples,
+                               most_samples,
                                {question.amplitude, question.largest_frequency}};
   const CaptureResult found =
       follow_starts(problem, SteadySetTarget(set, cell.at(part), kLevel), assumed_starts(question));
@@ -96,7 +95,10 @@ SteadyStart both(const SteadyStart& a, const SteadyStart& b) {
 /// Narrower parts of the frequencies where the whole is too much to follow at once.
 SteadyStart follow_cell(const sets::ContractionQuestion& question, const sets::QuadratureTube& cell,
                         const Interval& part, const SteadySet& set, int halvings) {
-  SteadyStart whole = follow_part(question, cell, part, set);
+  // Narrower parts often come in soon where a wide one never does.
+  constexpr int kFewSamples = 30;
+  constexpr int kMostSamples = 100;
+  SteadyStart whole = follow_part(question, cell, part, set, halvings == 0 ? kMostSamples : kFewSamples);
   if (whole.reached) {
     return whole;
   }
@@ -126,16 +128,23 @@ std::optional<double> covariance_level(const IntervalMatrix<3>& least, const Int
   constexpr int kSteps = 40;
   const IntervalMatrix<3> below = rigor::to_interval(set.below);
   const IntervalMatrix<3> above = rigor::to_interval(set.above);
-  for (int i = 1; i <= kSteps; ++i) {
-    const Interval level(static_cast<double>(i) / kSteps);
-    const IntervalMatrix<3> room_below = least + below * level;
-    const IntervalMatrix<3> room_above = above * level - largest;
-    if (rigor::is_positive_definite(room_below) == rigor::Verdict::proved &&
-        rigor::is_positive_definite(room_above) == rigor::Verdict::proved) {
-      return level.upper();
-    }
+  const auto level_of = [](int step) { return Interval(step) / Interval(kSteps); };
+  const auto is_inside = [&](int step) {
+    const Interval level = level_of(step);
+    return rigor::is_positive_definite(IntervalMatrix<3>(least + below * level)) == rigor::Verdict::proved &&
+           rigor::is_positive_definite(IntervalMatrix<3>(above * level - largest)) == rigor::Verdict::proved;
+  };
+  if (!is_inside(kSteps)) {
+    return std::nullopt;
   }
-  return std::nullopt;
+  // The sets grow with the level.
+  int proved = kSteps;
+  int failed = 0;
+  while (proved - failed > 1) {
+    const int middle = (proved + failed) / 2;
+    (is_inside(middle) ? proved : failed) = middle;
+  }
+  return level_of(proved).upper();
 }
 
 SteadyStart joined(const std::vector<SteadyStart>& starts) {

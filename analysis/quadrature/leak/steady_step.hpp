@@ -78,7 +78,8 @@ struct StepForms {
 
 template <typename Scalar>
 [[nodiscard]] StepForms<Scalar> step_forms(const SteadySetting<Scalar>& setting,
-                                           const SteadyPlace<Scalar>& place) {
+                                           const SteadyPlace<Scalar>& place,
+                                           const CovarianceImage<Scalar>& image) {
   const Scalar over_r = Scalar(1.0) / setting.design.r;
   const Scalar& s = place.level;
   const SteadyDirections<Scalar>& d = setting.directions;
@@ -88,8 +89,7 @@ template <typename Scalar>
   forms.weights = {Scalar(1.0), alpha, c};
   forms.swing = swing_of(s, c);
   forms.innovation = innovation_of(setting, forms.swing, s, alpha, c);
-  forms.image = covariance_image(setting.steady, setting.sine_turn, setting.cosine_turn, setting.band,
-                                 setting.design, s, alpha);
+  forms.image = image;
   forms.gain = mean_gain_of(setting, forms.image, forms.innovation, s, alpha, over_r);
   forms.left = left_by(forms.gain, setting, forms.swing, forms.innovation, forms.weights);
   forms.polar = polar_slopes(forms.left.delta, setting.steady.rho, s, alpha, c);
@@ -98,16 +98,25 @@ template <typename Scalar>
 
 }  // namespace detail
 
-/// See SteadyStep.
+/// What a step does to the covariance, which depends on the level, on x, and on nothing else of a place.
+template <typename Scalar>
+[[nodiscard]] CovarianceImage<Scalar> covariance_image(const SteadySetting<Scalar>& setting,
+                                                       const Scalar& level, const Scalar& x) {
+  return covariance_image(setting.steady, setting.sine_turn, setting.cosine_turn, setting.band,
+                          setting.design, level, Scalar(setting.directions.a11 * x));
+}
+
+/// See SteadyStep; `image` is the covariance_image of the place.
 template <typename Scalar>
 [[nodiscard]] SteadyStep<Scalar> steady_step(const SteadySetting<Scalar>& setting,
-                                             const SteadyPlace<Scalar>& place) {
+                                             const SteadyPlace<Scalar>& place,
+                                             const CovarianceImage<Scalar>& covariance) {
   using trackers::detail::square;
   const Scalar over_r = Scalar(1.0) / setting.design.r;
   const Scalar& s = place.level;
   const Scalar& rho = setting.steady.rho;
   const SteadyDirections<Scalar>& d = setting.directions;
-  const detail::StepForms<Scalar> forms = detail::step_forms(setting, place);
+  const detail::StepForms<Scalar> forms = detail::step_forms(setting, place, covariance);
   const auto& [weights, swing, innovation, image, gain, left, polar] = forms;
   SteadyStep<Scalar> step;
   step.alpha = weights[1];
@@ -134,6 +143,12 @@ template <typename Scalar>
   step.noise = detail::noise_of(jacobian, gain);
   step.gram = detail::gram_of(jacobian, image.spread, over_r);
   return step;
+}
+
+template <typename Scalar>
+[[nodiscard]] SteadyStep<Scalar> steady_step(const SteadySetting<Scalar>& setting,
+                                             const SteadyPlace<Scalar>& place) {
+  return steady_step(setting, place, covariance_image(setting, place.level, place.x));
 }
 
 /// (P+ - P*)/s for both bounds on the covariance.

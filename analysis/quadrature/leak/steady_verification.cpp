@@ -73,7 +73,8 @@ bool sees_directions(const SteadyDirections<Interval>& d) {
 
 struct CellResult {
   std::size_t steps = 0;  ///< from level to level that are proved
-  std::string reason;     ///< why no more of them
+  SteadyDivision division;
+  std::string reason;  ///< why no more of them
   std::int64_t cells = 0;
 };
 
@@ -92,11 +93,10 @@ SteadyState<SteadySecant> steady_secants(const sets::QuadratureTube& tube) {
           {entry(3, none), entry(4, none), entry(5, none), entry(6, none), entry(7, none), entry(8, none)}};
 }
 
-/// Tries `steps` steps, from level to level.
-CellResult verify_cell(const Design& design, const sets::QuadratureTube& tube, const SteadySet& set,
-                       const SteadyMotion& motion, std::size_t steps) {
+/// Goes on to so many steps, from level to level, as far as they are proved.
+void verify_cell(const Design& design, const sets::QuadratureTube& tube, const SteadySet& set,
+                 const SteadyMotion& motion, std::size_t steps, CellResult& result) {
   const rigor::UpwardRounding upward;
-  CellResult result;
   SteadySettings settings;
   SteadySetting<Interval>& setting = settings.over_cell;
   setting.design = design;
@@ -108,12 +108,12 @@ CellResult verify_cell(const Design& design, const sets::QuadratureTube& tube, c
   // cannot bind (setting.steady.covariance): it is the sum of `least` and of the bound below.
   if (!certainly_positive_definite(least) || !certainly_positive_definite(setting.steady.covariance)) {
     result.reason = "the lower covariance bound is not certainly positive definite.";
-    return result;
+    return;
   }
   setting.directions = directions_of(setting.metric);
   if (!sees_directions(setting.directions)) {
     result.reason = "the directions of the set could not be told apart.";
-    return result;
+    return;
   }
   settings.frequencies = tube.parameter - Interval(tube.parameter_center);
   settings.secants = convert<SteadySecant>(setting);
@@ -127,15 +127,15 @@ CellResult verify_cell(const Design& design, const sets::QuadratureTube& tube, c
   while (result.steps < steps) {
     const double level = set.levels[result.steps];
     const double next = set.levels.size() == 1 ? level : set.levels[result.steps + 1];
-    const SteadyContraction contraction = prove_contraction(settings, level, next, disturbance, most_cells);
+    const SteadyContraction contraction =
+        prove_contraction(settings, level, next, disturbance, most_cells, result.division);
     result.cells += contraction.cells;
     if (!contraction.proved) {
       result.reason = contraction.reason;
-      return result;
+      return;
     }
     ++result.steps;
   }
-  return result;
 }
 
 constexpr std::size_t kSpread = 6;
@@ -195,24 +195,33 @@ SteadyVerification verify_steady_set(const Design& design, const std::vector<set
   constexpr std::size_t kFirst = 2;
   constexpr std::size_t kBlock = 8;
   std::vector<CellResult> results(branch.size());
-  std::size_t steps = std::max<std::size_t>(proposal.levels.size(), 2) - 1;
-  std::size_t end = 0;
-  for (std::size_t begin = 0; begin < branch.size(); begin = end) {
-    end = std::min(begin + (begin < kSpread ? kFirst : kBlock), branch.size());
-    tbb::parallel_for(begin, end, [&](std::size_t i) {
-      results[i] = verify_cell(design, branch[order[i]], proposal, *motion, steps);
-    });
-    for (std::size_t i = begin; i < end; ++i) {
-      steps = std::min(steps, results[i].steps);
-      result.cells += results[i].cells;
-      if (steps == 0) {
-        result.failed_frequency = branch[order[i]].parameter;
-        result.reason = "for frequencies near " +
-                        rigor::to_decimal(midpoint(result.failed_frequency), 4, rigor::Direction::down) +
-                        " rad/sample: " + results[i].reason;
-        return result;
+  std::size_t steps = 0;
+  // The first level is the hardest: it is looked at everywhere before the others are.
+  for (const std::size_t goal : {std::size_t{1}, std::max<std::size_t>(proposal.levels.size(), 2) - 1}) {
+    if (goal == steps) {
+      continue;
+    }
+    steps = goal;
+    std::size_t end = 0;
+    for (std::size_t begin = 0; begin < branch.size(); begin = end) {
+      end = std::min(begin + (begin < kSpread ? kFirst : kBlock), branch.size());
+      tbb::parallel_for(begin, end, [&](std::size_t i) {
+        verify_cell(design, branch[order[i]], proposal, *motion, steps, results[i]);
+      });
+      for (std::size_t i = begin; i < end; ++i) {
+        steps = std::min(steps, results[i].steps);
+        if (steps == 0) {
+          result.failed_frequency = branch[order[i]].parameter;
+          result.reason = "for frequencies near " +
+                          rigor::to_decimal(midpoint(result.failed_frequency), 4, rigor::Direction::down) +
+                          " rad/sample: " + results[i].reason;
+          return result;
+        }
       }
     }
+  }
+  for (const CellResult& cell : results) {
+    result.cells += cell.cells;
   }
   if (proposal.levels.size() > 1) {
     result.set.levels.resize(steps + 1);

@@ -16,7 +16,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using rigor::Interval;
 
-constexpr int kMostBoxes = 32;
+/// Coq takes a sixth of a second for a box: the second number is tried where nothing is found with the first.
+constexpr std::array kMostBoxes{32, 200};
 
 Matrix3d transition(double e1, double e2) {
   Matrix3d result = Matrix3d::Identity();
@@ -63,7 +64,8 @@ struct Shape {
 
 class Search {
  public:
-  Search(const EllipsoidQuestion& question, EllipsoidAim aim) : question_(question), aim_(aim) {
+  Search(const EllipsoidQuestion& question, EllipsoidAim aim, int most_boxes)
+      : question_(question), aim_(aim), most_boxes_(most_boxes) {
     constexpr int kSteps = 20'000;
     steady_ = question.start_highest;
     for (int k = 0; k < kSteps; ++k) {
@@ -81,21 +83,22 @@ class Search {
                        question.frequency_error);
   }
 
-  /// The ellipsoid of that shape around the starts; none when the start covariances are not inside.
+  /// The ellipsoid of that shape around the starts, with e' M e = 1 above what noise and slew hold up; none
+  /// when the start covariances are not inside.
   [[nodiscard]] std::optional<ErrorEllipsoid> ellipsoid(const Shape& shape) const {
     constexpr double kSlack = 1e-3;
     ErrorEllipsoid set;
     set.kappa2 = stored(least_kappa2_ + (1.0 - least_kappa2_) * shape.decay);
     const double rest = 1.0 - set.kappa2;
     const double parts = question_.slew > 0.0 && question_.noise > 0.0 ? 2.0 : 1.0;
-    Matrix3d added = parts * question_.noise * question_.noise * gain_ * gain_.transpose();
-    added(2, 2) += parts * question_.slew * question_.slew;
+    Matrix3d added = parts / rest * question_.noise * question_.noise * gain_ * gain_.transpose();
+    added(2, 2) += parts / rest * question_.slew * question_.slew;
     for (Eigen::Index i = 0; i < 3; ++i) {
-      added(i, i) +=
-          rest * shape.spread_of_start.at(static_cast<std::size_t>(i)) * corner_(i) * corner_(i) + 1e-14;
+      constexpr double kLeast = 1e-14;
+      added(i, i) += shape.spread_of_start.at(static_cast<std::size_t>(i)) * corner_(i) * corner_(i) + kLeast;
     }
     Matrix3d n = accumulated(closed_loop_, added, set.kappa2 * (1.0 - kSlack));
-    n *= (1.0 + kSlack) * std::max(farthest_start(n.inverse()), kSlack);
+    n *= (1.0 + kSlack) * std::max(farthest_start(n.inverse()), 1.0);
     set.shape = stored(Matrix3d(n.inverse()));
     set.inverse = stored(Matrix3d(set.shape.inverse() * (1.0 - 1e-7)));
     set.lowest = stored(Matrix3d(steady_ - shape.spread_of_covariance[0] * wide_));
@@ -124,7 +127,7 @@ class Search {
     if (!numbers_for(question_.design, *set, middle)) {
       return false;
     }
-    auto cells = cover(question_.design, *set, kMostBoxes);
+    auto cells = cover(question_.design, *set, most_boxes_);
     if (!cells) {
       return false;
     }
@@ -189,7 +192,7 @@ class Search {
     for (int k = 0; k < kBisections; ++k) {
       ErrorEllipsoid set = found.set;
       set.noise_gain = stored(std::sqrt(works * fails));
-      if (auto cells = cover(question_.design, set, kMostBoxes)) {
+      if (auto cells = cover(question_.design, set, most_boxes_)) {
         works = set.noise_gain;
         found = CoveredEllipsoid{set, std::move(cells)};
       } else {
@@ -210,6 +213,7 @@ class Search {
   double least_kappa2_ = 1.0;
   Vector3d corner_;
   EllipsoidAim aim_;
+  int most_boxes_;
   double best_ = std::numeric_limits<double>::infinity();  ///< the square of the bound
   Shape best_shape_;
   std::optional<CoveredEllipsoid> found_;
@@ -248,10 +252,15 @@ double ultimate_level(const EllipsoidQuestion& question, const ErrorEllipsoid& s
 }
 
 std::optional<CoveredEllipsoid> search_ellipsoid(const EllipsoidQuestion& question, EllipsoidAim aim) {
-  Search search(question, aim);
-  search.over_grid();
-  search.by_coordinates();
-  return std::move(search).result();
+  for (const int most_boxes : kMostBoxes) {
+    Search search(question, aim, most_boxes);
+    search.over_grid();
+    search.by_coordinates();
+    if (auto found = std::move(search).result()) {
+      return found;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace veritrack::quadrature

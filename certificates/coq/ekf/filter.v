@@ -49,13 +49,13 @@ Variable design : noise_model.
 
 Definition Q_x : matrix 3 3 := matrix_3_3 (q1 design) 0 0 0 (q1 design) 0 0 0 (q2 design).
 Definition R_y : matrix 2 2 := fun i j => if Nat.eqb i j then r design else 0.
-(* (3.9) *)
+(* (3.9), that is (2.9) *)
 Definition H : matrix 2 3 := fun i j => if Nat.eqb i j then 1 else 0.
 (* (3.1) with epsilon = 0: the phasor turns by the frequency. *)
 Definition f (x : matrix 3 1) : matrix 3 1 :=
   let '(x1, x2, x3) := (x 1%nat 1%nat, x 2%nat 1%nat, x 3%nat 1%nat) in
   vector_3 (cos x3 * x1 - sin x3 * x2) (sin x3 * x1 + cos x3 * x2) x3.
-(* (3.8): its derivative. *)
+(* (3.8), that is (2.8): its derivative. *)
 Definition F (x : matrix 3 1) : matrix 3 3 :=
   let '(x1, x2, x3) := (x 1%nat 1%nat, x 2%nat 1%nat, x 3%nat 1%nat) in
   matrix_3_3 (cos x3) (- sin x3) (- sin x3 * x1 - cos x3 * x2)
@@ -65,9 +65,9 @@ Definition F (x : matrix 3 1) : matrix 3 3 :=
 (* (2.5), (2.6) *)
 Definition time_update (s : estimate) : estimate :=
   {| x := f (x s); P := (F (x s) * P s * (F (x s))^T + Q_x)%matrix |}.
-(* (2.4), the gain *)
+(* (2.7), the gain *)
 Definition gain (P : matrix 3 3) : matrix 3 2 := (P * H^T * inverse_2_2 (H * P * H^T + R_y))%matrix.
-(* (2.3), (2.7) *)
+(* (2.3), (2.4) *)
 Definition measurement_update (s : estimate) (y : matrix 2 1) : estimate :=
   let K := gain (P s) in
   {| x := (x s + K * (y - H * x s))%matrix; P := (P s - K * H * P s)%matrix |}.
@@ -79,8 +79,8 @@ Fixpoint run (start : estimate) (y : nat -> matrix 2 1) (k : nat) : estimate :=
   match k with O => start | S j => step (run start y j) (y (S j)) end.
 End Filter.
 
-(* The signal: a tone of amplitude 1 with the phase phi(k), phi(k+1) = phi(k) + omega(k), measured with the noise
-   (v1, v2). *)
+(* (3.2). The signal: a tone of amplitude 1 with the phase phi(k), phi(k+1) = phi(k) + omega(k), which is (3.1) for
+   x = (cos phi, sin phi, omega), measured with the noise (v1, v2). *)
 Definition measurement (phi v1 v2 : nat -> R) (k : nat) : matrix 2 1 :=
   vector_2 (cos (phi k) + v1 k) (sin (phi k) + v2 k).
 
@@ -103,3 +103,10 @@ Definition turn (angle : R) : matrix 3 3 :=
 Definition start_estimate (phi omega a psi nu : R) (m : symmetric) : estimate :=
   {| x := vector_3 ((1 + a) * cos (phi + psi)) ((1 + a) * sin (phi + psi)) (omega + nu);
      P := (turn (phi + psi) * full m * (turn (phi + psi))^T)%matrix |}.
+
+(* P*: the covariance that the filter keeps on a tone that it follows without error (of frequency 0 and phase 0; by
+   symmetry the frame of the estimated phase keeps it at every frequency). *)
+Definition is_steady (design : noise_model) (m : symmetric) : Prop :=
+  (forall a b c, 0 <= form m a b c) /\
+  forall i j, (1 <= i <= 3)%nat -> (1 <= j <= 3)%nat ->
+    P (step design {| x := vector_3 1 0 0; P := full m |} (vector_2 1 0)) i j = full m i j.

@@ -6,7 +6,7 @@ Local Open Scope R_scope.
 (* Intervals with ends m 2^e, m and e Coq's own integers: they need no axiom beyond those of the real numbers. *)
 Module Floats := SpecificFloat StdZRadix2.
 Module I := FloatIntervalFull Floats.
-Definition precision := I.F.PtoP 60%positive.
+Definition precision := I.F.PtoP 40%positive.
 
 (* A scalar that formulas are written for: real numbers, or intervals (None is exactly 0, for speed). *)
 Record scalar (T : Type) := { zero : T; number : Q -> T; add : T -> T -> T; negate : T -> T; multiply : T -> T -> T }.

@@ -27,13 +27,20 @@ double value_of(const std::string& term) {
   return std::ldexp(negative ? -significand : significand, static_cast<int>(power));
 }
 
-TEST_CASE("a quotient has a denominator even where it is 1, and its sign in front of the numerator") {
-  CHECK(coq::quotient("0.0023", "/") == "(23 / 10000)");
-  CHECK(coq::quotient("-0.50", "#") == "(-5 # 10)");
-  CHECK(coq::quotient("0.0", "/") == "(0 / 1)");
-  CHECK(coq::quotient("1", "#") == "(1 # 1)");
-  CHECK(coq::quotient("2.5e3", "#") == "(2500 # 1)");
-  CHECK(coq::quotient("1_000.0e-4", "/") == "(1 / 10)");
+// That Coq takes the two for the same number, tests/cli/proofs_test.py shows.
+TEST_CASE("a decimal of Coq's and a fraction have the same digits, one of them after the point at least") {
+  const auto both = [](const char* text) { return coq::literal(text) + " " + coq::fraction(text); };
+  CHECK(both("0.0023") == "0.0023 (23 # 10000)");
+  CHECK(both("-0.50") == "(-0.5) (-5 # 10)");
+  CHECK(both("0.0") == "0.0 (0 # 10)");
+  CHECK(both("-0") == "0.0 (0 # 10)");
+  CHECK(both("1") == "1.0 (10 # 10)");
+  CHECK(both("12.5") == "12.5 (125 # 10)");
+  CHECK(both("2.5e3") == "2500.0 (25000 # 10)");
+  CHECK(both("1_000.0e-4") == "0.1 (1 # 10)");
+  CHECK(both("1.25e-7") == "0.000000125 (125 # 1000000000)");
+  CHECK_THROWS_AS((void)coq::literal("1) . Abort. ("), rigor::NumberFormatError);
+  CHECK_THROWS_AS((void)coq::fraction("nan"), rigor::NumberFormatError);
 }
 
 TEST_CASE("decimals become the fractions they are") {

@@ -1,4 +1,6 @@
 
+(* What stands above is the same for all designs of the kind. *)
+
 (* The design. *)
 Definition here : design := {|
   q1 := (23 / 10000); q2 := (23 / 10000); r := (5 / 100);

@@ -90,8 +90,8 @@ TEST_CASE("every claim says what it claims, how it is proved, under which hypoth
 
 TEST_CASE("a word may be a claim, a key, a table, or a place of a proof") {
   CHECK(explain("ekf/guarantee").size() == 1);
-  CHECK(explain("design.q1").size() == 1);
-  CHECK(explain("q1").size() == 1);
+  CHECK(explain("design.q1").size() == 2);
+  CHECK(explain("q1").size() == 2);
   CHECK(explain("theorem_2_9").size() == 5);
   CHECK(explain("theorem-2.9/b_1").size() == 2);
   CHECK(explain("theorem-2.9/b_1/errata").size() == 1);

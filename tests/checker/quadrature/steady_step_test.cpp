@@ -83,7 +83,7 @@ TEST_CASE("a step about the steady state is the tracker's") {
       const double chi = (setting.a21 * place.x + setting.a22 * place.y).near();
       const double frequency = (setting.m1 * place.x + setting.m2 * place.y + setting.m3 * t).near();
       const auto step = checker::steady_step(setting, place);
-      const auto deviation = checker::turned_deviation(place, step.high, step.turn);
+      const auto deviation = checker::turned_deviation(step.high, checker::deviation_turn(place, step.turn));
 
       const Errors b{alpha, chi - frequency, frequency};
       const auto after = [&](double along, double across) {

@@ -39,8 +39,9 @@ SteadySettings settings_of(double gain, double amplitude, double chi, double eps
 /// Does a step from level 1 lead to so high a level that only the meaning of the step is in question?
 bool leads_anywhere(const SteadySettings& settings, double noise = 0.0, double motion = 0.0) {
   constexpr double kAnywhere = 1e9;
+  SteadyDivision division;
   return prove_contraction(settings, 1.0, kAnywhere, {Interval(noise), Interval(motion), Interval(0.0)},
-                           kMostCells)
+                           kMostCells, division)
       .proved;
 }
 
@@ -73,12 +74,50 @@ TEST_CASE("errors must shrink by themselves, however fast the covariance does") 
   const SteadySettings settings = settings_of(0.5, 0.05, 0.05, 0.9);
   const auto proves = [&](double rate) {
     constexpr double kLevel = 1e-3;
+    SteadyDivision division;
     return prove_contraction(settings, kLevel, rate * kLevel, {Interval(0.0), Interval(0.0), Interval(0.0)},
-                             kMostCells)
+                             kMostCells, division)
         .proved;
   };
   CHECK(proves(0.9));
   CHECK_FALSE(proves(0.45));
+}
+
+TEST_CASE("a cell is cut again without a look where it failed a little higher, or its parts were cut") {
+  SteadyDivision division;
+  CHECK_FALSE(division.skips(SteadyDivision::kWhole, 1.0));
+  division.open(SteadyDivision::kWhole, 1.0, kY);
+  CHECK(division.side(SteadyDivision::kWhole) == kY);
+  CHECK(division.skips(SteadyDivision::kWhole, 0.95));
+  CHECK_FALSE(division.skips(SteadyDivision::kWhole, 0.5));
+  const std::size_t part = division.first_part(SteadyDivision::kWhole);
+  division.open(part + 1, 0.5, kX);
+  CHECK(division.skips(SteadyDivision::kWhole, 0.1));
+  division.close(part + 1);
+  CHECK_FALSE(division.skips(SteadyDivision::kWhole, 0.1));
+  division.close(SteadyDivision::kWhole);
+  CHECK_FALSE(division.skips(SteadyDivision::kWhole, 0.95));
+}
+
+TEST_CASE("the cells of the level above save work, and prove nothing by themselves") {
+  const rigor::UpwardRounding upward;
+  const SteadySettings settings = settings_of(0.5, 0.3, 0.6, 0.9);
+  const auto prove = [&](double level, double rate, SteadyDivision& division) {
+    return prove_contraction(settings, level, rate * level, {Interval(0.0), Interval(0.0), Interval(0.0)},
+                             kMostCells, division);
+  };
+  SteadyDivision division;
+  const SteadyContraction first = prove(1.0, 0.95, division);
+  REQUIRE(first.proved);
+  REQUIRE(first.cells > 1);
+  SteadyDivision none;
+  const SteadyContraction anew = prove(0.95, 0.95, none);
+  SteadyDivision known = division;
+  const SteadyContraction again = prove(0.95, 0.95, known);
+  CHECK(anew.proved);
+  CHECK(again.proved);
+  CHECK(again.cells < anew.cells);
+  CHECK_FALSE(prove(0.95, 0.3, division).proved);
 }
 
 }  // namespace

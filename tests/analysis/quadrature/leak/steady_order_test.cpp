@@ -46,7 +46,8 @@ bool keeps(const SteadySettings& settings, double share = 1.0) {
       steady_step(settings.secants,
                   {SteadySecant(Interval(level)), SteadySecant::variable(cell.side(kX), cell.middle(kX), kX),
                    SteadySecant::variable(cell.side(kY), cell.middle(kY), kY)});
-  return keeps_covariance(settings, corner_offsets(cell, settings.frequencies), step, level, Interval(1e-9),
+  return keeps_covariance(settings, corner_offsets(cell, settings.frequencies),
+                          offset_box(cell, settings.frequencies), step, level, Interval(1e-9),
                           Interval(share))
       .kept;
 }

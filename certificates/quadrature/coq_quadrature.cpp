@@ -1,4 +1,4 @@
-#include "certificates/quadrature/coq_theorem_2_9.hpp"
+#include "certificates/quadrature/coq_quadrature.hpp"
 
 #include "certificates/document/coq_parts.hpp"
 // Theorem 2.9 of the quadrature tracker in Coq: its constants, and the conditions that fail.
@@ -9,6 +9,7 @@
 
 #include "certificates/document/coq_numbers.hpp"
 #include "certificates/quadrature/coq_ekf.hpp"
+#include "certificates/quadrature/coq_ekf_numbers.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/sets/assumptions.hpp"
@@ -124,11 +125,12 @@ void prove_condition(Proofs& proofs, const theorems::Derivation& derivation, con
 
 FormalProofs quadrature_proofs(const Certificate& certificate) {
   const QuadratureEkfTables& tables = quadrature_tables(certificate.design);
-  Proofs proofs;
+  Proofs guarantee;
   if (certificate.particulars.has_value()) {
-    prove_guarantee(proofs, tables, quadrature_particulars(certificate).start_covariance);
+    guarantee = guarantee_proofs(tables, quadrature_particulars(certificate).start_covariance);
   }
-  proofs.write(text_for_all_designs("theorem_2_9"));
+  Proofs proofs((guarantee.empty() ? "" : ekf_parts()) + std::string(text_for_all_designs("theorem_2_9")));
+  proofs.append(guarantee);
   for (const char* reading : {"printed", "errata"}) {
     proofs.cite("condition_2_43_fails_for_every_design", fmt::format("theorem-2.9/{}/feasibility", reading),
                 "Condition (2.43) fails for every design and every admissible choice of the free parameters, "

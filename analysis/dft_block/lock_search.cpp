@@ -1,0 +1,250 @@
+#include "analysis/dft_block/lock_search.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/rigor/rounding.hpp"
+#include "trackers/dft_block/dft_block_ekf.hpp"
+
+namespace veritrack::dft_block {
+
+namespace {
+
+using PointMatrix = rigor::Matrix<3>;
+using PointVector = rigor::Vector<3>;
+constexpr double kPi = std::numbers::pi;
+
+struct PointTap {
+  double value, slope;
+};
+
+PointTap tap(double offset, int m) {
+  const double d = offset + m;
+  const auto sinc = trackers::detail::sinc_with_slope(d, std::sin(kPi * d), std::cos(kPi * d));
+  const double sign = m % 2 == 0 ? 1.0 : -1.0;
+  return {sign * sinc.value, sign * sinc.slope};
+}
+
+/// One more block: P is that of the prediction, before and after.
+PointMatrix next_covariance(const PointMatrix& p, const PointMatrix& information, const PointMatrix& turn,
+                            const PointMatrix& noise) {
+  return turn * (p.inverse() + information).inverse() * turn.transpose() + noise;
+}
+
+double smallest_eigenvalue(const PointMatrix& a) {
+  return Eigen::SelfAdjointEigenSolver<PointMatrix>(0.5 * (a + a.transpose()), Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .minCoeff();
+}
+
+/// Directions on the sphere, well spread.
+std::vector<PointVector> directions(int count) {
+  std::vector<PointVector> result;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / count;
+    const double turn = 2.0 * kPi * i * (std::numbers::phi - 1.0);
+    const double across = std::sqrt(1.0 - z * z);
+    result.emplace_back(across * std::cos(turn), across * std::sin(turn), z);
+  }
+  return result;
+}
+
+}  // namespace
+
+LockSearch::LockSearch(const LockProblem& problem)
+    : model_{midpoint(problem.q1),      midpoint(problem.q2),   midpoint(problem.q3),
+             midpoint(problem.r),       problem.half_width,     problem.amplitude.lower(),
+             problem.amplitude.upper(), problem.offset.lower(), problem.offset.upper()} {
+  const rigor::NearestRounding nearest;
+  turn_.setIdentity();
+  turn_(1, 2) = 2.0 * kPi;
+  const double amplitude = 0.5 * (model_.amplitude_low + model_.amplitude_high);
+  const double offset = 0.5 * (model_.offset_low + model_.offset_high);
+  const PointMatrix noise = process_noise(amplitude);
+  const PointMatrix information = jacobian(amplitude, 1.0, offset);
+  steady_ = noise + 0.01 * PointMatrix::Identity();
+  constexpr int kMostBlocks = 20'000;
+  for (int k = 0; k < kMostBlocks; ++k) {
+    const PointMatrix next = next_covariance(steady_, information, turn_, noise);
+    const double change = (next - steady_).norm();
+    steady_ = next;
+    if (!(change > 1e-13 * steady_.norm())) {
+      break;
+    }
+  }
+  frame_ = Eigen::LLT<PointMatrix>(steady_).matrixL();
+}
+
+PointMatrix LockSearch::process_noise(double amplitude) const {
+  PointMatrix q;
+  q << model_.q1 * 4.0 * kPi / amplitude, 0.0, 0.0, 0.0, model_.q2 + kPi * kPi * model_.q3, kPi * model_.q3,
+      0.0, kPi * model_.q3, model_.q3;
+  return q;
+}
+
+PointMatrix LockSearch::jacobian(double amplitude, double x1, double offset) const {
+  double value = 0.0;
+  double mixed = 0.0;
+  double slope = 0.0;
+  for (int m = -model_.half_width; m <= model_.half_width; ++m) {
+    const PointTap one = tap(offset, m);
+    value += one.value * one.value;
+    mixed += one.value * one.slope;
+    slope += one.slope * one.slope;
+  }
+  const double scale = amplitude * amplitude / (4.0 * model_.r) * x1 * x1;
+  PointMatrix j;
+  j << 4.0 * scale * value, 0.0, 2.0 * x1 * scale * mixed, 0.0, x1 * x1 * scale * value, 0.0,
+      2.0 * x1 * scale * mixed, 0.0, x1 * x1 * scale * slope;
+  return j;
+}
+
+PointMatrix LockSearch::secant(double amplitude, const PointVector& error, double offset) const {
+  const double x1 = 1.0 + error(0);
+  const double estimate = offset + error(2);
+  double value = 0.0;
+  double mixed = 0.0;
+  double value_true = 0.0;
+  double slope_true = 0.0;
+  double value_secant = 0.0;
+  double slope_secant = 0.0;
+  for (int m = -model_.half_width; m <= model_.half_width; ++m) {
+    const PointTap x = tap(estimate, m);
+    const PointTap d = tap(offset, m);
+    const double between =
+        std::fabs(error(2)) > 1e-5 ? (x.value - d.value) / error(2) : tap(offset + 0.5 * error(2), m).slope;
+    value += x.value * x.value;
+    mixed += x.value * x.slope;
+    value_true += x.value * d.value;
+    slope_true += x.slope * d.value;
+    value_secant += x.value * between;
+    slope_secant += x.slope * between;
+  }
+  const double turn = error(1);
+  const bool is_small = std::fabs(turn) < 1e-6;
+  const double sine_ratio = is_small ? 1.0 : std::sin(turn) / turn;
+  const double cosine_ratio = is_small ? 0.5 * turn : (1.0 - std::cos(turn)) / turn;
+  const double weight = amplitude * amplitude / (4.0 * model_.r);
+  const double scale = weight * x1 * x1;
+  PointMatrix s;
+  s << 2.0 * weight * x1 * value * (1.0 + x1), 2.0 * weight * x1 * value_true * cosine_ratio,
+      2.0 * weight * x1 * value_secant, 0.0, scale * value_true * sine_ratio, 0.0, scale * mixed * (1.0 + x1),
+      scale * slope_true * cosine_ratio, scale * slope_secant;
+  return s;
+}
+
+std::optional<LockSet> LockSearch::set_for(double radius) const {
+  const rigor::NearestRounding nearest;
+  const double first = radius * frame_.row(0).norm();
+  const double third = radius * frame_.row(2).norm();
+  constexpr double kMostFirst = 0.9;
+  if (!(first < kMostFirst)) {
+    return std::nullopt;
+  }
+  constexpr int kOffsets = 16;
+  constexpr double kGrow = 1.01;
+  constexpr double kMost = 20.0;
+  double above = 1.0;
+  double below = 1.0;
+  for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
+    const PointMatrix noise = process_noise(amplitude);
+    for (const double x1 : {1.0 - first, 1.0 + first}) {
+      for (int i = 0; i <= kOffsets; ++i) {
+        const double low = model_.offset_low - third;
+        const double high = model_.offset_high + third;
+        const PointMatrix j = jacobian(amplitude, x1, low + (high - low) * i / kOffsets);
+        const auto is_above = [&] {
+          const PointMatrix p = above * steady_;
+          return smallest_eigenvalue(frame_.inverse() * (p - next_covariance(p, j, turn_, noise)) *
+                                     frame_.inverse().transpose()) > 0.0;
+        };
+        const auto is_below = [&] {
+          const PointMatrix p = steady_ / below;
+          return smallest_eigenvalue(frame_.inverse() * (next_covariance(p, j, turn_, noise) - p) *
+                                     frame_.inverse().transpose()) > 0.0;
+        };
+        while (!is_above() && above < kMost) {
+          above *= kGrow;
+        }
+        while (!is_below() && below < kMost) {
+          below *= kGrow;
+        }
+      }
+    }
+  }
+  if (!(above < kMost) || !(below < kMost)) {
+    return std::nullopt;
+  }
+  double floor = 1.0;
+  const PointMatrix inverse = frame_.inverse();
+  for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
+    floor = std::min(floor, smallest_eigenvalue(inverse * process_noise(amplitude) * inverse.transpose()));
+  }
+  constexpr double kRoom = 1.03;
+  return LockSet{frame_, above * kRoom, below * kRoom, std::max(0.0, floor / kRoom)};
+}
+
+std::optional<LockRate> LockSearch::rate_for(const LockSet& set, double radius) const {
+  const rigor::NearestRounding nearest;
+  struct Sample {
+    PointMatrix step, spread, turned;  ///< the step at the middle covariance, secant' D secant, F D F'
+  };
+  std::vector<Sample> samples;
+  const PointMatrix inverse = frame_.inverse();
+  const PointMatrix turn = inverse * turn_ * frame_;
+  constexpr int kDirections = 120;
+  constexpr int kOffsets = 6;
+  for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
+    for (const double length : {radius, 0.6 * radius}) {
+      for (const PointVector& direction : directions(kDirections)) {
+        const PointVector error = frame_ * direction * length;
+        for (int i = 0; i <= kOffsets; ++i) {
+          const double offset = model_.offset_low + (model_.offset_high - model_.offset_low) * i / kOffsets;
+          const PointMatrix j =
+              frame_.transpose() * jacobian(amplitude, 1.0 + error(0), offset + error(2)) * frame_;
+          const PointMatrix s = frame_.transpose() * secant(amplitude, error, offset) * frame_;
+          const PointMatrix high = (j + PointMatrix::Identity() / set.above).inverse();
+          const PointMatrix low = (j + PointMatrix::Identity() * set.below).inverse();
+          const PointMatrix d = 0.5 * (high - low);
+          samples.push_back({turn * (PointMatrix::Identity() - 0.5 * (high + low) * s), s.transpose() * d * s,
+                             turn * d * turn.transpose()});
+        }
+      }
+    }
+  }
+  // rate^2 is the largest eigenvalue of weight s'Ds + A'(I - FDF'/weight)^-1 A.
+  const auto squared_rate = [&](double weight) {
+    double most = 0.0;
+    for (const Sample& sample : samples) {
+      const PointMatrix left = PointMatrix::Identity() - sample.turned / weight;
+      if (!(smallest_eigenvalue(left) > 1e-3)) {
+        return std::numeric_limits<double>::infinity();
+      }
+      const PointMatrix all = weight * sample.spread + sample.step.transpose() * left.inverse() * sample.step;
+      most = std::max(most, -smallest_eigenvalue(-all));
+    }
+    return most;
+  };
+  double best = std::numeric_limits<double>::infinity();
+  double best_weight = 1.0;
+  for (double weight = 0.02; weight < 20.0; weight *= 1.3) {
+    const double found = squared_rate(weight);
+    if (found < best) {
+      best = found;
+      best_weight = weight;
+    }
+  }
+  constexpr double kRoom = 1.05;
+  const double rate = std::sqrt(best) * kRoom;
+  if (!(rate < 1.0)) {
+    return std::nullopt;
+  }
+  return LockRate{radius, rate, best_weight};
+}
+
+}  // namespace veritrack::dft_block

@@ -1,0 +1,82 @@
+// Sets of errors and covariances about the exact lock of the block tracker that it never leaves, whatever the
+// bounded noise and the bounded change of the offset: docs/block-tracker.md, sections 2 to 4.
+//
+// Errors z = (x1/x1_true - 1, phase error at the middle of the block, offset error) of the prediction of a
+// block, with the covariance of that prediction in the same coordinates, x1 relative to the tone's. With the
+// lower triangular C: z = C e, P = C S C'. The set: |e| <= radius, I/below <= S <= above I. One block takes
+// |e| to at most rate |e| and what noise and slew add.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "analysis/rigor/interval.hpp"
+#include "analysis/rigor/matrix.hpp"
+
+namespace veritrack::dft_block {
+
+/// A design and what is assumed of its tone, the same for every block but for the offset, which moves.
+struct LockProblem {
+  rigor::Interval q1, q2, q3, r;  ///< of the filter
+  int half_width = 0;             ///< L, 1 to kMostHalfWidth
+  rigor::Interval amplitude;      ///< of the tone, all values, signal units
+  rigor::Interval offset;         ///< at every block, all values, bins
+  rigor::Interval noise;          ///< length of the noise in all bins of a block, at most, signal units
+  rigor::Interval slew;           ///< |offset_{k+1} - offset_k|, at most, bins
+};
+
+/// Exact doubles, proposed by anyone.
+struct LockSet {
+  rigor::Matrix<3> frame;  ///< C
+  double above = 0.0;
+  double below = 0.0;
+  double floor = 0.0;  ///< the process noise is at least floor I in the coordinates e
+};
+
+/// Proposed as well: what one block does to errors up to a radius.
+struct LockRate {
+  double radius = 0.0;
+  double rate = 0.0;
+  double weight = 0.0;  ///< of Petersen's lemma
+};
+
+/// The set and the problem in its coordinates.
+class LockFrame {
+ public:
+  /// None when the frame is not certainly regular.
+  static std::optional<LockFrame> make(const LockProblem& problem, const LockSet& set);
+
+  /// True only when the covariances stay between their bounds and errors fall at that rate, for all errors up
+  /// to that radius, all offsets and amplitudes, without noise and slew: at most `most_cells` cells. Needs
+  /// the upward mode.
+  [[nodiscard]] bool verify(const LockRate& rate, std::int64_t most_cells) const;
+
+  /// What noise and slew add to |e| at most in a block. Needs the upward mode.
+  [[nodiscard]] rigor::Interval disturbance() const;
+  /// |e| of all errors with |z_i| <= bounds_i, at most.
+  [[nodiscard]] rigor::Interval length_of(const rigor::IntervalVector<3>& bounds) const;
+  /// |z_i| of all errors with |e| <= 1, at most.
+  [[nodiscard]] rigor::Interval reach(int i) const;
+  /// True only when the covariance P(1|0) of (x1, phase at the start of the block, offset) is within the set,
+  /// for every amplitude.
+  [[nodiscard]] bool holds(const rigor::IntervalMatrix<3>& covariance) const;
+
+ private:
+  LockFrame() = default;
+  /// (x1 error, phase error, offset error, offset, amplitude).
+  using Cell = rigor::IntervalVector<5>;
+  [[nodiscard]] bool is_outside(const Cell& cell, double radius) const;
+  [[nodiscard]] bool verify_cell(const Cell& cell, const LockRate& rate) const;
+  /// Q of (x1 relative, phase at the middle of the block, offset), in the frame.
+  [[nodiscard]] rigor::IntervalMatrix<3> process_noise(const rigor::Interval& amplitude) const;
+
+  LockProblem problem_;
+  LockSet set_;
+  rigor::IntervalMatrix<3> frame_, inverse_, turn_;
+};
+
+/// The amplitude is that of x1 = 1: x1^2 = amplitude / (4 pi).
+[[nodiscard]] rigor::Interval squared_root_amplitude(const rigor::Interval& amplitude);
+
+}  // namespace veritrack::dft_block

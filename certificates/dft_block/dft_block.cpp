@@ -1,0 +1,253 @@
+#include "certificates/dft_block/dft_block.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "analysis/dft_block/lock_certificate.hpp"
+#include "analysis/rigor/decimal.hpp"
+#include "certificates/dft_block/dft_block_design.hpp"
+#include "certificates/sets/required_claims.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+
+constexpr int kBlockDigits = 3;
+
+dft_block::LockQuestion lock_question(const BlockTables& tables) {
+  const BlockAssumptions& assume = tables.assume;
+  dft_block::LockQuestion question;
+  question.problem = {tables.design.q1.value,
+                      tables.design.q2.value,
+                      tables.design.q3.value,
+                      tables.design.r.value,
+                      static_cast<int>(tables.design.half_width.nearest),
+                      hull(assume.amplitude[0].value, assume.amplitude[1].value),
+                      hull(assume.offset[0].value, assume.offset[1].value),
+                      assume.noise.value,
+                      assume.slew.value};
+  question.amplitude_error = assume.initial_amplitude_error.value;
+  question.phase_error = assume.initial_phase_error.value;
+  question.offset_error = assume.initial_offset_error.value;
+  if (!assume.initial_covariance.empty()) {
+    rigor::IntervalMatrix<3> covariance;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        covariance(i, j) = assume.initial_covariance[static_cast<std::size_t>(3 * i + j)].value;
+      }
+    }
+    question.covariance = covariance;
+  }
+  if (tables.require.settled_below) {
+    constexpr double kBelow = 0.999;
+    question.settled_error = kBelow * tables.require.settled_below->nearest;
+  }
+  return question;
+}
+
+/// Everything up to what is claimed.
+std::string lock_hypotheses(const BlockTables& tables) {
+  const BlockAssumptions& assume = tables.assume;
+  const std::string amplitude = assume.one_amplitude
+                                    ? fmt::format("the amplitude {}", assume.amplitude[0].text)
+                                    : fmt::format("a constant amplitude from {} to {}",
+                                                  assume.amplitude[0].text, assume.amplitude[1].text);
+  std::string covariance = "of the steady state in exact lock in the middle of these offsets";
+  if (!assume.initial_covariance.empty()) {
+    const auto entry = [&](std::size_t i) -> const std::string& { return assume.initial_covariance[i].text; };
+    covariance = fmt::format("[[{}, {}, {}], [{}, {}, {}], [{}, {}, {}]]", entry(0), entry(1), entry(2),
+                             entry(3), entry(4), entry(5), entry(6), entry(7), entry(8));
+  }
+  return fmt::format(
+      "In exact arithmetic, the block tracker without leaks, with Q = diag({}, {}, {}), R = {} I and the "
+      "bins M - "
+      "{} ... M + {}, is fed with the bins (4.9) of a tone of {}, constant within each block, whose offset "
+      "is "
+      "between {} and {} bins in every block and changes by at most {} bins from one to the next, plus noise "
+      "whose "
+      "length in all bins of a block together is at most {}. Its first prediction has a root amplitude x1 "
+      "within {} "
+      "of the tone's, relative to it, a phase within {} rad at the middle of the block, an offset within {} "
+      "bins, "
+      "and the covariance {}. Then ",
+      tables.design.q1.text, tables.design.q2.text, tables.design.q3.text, tables.design.r.text,
+      tables.design.half_width.text, tables.design.half_width.text, amplitude, assume.offset[0].text,
+      assume.offset[1].text, assume.slew.text, assume.noise.text, assume.initial_amplitude_error.text,
+      assume.initial_phase_error.text, assume.initial_offset_error.text, covariance);
+}
+
+/// The claims, and the derivation that decides them.
+class BlockClaims {
+ public:
+  explicit BlockClaims(Certificate& certificate)
+      : certificate_(&certificate),
+        tables_(&block_tables(certificate.design)),
+        found_(&certificate.derivations.back()),
+        hypotheses_(lock_hypotheses(*tables_)) {}
+
+  void add_all() {
+    add_guarantee();
+    if (tables_->require.offset_error_below) {
+      add_offset_error(*tables_->require.offset_error_below);
+    }
+    if (tables_->require.settles_within && tables_->require.settled_below) {
+      add_settles(*tables_->require.settles_within, *tables_->require.settled_below);
+    }
+    conclude_requirements(*certificate_);
+  }
+
+ private:
+  [[nodiscard]] const theorems::Quantity* quantity(const char* name) const {
+    return found_->verdict == Verdict::proved ? theorems::applicable_quantity(*found_, name) : nullptr;
+  }
+
+  void add(Claim claim) {
+    if (claim.verdict == Verdict::undecided && claim.reason.empty()) {
+      claim.reason = "Nothing is proved of this design.";
+      for (const theorems::Condition& condition : found_->conditions) {
+        if (condition.verdict != Verdict::proved) {
+          claim.reason = condition.reason;
+          break;
+        }
+      }
+    }
+    certificate_->claims.push_back(std::move(claim));
+  }
+
+  [[nodiscard]] Claim required(const char* id, const Number& number, std::string requirement) const {
+    Claim claim;
+    claim.id = id;
+    claim.statement = hypotheses_ + requirement + ".";
+    claim.requirement = std::move(requirement);
+    claim.required = true;
+    claim.position = number.position;
+    return claim;
+  }
+
+  void add_offset_error(const Number& below) {
+    Claim claim = required("dft-block/offset-error", below,
+                           fmt::format("the offset error is below {} bins in every block", below.text));
+    if (const theorems::Quantity* bound = quantity("offset_error_bound")) {
+      const bool is_met = rigor::certainly_less(bound->value, below.value);
+      claim.verdict = is_met ? Verdict::proved : Verdict::undecided;
+      claim.reason =
+          fmt::format("The proved bound is {} bins{}.", rigor::upper_decimal(bound->value, kBlockDigits),
+                      is_met ? "" : ", which is not what is required");
+      if (is_met) {
+        claim.evidence = {*bound};
+      }
+    }
+    add(std::move(claim));
+  }
+
+  void add_settles(const Number& within, const Number& below) {
+    Claim claim =
+        required("dft-block/settles", within,
+                 fmt::format("from block {} on, the offset error is below {} bins", within.text, below.text));
+    const theorems::Quantity* blocks = quantity("settling_blocks");
+    const theorems::Quantity* settled = quantity("settled_offset_error");
+    if (blocks != nullptr && settled != nullptr) {
+      const bool is_met = rigor::certainly_less_equal(blocks->value, within.value) &&
+                          rigor::certainly_less(settled->value, below.value);
+      claim.verdict = is_met ? Verdict::proved : Verdict::undecided;
+      claim.reason =
+          fmt::format("It is proved from block {} on{}.", rigor::upper_decimal(blocks->value, kBlockDigits),
+                      is_met ? "" : ", which is not what is required");
+      if (is_met) {
+        claim.evidence = {*blocks, *settled};
+      }
+    } else if (found_->verdict == Verdict::proved) {
+      claim.reason = "No block is proved from which it is: the bound in the long run is larger.";
+    }
+    add(std::move(claim));
+  }
+
+  /// What is proved, with all numbers.
+  void add_guarantee() {
+    Claim claim;
+    claim.id = "dft-block/guarantee";
+    claim.statement = hypotheses_;
+    const theorems::Quantity* ever = quantity("offset_error_bound");
+    const theorems::Quantity* last = quantity("ultimate_offset_error");
+    if (ever == nullptr || last == nullptr) {
+      claim.statement += "the offset error is bounded.";
+      add(std::move(claim));
+      return;
+    }
+    const auto most = [](const theorems::Quantity* one) {
+      return rigor::upper_decimal(one->value, kBlockDigits);
+    };
+    claim.verdict = Verdict::proved;
+    claim.statement += fmt::format(
+        "the offset error of every estimate and prediction is at most {} bins, and in the long run at most "
+        "{} bins",
+        most(ever), most(last));
+    claim.evidence = {*ever, *last};
+    const theorems::Quantity* blocks = quantity("settling_blocks");
+    const theorems::Quantity* settled = quantity("settled_offset_error");
+    if (blocks != nullptr && settled != nullptr) {
+      claim.statement += fmt::format("; from block {} on at most {} bins", most(blocks), most(settled));
+      claim.evidence.insert(claim.evidence.end(), {*blocks, *settled});
+    }
+    claim.statement += ".";
+    claim.reason = "Every block shortens the errors of a set that noise and slew do not push them out of.";
+    add(std::move(claim));
+  }
+
+  Certificate* certificate_;
+  const BlockTables* tables_;
+  const theorems::Derivation* found_;
+  std::string hypotheses_;
+};
+
+}  // namespace
+
+void certify_dft_block(Certificate& certificate, const CertifyProgress& /*progress*/) {
+  certificate.derivations.push_back(dft_block::derive_lock(lock_question(block_tables(certificate.design))));
+  BlockClaims(certificate).add_all();
+}
+
+Json dft_block_design_json(const Design& read) {
+  const auto& [design, assume, require, simulate] = block_tables(read);
+  Json amplitude = number_json(assume.amplitude[0]);
+  if (!assume.one_amplitude) {
+    amplitude = Json::array({number_json(assume.amplitude[0]), number_json(assume.amplitude[1])});
+  }
+  Json covariance = "steady-state";
+  if (!assume.initial_covariance.empty()) {
+    covariance = Json::array();
+    for (std::size_t i = 0; i < 3; ++i) {
+      Json row = Json::array();
+      for (std::size_t j = 0; j < 3; ++j) {
+        row.push_back(number_json(assume.initial_covariance[3 * i + j]));
+      }
+      covariance.push_back(row);
+    }
+  }
+  Json required = Json::object();
+  add_number(required, "offset_error_below", require.offset_error_below);
+  add_number(required, "settles_within", require.settles_within);
+  add_number(required, "settled_below", require.settled_below);
+  return {{"design",
+           {{"q1", number_json(design.q1)},
+            {"q2", number_json(design.q2)},
+            {"q3", number_json(design.q3)},
+            {"r", number_json(design.r)},
+            {"half_width", number_json(design.half_width)}}},
+          {"assume",
+           {{"amplitude", amplitude},
+            {"offset", Json::array({number_json(assume.offset[0]), number_json(assume.offset[1])})},
+            {"noise", number_json(assume.noise)},
+            {"slew", number_json(assume.slew)},
+            {"initial_amplitude_error", number_json(assume.initial_amplitude_error)},
+            {"initial_phase_error", number_json(assume.initial_phase_error)},
+            {"initial_offset_error", number_json(assume.initial_offset_error)},
+            {"initial_covariance", covariance}}},
+          {"require", required}};
+}
+
+}  // namespace veritrack::certificates

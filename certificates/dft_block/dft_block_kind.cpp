@@ -1,0 +1,17 @@
+// The block tracker as a kind of tracker.
+#include "certificates/dft_block/dft_block.hpp"
+#include "certificates/dft_block/markdown_dft_block.hpp"
+#include "certificates/document/tracker_kind.hpp"
+
+namespace veritrack::certificates {
+
+const TrackerKind& dft_block_kind() {
+  static const TrackerKind kind{.name = "dft-block-ekf",
+                                .design_json = dft_block_design_json,
+                                .certify = certify_dft_block,
+                                .summary = dft_block_summary,
+                                .sections = dft_block_sections};
+  return kind;
+}
+
+}  // namespace veritrack::certificates

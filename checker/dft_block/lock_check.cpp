@@ -1,0 +1,294 @@
+#include "checker/dft_block/lock_check.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "checker/dft_block/tone_polynomial.hpp"
+#include "checker/numbers/threads.hpp"
+
+namespace veritrack::checker {
+
+namespace {
+
+Matrix3 product(const Matrix3& a, const Matrix3& b) {
+  Matrix3 c;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+    }
+  }
+  return c;
+}
+
+Matrix3 transposed(const Matrix3& a) {
+  Matrix3 c;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      c[i][j] = a[j][i];
+    }
+  }
+  return c;
+}
+
+/// A B A' without assuming that B is symmetric.
+Matrix3 about(const Matrix3& a, const Matrix3& b) {
+  return product(product(a, b), transposed(a));
+}
+
+Matrix3 identity(const Ball& scale) {
+  return diagonal(scale, scale, scale);
+}
+
+Ball sum_of_squares(const Matrix3& a) {
+  Ball sum = zero;
+  for (const auto& row : a) {
+    for (const Ball& entry : row) {
+      sum += square(entry);
+    }
+  }
+  return sum;
+}
+
+Matrix3 middle_of(const Matrix3& a) {
+  Matrix3 c;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      c[i][j] = a[i][j].middle();
+    }
+  }
+  return c;
+}
+
+/// The inverse: with M the middle, X = M^-1 and D = A - M, A^-1 = X - X D X + X D A^-1 D X, and |A^-1| <=
+/// |X|/(1 - |X D|). Balls of everything where that may fail.
+Matrix3 inverse_near(const Matrix3& a) {
+  const Matrix3 m = middle_of(a);
+  const Matrix3 x = inverse(m);
+  const Matrix3 d = a - m;
+  const Matrix3 xd = product(x, d);
+  const Ball size = root_of_non_negative(sum_of_squares(xd)).upper();
+  const Ball rest = square(size) * root_of_non_negative(sum_of_squares(x)).upper() / (one - size);
+  const bool is_small = certainly_less(size, one);
+  const Ball around = is_small ? Ball::within(rest) : Ball::everything();
+  Matrix3 c = x - product(xd, x);
+  for (auto& row : c) {
+    for (Ball& entry : row) {
+      entry += around;
+    }
+  }
+  return c;
+}
+
+/// The 6x6 matrix [a, b'; b, c].
+bool definite_together(const Matrix3& a, const Matrix3& b, const Matrix3& c) {
+  SquareMatrix<6> all;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      all[i][j] = a[i][j];
+      all[i + 3][j] = b[i][j];
+      all[i][j + 3] = b[j][i];
+      all[i + 3][j + 3] = c[i][j];
+    }
+  }
+  return definite(all);
+}
+
+/// sin(x)/x, by the values at the middle and |(sin(x)/x)'| <= |x|/3; and (1 - cos x)/x, whose derivative is
+/// at most 1/2.
+std::pair<Ball, Ball> ratios(const Ball& x) {
+  const Ball at = x.middle();
+  const Ball away = x.radius();
+  const Ball ratio = sine_ratio(at).value;
+  const Ball half_ratio = sine_ratio(half * at).value;
+  const Ball bend = abs(x).upper() / Ball(3.0);
+  return {ratio + Ball::within(bend * away), half * at * square(half_ratio) + Ball::within(half * away)};
+}
+
+}  // namespace
+
+struct BlockLock::Cell {
+  std::array<std::array<Ball, 2>, 5> sides;  ///< x1, phase, offset error; offset less the middle; amplitude
+  [[nodiscard]] Ball side(std::size_t i) const { return Ball::hull(sides[i][0], sides[i][1]); }
+};
+
+BlockLock::BlockLock(const BlockProblem& problem, const BlockSet& set)
+    : problem_(problem), set_(set), back_(inverse(set.frame)) {
+  Matrix3 turn = identity(one);
+  turn[1][2] = two * pi();
+  turn_ = product(product(back_, turn), set.frame);
+}
+
+Matrix3 BlockLock::process_noise(const Ball& amplitude) const {
+  Matrix3 q =
+      diagonal(problem_.q1 * four * pi() / amplitude, problem_.q2 + square(pi()) * problem_.q3, problem_.q3);
+  q[1][2] = pi() * problem_.q3;
+  q[2][1] = q[1][2];
+  return about(back_, q);
+}
+
+Ball BlockLock::reach(std::size_t i) const {
+  const auto& row = set_.frame[i];
+  return sqrt(square(row[0]) + square(row[1]) + square(row[2]));
+}
+
+Ball BlockLock::length_of(const Vector3& bounds) const {
+  Ball sum = zero;
+  for (const auto& row : back_) {
+    sum += square(abs(row[0]) * bounds[0] + abs(row[1]) * bounds[1] + abs(row[2]) * bounds[2]);
+  }
+  return sqrt(sum);
+}
+
+Ball BlockLock::disturbance() const {
+  const Ball amplitude = Ball::hull(problem_.amplitude_low, problem_.amplitude_high);
+  const bool is_floor = certainly_not_negative(set_.floor) && certainly_less(set_.floor, set_.above) &&
+                        definite(process_noise(amplitude) - identity(set_.floor));
+  const Ball gain = is_floor ? set_.above - set_.floor : Ball::everything();
+  Ball moved = zero;
+  for (const auto& row : back_) {
+    moved += square(pi() * row[1] + row[2]);
+  }
+  return sqrt(gain / problem_.r) * problem_.noise + sqrt(moved) * problem_.slew;
+}
+
+bool BlockLock::holds(const Matrix3& covariance) const {
+  const Ball amplitude = Ball::hull(problem_.amplitude_low, problem_.amplitude_high);
+  Matrix3 change = diagonal(sqrt(four * pi() / amplitude), one, one);
+  change[1][2] = pi();
+  const Matrix3 inside = about(product(back_, change), covariance);
+  return definite(identity(set_.above) - inside) && definite(inside - identity(one / set_.below));
+}
+
+bool BlockLock::is_outside(const Cell& cell, const Ball& radius) const {
+  Ball sum = zero;
+  for (const auto& row : back_) {
+    sum += square(row[0] * cell.side(0) + row[1] * cell.side(1) + row[2] * cell.side(2));
+  }
+  return certainly_less(square(radius), sum);
+}
+
+bool BlockLock::falls_in(const Cell& cell, const TonePolynomial& tone, const BlockRate& rate) const {
+  const Ball first = cell.side(0);
+  const Ball amplitude = cell.side(4);
+  const Ball weight = square(amplitude) / (four * problem_.r);
+  const Ball truth = cell.side(3);
+  const MeetingSums sums = tone.at(truth + cell.side(2), truth);
+  const auto [sine, cosine] = ratios(cell.side(1));
+  const Ball x = one + first;
+  const Ball power = square(x);
+  // H'R^-1 H at the estimate.
+  Matrix3 jacobian = diagonal(four * weight * power * sums.aa, weight * square(power) * sums.aa,
+                              weight * square(power) * sums.bb);
+  jacobian[0][2] = two * weight * power * x * sums.ab;
+  jacobian[2][0] = jacobian[0][2];
+  // H'R^-1 (h(truth) - h(estimate)) = -secant z, and what the secant has more than the Jacobian.
+  const Ball grown = two + first;
+  Matrix3 secant =
+      diagonal(two * weight * x * grown * sums.aa, weight * power * sums.at * sine, weight * power * sums.bc);
+  secant[0][1] = two * weight * x * sums.at * cosine;
+  secant[0][2] = two * weight * x * sums.ac;
+  secant[2][0] = weight * power * grown * sums.ab;
+  secant[2][1] = weight * power * sums.bt * cosine;
+  Matrix3 more = secant;
+  more[0][0] = -(two * weight * x * first * sums.aa);
+  more[0][2] = two * weight * x * (sums.ac - power * sums.ab);
+  more[1][1] = weight * power * (sums.at * sine - power * sums.aa);
+  more[2][0] = -(weight * power * first * sums.ab);
+  more[2][2] = weight * power * (sums.bc - power * sums.bb);
+
+  const Matrix3 into = transposed(set_.frame);
+  const Matrix3 information = about(into, jacobian);
+  const Ball least = one / set_.above;
+  const Matrix3 high = inverse_near(information + identity(least));
+  const Matrix3 low = inverse_near(information + identity(set_.below));
+  const Matrix3 noise = process_noise(amplitude);
+  if (!definite(identity(set_.above) - noise - about(turn_, high)) ||
+      !definite(noise + about(turn_, low) - identity(one / set_.below))) {
+    return false;
+  }
+  // high J = 1 - least high and low J = 1 - below low; high - low = high (below - least) low.
+  const Matrix3 spread = scaled(half * (set_.below - least), product(high, low));
+  const Matrix3 kept = scaled(half * least, high) + scaled(half * set_.below, low);
+  const Matrix3 step = product(turn_, kept - product(scaled(half, high + low), about(into, more)));
+  const Matrix3 along = about(transposed(about(into, secant)), spread);
+  return definite_together(identity(square(rate.rate)) - scaled(rate.weight, along), step,
+                           identity(one) - scaled(one / rate.weight, about(turn_, spread)));
+}
+
+bool BlockLock::falls_near(const Ball& low, const Ball& high, const BlockRate& rate,
+                           std::int64_t& cells) const {
+  const Ball middle = (half * (low + high)).middle();
+  const TonePolynomial tone(middle, problem_.half_width);
+  Cell whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Ball side = (rate.radius * reach(i)).upper();
+    whole.sides[i] = {-side, side};
+  }
+  whole.sides[3] = {(low - middle).lower(), (high - middle).upper()};
+  whole.sides[4] = {problem_.amplitude_low.lower(), problem_.amplitude_high.upper()};
+  const double amplitude = problem_.amplitude_low.lower_double();
+  // In which direction the information changes most: proposals.
+  const std::array weights{4.0, 0.5, 1.3, 1.3, 2.0 / amplitude};
+  std::vector<Cell> open{whole};
+  constexpr std::int64_t kMost = 400'000;
+  while (!open.empty()) {
+    const Cell cell = open.back();
+    open.pop_back();
+    if (++cells > kMost) {
+      return false;
+    }
+    if (is_outside(cell, rate.radius) || falls_in(cell, tone, rate)) {
+      continue;
+    }
+    std::size_t widest = 0;
+    double most = -1.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const double width = weights[i] * (cell.sides[i][1] - cell.sides[i][0]).near();
+      if (width > most) {
+        most = width;
+        widest = i;
+      }
+    }
+    constexpr double kSmallest = 1e-9;
+    if (!(most > kSmallest)) {
+      return false;
+    }
+    const Ball cut = (half * (cell.sides[widest][0] + cell.sides[widest][1])).middle();
+    open.push_back(cell);
+    open.back().sides[widest][1] = cut;
+    open.push_back(cell);
+    open.back().sides[widest][0] = cut;
+  }
+  return true;
+}
+
+bool BlockLock::falls(const BlockRate& rate, std::int64_t& cells) const {
+  // The band in pieces of a few hundredths of a bin.
+  const double low = problem_.offset_low.lower_double();
+  const double high = problem_.offset_high.upper_double();
+  constexpr double kPiece = 0.04;
+  const double pieces = std::ceil((high - low) / kPiece);
+  constexpr double kMostPieces = 1000.0;
+  if (!(pieces >= 0.0) || !(pieces < kMostPieces)) {
+    return false;
+  }
+  const auto count = static_cast<std::size_t>(std::max(pieces, 1.0));
+  const auto border = [&](std::size_t i) {
+    return i == count ? problem_.offset_high.upper()
+                      : (problem_.offset_low.lower() +
+                         (problem_.offset_high.upper() - problem_.offset_low.lower()) *
+                             Ball(static_cast<double>(i)) / Ball(static_cast<double>(count)))
+                            .middle();
+  };
+  std::vector<std::int64_t> counts(count, 0);
+  const bool all =
+      first_failure(count, [&](std::size_t i) {
+        return falls_near(i == 0 ? problem_.offset_low.lower() : border(i), border(i + 1), rate, counts[i]);
+      }) == count;
+  for (const std::int64_t one_count : counts) {
+    cells += one_count;
+  }
+  return all;
+}
+
+}  // namespace veritrack::checker

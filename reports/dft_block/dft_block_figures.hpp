@@ -1,0 +1,14 @@
+// The figure of a block tracker's certificate: simulated offset errors below what is proved.
+#pragma once
+
+#include <vector>
+
+#include "certificates/document/certificate.hpp"
+#include "reports/figures.hpp"
+
+namespace veritrack::reports {
+
+/// Empty when nothing is proved.
+[[nodiscard]] std::vector<Figure> draw_dft_block_figures(const certificates::Certificate& certificate);
+
+}  // namespace veritrack::reports

@@ -19,7 +19,7 @@
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/trackers/textbook_ekf.hpp"
-#include "trackers/batch/quadrature_batch.hpp"
+#include "trackers/quadrature/batch/quadrature_batch.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/quadrature/quadrature_rotating_frame.hpp"
 #include "trackers/signals/test_signals.hpp"

@@ -7,7 +7,7 @@
 #include <pybind11/stl.h>
 
 #include "python/trackers/recordings.hpp"
-#include "trackers/batch/quadrature_batch.hpp"
+#include "trackers/quadrature/batch/quadrature_batch.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 #include "trackers/single_channel/single_channel_ekf.hpp"
 
@@ -119,7 +119,7 @@ std::vector<QuadratureTracker> quadrature_trackers(const Array& design, const Ar
   return trackers;
 }
 
-/// Those of trackers/batch/, with the interface of Batch.
+/// Those of trackers/quadrature/batch/, with the interface of Batch.
 class PackedQuadratureBatch {
  public:
   PackedQuadratureBatch(const Array& design, const Array& state, const Array& covariance)

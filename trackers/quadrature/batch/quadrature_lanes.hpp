@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "trackers/batch/quadrature_batch.hpp"
 #include "trackers/packed.hpp"
+#include "trackers/quadrature/batch/quadrature_batch.hpp"
 
 namespace veritrack::trackers::detail {
 

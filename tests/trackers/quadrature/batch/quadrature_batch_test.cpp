@@ -1,4 +1,4 @@
-#include "trackers/batch/quadrature_batch.hpp"
+#include "trackers/quadrature/batch/quadrature_batch.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Compiled for SSE2.
-#include "trackers/batch/quadrature_lanes.hpp"
+#include "trackers/quadrature/batch/quadrature_lanes.hpp"
 
 namespace veritrack::trackers::detail {
 

@@ -1,8 +1,8 @@
-#include "trackers/batch/quadrature_batch.hpp"
+#include "trackers/quadrature/batch/quadrature_batch.hpp"
 
 #include <stdexcept>
 
-#include "trackers/batch/quadrature_lanes.hpp"
+#include "trackers/quadrature/batch/quadrature_lanes.hpp"
 
 namespace veritrack::trackers {
 

@@ -264,6 +264,11 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   ModelSets sets;
   sets.bounds_covariance = tone.filter != nullptr;
   sets.starts.frequency_error = sets.starts.settled_error = INFINITY;
+  constexpr std::size_t kMostStates = 16;
+  if (!sets.bounds_covariance && model.states.size() > kMostStates) {
+    sets.objection = fmt::format("{} states are too many: at most {}", model.states.size(), kMostStates);
+    return sets;
+  }
   const SearchedBand searched = searched_band(band, model.samples.size());
   if (!(searched.low < searched.high)) {
     sets.objection = "the assumed frequencies are no band of some width from 0 to pi rad/sample";

@@ -12,7 +12,12 @@ namespace veritrack::checker {
 
 namespace {
 
+/// Of a tube: a filter's with bounds of its covariance has those of the estimate alone.
 constexpr std::size_t kMostStates = 16;
+
+std::size_t states_of_tubes(const ModelRecursion& recursion, bool bounds_covariance) {
+  return bounds_covariance ? recursion.filtered() : recursion.states();
+}
 
 /// The sets that are verified, with a part for each.
 std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedModel& model,
@@ -29,6 +34,9 @@ std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedMod
                                     set.name == "noise" || set.name == "slew";
     if (!is_known || !names.insert(set.name).second) {
       objections.emplace_back(is_known ? "a second set of this name" : kUnknown);
+    }
+    if (states_of_tubes(*model.recursion, bounds_covariance(set)) > kMostStates) {
+      objections.emplace_back("too many states");
     }
     check_order(set, objections);
     is_filter = is_filter.value_or(bounds_covariance(set));
@@ -62,7 +70,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   Objections objections;
   ModelRecursion recursion(tree.at("model"));
   const ModelDesign design = read_model_design(tree, recursion, objections);
-  if (recursion.states() > kMostStates) {
+  if (states_of_tubes(recursion, recursion.filtered() > 0) > kMostStates) {
     objections.emplace_back("too many states");
   }
   result.parts.push_back({"design", objections});

@@ -155,7 +155,8 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
           : "is constant",
       is_gaussian ? "; `gaussian` and `lowest-snr`, for Gaussian noise" : "",
       bounds_covariance
-          ? " \"A covariance between its bounds\": the set has a lower and an upper bound, in the order of "
+          ? " \"A covariance between the bounds of a set\": the set has a lower and an upper bound, in the "
+            "order of "
             "symmetric matrices, of the filter's covariance after the sample at each phase of the signal; "
             "the "
             "covariance at the start is one of these, and every later one is then" +

@@ -55,22 +55,22 @@ class ModelWords {
     if (assume_->start_within.empty()) {
       return ", " + started_in(set);
     }
-    return start_within(set) + covariance();
+    return start_within(set) + covariance_of(set);
   }
   /// A start in the set of that name.
   [[nodiscard]] std::string started_in(const std::string& set) const {
-    return "started in the set \"" + set + "\" of the certificate" + covariance();
+    return "started in the set \"" + set + "\" of the certificate" + covariance_of(set);
   }
   /// The same, for statements that depend on how far inside a start is.
   [[nodiscard]] std::string start_inside(const std::string& set) const {
     return assume_->start_within.empty() ? ", started at a level of at most half of that of the set \"" +
-                                               set + "\" of the certificate" + covariance()
-                                         : start_within(set) + covariance();
+                                               set + "\" of the certificate" + covariance_of(set)
+                                         : start_within(set) + covariance_of(set);
   }
 
  private:
-  [[nodiscard]] std::string covariance() const {
-    return bounds_covariance_ ? ", with a covariance between its bounds" : "";
+  [[nodiscard]] std::string covariance_of(const std::string& set) const {
+    return bounds_covariance_ ? ", with a covariance between the bounds of the set \"" + set + "\"" : "";
   }
   [[nodiscard]] std::string rate() const {
     return assume_->sample_rate ? fmt::format(" at {} samples per second", assume_->sample_rate->text) : "";

@@ -60,14 +60,15 @@ Matrix3 middle_of(const Matrix3& a) {
 }
 
 /// The inverse: with M the middle, X = M^-1 and D = A - M, A^-1 = X - X D X + X D A^-1 D X, and |A^-1| <=
-/// |X|/(1 - |X D|). Balls of everything where that may fail.
+/// |X|/(1 - |X D|). Balls of everything where that may fail. (M need not be symmetric to the last bit.)
 Matrix3 inverse_near(const Matrix3& a) {
   const Matrix3 m = middle_of(a);
   const Matrix3 x = inverse(m);
   const Matrix3 d = a - m;
   const Matrix3 xd = product(x, d);
   const Ball size = root_of_non_negative(sum_of_squares(xd)).upper();
-  const Ball rest = square(size) * root_of_non_negative(sum_of_squares(x)).upper() / (one - size);
+  const Ball other = root_of_non_negative(sum_of_squares(product(d, x))).upper();
+  const Ball rest = size * other * root_of_non_negative(sum_of_squares(x)).upper() / (one - size);
   const bool is_small = certainly_less(size, one);
   const Ball around = is_small ? Ball::within(rest) : Ball::everything();
   Matrix3 c = x - product(xd, x);

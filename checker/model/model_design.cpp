@@ -214,9 +214,9 @@ std::string ModelWords::stretch_of_samples() const {
 
 std::string ModelWords::start_inside(const std::string& set) const {
   return assume().find("start_within") != nullptr
-             ? start_within(set) + covariance()
+             ? start_within(set) + covariance_of(set)
              : ", started at a level of at most half of that of the set \"" + set + "\" of the certificate" +
-                   covariance();
+                   covariance_of(set);
 }
 
 std::string ModelWords::assumed_start(const std::string& set) const {
@@ -224,11 +224,11 @@ std::string ModelWords::assumed_start(const std::string& set) const {
   if (start == nullptr) {
     return ", " + started_in(set);
   }
-  return start_within(set) + covariance();
+  return start_within(set) + covariance_of(set);
 }
 
 std::string ModelWords::started_in(const std::string& set) const {
-  return "started in the set \"" + set + "\" of the certificate" + covariance();
+  return "started in the set \"" + set + "\" of the certificate" + covariance_of(set);
 }
 
 std::string ModelWords::start_within(const std::string& set) const {

@@ -81,8 +81,8 @@ class ModelWords {
   [[nodiscard]] const Tree& assume() const { return design_->at("assume"); }
   [[nodiscard]] std::string tone(const std::string& frequency) const;
   [[nodiscard]] std::string band() const;
-  [[nodiscard]] std::string covariance() const {
-    return bounds_covariance_ ? ", with a covariance between its bounds" : "";
+  [[nodiscard]] std::string covariance_of(const std::string& set) const {
+    return bounds_covariance_ ? ", with a covariance between the bounds of the set \"" + set + "\"" : "";
   }
 
   const Tree* design_;

@@ -46,7 +46,7 @@ Interval resting_length(const Interval& disturbance, const LockRate& rate) {
 struct LadderResult {
   std::optional<Found> found;
   bool had_rate = false;  ///< some set contracts
-  bool had_room = false;  ///< and bears noise and slew
+  bool had_room = false;  ///< and tolerates noise and slew
 };
 
 LadderResult climb(const LockQuestion& question, const LockSearch& search) {
@@ -70,15 +70,15 @@ LadderResult climb(const LockQuestion& question, const LockSearch& search) {
       break;
     }
     const bool is_covered = rigor::certainly_less_equal(start, Interval(radius));
-    const bool bears = rigor::certainly_less_equal(Interval(kRoom) * rest, Interval(radius));
-    if (is_covered && bears && frame->verify(*rate, question.most_cells)) {
+    const bool tolerates = rigor::certainly_less_equal(Interval(kRoom) * rest, Interval(radius));
+    if (is_covered && tolerates && frame->verify(*rate, question.most_cells)) {
       result.had_rate = true;
       result.had_room = true;
       result.found = Found{*set, *rate, std::nullopt, start, disturbance};
       return result;
     }
     result.had_rate = true;
-    result.had_room = result.had_room || bears;
+    result.had_room = result.had_room || tolerates;
     // On to what is needed, at least by a step.
     radius = std::max(radius * kStep, std::min(kRoom * start.upper(), radius * 2.0));
   }

@@ -273,21 +273,21 @@ class BlockVerifier {
     const Ball disturbance = lock.disturbance();
     const Ball resting = rest(disturbance, proposal->rate);
     const bool falls = lock.falls(proposal->rate, result_.cells);
-    const bool bears = certainly_at_most(resting, proposal->rate.radius);
+    const bool tolerates = certainly_at_most(resting, proposal->rate.radius);
     // The steady state is in every set that is verified: docs/block-tracker.md, section 4.
     const bool starts = certainly_at_most(start, proposal->rate.radius) && falls &&
                         (!covariance_ || lock.holds(*covariance_));
     found.conditions = {{"rate", "errors fall", proved_if(falls)},
-                        {"noise", "noise and slew do not push errors out", proved_if(bears)},
+                        {"noise", "noise and slew do not push errors out", proved_if(tolerates)},
                         {"start", "the starts are in the set", proved_if(starts)}};
     // The evidence is there for these two; whether it holds the starts is the certificate's to say.
     if (!falls) {
       objections.emplace_back("errors do not certainly fall at that rate");
     }
-    if (!bears) {
+    if (!tolerates) {
       objections.emplace_back("noise and slew may push errors out of the set");
     }
-    if (!falls || !bears || !starts) {
+    if (!falls || !tolerates || !starts) {
       return found;
     }
     const auto add = [&](const char* name, const Ball& value) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
 
 #include "analysis/rigor/derivatives.hpp"
@@ -9,6 +10,7 @@
 #include "analysis/rigor/linear_solve.hpp"
 #include "analysis/rigor/norms.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/rigor/small_definiteness.hpp"
 
 namespace veritrack::dft_block {
 
@@ -18,8 +20,8 @@ using rigor::Interval;
 using Number = rigor::Dual<Interval, kStates>;
 
 BlockProblem<Number> constants(const BlockProblem<Interval>& problem) {
-  return {Number(problem.q1),     Number(problem.q2), Number(problem.q3), Number(problem.r),
-          Number(problem.offset), Number(problem.pi), problem.half};
+  return {Number(problem.q1),     Number(problem.q2), Number(problem.q3),  Number(problem.weight),
+          Number(problem.offset), Number(problem.pi), problem.half_width};
 }
 
 /// G and its derivatives over a box.
@@ -52,18 +54,23 @@ Interval length_of(const rigor::IntervalVector<kStates>& vector) {
   return sqrt(sum);
 }
 
-/// A matrix S in which a step of this derivative contracts by little more than its spectral radius. Proposed.
-std::optional<rigor::Matrix<kStates>> propose_metric(const rigor::Matrix<kStates>& derivative) {
+/// A matrix S in which a step of this derivative contracts: sum of (J/m)'^k D^-2 (J/m)^k = S'S, D a size of
+/// each state and m that share of the way from the spectral radius to 1. Proposed.
+std::optional<rigor::Matrix<kStates>> propose_metric(const rigor::Matrix<kStates>& derivative,
+                                                     const rigor::Vector<kStates>& centre, double share) {
   const rigor::NearestRounding nearest;
   const double largest = derivative.eigenvalues().cwiseAbs().maxCoeff();
   if (!(largest < 1.0)) {
     return std::nullopt;
   }
-  // X = sum of (J/m)'^k Q (J/m)^k, m between the spectral radius and 1.
-  const double between = std::sqrt(largest);
-  rigor::Vector<kStates> scale;
-  scale << 0.1, 0.1, 0.05, 0.01, 0.01, 0.01, 0.05, 0.02, 0.01;
-  rigor::Matrix<kStates> sum = scale.cwiseInverse().cwiseAbs2().asDiagonal();
+  const double between = largest + share * (1.0 - largest);
+  const double first = centre(3);
+  const double second = centre(6);
+  const double third = centre(8);
+  rigor::Vector<kStates> size;
+  size << std::sqrt(first), std::sqrt(second), std::sqrt(third), first, std::sqrt(first * second),
+      std::sqrt(first * third), second, std::sqrt(second * third), third;
+  rigor::Matrix<kStates> sum = size.cwiseInverse().cwiseAbs2().asDiagonal();
   rigor::Matrix<kStates> power = derivative / between;
   for (int k = 0; k < 20; ++k) {  // doubles the number of terms
     sum = (sum + power.transpose() * sum * power).eval();
@@ -80,10 +87,11 @@ std::optional<rigor::Matrix<kStates>> propose_metric(const rigor::Matrix<kStates
 std::optional<rigor::Vector<kStates>> run_to_the_end(const BlockProblem<Interval>& problem,
                                                      rigor::Vector<kStates> state) {
   const rigor::NearestRounding nearest;
-  const BlockProblem<double> doubles{midpoint(problem.q1), midpoint(problem.q2),     midpoint(problem.q3),
-                                     midpoint(problem.r),  midpoint(problem.offset), trackers::detail::kPi,
-                                     problem.half};
-  constexpr int kBlocks = 20'000;
+  const BlockProblem<double> doubles{midpoint(problem.q1),     midpoint(problem.q2),
+                                     midpoint(problem.q3),     midpoint(problem.weight),
+                                     midpoint(problem.offset), trackers::detail::kPi,
+                                     problem.half_width};
+  constexpr int kBlocks = 6'000;
   constexpr double kStill = 1e-13;
   constexpr double kTurn = 2.0 * trackers::detail::kPi;
   for (int k = 0; k < kBlocks; ++k) {
@@ -101,35 +109,61 @@ std::optional<rigor::Vector<kStates>> run_to_the_end(const BlockProblem<Interval
   return std::nullopt;
 }
 
+/// At most the largest singular value of S DG S^-1 over the ball; `inverse` encloses S^-1.
+std::optional<double> contraction_over(const BlockProblem<Interval>& problem, const LockProposal& proposal,
+                                       const rigor::IntervalMatrix<kStates>& inverse) {
+  rigor::IntervalVector<kStates> box;
+  for (int i = 0; i < kStates; ++i) {
+    box(i) = Interval(proposal.centre(i)) + Interval(proposal.radius) * length_of(inverse.row(i).transpose()) *
+                                                Interval::from_bounds(-1.0, 1.0);
+  }
+  return rigor::norm_upper_bound(
+      (rigor::to_interval(proposal.metric) * map_over(box, problem).derivative * inverse).eval());
+}
+
+bool has_covariance(const rigor::Vector<kStates>& state) {
+  rigor::LowerTriangle<3> lower;
+  constexpr std::array<std::array<int, 3>, 3> kPlaces{{{3, 4, 5}, {4, 6, 7}, {5, 7, 8}}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k <= i; ++k) {
+      lower[i][k] = Interval(state(kPlaces[i][k]));
+    }
+  }
+  return state.allFinite() && rigor::certainly_positive_definite(lower);
+}
+
 }  // namespace
 
 std::optional<BlockLock> verify_lock(const BlockProblem<Interval>& problem, const LockProposal& proposal) {
   const auto inverse = rigor::inverse(rigor::to_interval(proposal.metric));
-  if (!inverse || !(proposal.radius > 0.0) || !std::isfinite(proposal.radius)) {
+  if (!inverse || !(proposal.radius > 0.0) || !std::isfinite(proposal.radius) || !(proposal.rate > 0.0) ||
+      !(proposal.rate < 1.0) || !has_covariance(proposal.centre)) {
     return std::nullopt;
   }
   const Interval radius(proposal.radius);
+  const Interval rate(proposal.rate);
   const rigor::IntervalVector<kStates> centre = rigor::to_interval(proposal.centre);
-  rigor::IntervalVector<kStates> box;
   rigor::IntervalVector<kStates> reach;
   for (int i = 0; i < kStates; ++i) {
     reach(i) = length_of(inverse->row(i).transpose());
-    box(i) = centre(i) + radius * reach(i) * Interval::from_bounds(-1.0, 1.0);
   }
-  const rigor::IntervalMatrix<kStates> metric = rigor::to_interval(proposal.metric);
-  const std::optional<double> contraction =
-      rigor::norm_upper_bound((metric * map_over(box, problem).derivative * *inverse).eval());
+  const rigor::IntervalVector<kStates> box = centre + radius * reach * Interval::from_bounds(-1.0, 1.0);
+  const std::optional<double> contraction = contraction_over(problem, proposal, *inverse);
   rigor::IntervalVector<kStates> step = map_over(centre, problem).value - centre;
   step(1) -= Interval(2.0) * rigor::pi() * Interval(proposal.turns);
-  const Interval moved = length_of((metric * step).eval());
-  if (!contraction || !rigor::certainly_less(Interval(*contraction), Interval(1.0)) ||
-      !rigor::certainly_less_equal(moved + Interval(*contraction) * radius, radius)) {
+  const Interval moved = length_of((rigor::to_interval(proposal.metric) * step).eval());
+  if (!contraction || !rigor::certainly_less_equal(Interval(*contraction), rate) ||
+      !rigor::certainly_less_equal(moved + rate * radius, radius)) {
     return std::nullopt;
   }
   // The fixed point is at most |G(s_0) - s_0| / (1 - kappa) away from s_0.
-  const Interval away = moved / (Interval(1.0) - Interval(*contraction)) * Interval::from_bounds(-1.0, 1.0);
-  return BlockLock{proposal, *contraction, box(2), centre(2) + away * reach(2),
-                   square(centre(0) + away * reach(0))};
+  const Interval away = moved / (Interval(1.0) - rate) * Interval::from_bounds(-1.0, 1.0);
+  return BlockLock{proposal,
+                   box(2),
+                   box(1),
+                   Interval(1.0) + box(0),
+                   centre(2) + away * reach(2),
+                   square(Interval(1.0) + centre(0) + away * reach(0))};
 }
 
 std::optional<BlockLock> find_lock(const BlockProblem<Interval>& problem,
@@ -139,18 +173,37 @@ std::optional<BlockLock> find_lock(const BlockProblem<Interval>& problem,
     return std::nullopt;
   }
   const MapOverBox there = map_over(rigor::to_interval(*centre), problem);
-  const auto metric = propose_metric(rigor::midpoint(there.derivative));
   const double turns = (midpoint(there.value(1)) - (*centre)(1)) / (2.0 * trackers::detail::kPi);
   constexpr double kMostTurns = 1000.0;
-  if (!metric || !(std::fabs(turns) < kMostTurns)) {
+  if (!(std::fabs(turns) < kMostTurns)) {
     return std::nullopt;
   }
-  for (double radius = 1.0; radius > 1e-6; radius *= 0.7) {
-    if (auto found = verify_lock(problem, {*centre, *metric, radius, static_cast<int>(std::lround(turns))})) {
-      return found;
+  std::optional<BlockLock> best;
+  for (const double share : {0.1, 0.3, 0.6}) {
+    LockProposal proposal;
+    proposal.centre = *centre;
+    proposal.turns = static_cast<int>(std::lround(turns));
+    const auto metric = propose_metric(rigor::midpoint(there.derivative), *centre, share);
+    const auto inverse = metric ? rigor::inverse(rigor::to_interval(*metric)) : std::nullopt;
+    if (!inverse) {
+      continue;
+    }
+    proposal.metric = *metric;
+    for (proposal.radius = 1.0; proposal.radius > 1e-6; proposal.radius *= 0.85) {
+      const auto contraction = contraction_over(problem, proposal, *inverse);
+      if (!contraction || !(*contraction < 1.0)) {
+        continue;
+      }
+      proposal.radius *= 0.8;  // room for others' enclosures
+      proposal.rate = 0.5 * (1.0 + *contraction);
+      const auto found = verify_lock(problem, proposal);
+      if (found && (!best || width(found->offset_error) > width(best->offset_error))) {
+        best = found;
+      }
+      break;
     }
   }
-  return std::nullopt;
+  return best;
 }
 
 }  // namespace veritrack::dft_block

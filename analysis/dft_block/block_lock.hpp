@@ -21,25 +21,28 @@ struct LockProposal {
   rigor::Vector<kStates> centre;
   rigor::Matrix<kStates> metric;  ///< S
   double radius = 0.0;            ///< rho
+  double rate = 0.0;              ///< kappa
   int turns = 0;  ///< by which the phase error grows with each block: what is fixed is fixed modulo 2 pi
 };
 
 /// What is proved of a ball: an invariant set of starts, by the tone of the problem without noise.
 struct BlockLock {
   LockProposal set;
-  double contraction;                  ///< kappa: an upper bound
   rigor::Interval offset_error;        ///< of every start in the set, and so for ever, bins
+  rigor::Interval phase_error;         ///< likewise, at the middle of the block, rad
+  rigor::Interval root_amplitude;      ///< likewise, x1 relative to the tone's
   rigor::Interval fixed_offset_error;  ///< of the fixed point, bins
   rigor::Interval amplitude;           ///< of the fixed point, x1^2 relative to the tone's
 };
 
-/// Proves that the ball is mapped into itself and contracted; none when that fails. The problem's intervals
-/// are any numbers in them. Needs the upward mode.
+/// Proves that the ball is mapped into itself and contracted, and that its centre has a covariance, which is
+/// positive definite; none when that fails. The problem's intervals are any numbers in them. Needs the upward
+/// mode.
 [[nodiscard]] std::optional<BlockLock> verify_lock(const BlockProblem<rigor::Interval>& problem,
                                                    const LockProposal& proposal);
 
-/// The end of the map's run from that state, in doubles, with a metric in which it contracts there, and the
-/// largest radius of a few that is verified. None when the run does not end in a fixed point, or nothing is
+/// The end of the map's run from that state, in doubles, with a metric in which it contracts there and nearly
+/// the largest radius of a few that is verified, at a rate with some room. None when the run does not end in a fixed point, or nothing is
 /// verified. Needs the upward mode.
 [[nodiscard]] std::optional<BlockLock> find_lock(const BlockProblem<rigor::Interval>& problem,
                                                  const rigor::Vector<kStates>& start);

@@ -25,14 +25,13 @@ constexpr std::array kDesigns{PrintedDesign{"set-1", "5e-5", "1e-3", "2.5e-3", "
                               PrintedDesign{"set-3", "1e-4", "1e-3", "1e-2", "125", "-20"}};
 constexpr const char* kOffset = "0.3";  // bins
 
-/// Relative to x1^2 = 1/(4 pi), that of a tone of amplitude 1; L = 2, T = 2048.
+/// A tone of amplitude 1; L = 2, T = 2048.
 BlockProblem<Interval> problem_of(const PrintedDesign& design) {
-  const Interval scale = Interval(4.0) * rigor::pi();
-  const Interval variance = parse_decimal(design.r_d) / Interval(4096.0);
-  return {parse_decimal(design.q1) * scale,
+  // amplitude^2 / (4 r) with r = r_d / 4096
+  return {parse_decimal(design.q1) * Interval(4.0) * rigor::pi(),
           parse_decimal(design.q2),
           parse_decimal(design.q3),
-          variance * square(scale),
+          Interval(1024.0) / parse_decimal(design.r_d),
           parse_decimal(kOffset),
           rigor::pi(),
           2};
@@ -42,7 +41,7 @@ theorems::Statement false_lock(const PrintedDesign& design) {
   const BlockProblem<Interval> problem = problem_of(design);
   // From here a run ends one bin below the tone.
   rigor::Vector<kStates> start;
-  start << 0.28, -2.77, -0.944, 0.005, 0.0, 0.0, 0.7, 0.0, 0.006;
+  start << -0.72, 0.55, -0.944, 0.005, 0.0, 0.0, 0.7, 0.0, 0.006;
   const auto found = find_lock(problem, start);
   const bool is_proved = found && rigor::certainly_less(found->offset_error, Interval(-0.9)) &&
                          rigor::certainly_less(Interval(-1.1), found->offset_error);
@@ -58,7 +57,7 @@ theorems::Statement false_lock(const PrintedDesign& design) {
                       rigor::upper_decimal(found->amplitude, 3) +
                       " of the amplitude; in the metric of the set, each block multiplies the distance from "
                       "it by at most " +
-                      rigor::upper_decimal(Interval(found->contraction), 3) + "."
+                      rigor::upper_decimal(Interval(found->set.rate), 3) + "."
                 : "No such set was found.",
       {});
 }

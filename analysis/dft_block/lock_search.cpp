@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "analysis/rigor/rounding.hpp"
@@ -245,6 +246,100 @@ std::optional<LockRate> LockSearch::rate_for(const LockSet& set, double radius) 
     return std::nullopt;
   }
   return LockRate{radius, rate, best_weight};
+}
+
+std::optional<LockDrift> LockSearch::drift_for(const LockSet& set, double radius, double tilt) const {
+  const rigor::NearestRounding nearest;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  const PointMatrix unit = PointMatrix::Identity();
+  struct Sample {
+    PointMatrix step, secant, factor, gain, spread, turned;
+  };
+  std::vector<Sample> samples;
+  const PointMatrix turn = frame_.inverse() * turn_ * frame_;
+  const auto sample_at = [&](double amplitude, const PointVector& error, double offset) {
+    const PointMatrix j = frame_.transpose() * jacobian(amplitude, 1.0 + error(0), offset + error(2)) * frame_;
+    const PointMatrix high = (j + unit / set.above).inverse();
+    const PointMatrix low = (j + unit * set.below).inverse();
+    const PointMatrix centre = 0.5 * (high + low);
+    const PointMatrix spread = 0.5 * (high - low);
+    const PointMatrix secant_here = frame_.transpose() * secant(amplitude, error, offset) * frame_;
+    const PointMatrix root = Eigen::LLT<PointMatrix>(j).matrixL();
+    const PointMatrix factor = std::sqrt(tilt) * root;
+    return Sample{turn * (unit - centre * secant_here), secant_here, factor, turn * centre * factor, spread,
+                  turn * spread * turn.transpose()};
+  };
+  constexpr int kDirections = 40;
+  constexpr int kOffsets = 4;
+  for (const double amplitude : {model_.amplitude_low, model_.amplitude_high}) {
+    for (const PointVector& direction : directions(kDirections)) {
+      for (int i = 0; i <= kOffsets; ++i) {
+        const double offset = model_.offset_low + (model_.offset_high - model_.offset_low) * i / kOffsets;
+        samples.push_back(sample_at(amplitude, frame_ * direction * radius, offset));
+      }
+    }
+    if (!(model_.amplitude_high > model_.amplitude_low)) {
+      break;
+    }
+  }
+  // I - tilt F X N N'X F', at least.
+  const auto left_over = [&](const Sample& one, double weight) -> PointMatrix {
+    const PointMatrix inner = unit - weight * one.factor.transpose() * one.spread * one.factor;
+    return unit - one.turned / weight - one.gain * inner.inverse() * one.gain.transpose();
+  };
+  const auto growth_of = [&](double weight) {
+    double most = 0.0;
+    for (const Sample& one : samples) {
+      const PointMatrix seen = one.factor.transpose() * one.spread;
+      Matrix6 right;
+      right << unit - one.turned / weight, one.gain, one.gain.transpose(), unit - weight * seen * one.factor;
+      const Eigen::LLT<Matrix6> root(right);
+      if (root.info() != Eigen::Success) {
+        return std::numeric_limits<double>::infinity();
+      }
+      Eigen::Matrix<double, 6, 3> below;
+      below << one.step, weight * seen * one.secant;
+      const PointMatrix all = weight * one.secant.transpose() * one.spread * one.secant +
+                              below.transpose() * root.solve(below);
+      most = std::max(most, -smallest_eigenvalue(-all));
+    }
+    return most;
+  };
+  LockDrift drift;
+  drift.radius = radius;
+  drift.tilt = tilt;
+  drift.growth = std::numeric_limits<double>::infinity();
+  for (double weight = 0.3; weight < 8.0; weight *= 1.35) {
+    const double found = growth_of(weight);
+    if (found < drift.growth) {
+      drift.growth = found;
+      drift.weight = weight;
+    }
+  }
+  constexpr double kRoom = 1.1;
+  drift.growth *= kRoom;
+  if (!(drift.growth < 1.0)) {
+    return std::nullopt;
+  }
+  // The floor has the shape of that of the exact lock in the middle.
+  const Sample middle = sample_at(0.5 * (model_.amplitude_low + model_.amplitude_high), PointVector::Zero(),
+                                  0.5 * (model_.offset_low + model_.offset_high));
+  double best = 0.0;
+  for (double weight = 0.1; weight < 8.0; weight *= 1.5) {
+    const PointMatrix shape = left_over(middle, weight);
+    double below = 0.0;
+    for (const Sample& one : samples) {
+      below = std::max(below, -smallest_eigenvalue(left_over(one, weight) - shape));
+    }
+    constexpr double kMargin = 0.03;
+    const PointMatrix floor = shape - (below * kRoom + kMargin) * unit;
+    if (smallest_eigenvalue(floor) > 0.0 && floor.determinant() > best) {
+      best = floor.determinant();
+      drift.floor = 0.5 * (floor + floor.transpose());
+      drift.floor_weight = weight;
+    }
+  }
+  return best > 0.0 ? std::optional(drift) : std::nullopt;
 }
 
 }  // namespace veritrack::dft_block

@@ -1,14 +1,11 @@
 #include "analysis/dft_block/lock_set.hpp"
 
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
-#include <utility>
 
-#include "analysis/dft_block/tone_sums.hpp"
+#include "analysis/dft_block/lock_matrices.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/linear_solve.hpp"
-#include "analysis/rigor/small_definiteness.hpp"
 
 namespace veritrack::dft_block {
 
@@ -17,122 +14,6 @@ namespace {
 using rigor::Interval;
 using Matrix3 = rigor::IntervalMatrix<3>;
 using Vector3 = rigor::IntervalVector<3>;
-
-/// The inverse of every symmetric matrix in `a`, to second order: with X near it and G = I - A X, A^-1 = X (I
-/// + G + G^2 (I - G)^-1). None when |G| may be 1.
-std::optional<Matrix3> inverse_of(const Matrix3& a) {
-  const rigor::Matrix<3> near = rigor::midpoint(a).inverse();
-  if (!near.allFinite()) {
-    return std::nullopt;
-  }
-  const Matrix3 x = rigor::to_interval(near);
-  const Matrix3 g = Matrix3(rigor::to_interval(rigor::Matrix<3>(rigor::Matrix<3>::Identity()))) - a * x;
-  Interval squares(0.0);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      squares += square(g(i, j));
-    }
-  }
-  const Interval size(squares.upper());
-  const Interval length = sqrt(size);
-  if (!rigor::certainly_less(length, Interval(1.0))) {
-    return std::nullopt;
-  }
-  const double rest = (size / (Interval(1.0) - length)).upper();
-  Matrix3 correction = g;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      correction(i, j) += rigor::symmetric(rest);
-    }
-  }
-  const Matrix3 result = x + x * correction;
-  // A^-1 is symmetric.
-  return rigor::intersection(result, result.transpose());
-}
-
-Matrix3 scaled_identity(const Interval& scale) {
-  Matrix3 result = rigor::to_interval(rigor::Matrix<3>(rigor::Matrix<3>::Zero()));
-  for (int i = 0; i < 3; ++i) {
-    result(i, i) = scale;
-  }
-  return result;
-}
-
-bool is_definite(const Matrix3& a) {
-  rigor::LowerTriangle<3> lower;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      lower[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = a(i, j);
-    }
-  }
-  return rigor::certainly_positive_definite(lower);
-}
-
-/// Is [a, b'; b, c] positive definite?
-bool is_definite(const Matrix3& a, const Matrix3& b, const Matrix3& c) {
-  rigor::LowerTriangle<6> lower;
-  for (int i = 0; i < 3; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    for (int j = 0; j < 3; ++j) {
-      const auto column = static_cast<std::size_t>(j);
-      lower[row][column] = a(i, j);
-      lower[row + 3][column] = b(i, j);
-      lower[row + 3][column + 3] = c(i, j);
-    }
-  }
-  return rigor::certainly_positive_definite(lower);
-}
-
-/// sin(x)/x and (1 - cos x)/x.
-std::pair<Interval, Interval> turned_ratios(const Interval& x) {
-  // Derivatives: of the first at most |x|/3, of the second at most 1/2.
-  const Interval middle(midpoint(x));
-  const Interval from_middle = x - middle;
-  const Interval around = rigor::symmetric(magnitude(from_middle * Interval(magnitude(x)) / Interval(3.0)));
-  const Interval turned = rigor::symmetric(magnitude(from_middle / Interval(2.0)));
-  constexpr double kNear = 1e-3;
-  if (magnitude(middle) < kNear) {
-    const Interval square_of = square(middle);
-    return {Interval(1.0) - square_of / Interval(6.0) + square(square_of) * Interval::from_bounds(0.0, 0.01) +
-                around,
-            middle / Interval(2.0) - middle * square_of * Interval::from_bounds(0.0, 0.05) + turned};
-  }
-  const auto [sine, cosine] = sin_cos(middle);
-  return {sine / middle + around, (Interval(1.0) - cosine) / middle + turned};
-}
-
-/// H'R^-1 H at the estimate; H'R^-1 of the secants of h between truth and estimate, v = -secant z; and by how
-/// much that is more than the first.
-struct Information {
-  Matrix3 jacobian, secant, more;
-};
-
-Information information_over(const Interval& first, const Interval& turn, const Interval& error,
-                             const Interval& offset, const Interval& weight, int half_width) {
-  const ToneSums sums = enclose_tone_sums(offset, error, half_width);
-  const auto [sine_ratio, cosine_ratio] = turned_ratios(turn);
-  const Interval x = Interval(1.0) + first;
-  const Interval power = square(x);
-  const Interval scale = weight * power;
-  const Interval twice = Interval(2.0) * x;
-  const Interval growth = Interval(2.0) + first;  // (x^2 - 1)/(x - 1)
-  const Interval zero(0.0);
-  Information result;
-  result.jacobian << Interval(4.0) * scale * sums.value_value, zero, scale * twice * sums.value_slope, zero,
-      scale * power * sums.value_value, zero, scale * twice * sums.value_slope, zero,
-      scale * power * sums.slope_slope;
-  result.secant << weight * twice * sums.value_value * growth,
-      weight * twice * sums.value_true * cosine_ratio, weight * twice * sums.value_secant, zero,
-      scale * sums.value_true * sine_ratio, zero, scale * sums.value_slope * growth,
-      scale * sums.slope_true * cosine_ratio, scale * sums.slope_secant;
-  result.more = result.secant;
-  result.more(0, 0) = -(weight * twice * sums.value_value * first);
-  result.more(0, 2) = weight * twice * (sums.value_secant - power * sums.value_slope);
-  result.more(1, 1) = scale * (sums.value_true * sine_ratio - power * sums.value_value);
-  result.more(2, 0) = -(scale * sums.value_slope * first);
-  result.more(2, 2) = scale * (sums.slope_secant - power * sums.slope_slope);
-  return result;
-}
 
 }  // namespace
 
@@ -198,10 +79,14 @@ Interval LockFrame::disturbance() const {
   }
   const Interval gain = sqrt(Interval(set_.above) - Interval(set_.floor));
   Interval moved(0.0);
-  for (int i = 0; i < 3; ++i) {
-    moved += square(rigor::pi() * inverse_(i, 1) + inverse_(i, 2));
+  for (const Interval& part : slew_direction()) {
+    moved += square(part);
   }
   return gain * problem_.noise / sqrt(problem_.r) + sqrt(moved) * problem_.slew;
+}
+
+Vector3 LockFrame::slew_direction() const {
+  return rigor::pi() * inverse_.col(1) + inverse_.col(2);
 }
 
 bool LockFrame::holds(const Matrix3& covariance) const {
@@ -224,10 +109,10 @@ bool LockFrame::is_outside(const Cell& cell, double radius) const {
   return rigor::certainly_less(square(Interval(radius)), sum);
 }
 
-bool LockFrame::verify_cell(const Cell& cell, const LockRate& rate) const {
+std::optional<LockFrame::BlockOverCell> LockFrame::block_over(const Cell& cell) const {
   const Interval& amplitude = cell(4);
   const Interval weight = square(amplitude) / (Interval(4.0) * problem_.r);
-  const Information information =
+  const BlockInformation information =
       information_over(cell(0), cell(1), cell(2), cell(3), weight, problem_.half_width);
   const Matrix3 jacobian = frame_.transpose() * information.jacobian * frame_;
   const Interval above(set_.above);
@@ -235,30 +120,63 @@ bool LockFrame::verify_cell(const Cell& cell, const LockRate& rate) const {
   const auto highest = inverse_of(jacobian + scaled_identity(Interval(1.0) / above));
   const auto lowest = inverse_of(jacobian + scaled_identity(below));
   if (!highest || !lowest) {
-    return false;
+    return std::nullopt;
   }
   const Matrix3 noise = process_noise(amplitude);
-  const auto moved = [&](const Matrix3& p) { return Matrix3(turn_ * p * turn_.transpose()); };
   if (!is_definite(Matrix3(scaled_identity(above) - moved(*highest) - noise)) ||
       !is_definite(Matrix3(moved(*lowest) + noise - scaled_identity(Interval(1.0) / below)))) {
-    return false;
+    return std::nullopt;
   }
   // With A = J + I/above, B = J + below I: I - (A^-1 + B^-1) J/2 = (A^-1/above + below B^-1)/2 and A^-1 -
   // B^-1 = A^-1 (B - A) B^-1.
   const Interval half(0.5);
-  const Matrix3 centre = half * (*highest + *lowest);
+  BlockOverCell block;
+  block.centre = half * (*highest + *lowest);
   const Matrix3 product = *highest * *lowest;
-  const Matrix3 spread =
-      half * (below - Interval(1.0) / above) * rigor::intersection(product, product.transpose());
-  const Matrix3 secant = frame_.transpose() * information.secant * frame_;
+  block.spread = half * (below - Interval(1.0) / above) * rigor::intersection(product, product.transpose());
+  block.secant = frame_.transpose() * information.secant * frame_;
+  block.factor = frame_.transpose() * information.factor;
   const Matrix3 more = frame_.transpose() * information.more * frame_;
+  block.step = turn_ * (half * ((Interval(1.0) / above) * *highest + below * *lowest) - block.centre * more);
+  return block;
+}
+
+bool LockFrame::falls_over(const Cell& cell, const LockRate& rate) const {
+  const auto block = block_over(cell);
+  if (!block) {
+    return false;
+  }
   const Interval petersen(rate.weight);
-  const Matrix3 step =
-      turn_ * (half * ((Interval(1.0) / above) * *highest + below * *lowest) - centre * more);
-  const Matrix3 first =
-      scaled_identity(square(Interval(rate.rate))) - petersen * Matrix3(secant.transpose() * spread * secant);
-  const Matrix3 second = scaled_identity(Interval(1.0)) - (Interval(1.0) / petersen) * moved(spread);
-  return is_definite(first, step, second);
+  const Matrix3 first = scaled_identity(square(Interval(rate.rate))) -
+                        petersen * Matrix3(block->secant.transpose() * block->spread * block->secant);
+  const Matrix3 second =
+      scaled_identity(Interval(1.0)) - (Interval(1.0) / petersen) * moved(block->spread);
+  return is_definite(first, block->step, second);
+}
+
+bool LockFrame::drifts_over(const Cell& cell, const LockDrift& drift) const {
+  const auto block = block_over(cell);
+  if (!block) {
+    return false;
+  }
+  const Interval root = sqrt(Interval(drift.tilt));
+  const Matrix3 factor = root * block->factor;
+  const Matrix3 gain = turn_ * block->centre * factor;
+  const Matrix3 unit = scaled_identity(Interval(1.0));
+  const Matrix3 turned = moved(block->spread);
+  const Matrix3 seen = factor.transpose() * block->spread;
+  const Matrix3 lost = seen * factor;
+  const Interval floor_weight(drift.floor_weight);
+  if (!is_definite(Matrix3(unit - rigor::to_interval(drift.floor) - (Interval(1.0) / floor_weight) * turned),
+                   Matrix3(gain.transpose()), Matrix3(unit - floor_weight * lost))) {
+    return false;
+  }
+  const Interval petersen(drift.weight);
+  return is_definite(
+      Matrix3(scaled_identity(Interval(drift.growth)) -
+              petersen * Matrix3(block->secant.transpose() * block->spread * block->secant)),
+      block->step, Matrix3(unit - (Interval(1.0) / petersen) * turned), Matrix3(petersen * (seen * block->secant)),
+      Matrix3(gain.transpose()), Matrix3(unit - petersen * lost));
 }
 
 bool LockFrame::verify(const LockRate& rate, std::int64_t most_cells) const {
@@ -266,9 +184,25 @@ bool LockFrame::verify(const LockRate& rate, std::int64_t most_cells) const {
       !std::isfinite(rate.radius) || !std::isfinite(rate.weight)) {
     return false;
   }
+  return verify_cells(rate.radius, most_cells, [&](const Cell& cell) { return falls_over(cell, rate); });
+}
+
+bool LockFrame::verify(const LockDrift& drift, std::int64_t most_cells) const {
+  if (!(drift.radius > 0.0) || !std::isfinite(drift.radius) || !(drift.tilt > 0.0) ||
+      !std::isfinite(drift.tilt) || !(drift.growth > 0.0) || !(drift.growth < 1.0) ||
+      !(drift.weight > 0.0) || !std::isfinite(drift.weight) || !(drift.floor_weight > 0.0) ||
+      !std::isfinite(drift.floor_weight) || !drift.floor.allFinite() ||
+      drift.floor != drift.floor.transpose() || !is_definite(rigor::to_interval(drift.floor))) {
+    return false;
+  }
+  return verify_cells(drift.radius, most_cells, [&](const Cell& cell) { return drifts_over(cell, drift); });
+}
+
+bool LockFrame::verify_cells(double radius, std::int64_t most_cells,
+                             const std::function<bool(const Cell&)>& is_verified) const {
   Cell whole;
   for (int i = 0; i < 3; ++i) {
-    whole(i) = Interval(rate.radius) * reach(i) * rigor::symmetric(1.0);
+    whole(i) = Interval(radius) * reach(i) * rigor::symmetric(1.0);
   }
   whole(3) = problem_.offset;
   whole(4) = problem_.amplitude;
@@ -283,7 +217,7 @@ bool LockFrame::verify(const LockRate& rate, std::int64_t most_cells) const {
     if (++cells > most_cells) {
       return false;
     }
-    if (is_outside(cell, rate.radius) || verify_cell(cell, rate)) {
+    if (is_outside(cell, radius) || is_verified(cell)) {
       continue;
     }
     // The direction along which the information changes most.

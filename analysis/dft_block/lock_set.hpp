@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -41,6 +42,18 @@ struct LockRate {
   double weight = 0.0;  ///< of Petersen's lemma
 };
 
+/// Proposed as well: what one block does on average, in Gaussian noise, to W = exp(theta |e|^2 / 2) of errors
+/// up to a radius. With X, A and N of docs/block-tracker.md, section 7: A'(I - tilt F X N N'X F')^-1 A <= growth
+/// I, and floor <= I - tilt F X N N'X F'. The noise has theta (variance of each part of a bin) = tilt r.
+struct LockDrift {
+  double radius = 0.0;
+  double tilt = 0.0;
+  double growth = 0.0;
+  double weight = 0.0;        ///< of Petersen's lemma
+  rigor::Matrix<3> floor;     ///< symmetric
+  double floor_weight = 0.0;  ///< of the same lemma, for the floor
+};
+
 /// The set and the problem in its coordinates.
 class LockFrame {
  public:
@@ -51,6 +64,11 @@ class LockFrame {
   /// to that radius, all offsets and amplitudes, without noise and slew: at most `most_cells` cells. Needs
   /// the upward mode.
   [[nodiscard]] bool verify(const LockRate& rate, std::int64_t most_cells) const;
+  /// True only when the covariances stay between their bounds, and growth and floor are what they are said to
+  /// be, likewise.
+  [[nodiscard]] bool verify(const LockDrift& drift, std::int64_t most_cells) const;
+  /// C^-1 (0, pi, 1)': what a bin of slew adds to e.
+  [[nodiscard]] rigor::IntervalVector<3> slew_direction() const;
 
   /// What noise and slew add to |e| at most in a block. Needs the upward mode.
   [[nodiscard]] rigor::Interval disturbance() const;
@@ -67,7 +85,21 @@ class LockFrame {
   /// (x1 error, phase error, offset error, offset, amplitude).
   using Cell = rigor::IntervalVector<5>;
   [[nodiscard]] bool is_outside(const Cell& cell, double radius) const;
-  [[nodiscard]] bool verify_cell(const Cell& cell, const LockRate& rate) const;
+  /// What a block does over a cell, in the frame: X is `centre` and up to `spread` more or less, `step` is F
+  /// (I - centre secant), J = factor factor'.
+  struct BlockOverCell {
+    rigor::IntervalMatrix<3> centre, spread, secant, factor, step;
+  };
+  /// None unless the covariances stay between their bounds.
+  [[nodiscard]] std::optional<BlockOverCell> block_over(const Cell& cell) const;
+  [[nodiscard]] bool falls_over(const Cell& cell, const LockRate& rate) const;
+  [[nodiscard]] bool drifts_over(const Cell& cell, const LockDrift& drift) const;
+  [[nodiscard]] bool verify_cells(double radius, std::int64_t most_cells,
+                                  const std::function<bool(const Cell&)>& is_verified) const;
+  /// F P F'
+  [[nodiscard]] rigor::IntervalMatrix<3> moved(const rigor::IntervalMatrix<3>& p) const {
+    return turn_ * p * turn_.transpose();
+  }
   /// Q of (x1 relative, phase at the middle of the block, offset), in the frame.
   [[nodiscard]] rigor::IntervalMatrix<3> process_noise(const rigor::Interval& amplitude) const;
 

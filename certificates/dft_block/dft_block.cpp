@@ -4,9 +4,12 @@
 
 #include <utility>
 
+#include "analysis/dft_block/false_lock.hpp"
 #include "analysis/dft_block/lock_certificate.hpp"
 #include "analysis/rigor/decimal.hpp"
+#include "certificates/dft_block/block_sentences.hpp"
 #include "certificates/dft_block/dft_block_design.hpp"
+#include "certificates/dft_block/false_lock_claims.hpp"
 #include "certificates/sets/required_claims.hpp"
 
 namespace veritrack::certificates {
@@ -51,10 +54,6 @@ dft_block::LockQuestion lock_question(const BlockTables& tables) {
 /// Everything up to what is claimed.
 std::string lock_hypotheses(const BlockTables& tables) {
   const BlockAssumptions& assume = tables.assume;
-  const std::string amplitude = assume.one_amplitude
-                                    ? fmt::format("the amplitude {}", assume.amplitude[0].text)
-                                    : fmt::format("a constant amplitude from {} to {}",
-                                                  assume.amplitude[0].text, assume.amplitude[1].text);
   std::string covariance = "of the steady state in exact lock in the middle of these offsets";
   if (!assume.initial_covariance.empty()) {
     const auto entry = [&](std::size_t i) -> const std::string& { return assume.initial_covariance[i].text; };
@@ -62,20 +61,13 @@ std::string lock_hypotheses(const BlockTables& tables) {
                              entry(3), entry(4), entry(5), entry(6), entry(7), entry(8));
   }
   return fmt::format(
-      "In exact arithmetic, the block tracker without leaks, with Q = diag({}, {}, {}), R = {} I and the "
-      "bins M - "
-      "{} ... M + {}, is fed with the bins (4.9) of a tone of {}, constant within each block, whose offset "
-      "is "
-      "between {} and {} bins in every block and changes by at most {} bins from one to the next, plus noise "
-      "whose "
-      "length in all bins of a block together is at most {}. Its first prediction has a root amplitude x1 "
-      "within {} "
-      "of the tone's, relative to it, a phase within {} rad at the middle of the block, an offset within {} "
-      "bins, "
+      "{}, is fed with the bins (4.9) of a tone of {}, constant within each block, whose offset is between {} "
+      "and {} bins in every block and changes by at most {} bins from one to the next, plus noise whose length "
+      "in all bins of a block together is at most {}. Its first prediction has a root amplitude x1 within {} of "
+      "the tone's, relative to it, a phase within {} rad at the middle of the block, an offset within {} bins, "
       "and the covariance {}. Then ",
-      tables.design.q1.text, tables.design.q2.text, tables.design.q3.text, tables.design.r.text,
-      tables.design.half_width.text, tables.design.half_width.text, amplitude, assume.offset[0].text,
-      assume.offset[1].text, assume.slew.text, assume.noise.text, assume.initial_amplitude_error.text,
+      block_filter_words(tables), block_amplitude_words(assume), assume.offset[0].text, assume.offset[1].text,
+      assume.slew.text, assume.noise.text, assume.initial_amplitude_error.text,
       assume.initial_phase_error.text, assume.initial_offset_error.text, covariance);
 }
 
@@ -85,7 +77,7 @@ class BlockClaims {
   explicit BlockClaims(Certificate& certificate)
       : certificate_(&certificate),
         tables_(&block_tables(certificate.design)),
-        found_(&certificate.derivations.back()),
+        found_(find_derivation(certificate, "lock-set")),
         hypotheses_(lock_hypotheses(*tables_)) {}
 
   void add_all() {
@@ -206,8 +198,19 @@ class BlockClaims {
 }  // namespace
 
 void certify_dft_block(Certificate& certificate, const CertifyProgress& /*progress*/) {
-  certificate.derivations.push_back(dft_block::derive_lock(lock_question(block_tables(certificate.design))));
+  const dft_block::LockQuestion question = lock_question(block_tables(certificate.design));
+  certificate.derivations.push_back(dft_block::derive_lock(question));
+  // What is beside [require] is not asked for by everyone.
+  const bool all = certificate.extent == Extent::everything;
+  if (all) {
+    for (theorems::Derivation& found : dft_block::derive_false_locks(question.problem)) {
+      certificate.derivations.push_back(std::move(found));
+    }
+  }
   BlockClaims(certificate).add_all();
+  if (all) {
+    add_false_lock_claims(certificate);
+  }
 }
 
 Json dft_block_design_json(const Design& read) {

@@ -33,10 +33,44 @@ std::string block_filter_section(const Certificate& certificate) {
 }
 
 std::string block_set_section(const Certificate& certificate) {
-  const theorems::Derivation& found = certificate.derivations.back();
+  const theorems::Derivation& found = *find_derivation(certificate, "lock-set");
   return "## The set about the exact lock: conditions " + markdown::satisfied(found.verdict) + "\n\n" +
          markdown::conditions_table(found) + "\n" + markdown::values_table(found) + "\n" +
          markdown::notes_list(found) + "\n";
+}
+
+/// What is proved of starts that never find the tone.
+std::string false_lock_section(const Certificate& certificate) {
+  const auto* below = find_derivation(certificate, "false-lock-below");
+  const auto* above = find_derivation(certificate, "false-lock-above");
+  if (below == nullptr || above == nullptr) {
+    return "";
+  }
+  std::string text =
+      "## False locks: starts that never find the tone\n\nThe filter has other fixed points, about whole "
+      "numbers of bins off, with a small estimated amplitude. Each set below is a ball $`|S(s - s_0)| \\le "
+      "\\rho`$ of first predictions and covariances $`s`$; centre $`s_0`$, shape $`S`$ and radius $`\\rho`$ "
+      "are in `certificate.json`. The sets are small, since errors and covariance have to be bounded together; "
+      "what is drawn into them is more (`veritrack map`).\n\n";
+  for (const theorems::Derivation* found : {below, above}) {
+    text += fmt::format("### {}: {}\n\n", found->title, markdown::satisfied(found->verdict));
+    text += markdown::conditions_table(*found) + "\n";
+    if (!found->evidence.empty()) {
+      const theorems::Evidence& evidence = found->evidence.front();
+      for (const auto& [name, value] : evidence.decimals) {
+        text += fmt::format("- {} of the tone: {}\n", name, value);
+      }
+      const auto& centre = evidence.matrices.front().second;
+      text += fmt::format(
+          "- Centre, rounded: $`\\hat x_1/x_1 = {:.4g}`$, phase error {:.4g} rad, offset error {:.4g} bins; "
+          "covariance of these $`[[{:.4g}, {:.4g}, {:.4g}], [{:.4g}, {:.4g}, {:.4g}], [{:.4g}, {:.4g}, "
+          "{:.4g}]]`$\n\n",
+          1.0 + centre(0, 0), centre(0, 1), centre(0, 2), centre(0, 3), centre(0, 4), centre(0, 5),
+          centre(0, 4), centre(0, 6), centre(0, 7), centre(0, 5), centre(0, 7), centre(0, 8));
+      text += markdown::values_table(*found) + "\n";
+    }
+  }
+  return text;
 }
 
 std::string block_coverage() {
@@ -52,9 +86,8 @@ std::string block_coverage() {
          "frequency that changes within a block adds.\n- Exact lock is a fixed point for every offset: "
          "without "
          "noise and slew, errors of the set fall to zero.\n- Not covered: starts outside. From some of them "
-         "the "
-         "filter never finds the tone, but stays about a number of bins off: `docs/block-tracker.md` of the "
-         "program's sources says how that is seen from outside.\n- Exact arithmetic; every enclosure was "
+         "the filter never finds the tone, but stays about a number of bins off: `docs/block-tracker.md` of the "
+         "program's sources says how that is seen from outside, and `veritrack track` looks.\n- Exact arithmetic; every enclosure was "
          "computed with "
          "outward-rounded interval arithmetic. The simulation proves nothing.\n\n";
 }
@@ -62,14 +95,16 @@ std::string block_coverage() {
 }  // namespace
 
 std::string dft_block_summary(const Certificate& certificate) {
-  const auto claim = std::find_if(certificate.claims.begin(), certificate.claims.end(),
-                                  [](const Claim& one) { return one.id == "dft-block/guarantee"; });
-  if (claim == certificate.claims.end()) {
-    return "";
+  std::string text;
+  for (const char* id : {"dft-block/guarantee", "dft-block/every-start-locks"}) {
+    const auto claim = std::find_if(certificate.claims.begin(), certificate.claims.end(),
+                                    [id](const Claim& one) { return one.id == id; });
+    if (claim != certificate.claims.end()) {
+      text += fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
+                          claim->verdict != rigor::Verdict::undecided ? "Why" : "Why not", claim->reason);
+    }
   }
-  const bool is_proved = claim->verdict == rigor::Verdict::proved;
-  return fmt::format("{}: {}\n\n{}: {}\n\n", markdown::verdict(claim->verdict), claim->statement,
-                     is_proved ? "Why" : "Why not", claim->reason);
+  return text;
 }
 
 std::string dft_block_sections(const Certificate& certificate, const MarkdownOptions& options) {
@@ -78,7 +113,8 @@ std::string dft_block_sections(const Certificate& certificate, const MarkdownOpt
     figures += picture(figure);
   }
   return block_filter_section(certificate) + block_set_section(certificate) +
-         (figures.empty() ? "" : "## In simulation\n\n" + figures) + block_coverage();
+         false_lock_section(certificate) + (figures.empty() ? "" : "## In simulation\n\n" + figures) +
+         block_coverage();
 }
 
 }  // namespace veritrack::certificates

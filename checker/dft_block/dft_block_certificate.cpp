@@ -1,7 +1,9 @@
 #include "checker/dft_block/dft_block_certificate.hpp"
 
+#include <map>
 #include <set>
 
+#include "checker/dft_block/false_lock_check.hpp"
 #include "checker/dft_block/lock_check.hpp"
 #include "checker/document/design_number.hpp"
 #include "checker/document/evidence.hpp"
@@ -14,6 +16,8 @@ namespace {
 const std::string kGuarantee = "dft-block/guarantee";
 const std::string kOffsetError = "dft-block/offset-error";
 const std::string kSettles = "dft-block/settles";
+const std::string kEveryStart = "dft-block/every-start-locks";
+const std::string kClaimOf = "dft-block/";  // and the id of a false lock
 constexpr int kMostHalfWidth = 8;
 
 /// What the evidence "lock" proposes.
@@ -199,18 +203,25 @@ class BlockVerifier {
                      asked_text("settled_below") + " bins";
   }
 
-  [[nodiscard]] std::string hypotheses() const {
+  /// The filter, with which every sentence begins.
+  [[nodiscard]] std::string filter_words() const {
     const Tree& chosen = design_.at("design");
-    const auto text = [](const Tree& table, const char* key) { return text_of(table.at(key)); };
+    const auto text = [&](const char* key) { return text_of(chosen.at(key)); };
+    return "In exact arithmetic, the block tracker without leaks, with Q = diag(" + text("q1") + ", " +
+           text("q2") + ", " + text("q3") + "), R = " + text("r") + " I and the bins M - " +
+           text("half_width") + " ... M + " + text("half_width");
+  }
+
+  [[nodiscard]] std::string amplitude_words() const {
     const Tree& amplitude = assume_.at("amplitude");
-    const std::string half_width = text(chosen, "half_width");
-    return "In exact arithmetic, the block tracker without leaks, with Q = diag(" + text(chosen, "q1") +
-           ", " + text(chosen, "q2") + ", " + text(chosen, "q3") + "), R = " + text(chosen, "r") +
-           " I and the bins M - " + half_width + " ... M + " + half_width +
-           ", is fed with the bins (4.9) of a tone of " +
-           (one_amplitude_ ? "the amplitude " + text_of(amplitude)
-                           : "a constant amplitude from " + text_of(amplitude.at(0)) + " to " +
-                                 text_of(amplitude.at(1))) +
+    return one_amplitude_ ? "the amplitude " + text_of(amplitude)
+                          : "a constant amplitude from " + text_of(amplitude.at(0)) + " to " +
+                                text_of(amplitude.at(1));
+  }
+
+  [[nodiscard]] std::string hypotheses() const {
+    const auto text = [](const Tree& table, const char* key) { return text_of(table.at(key)); };
+    return filter_words() + ", is fed with the bins (4.9) of a tone of " + amplitude_words() +
            ", constant within each block, whose offset is between " + text_of(assume_.at("offset").at(0)) +
            " and " + text_of(assume_.at("offset").at(1)) + " bins in every block and changes by at most " +
            text(assume_, "slew") +
@@ -227,13 +238,17 @@ class BlockVerifier {
   void check_one(const Tree& derivation) {
     const std::string& id = derivation.at("id").text();
     Objections objections;
-    if (id != "lock-set" || !seen_.insert(id).second) {
-      result_.parts.push_back({id, {id == "lock-set" ? "a second derivation of this id" : kUnknown}});
+    const bool is_known = id == "lock-set" || is_false_lock(id);
+    if (!is_known || !seen_.insert(id).second) {
+      result_.parts.push_back({id, {is_known ? "a second derivation of this id" : kUnknown}});
       return;
     }
-    check_derivation(derivation, lock_set(derivation, objections), objections);
+    check_derivation(
+        derivation,
+        is_false_lock(id) ? false_lock(derivation, problem_, objections) : lock_set(derivation, objections),
+        objections);
     if (objections.empty() && verdict_of(derivation) == Verdict::proved) {
-      proved_ = &derivation;
+      (is_false_lock(id) ? false_locks_[id] : proved_) = &derivation;
     }
     result_.parts.push_back({id, objections});
   }
@@ -349,6 +364,12 @@ class BlockVerifier {
 
   Claim check_one_claim(const Tree& claim, Objections& objections) const {
     const std::string& id = claim.at("id").text();
+    if (id == kEveryStart) {
+      return every_start(claim, objections);
+    }
+    if (id.starts_with(kClaimOf) && is_false_lock(id.substr(kClaimOf.size()))) {
+      return false_lock_claim(claim, id.substr(kClaimOf.size()), objections);
+    }
     const Tree& require = design_.at("require");
     const bool is_asked = id == kGuarantee ||
                           (id == kOffsetError && require.find("offset_error_below") != nullptr) ||
@@ -361,6 +382,61 @@ class BlockVerifier {
     if (proved_ == nullptr) {
       objections.emplace_back(kUnverified);
     }
+    check_claim(claim, found, objections);
+    return found;
+  }
+
+  /// Refuted by any false lock.
+  [[nodiscard]] Claim every_start(const Tree& claim, Objections& objections) const {
+    Claim found;
+    found.is_summary = true;
+    found.verdict = false_locks_.empty() ? Verdict::undecided : Verdict::refuted;
+    found.statement = filter_words() + ", is fed, without noise, with the bins (4.9) of a tone of " +
+                      amplitude_words() + " and a constant offset between " +
+                      text_of(assume_.at("offset").at(0)) + " and " + text_of(assume_.at("offset").at(1)) +
+                      " bins. Whatever its first prediction and covariance, the offset error of some "
+                      "prediction is less than half a bin.";
+    if (false_locks_.empty()) {
+      objections.emplace_back(kUnverified);
+    }
+    check_claim(claim, found, objections);
+    return found;
+  }
+
+  [[nodiscard]] Claim false_lock_claim(const Tree& claim, const std::string& id,
+                                       Objections& objections) const {
+    Claim found;
+    const auto lock = false_locks_.find(id);
+    if (lock == false_locks_.end()) {
+      objections.emplace_back(kUnverified);
+      return found;
+    }
+    const Tree& said = claim.at("evidence");
+    const Tree& quantities = lock->second->at("quantities");
+    constexpr int kDigits = 4;
+    const auto both_ends = [&](const char* name) {
+      return lower_decimal(low_of(said.at(name)), kDigits) + " and " +
+             upper_decimal(high_of(said.at(name)), kDigits);
+    };
+    const auto established = [&](const char* name) -> Range {
+      const Tree* value = quantities.find(name);
+      return value == nullptr ? Range(Ball::everything()) : Range(low_of(*value), high_of(*value));
+    };
+    const Tree* amplitude = quantities.find("amplitude");
+    const FalseLockTone tone = false_lock_tone(*lock->second);
+    found.verdict = Verdict::proved;
+    found.evidence = {{"offset_error", established("offset_error")},
+                      {"fixed_offset_error", established("fixed_offset_error")},
+                      {"amplitude", amplitude == nullptr ? Ball::everything() : high_of(*amplitude),
+                       Sense::bounds_above}};
+    found.statement =
+        filter_words() + ", is fed, without noise, with the bins (4.9) of a tone of the amplitude " +
+        tone.amplitude + " and the constant offset " + tone.offset +
+        " bins. From every first prediction and covariance of the set " + id +
+        ", the offset error of every prediction is between " + both_ends("offset_error") +
+        " bins, for ever; it tends to one between " + both_ends("fixed_offset_error") +
+        " bins, and the estimated amplitude to at most " +
+        upper_decimal(high_of(said.at("amplitude")), kDigits) + " of the tone's.";
     check_claim(claim, found, objections);
     return found;
   }
@@ -411,7 +487,8 @@ class BlockVerifier {
   std::string covariance_text_;
   std::string hypotheses_;
   std::set<std::string> seen_;
-  const Tree* proved_ = nullptr;  ///< the derivation, once verified, and PROVED as a whole
+  const Tree* proved_ = nullptr;  ///< the derivation "lock-set", once verified, and PROVED as a whole
+  std::map<std::string, const Tree*> false_locks_;  ///< likewise, by their ids
 };
 
 }  // namespace

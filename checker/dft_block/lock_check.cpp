@@ -3,96 +3,13 @@
 #include <cmath>
 #include <vector>
 
+#include "checker/dft_block/block_matrices.hpp"
 #include "checker/dft_block/tone_polynomial.hpp"
 #include "checker/numbers/threads.hpp"
 
 namespace veritrack::checker {
 
 namespace {
-
-Matrix3 product(const Matrix3& a, const Matrix3& b) {
-  Matrix3 c;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
-    }
-  }
-  return c;
-}
-
-Matrix3 transposed(const Matrix3& a) {
-  Matrix3 c;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      c[i][j] = a[j][i];
-    }
-  }
-  return c;
-}
-
-/// A B A' without assuming that B is symmetric.
-Matrix3 about(const Matrix3& a, const Matrix3& b) {
-  return product(product(a, b), transposed(a));
-}
-
-Matrix3 identity(const Ball& scale) {
-  return diagonal(scale, scale, scale);
-}
-
-Ball sum_of_squares(const Matrix3& a) {
-  Ball sum = zero;
-  for (const auto& row : a) {
-    for (const Ball& entry : row) {
-      sum += square(entry);
-    }
-  }
-  return sum;
-}
-
-Matrix3 middle_of(const Matrix3& a) {
-  Matrix3 c;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      c[i][j] = a[i][j].middle();
-    }
-  }
-  return c;
-}
-
-/// The inverse: with M the middle, X = M^-1 and D = A - M, A^-1 = X - X D X + X D A^-1 D X, and |A^-1| <=
-/// |X|/(1 - |X D|). Balls of everything where that may fail. (M need not be symmetric to the last bit.)
-Matrix3 inverse_near(const Matrix3& a) {
-  const Matrix3 m = middle_of(a);
-  const Matrix3 x = inverse(m);
-  const Matrix3 d = a - m;
-  const Matrix3 xd = product(x, d);
-  const Ball size = root_of_non_negative(sum_of_squares(xd)).upper();
-  const Ball other = root_of_non_negative(sum_of_squares(product(d, x))).upper();
-  const Ball rest = size * other * root_of_non_negative(sum_of_squares(x)).upper() / (one - size);
-  const bool is_small = certainly_less(size, one);
-  const Ball around = is_small ? Ball::within(rest) : Ball::everything();
-  Matrix3 c = x - product(xd, x);
-  for (auto& row : c) {
-    for (Ball& entry : row) {
-      entry += around;
-    }
-  }
-  return c;
-}
-
-/// The 6x6 matrix [a, b'; b, c].
-bool definite_together(const Matrix3& a, const Matrix3& b, const Matrix3& c) {
-  SquareMatrix<6> all;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      all[i][j] = a[i][j];
-      all[i + 3][j] = b[i][j];
-      all[i][j + 3] = b[j][i];
-      all[i + 3][j + 3] = c[i][j];
-    }
-  }
-  return definite(all);
-}
 
 /// sin(x)/x, by the values at the middle and |(sin(x)/x)'| <= |x|/3; and (1 - cos x)/x, whose derivative is
 /// at most 1/2.
@@ -146,10 +63,18 @@ Ball BlockLock::disturbance() const {
                         definite(process_noise(amplitude) - identity(set_.floor));
   const Ball gain = is_floor ? set_.above - set_.floor : Ball::everything();
   Ball moved = zero;
-  for (const auto& row : back_) {
-    moved += square(pi() * row[1] + row[2]);
+  for (const Ball& part : slew_direction()) {
+    moved += square(part);
   }
   return sqrt(gain / problem_.r) * problem_.noise + sqrt(moved) * problem_.slew;
+}
+
+Vector3 BlockLock::slew_direction() const {
+  Vector3 direction;
+  for (std::size_t i = 0; i < 3; ++i) {
+    direction[i] = pi() * back_[i][1] + back_[i][2];
+  }
+  return direction;
 }
 
 bool BlockLock::holds(const Matrix3& covariance) const {
@@ -168,7 +93,15 @@ bool BlockLock::is_outside(const Cell& cell, const Ball& radius) const {
   return certainly_less(square(radius), sum);
 }
 
-bool BlockLock::falls_in(const Cell& cell, const TonePolynomial& tone, const BlockRate& rate) const {
+struct BlockLock::OverCell {
+  Matrix3 spread;  ///< X is the middle of its bounds, and up to this more or less
+  Matrix3 step;    ///< F (1 - X secant) at that middle
+  Matrix3 secant;
+  Matrix3 gain;    ///< F X N at the middle
+  Matrix3 factor;  ///< N, N N' = J
+};
+
+std::optional<BlockLock::OverCell> BlockLock::over(const Cell& cell, const TonePolynomial& tone) const {
   const Ball first = cell.side(0);
   const Ball amplitude = cell.side(4);
   const Ball weight = square(amplitude) / (four * problem_.r);
@@ -197,6 +130,11 @@ bool BlockLock::falls_in(const Cell& cell, const TonePolynomial& tone, const Blo
   more[2][0] = -(weight * power * first * sums.ab);
   more[2][2] = weight * power * (sums.bc - power * sums.bb);
 
+  // The last row of J is taken first.
+  Matrix3 factor = diagonal(sqrt(jacobian[0][0] - square(two * x) * weight * power * square(sums.ab) / sums.bb),
+                            sqrt(jacobian[1][1]), sqrt(jacobian[2][2]));
+  factor[0][2] = two * sqrt(weight) * x * sums.ab / sqrt(sums.bb);
+
   const Matrix3 into = transposed(set_.frame);
   const Matrix3 information = about(into, jacobian);
   const Ball least = one / set_.above;
@@ -205,24 +143,57 @@ bool BlockLock::falls_in(const Cell& cell, const TonePolynomial& tone, const Blo
   const Matrix3 noise = process_noise(amplitude);
   if (!definite(identity(set_.above) - noise - about(turn_, high)) ||
       !definite(noise + about(turn_, low) - identity(one / set_.below))) {
-    return false;
+    return std::nullopt;
   }
   // high J = 1 - least high and low J = 1 - below low; high - low = high (below - least) low.
-  const Matrix3 spread = scaled(half * (set_.below - least), product(high, low));
+  OverCell found;
+  found.spread = scaled(half * (set_.below - least), product(high, low));
   const Matrix3 kept = scaled(half * least, high) + scaled(half * set_.below, low);
-  const Matrix3 step = product(turn_, kept - product(scaled(half, high + low), about(into, more)));
-  const Matrix3 along = about(transposed(about(into, secant)), spread);
-  return definite_together(identity(square(rate.rate)) - scaled(rate.weight, along), step,
-                           identity(one) - scaled(one / rate.weight, about(turn_, spread)));
+  const Matrix3 centre = scaled(half, high + low);
+  found.step = product(turn_, kept - product(centre, about(into, more)));
+  found.secant = about(into, secant);
+  found.factor = product(into, factor);
+  found.gain = product(product(turn_, centre), found.factor);
+  return found;
 }
 
-bool BlockLock::falls_near(const Ball& low, const Ball& high, const BlockRate& rate,
-                           std::int64_t& cells) const {
+bool BlockLock::falls_in(const Cell& cell, const TonePolynomial& tone, const BlockRate& rate) const {
+  const std::optional<OverCell> block = over(cell, tone);
+  if (!block) {
+    return false;
+  }
+  return definite_together(
+      identity(square(rate.rate)) - scaled(rate.weight, about(transposed(block->secant), block->spread)),
+      block->step, identity(one) - scaled(one / rate.weight, about(turn_, block->spread)));
+}
+
+bool BlockLock::drifts_in(const Cell& cell, const TonePolynomial& tone, const BlockDrift& drift) const {
+  const std::optional<OverCell> block = over(cell, tone);
+  if (!block) {
+    return false;
+  }
+  const Matrix3 unit = identity(one);
+  const Matrix3 turned = about(turn_, block->spread);
+  const Matrix3 gain = scaled(sqrt(drift.tilt), transposed(block->gain));
+  const Matrix3 seen = scaled(drift.tilt, about(transposed(block->factor), block->spread));
+  if (!definite_together(unit - drift.floor - scaled(one / drift.floor_weight, turned), gain,
+                         unit - scaled(drift.floor_weight, seen))) {
+    return false;
+  }
+  const Matrix3 across = scaled(drift.weight * sqrt(drift.tilt),
+                                product(product(transposed(block->factor), block->spread), block->secant));
+  return definite_together(
+      identity(drift.growth) - scaled(drift.weight, about(transposed(block->secant), block->spread)), block->step,
+      unit - scaled(one / drift.weight, turned), across, gain, unit - scaled(drift.weight, seen));
+}
+
+bool BlockLock::true_near(const Ball& low, const Ball& high, const Ball& radius, const InCell& is_true,
+                          std::int64_t& cells) const {
   const Ball middle = (half * (low + high)).middle();
   const TonePolynomial tone(middle, problem_.half_width);
   Cell whole;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Ball side = (rate.radius * reach(i)).upper();
+    const Ball side = (radius * reach(i)).upper();
     whole.sides[i] = {-side, side};
   }
   whole.sides[3] = {(low - middle).lower(), (high - middle).upper()};
@@ -238,7 +209,7 @@ bool BlockLock::falls_near(const Ball& low, const Ball& high, const BlockRate& r
     if (++cells > kMost) {
       return false;
     }
-    if (is_outside(cell, rate.radius) || falls_in(cell, tone, rate)) {
+    if (is_outside(cell, radius) || is_true(cell, tone)) {
       continue;
     }
     std::size_t widest = 0;
@@ -264,6 +235,18 @@ bool BlockLock::falls_near(const Ball& low, const Ball& high, const BlockRate& r
 }
 
 bool BlockLock::falls(const BlockRate& rate, std::int64_t& cells) const {
+  return true_everywhere(
+      rate.radius,
+      [&](const Cell& cell, const TonePolynomial& tone) { return falls_in(cell, tone, rate); }, cells);
+}
+
+bool BlockLock::drifts(const BlockDrift& drift, std::int64_t& cells) const {
+  return true_everywhere(
+      drift.radius,
+      [&](const Cell& cell, const TonePolynomial& tone) { return drifts_in(cell, tone, drift); }, cells);
+}
+
+bool BlockLock::true_everywhere(const Ball& radius, const InCell& is_true, std::int64_t& cells) const {
   // The band in pieces of a few hundredths of a bin.
   const double low = problem_.offset_low.lower_double();
   const double high = problem_.offset_high.upper_double();
@@ -284,7 +267,8 @@ bool BlockLock::falls(const BlockRate& rate, std::int64_t& cells) const {
   std::vector<std::int64_t> counts(count, 0);
   const bool all =
       first_failure(count, [&](std::size_t i) {
-        return falls_near(i == 0 ? problem_.offset_low.lower() : border(i), border(i + 1), rate, counts[i]);
+        return true_near(i == 0 ? problem_.offset_low.lower() : border(i), border(i + 1), radius, is_true,
+                         counts[i]);
       }) == count;
   for (const std::int64_t one_count : counts) {
     cells += one_count;

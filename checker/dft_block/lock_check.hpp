@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "checker/numbers/matrix3.hpp"
 
@@ -32,12 +34,23 @@ struct BlockRate {
   Ball radius, rate, weight;
 };
 
+/// Of errors with |C^-1 z| <= radius, in Gaussian noise: see lock_loss_check.hpp.
+struct BlockDrift {
+  Ball radius, tilt, growth, weight, floor_weight;
+  Matrix3 floor;
+};
+
 class BlockLock {
  public:
   BlockLock(const BlockProblem& problem, const BlockSet& set);
 
   /// True only when it is verified for all errors, offsets and amplitudes; `cells` counts.
   [[nodiscard]] bool falls(const BlockRate& rate, std::int64_t& cells) const;
+  /// True only when it is verified of the drift that, with A = F (1 - X secant) and J = N N', A'(1 - tilt F X N
+  /// N'X F')^-1 A <= growth and floor <= 1 - tilt F X N N'X F', likewise.
+  [[nodiscard]] bool drifts(const BlockDrift& drift, std::int64_t& cells) const;
+  /// C^-1 (0, pi, 1)': added to C^-1 z by a change of the offset by a bin.
+  [[nodiscard]] Vector3 slew_direction() const;
   /// Added to |C^-1 z| in a block, at most.
   [[nodiscard]] Ball disturbance() const;
   /// |C^-1 z| of |z_i| <= bounds_i, at most.
@@ -50,10 +63,17 @@ class BlockLock {
  private:
   struct Cell;
   [[nodiscard]] bool is_outside(const Cell& cell, const Ball& radius) const;
-  [[nodiscard]] bool falls_in(const Cell& cell, const class TonePolynomial& tone,
-                              const BlockRate& rate) const;
-  [[nodiscard]] bool falls_near(const Ball& low, const Ball& high, const BlockRate& rate,
-                                std::int64_t& cells) const;
+  struct OverCell;
+  using InCell = std::function<bool(const Cell&, const class TonePolynomial&)>;
+  /// What a block does over a cell; nothing unless the covariances stay between their bounds.
+  [[nodiscard]] std::optional<OverCell> over(const Cell& cell, const TonePolynomial& tone) const;
+  [[nodiscard]] bool falls_in(const Cell& cell, const TonePolynomial& tone, const BlockRate& rate) const;
+  [[nodiscard]] bool drifts_in(const Cell& cell, const TonePolynomial& tone, const BlockDrift& drift) const;
+  /// Whether it is true in cells that cover all errors, amplitudes, and the offsets between these two; and in
+  /// the whole band.
+  [[nodiscard]] bool true_near(const Ball& low, const Ball& high, const Ball& radius, const InCell& is_true,
+                               std::int64_t& cells) const;
+  [[nodiscard]] bool true_everywhere(const Ball& radius, const InCell& is_true, std::int64_t& cells) const;
   [[nodiscard]] Matrix3 process_noise(const Ball& amplitude) const;
 
   BlockProblem problem_;

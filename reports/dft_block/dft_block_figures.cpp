@@ -12,7 +12,7 @@
 namespace veritrack::reports {
 
 std::vector<Figure> draw_dft_block_figures(const certificates::Certificate& certificate) {
-  const theorems::Derivation& found = certificate.derivations.back();
+  const theorems::Derivation& found = *certificates::find_derivation(certificate, "lock-set");
   if (found.verdict != rigor::Verdict::proved) {
     return {};
   }

@@ -1,0 +1,188 @@
+#include "analysis/dft_block/lock_loss.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "analysis/dft_block/lock_search.hpp"
+#include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/rounding.hpp"
+#include "analysis/theorems/derivation_builder.hpp"
+
+namespace veritrack::dft_block {
+
+namespace {
+
+using rigor::Interval;
+using rigor::Verdict;
+using theorems::Derivation;
+using theorems::Sense;
+
+/// A set that is proposed, or verified.
+struct InNoise {
+  LockSet set;
+  LockDrift drift;
+  double slew_share = 1.0;
+  LossBound bound;
+};
+
+Interval determinant_of(const rigor::IntervalMatrix<3>& a) {
+  return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
+         a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
+}
+
+/// Proposals with their bounds, the best first; all of floating point but the bounds.
+std::vector<InNoise> proposals(const LossQuestion& question, const LockSearch& search) {
+  std::vector<InNoise> result;
+  constexpr double kLargest = 4.0;
+  for (double radius = 0.1; radius < kLargest; radius *= 1.1) {
+    const auto set = search.set_for(radius);
+    const auto frame = set ? LockFrame::make(question.problem, *set) : std::nullopt;
+    if (!frame) {
+      break;
+    }
+    for (double tilt = 0.2; tilt < 0.95; tilt += 0.1) {
+      const auto drift = search.drift_for(*set, radius, tilt);
+      if (!drift) {
+        break;
+      }
+      for (const double share : {0.02, 0.05, 0.1, 0.2, 0.4}) {
+        if (auto bound = loss_bound(question, *frame, *drift, share)) {
+          result.push_back({*set, *drift, share, *bound});
+        }
+      }
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const InNoise& a, const InNoise& b) {
+    return a.bound.probability.upper() < b.bound.probability.upper();
+  });
+  return result;
+}
+
+/// The first of them that is verified, and that the starts are in; a few are tried.
+std::optional<InNoise> first_verified(const LossQuestion& question, const LockSearch& search) {
+  std::vector<InNoise> proposed = proposals(question, search);
+  constexpr int kMostTries = 4;
+  int tries = 0;
+  double last_radius = 10.0;
+  for (InNoise& one : proposed) {
+    // After a failure a smaller set.
+    if (!(one.drift.radius < 0.97 * last_radius)) {
+      continue;
+    }
+    const auto frame = LockFrame::make(question.problem, one.set);
+    if (frame && frame->verify(one.drift, question.most_cells)) {
+      return std::move(one);
+    }
+    last_radius = one.drift.radius;
+    if (++tries >= kMostTries) {
+      break;
+    }
+  }
+  return std::nullopt;
+}
+
+void add_loss(Derivation& derivation, const char* name, const char* symbol, const char* words,
+              const Interval& value) {
+  theorems::add_quantity(derivation, {name, symbol, "", "docs/block-tracker.md", words, Sense::at_most}, value);
+}
+
+}  // namespace
+
+std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFrame& frame,
+                                    const LockDrift& drift, double slew_share) {
+  // theta = tilt r / deviation^2
+  const Interval theta = Interval(drift.tilt) * question.problem.r / square(question.deviation);
+  const Interval half(0.5);
+  const rigor::IntervalMatrix<3> floor = rigor::to_interval(drift.floor);
+  const Interval determinant = determinant_of(floor);
+  const auto inverse = rigor::inverse(floor);
+  if (!inverse || !rigor::certainly_positive(determinant) || !rigor::certainly_positive(question.deviation)) {
+    return std::nullopt;
+  }
+  Interval power(drift.growth);
+  Interval factor = Interval(1.0) / sqrt(determinant);
+  if (!(question.problem.slew == Interval(0.0))) {
+    if (!(slew_share > 0.0)) {
+      return std::nullopt;
+    }
+    const rigor::IntervalVector<3> s = frame.slew_direction();
+    const Interval length = (s.transpose() * *inverse * s)(0, 0);
+    power *= Interval(1.0) + Interval(slew_share);
+    factor *= rigor::exp(half * theta * (Interval(1.0) + Interval(1.0) / Interval(slew_share)) *
+                         square(question.problem.slew) * length);
+  }
+  if (!rigor::certainly_less(power, Interval(1.0)) || !rigor::certainly_positive(power)) {
+    return std::nullopt;
+  }
+  rigor::IntervalVector<3> bounds;
+  bounds << question.amplitude_error, question.phase_error, question.offset_error;
+  const Interval start = frame.length_of(bounds);
+  if (!rigor::certainly_less_equal(start, Interval(drift.radius))) {
+    return std::nullopt;
+  }
+  LossBound found;
+  found.level = half * theta * square(Interval(drift.radius));
+  found.start_level = half * theta * square(start);
+  // factor W^power - W is largest where W = (power factor)^(1/(1 - power)).
+  found.constant = rigor::exp(rigor::log(power * factor) / (Interval(1.0) - power)) *
+                   (Interval(1.0) / power - Interval(1.0));
+  found.probability = rigor::exp(found.start_level - found.level) +
+                      question.blocks * found.constant * rigor::exp(-found.level);
+  if (!rigor::is_finite(found.probability) || !rigor::is_finite(found.level)) {
+    return std::nullopt;
+  }
+  return found;
+}
+
+Derivation derive_loss(const LossQuestion& question) {
+  const LockSearch search(question.problem);
+  const rigor::UpwardRounding upward;
+  Derivation derivation;
+  derivation.id = "lock-in-noise";
+  derivation.title = "A set about the exact lock and the probability of leaving it";
+  const std::optional<InNoise> found = first_verified(question, search);
+  const auto frame = found ? LockFrame::make(question.problem, found->set) : std::nullopt;
+  const bool starts = frame && (!question.covariance || frame->holds(*question.covariance));
+  const auto condition = [&](const char* id, const char* statement, bool is_proved, const char* ground,
+                             const char* objection) {
+    derivation.conditions.push_back({id, statement, is_proved ? Verdict::proved : Verdict::undecided,
+                                     Interval::empty(), Interval::empty(), is_proved ? ground : objection});
+  };
+  condition("drift", "E[W_{k+1}] \\le W_k + c", frame.has_value(),
+            "Verified over cells of errors, offsets and amplitudes.",
+            "No set was found that holds the assumed starts and in which this could be verified.");
+  condition("start", "|e_1| \\le \\rho", starts, "All starts, and the covariance, are in the set.",
+            frame ? "The covariance at the start is not certainly between the bounds of the set."
+                  : "There is no set.");
+  theorems::conclude(derivation);
+  if (!frame) {
+    return derivation;
+  }
+  derivation.evidence.push_back({"drift",
+                                 {{"above", found->set.above},
+                                  {"below", found->set.below},
+                                  {"radius", found->drift.radius},
+                                  {"tilt", found->drift.tilt},
+                                  {"growth", found->drift.growth},
+                                  {"weight", found->drift.weight},
+                                  {"floor_weight", found->drift.floor_weight},
+                                  {"slew_share", found->slew_share}},
+                                 {{"frame", found->set.frame}, {"floor", found->drift.floor}}});
+  if (derivation.verdict != Verdict::proved) {
+    return derivation;
+  }
+  const Interval radius(found->drift.radius);
+  add_loss(derivation, "probability_of_losing_lock", "p", "the probability of leaving the set",
+           min(found->bound.probability, Interval(1.0)));
+  add_loss(derivation, "offset_error_bound", "\\sup_{k < \\tau} |\\tilde\\delta_k|",
+           "the offset error until then, bins", radius * frame->reach(2));
+  add_loss(derivation, "phase_error_bound", "\\sup_{k < \\tau} |\\tilde\\varphi_k|",
+           "the phase error of the prediction at the middle of every block until then, rad",
+           radius * frame->reach(1));
+  add_loss(derivation, "amplitude_error_bound", "\\sup_{k < \\tau} |\\hat x_1/x_1 - 1|",
+           "the error of x1 until then, relative to the tone's", radius * frame->reach(0));
+  return derivation;
+}
+
+}  // namespace veritrack::dft_block

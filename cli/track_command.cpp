@@ -19,6 +19,7 @@
 #include "cli/default_folder.hpp"
 #include "reports/recording/fitting_source.hpp"
 #include "reports/recording/samples/open_recording.hpp"
+#include "reports/recording/track_blocks.hpp"
 #include "reports/recording/track_files.hpp"
 #include "reports/recording/track_table.hpp"
 
@@ -222,8 +223,10 @@ ExitStatus run_track(const TrackOptions& options) {
   fmt::print(options.each == "-" ? stderr : stdout, "{}: {}\n", files.document.string(),
              reports::headline(report));
   const reports::TrackResult& result = report.result;
-  const bool is_fine =
-      result.first_lock && !result.lost_lock && result.assumptions.judged > 0 && result.assumptions.keeps();
+  const bool is_fine = !result.blocks.empty()
+                           ? reports::blocks_are_in_lock(result)
+                           : result.first_lock && !result.lost_lock && result.assumptions.judged > 0 &&
+                                 result.assumptions.keeps();
   return options.strict && !is_fine ? not_proved : all_proved;
 }
 

@@ -20,7 +20,7 @@ using rigor::Interval;
 using Number = rigor::Dual<Interval, kStates>;
 
 BlockProblem<Number> constants(const BlockProblem<Interval>& problem) {
-  return {Number(problem.q1),     Number(problem.q2), Number(problem.q3),  Number(problem.weight),
+  return {Number(problem.q1),     Number(problem.q2), Number(problem.q3), Number(problem.weight),
           Number(problem.offset), Number(problem.pi), problem.half_width};
 }
 
@@ -87,10 +87,9 @@ std::optional<rigor::Matrix<kStates>> propose_metric(const rigor::Matrix<kStates
 std::optional<rigor::Vector<kStates>> run_to_the_end(const BlockProblem<Interval>& problem,
                                                      rigor::Vector<kStates> state) {
   const rigor::NearestRounding nearest;
-  const BlockProblem<double> doubles{midpoint(problem.q1),     midpoint(problem.q2),
-                                     midpoint(problem.q3),     midpoint(problem.weight),
-                                     midpoint(problem.offset), trackers::detail::kPi,
-                                     problem.half_width};
+  const BlockProblem<double> doubles{
+      midpoint(problem.q1),     midpoint(problem.q2),  midpoint(problem.q3), midpoint(problem.weight),
+      midpoint(problem.offset), trackers::detail::kPi, problem.half_width};
   constexpr int kBlocks = 6'000;
   constexpr double kStill = 1e-13;
   constexpr double kTurn = 2.0 * trackers::detail::kPi;
@@ -114,7 +113,8 @@ std::optional<double> contraction_over(const BlockProblem<Interval>& problem, co
                                        const rigor::IntervalMatrix<kStates>& inverse) {
   rigor::IntervalVector<kStates> box;
   for (int i = 0; i < kStates; ++i) {
-    box(i) = Interval(proposal.centre(i)) + Interval(proposal.radius) * length_of(inverse.row(i).transpose()) *
+    box(i) = Interval(proposal.centre(i)) + Interval(proposal.radius) *
+                                                length_of(inverse.row(i).transpose()) *
                                                 Interval::from_bounds(-1.0, 1.0);
   }
   return rigor::norm_upper_bound(

@@ -42,8 +42,8 @@ struct BlockLock {
                                                    const LockProposal& proposal);
 
 /// The end of the map's run from that state, in doubles, with a metric in which it contracts there and nearly
-/// the largest radius of a few that is verified, at a rate with some room. None when the run does not end in a fixed point, or nothing is
-/// verified. Needs the upward mode.
+/// the largest radius of a few that is verified, at a rate with some room. None when the run does not end in
+/// a fixed point, or nothing is verified. Needs the upward mode.
 [[nodiscard]] std::optional<BlockLock> find_lock(const BlockProblem<rigor::Interval>& problem,
                                                  const rigor::Vector<kStates>& start);
 

@@ -29,12 +29,12 @@ using BlockState = Eigen::Matrix<Scalar, kStates, 1>;
 /// The design relative to the tone, and the tone.
 template <typename Scalar>
 struct BlockProblem {
-  Scalar q1;          ///< of x1 relative to the tone's: 4 pi / amplitude times that of the design
-  Scalar q2, q3;      ///< of the phase at the start of the block, rad^2, and of the offset, bins^2
-  Scalar weight;      ///< amplitude^2 / (4 r)
-  Scalar offset;      ///< delta of the tone, bins
-  Scalar pi;          ///< an enclosure of it, or the double nearest to it
-  int half_width;     ///< L of the 2L + 1 bins
+  Scalar q1;       ///< of x1 relative to the tone's: 4 pi / amplitude times that of the design
+  Scalar q2, q3;   ///< of the phase at the start of the block, rad^2, and of the offset, bins^2
+  Scalar weight;   ///< amplitude^2 / (4 r)
+  Scalar offset;   ///< delta of the tone, bins
+  Scalar pi;       ///< an enclosure of it, or the double nearest to it
+  int half_width;  ///< L of the 2L + 1 bins
 };
 
 /// s_m(x) = (-1)^m sinc(m + x) and its derivative, for m = -L ... L.
@@ -58,8 +58,8 @@ struct BlockTaps {
 
 /// Enclosed with their derivatives. Needs the upward mode.
 template <int N>
-[[nodiscard]] BlockTaps<rigor::Dual<rigor::Interval, N>> block_taps(
-    const rigor::Dual<rigor::Interval, N>& x, int half_width) {
+[[nodiscard]] BlockTaps<rigor::Dual<rigor::Interval, N>> block_taps(const rigor::Dual<rigor::Interval, N>& x,
+                                                                    int half_width) {
   const Taps enclosed = enclose_taps(x.value(), half_width);
   BlockTaps<rigor::Dual<rigor::Interval, N>> taps;
   for (std::size_t i = 0; i <= 2 * static_cast<std::size_t>(half_width); ++i) {
@@ -79,7 +79,7 @@ template <typename Scalar>
   const BlockTaps<Scalar> seen = block_taps(Scalar(problem.offset + state(2)), problem.half_width);
   const BlockTaps<Scalar> tone = block_taps(problem.offset, problem.half_width);
   const auto [sine, cosine] = sin_cos(Scalar(state(1)));
-  Scalar values(0.0);    // sums of s(x) s(x), s(x) s'(x), s'(x) s'(x), s(x) s(delta), s'(x) s(delta)
+  Scalar values(0.0);  // sums of s(x) s(x), s(x) s'(x), s'(x) s'(x), s(x) s(delta), s'(x) s(delta)
   Scalar products(0.0);
   Scalar slopes(0.0);
   Scalar value_tone(0.0);

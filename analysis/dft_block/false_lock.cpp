@@ -60,8 +60,8 @@ std::array<std::optional<FoundFalse>, 2> find_about(const LockProblem& problem, 
         start << -0.7, 0.5 * std::numbers::pi * k + 0.5, side * bins, 0.07, 0.0, 0.0, 0.7, 0.0, 0.01;
         auto lock = find_lock(map, start);
         if (lock && is_away(*lock, side > 0.0) &&
-            (!best || magnitude(lock->fixed_offset_error) <
-                          0.99 * magnitude(best->lock.fixed_offset_error))) {
+            (!best ||
+             magnitude(lock->fixed_offset_error) < 0.99 * magnitude(best->lock.fixed_offset_error))) {
           best = FoundFalse{tone, std::move(*lock)};
         }
       }
@@ -74,7 +74,7 @@ std::array<std::optional<FoundFalse>, 2> find_about(const LockProblem& problem, 
 }
 
 void add_value(Derivation& derivation, const char* name, const char* symbol, const char* words, Sense sense,
-         const Interval& value) {
+               const Interval& value) {
   theorems::add_quantity(derivation, {name, symbol, "", "docs/block-tracker.md", words, sense}, value);
 }
 
@@ -97,20 +97,22 @@ Derivation derivation_of(const std::optional<FoundFalse>& found, bool above) {
     return derivation;
   }
   const BlockLock& lock = found->lock;
-  add_value(derivation, "contraction_rate", "\\kappa", "factor by which a block brings the set closer together",
-      Sense::at_most, Interval(lock.set.rate));
+  add_value(derivation, "contraction_rate", "\\kappa",
+            "factor by which a block brings the set closer together", Sense::at_most,
+            Interval(lock.set.rate));
   add_value(derivation, "offset_error", "\\tilde\\delta",
-      "the offset error of every prediction that starts in the set, in every block, bins", Sense::enclosure,
-      lock.offset_error);
+            "the offset error of every prediction that starts in the set, in every block, bins",
+            Sense::enclosure, lock.offset_error);
   add_value(derivation, "fixed_offset_error", "\\tilde\\delta_\\infty", "the one that it tends to, bins",
-      Sense::enclosure, lock.fixed_offset_error);
+            Sense::enclosure, lock.fixed_offset_error);
   add_value(derivation, "phase_error", "\\tilde\\varphi",
-      "the phase error at the middle of every block, modulo whole turns, rad", Sense::enclosure,
-      lock.phase_error);
-  add_value(derivation, "root_amplitude", "\\hat x_1/x_1", "the estimate of x1 in every block, relative to the tone's",
-      Sense::enclosure, lock.root_amplitude);
-  add_value(derivation, "amplitude", "(\\hat x_1/x_1)^2", "the amplitude that it tends to, relative to the tone's",
-      Sense::at_most, lock.amplitude);
+            "the phase error at the middle of every block, modulo whole turns, rad", Sense::enclosure,
+            lock.phase_error);
+  add_value(derivation, "root_amplitude", "\\hat x_1/x_1",
+            "the estimate of x1 in every block, relative to the tone's", Sense::enclosure,
+            lock.root_amplitude);
+  add_value(derivation, "amplitude", "(\\hat x_1/x_1)^2",
+            "the amplitude that it tends to, relative to the tone's", Sense::at_most, lock.amplitude);
   theorems::Evidence evidence{
       "false-lock",
       {{"radius", lock.set.radius}, {"rate", lock.set.rate}, {"turns", static_cast<double>(lock.set.turns)}},

@@ -27,7 +27,8 @@ struct InNoise {
 };
 
 Interval determinant_of(const rigor::IntervalMatrix<3>& a) {
-  return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
+  return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) -
+         a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
          a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
 }
 
@@ -84,7 +85,8 @@ std::optional<InNoise> first_verified(const LossQuestion& question, const LockSe
 
 void add_loss(Derivation& derivation, const char* name, const char* symbol, const char* words,
               const Interval& value) {
-  theorems::add_quantity(derivation, {name, symbol, "", "docs/block-tracker.md", words, Sense::at_most}, value);
+  theorems::add_quantity(derivation, {name, symbol, "", "docs/block-tracker.md", words, Sense::at_most},
+                         value);
 }
 
 }  // namespace

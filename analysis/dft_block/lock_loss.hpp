@@ -28,8 +28,8 @@ struct LossBound {
   rigor::Interval probability;  ///< exp(-level) (exp(start_level) + blocks constant) at most
 };
 
-/// `slew_share` is zeta > 0, by which |Ae + ws|^2 <= (1 + zeta)|Ae|^2 + (1 + 1/zeta)|ws|^2; without slew it is
-/// not used. None when the growth with that share is not below 1. Needs the upward mode.
+/// `slew_share` is zeta > 0, by which |Ae + ws|^2 <= (1 + zeta)|Ae|^2 + (1 + 1/zeta)|ws|^2; without slew it
+/// is not used. None when the growth with that share is not below 1. Needs the upward mode.
 [[nodiscard]] std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFrame& frame,
                                                   const LockDrift& drift, double slew_share);
 

@@ -101,7 +101,8 @@ bool is_definite(const Matrix3& a, const Matrix3& b, const Matrix3& c) {
 
 bool is_definite(const Matrix3& a, const Matrix3& b, const Matrix3& c, const Matrix3& d, const Matrix3& e,
                  const Matrix3& f) {
-  const std::array<std::array<const Matrix3*, 3>, 3> parts{{{&a, nullptr, nullptr}, {&b, &c, nullptr}, {&d, &e, &f}}};
+  const std::array<std::array<const Matrix3*, 3>, 3> parts{
+      {{&a, nullptr, nullptr}, {&b, &c, nullptr}, {&d, &e, &f}}};
   rigor::LowerTriangle<9> lower;
   for (std::size_t i = 0; i < 9; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
@@ -132,8 +133,8 @@ BlockInformation information_over(const Interval& first, const Interval& turn, c
   const Interval mixed = sums.value_slope / sqrt(sums.value_value);
   const Interval root = sqrt(weight) * x;
   const Interval two(2.0);
-  result.factor << two * root * sqrt(sums.value_value), zero, zero, zero, root * x * sqrt(sums.value_value), zero,
-      root * x * mixed, zero, root * x * sqrt(sums.slope_slope - square(mixed));
+  result.factor << two * root * sqrt(sums.value_value), zero, zero, zero, root * x * sqrt(sums.value_value),
+      zero, root * x * mixed, zero, root * x * sqrt(sums.slope_slope - square(mixed));
   result.more = result.secant;
   result.more(0, 0) = -(weight * twice * sums.value_value * first);
   result.more(0, 2) = weight * twice * (sums.value_secant - power * sums.value_slope);

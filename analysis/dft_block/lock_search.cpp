@@ -258,7 +258,8 @@ std::optional<LockDrift> LockSearch::drift_for(const LockSet& set, double radius
   std::vector<Sample> samples;
   const PointMatrix turn = frame_.inverse() * turn_ * frame_;
   const auto sample_at = [&](double amplitude, const PointVector& error, double offset) {
-    const PointMatrix j = frame_.transpose() * jacobian(amplitude, 1.0 + error(0), offset + error(2)) * frame_;
+    const PointMatrix j =
+        frame_.transpose() * jacobian(amplitude, 1.0 + error(0), offset + error(2)) * frame_;
     const PointMatrix high = (j + unit / set.above).inverse();
     const PointMatrix low = (j + unit * set.below).inverse();
     const PointMatrix centre = 0.5 * (high + low);
@@ -299,8 +300,8 @@ std::optional<LockDrift> LockSearch::drift_for(const LockSet& set, double radius
       }
       Eigen::Matrix<double, 6, 3> below;
       below << one.step, weight * seen * one.secant;
-      const PointMatrix all = weight * one.secant.transpose() * one.spread * one.secant +
-                              below.transpose() * root.solve(below);
+      const PointMatrix all =
+          weight * one.secant.transpose() * one.spread * one.secant + below.transpose() * root.solve(below);
       most = std::max(most, -smallest_eigenvalue(-all));
     }
     return most;

@@ -18,8 +18,8 @@ class LockSearch {
   [[nodiscard]] std::optional<LockSet> set_for(double radius) const;
   /// The rate of a set for errors up to that radius, a little above what samples show; none unless below 1.
   [[nodiscard]] std::optional<LockRate> rate_for(const LockSet& set, double radius) const;
-  /// The best growth for that tilt, and a floor, a little worse than what samples show; none unless the growth
-  /// is below 1.
+  /// The best growth for that tilt, and a floor, a little worse than what samples show; none unless the
+  /// growth is below 1.
   [[nodiscard]] std::optional<LockDrift> drift_for(const LockSet& set, double radius, double tilt) const;
   [[nodiscard]] const rigor::Matrix<3>& frame() const { return frame_; }
   /// The steady covariance, x1 relative to the tone's, phase at the middle of the block.

@@ -149,8 +149,7 @@ bool LockFrame::falls_over(const Cell& cell, const LockRate& rate) const {
   const Interval petersen(rate.weight);
   const Matrix3 first = scaled_identity(square(Interval(rate.rate))) -
                         petersen * Matrix3(block->secant.transpose() * block->spread * block->secant);
-  const Matrix3 second =
-      scaled_identity(Interval(1.0)) - (Interval(1.0) / petersen) * moved(block->spread);
+  const Matrix3 second = scaled_identity(Interval(1.0)) - (Interval(1.0) / petersen) * moved(block->spread);
   return is_definite(first, block->step, second);
 }
 
@@ -172,11 +171,11 @@ bool LockFrame::drifts_over(const Cell& cell, const LockDrift& drift) const {
     return false;
   }
   const Interval petersen(drift.weight);
-  return is_definite(
-      Matrix3(scaled_identity(Interval(drift.growth)) -
-              petersen * Matrix3(block->secant.transpose() * block->spread * block->secant)),
-      block->step, Matrix3(unit - (Interval(1.0) / petersen) * turned), Matrix3(petersen * (seen * block->secant)),
-      Matrix3(gain.transpose()), Matrix3(unit - petersen * lost));
+  return is_definite(Matrix3(scaled_identity(Interval(drift.growth)) -
+                             petersen * Matrix3(block->secant.transpose() * block->spread * block->secant)),
+                     block->step, Matrix3(unit - (Interval(1.0) / petersen) * turned),
+                     Matrix3(petersen * (seen * block->secant)), Matrix3(gain.transpose()),
+                     Matrix3(unit - petersen * lost));
 }
 
 bool LockFrame::verify(const LockRate& rate, std::int64_t most_cells) const {
@@ -189,10 +188,10 @@ bool LockFrame::verify(const LockRate& rate, std::int64_t most_cells) const {
 
 bool LockFrame::verify(const LockDrift& drift, std::int64_t most_cells) const {
   if (!(drift.radius > 0.0) || !std::isfinite(drift.radius) || !(drift.tilt > 0.0) ||
-      !std::isfinite(drift.tilt) || !(drift.growth > 0.0) || !(drift.growth < 1.0) ||
-      !(drift.weight > 0.0) || !std::isfinite(drift.weight) || !(drift.floor_weight > 0.0) ||
-      !std::isfinite(drift.floor_weight) || !drift.floor.allFinite() ||
-      drift.floor != drift.floor.transpose() || !is_definite(rigor::to_interval(drift.floor))) {
+      !std::isfinite(drift.tilt) || !(drift.growth > 0.0) || !(drift.growth < 1.0) || !(drift.weight > 0.0) ||
+      !std::isfinite(drift.weight) || !(drift.floor_weight > 0.0) || !std::isfinite(drift.floor_weight) ||
+      !drift.floor.allFinite() || drift.floor != drift.floor.transpose() ||
+      !is_definite(rigor::to_interval(drift.floor))) {
     return false;
   }
   return verify_cells(drift.radius, most_cells, [&](const Cell& cell) { return drifts_over(cell, drift); });

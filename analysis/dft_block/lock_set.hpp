@@ -43,8 +43,9 @@ struct LockRate {
 };
 
 /// Proposed as well: what one block does on average, in Gaussian noise, to W = exp(theta |e|^2 / 2) of errors
-/// up to a radius. With X, A and N of docs/block-tracker.md, section 7: A'(I - tilt F X N N'X F')^-1 A <= growth
-/// I, and floor <= I - tilt F X N N'X F'. The noise has theta (variance of each part of a bin) = tilt r.
+/// up to a radius. With X, A and N of docs/block-tracker.md, section 7: A'(I - tilt F X N N'X F')^-1 A <=
+/// growth I, and floor <= I - tilt F X N N'X F'. The noise has theta (variance of each part of a bin) = tilt
+/// r.
 struct LockDrift {
   double radius = 0.0;
   double tilt = 0.0;

@@ -13,4 +13,11 @@ namespace veritrack::certificates {
 /// "the amplitude 1", "a constant amplitude from 1 to 2".
 [[nodiscard]] std::string block_amplitude_words(const BlockAssumptions& assume);
 
+/// The deviation of the real and of the imaginary part of each bin, signal units: that of the samples over
+/// the root of 2 T. The noise must be Gaussian. Needs the upward mode.
+[[nodiscard]] rigor::Interval bin_deviation(const BlockTables& tables);
+
+/// Everything up to what is claimed of the assumed tones, noise and starts. Needs the upward mode.
+[[nodiscard]] std::string block_hypotheses(const BlockTables& tables);
+
 }  // namespace veritrack::certificates

@@ -6,10 +6,12 @@
 
 #include "analysis/dft_block/false_lock.hpp"
 #include "analysis/dft_block/lock_certificate.hpp"
+#include "analysis/dft_block/lock_loss.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/dft_block/block_sentences.hpp"
 #include "certificates/dft_block/dft_block_design.hpp"
 #include "certificates/dft_block/false_lock_claims.hpp"
+#include "certificates/sets/assumptions_json.hpp"
 #include "certificates/sets/required_claims.hpp"
 
 namespace veritrack::certificates {
@@ -51,24 +53,18 @@ dft_block::LockQuestion lock_question(const BlockTables& tables) {
   return question;
 }
 
-/// Everything up to what is claimed.
-std::string lock_hypotheses(const BlockTables& tables) {
-  const BlockAssumptions& assume = tables.assume;
-  std::string covariance = "of the steady state in exact lock in the middle of these offsets";
-  if (!assume.initial_covariance.empty()) {
-    const auto entry = [&](std::size_t i) -> const std::string& { return assume.initial_covariance[i].text; };
-    covariance = fmt::format("[[{}, {}, {}], [{}, {}, {}], [{}, {}, {}]]", entry(0), entry(1), entry(2),
-                             entry(3), entry(4), entry(5), entry(6), entry(7), entry(8));
-  }
-  return fmt::format(
-      "{}, is fed with the bins (4.9) of a tone of {}, constant within each block, whose offset is between {} "
-      "and {} bins in every block and changes by at most {} bins from one to the next, plus noise whose length "
-      "in all bins of a block together is at most {}. Its first prediction has a root amplitude x1 within {} of "
-      "the tone's, relative to it, a phase within {} rad at the middle of the block, an offset within {} bins, "
-      "and the covariance {}. Then ",
-      block_filter_words(tables), block_amplitude_words(assume), assume.offset[0].text, assume.offset[1].text,
-      assume.slew.text, assume.noise.text, assume.initial_amplitude_error.text,
-      assume.initial_phase_error.text, assume.initial_offset_error.text, covariance);
+dft_block::LossQuestion loss_question(const BlockTables& tables) {
+  const dft_block::LockQuestion lock = lock_question(tables);
+  dft_block::LossQuestion question;
+  question.problem = lock.problem;
+  question.problem.noise = rigor::Interval(0.0);
+  question.deviation = bin_deviation(tables);
+  question.blocks = tables.assume.blocks.value().value;
+  question.amplitude_error = lock.amplitude_error;
+  question.phase_error = lock.phase_error;
+  question.offset_error = lock.offset_error;
+  question.covariance = lock.covariance;
+  return question;
 }
 
 /// The claims, and the derivation that decides them.
@@ -77,10 +73,15 @@ class BlockClaims {
   explicit BlockClaims(Certificate& certificate)
       : certificate_(&certificate),
         tables_(&block_tables(certificate.design)),
-        found_(find_derivation(certificate, "lock-set")),
-        hypotheses_(lock_hypotheses(*tables_)) {}
+        found_(find_derivation(certificate, tables_->assume.gaussian ? "lock-in-noise" : "lock-set")),
+        hypotheses_(block_hypotheses(*tables_)) {}
 
   void add_all() {
+    if (tables_->assume.gaussian) {
+      add_losing_lock();
+      conclude_requirements(*certificate_);
+      return;
+    }
     add_guarantee();
     if (tables_->require.offset_error_below) {
       add_offset_error(*tables_->require.offset_error_below);
@@ -157,6 +158,54 @@ class BlockClaims {
     add(std::move(claim));
   }
 
+  /// What is proved in Gaussian noise, and what is required.
+  void add_losing_lock() {
+    const theorems::Quantity* probability = quantity("probability_of_losing_lock");
+    const theorems::Quantity* error = quantity("offset_error_bound");
+    const std::string& blocks = tables_->assume.blocks.value().text;
+    Claim claim;
+    claim.id = "dft-block/losing-lock";
+    claim.statement = hypotheses_;
+    const bool says_something = probability != nullptr && error != nullptr &&
+                                rigor::certainly_less(probability->value, rigor::Interval(1.0));
+    if (says_something) {
+      claim.verdict = Verdict::proved;
+      claim.evidence = {*probability, *error};
+      claim.statement += fmt::format(
+          "the probability that within the first {} blocks the offset error of an estimate exceeds {} bins "
+          "is "
+          "at most {}.",
+          blocks, rigor::upper_decimal(error->value, kBlockDigits),
+          rigor::upper_decimal(probability->value, kBlockDigits));
+      claim.reason =
+          "An exponential of the errors grows by no more than a constant on average in each block.";
+    } else {
+      claim.statement +=
+          fmt::format("the probability of losing lock within the first {} blocks is below 1.", blocks);
+      if (probability != nullptr) {
+        claim.reason = "The bound that is proved is 1.";
+      }
+    }
+    add(std::move(claim));
+    if (const auto& below = tables_->require.probability_of_losing_lock_below) {
+      Claim needed =
+          required("dft-block/probability-of-losing-lock", *below,
+                   fmt::format("within the first {} blocks lock is lost with a probability below {}", blocks,
+                               below->text));
+      if (says_something) {
+        const bool is_met = rigor::certainly_less(probability->value, below->value);
+        needed.verdict = is_met ? Verdict::proved : Verdict::undecided;
+        needed.reason =
+            fmt::format("The proved bound is {}{}.", rigor::upper_decimal(probability->value, kBlockDigits),
+                        is_met ? "" : ", which is not what is required");
+        if (is_met) {
+          needed.evidence = {*probability};
+        }
+      }
+      add(std::move(needed));
+    }
+  }
+
   /// What is proved, with all numbers.
   void add_guarantee() {
     Claim claim;
@@ -198,8 +247,10 @@ class BlockClaims {
 }  // namespace
 
 void certify_dft_block(Certificate& certificate, const CertifyProgress& /*progress*/) {
-  const dft_block::LockQuestion question = lock_question(block_tables(certificate.design));
-  certificate.derivations.push_back(dft_block::derive_lock(question));
+  const BlockTables& tables = block_tables(certificate.design);
+  const dft_block::LockQuestion question = lock_question(tables);
+  certificate.derivations.push_back(tables.assume.gaussian ? dft_block::derive_loss(loss_question(tables))
+                                                           : dft_block::derive_lock(question));
   // What is beside [require] is not asked for by everyone.
   const bool all = certificate.extent == Extent::everything;
   if (all) {
@@ -234,22 +285,24 @@ Json dft_block_design_json(const Design& read) {
   add_number(required, "offset_error_below", require.offset_error_below);
   add_number(required, "settles_within", require.settles_within);
   add_number(required, "settled_below", require.settled_below);
-  return {{"design",
-           {{"q1", number_json(design.q1)},
-            {"q2", number_json(design.q2)},
-            {"q3", number_json(design.q3)},
-            {"r", number_json(design.r)},
-            {"half_width", number_json(design.half_width)}}},
-          {"assume",
-           {{"amplitude", amplitude},
-            {"offset", Json::array({number_json(assume.offset[0]), number_json(assume.offset[1])})},
-            {"noise", number_json(assume.noise)},
-            {"slew", number_json(assume.slew)},
-            {"initial_amplitude_error", number_json(assume.initial_amplitude_error)},
-            {"initial_phase_error", number_json(assume.initial_phase_error)},
-            {"initial_offset_error", number_json(assume.initial_offset_error)},
-            {"initial_covariance", covariance}}},
-          {"require", required}};
+  add_number(required, "probability_of_losing_lock_below", require.probability_of_losing_lock_below);
+  Json chosen{{"q1", number_json(design.q1)},
+              {"q2", number_json(design.q2)},
+              {"q3", number_json(design.q3)},
+              {"r", number_json(design.r)},
+              {"half_width", number_json(design.half_width)}};
+  add_number(chosen, "block_length", design.block_length);
+  add_number(chosen, "centre", design.centre);
+  Json assumed{{"amplitude", amplitude},
+               {"offset", Json::array({number_json(assume.offset[0]), number_json(assume.offset[1])})},
+               {"noise", noise_json(assume.noise, assume.gaussian)},
+               {"slew", number_json(assume.slew)},
+               {"initial_amplitude_error", number_json(assume.initial_amplitude_error)},
+               {"initial_phase_error", number_json(assume.initial_phase_error)},
+               {"initial_offset_error", number_json(assume.initial_offset_error)},
+               {"initial_covariance", covariance}};
+  add_number(assumed, "blocks", assume.blocks);
+  return {{"design", chosen}, {"assume", assumed}, {"require", required}};
 }
 
 }  // namespace veritrack::certificates

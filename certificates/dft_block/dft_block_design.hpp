@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certificates/design/design.hpp"
+#include "certificates/sets/assumptions.hpp"
 
 namespace veritrack::certificates {
 
@@ -17,6 +18,9 @@ struct BlockDesignTable {
   Number q3;          ///< of the offset, bins^2
   Number r;           ///< of the real and of the imaginary part of a bin, signal units^2
   Number half_width;  ///< L
+  std::optional<Number>
+      block_length;  ///< T, samples: where the noise is that of the samples, or a recording is followed
+  std::optional<Number> centre;  ///< M: where a recording is followed
 };
 
 /// [assume]
@@ -25,7 +29,9 @@ struct BlockAssumptions {
       amplitude;  ///< [lowest, highest], constant, signal units; the same where one is given
   bool one_amplitude = true;
   std::array<Number, 2> offset;            ///< [lowest, highest], bins
-  Number noise;                            ///< in all bins of a block together, signal units
+  Number noise;                            ///< in all bins of a block together, signal units; a bound
+  std::optional<GaussianNoise> gaussian;   ///< of the samples, in place of the bound
+  std::optional<Number> blocks;            ///< within which lock is not to be lost, with Gaussian noise
   Number slew;                             ///< of the offset, bins per block
   Number initial_amplitude_error;          ///< of x1, relative to the tone's
   Number initial_phase_error;              ///< at the middle of the first block, rad
@@ -35,9 +41,10 @@ struct BlockAssumptions {
 
 /// [require]
 struct BlockRequirements {
-  std::optional<Number> offset_error_below;  ///< bins, in every block
-  std::optional<Number> settles_within;      ///< blocks
-  std::optional<Number> settled_below;       ///< bins
+  std::optional<Number> offset_error_below;                ///< bins, in every block
+  std::optional<Number> settles_within;                    ///< blocks
+  std::optional<Number> settled_below;                     ///< bins
+  std::optional<Number> probability_of_losing_lock_below;  ///< within `blocks`, in Gaussian noise
 };
 
 /// [simulate]: the runs of the figure.

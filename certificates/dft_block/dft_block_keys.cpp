@@ -6,6 +6,7 @@
 #include "certificates/design/input_error.hpp"
 #include "certificates/design/key_readers.hpp"
 #include "certificates/dft_block/dft_block_design.hpp"
+#include "certificates/sets/set_keys.hpp"
 
 namespace veritrack::certificates {
 
@@ -19,6 +20,28 @@ bool is_half_width(const Interval& x) {
 }
 void half_width(const TomlValue& value, BlockDesignTable& design) {
   design.half_width = value.whole_number(is_half_width);
+}
+
+template <auto member, int lowest>
+void whole_samples(const TomlValue& value, BlockDesignTable& design) {
+  constexpr double kMost = 1e9;
+  design.*member = value.whole_number([](const Interval& x) {
+    return rigor::certainly_less_equal(Interval(lowest), x) &&
+           rigor::certainly_less_equal(x, Interval(kMost));
+  });
+}
+
+void block_noise(const TomlValue& value, BlockAssumptions& assume) {
+  read_noise(value, assume.noise, assume.gaussian);
+}
+void probability_blocks(const TomlValue& value, BlockAssumptions& assume) {
+  assume.blocks = value.real(is_number_of_samples);
+}
+bool is_probability(const Interval& x) {
+  return rigor::certainly_positive(x) && rigor::certainly_less(x, Interval(1.0));
+}
+void block_probability(const TomlValue& value, BlockRequirements& require) {
+  require.probability_of_losing_lock_below = value.real(is_probability);
 }
 
 /// Two numbers of which the second is not the smaller one.
@@ -87,13 +110,17 @@ constexpr std::array kBlockDesignKeys{
     Key<Chosen>{"q3", kPositive, real<&Chosen::q3, positive>, kRequired},
     Key<Chosen>{"r", kPositive, real<&Chosen::r, positive>, kRequired},
     Key<Chosen>{"half_width", "a whole number from 1 to 8", half_width, defaults_to("2")},
+    Key<Chosen>{"block_length", "a whole number of samples from 4 to 1e9",
+                whole_samples<&Chosen::block_length, 4>, kOptional},
+    Key<Chosen>{"centre", "a whole number from 1 to 1e9", whole_samples<&Chosen::centre, 1>, kOptional},
 };
 using Assumed = BlockAssumptions;
 constexpr std::array kBlockAssumeKeys{
     Key<Assumed>{"amplitude", "a number above 0, or [lowest, highest] of two", block_amplitude,
                  defaults_to("1")},
     Key<Assumed>{"offset", "[lowest, highest], two numbers of bins from -8 to 8", block_offset, kRequired},
-    Key<Assumed>{"noise", kNotNegative, real<&Assumed::noise, not_negative>, kRequired},
+    Key<Assumed>{"noise", kNoiseThatMayBeGaussian, block_noise, kRequired},
+    Key<Assumed>{"blocks", kSamplesOfProbability, probability_blocks, kOptional},
     Key<Assumed>{"slew", kNotNegative, real<&Assumed::slew, not_negative>, defaults_to("0")},
     Key<Assumed>{"initial_amplitude_error", kAtLeastZeroBelowOne,
                  real<&Assumed::initial_amplitude_error, at_least_zero_below_one>, kRequired},
@@ -113,6 +140,8 @@ constexpr std::array kBlockRequireKeys{
                   settles_within_blocks, kOptional},
     Key<Required>{"settled_below", "a number above 0; with settles_within",
                   block_requirement<&Required::settled_below>, kOptional},
+    Key<Required>{"probability_of_losing_lock_below", "a number above 0 and below 1; with Gaussian noise",
+                  block_probability, kOptional},
 };
 using Simulated = BlockSimulation;
 constexpr std::int64_t kMostBlocks = 100'000;
@@ -131,6 +160,41 @@ std::vector<BoundTable> bind_block_tables(std::any& tables) {
           bound_table("simulate", kBlockSimulateKeys, target.simulate)};
 }
 
+/// What goes with Gaussian noise, and what with a bound.
+std::optional<TableObjection> objection_to_noise(const BlockTables& read) {
+  const bool is_gaussian = read.assume.gaussian.has_value();
+  if (is_gaussian != read.assume.blocks.has_value()) {
+    return TableObjection{"assume", is_gaussian
+                                        ? "Gaussian noise without blocks, within which lock is not to "
+                                          "be lost; allowed: a number of blocks"
+                                        : "blocks with a bound on the noise; allowed: with Gaussian "
+                                          "noise, noise = { snr_db = ... } or { deviation = ... }"};
+  }
+  if (is_gaussian && !read.design.block_length) {
+    return TableObjection{"design",
+                          "no block_length with Gaussian noise, which is that of the samples; allowed: the "
+                          "number of samples in a block"};
+  }
+  if (is_gaussian && read.assume.gaussian->snr_db && !read.assume.one_amplitude) {
+    return TableObjection{"assume",
+                          "noise = { snr_db = ... } with a range of amplitudes; allowed: one amplitude, or "
+                          "noise = { deviation = ... }"};
+  }
+  const BlockRequirements& require = read.require;
+  if (is_gaussian ? require.offset_error_below || require.settles_within
+                  : require.probability_of_losing_lock_below.has_value()) {
+    return TableObjection{
+        "require", is_gaussian ? "offset_error_below, settles_within or settled_below with Gaussian noise, "
+                                 "which has no bound; allowed: probability_of_losing_lock_below"
+                               : "probability_of_losing_lock_below with a bound on the noise; allowed: "
+                                 "with Gaussian noise"};
+  }
+  if (read.design.centre && !read.design.block_length) {
+    return TableObjection{"design", "centre without block_length; allowed: both, or block_length alone"};
+  }
+  return std::nullopt;
+}
+
 std::optional<TableObjection> block_objection(const std::any& tables) {
   const auto& read = std::any_cast<const BlockTables&>(tables);
   if (read.require.settles_within.has_value() != read.require.settled_below.has_value()) {
@@ -141,7 +205,7 @@ std::optional<TableObjection> block_objection(const std::any& tables) {
                           "initial_covariance \"steady-state\" with a range of amplitudes, each of which has "
                           "another; allowed: a matrix"};
   }
-  return std::nullopt;
+  return objection_to_noise(read);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // The block tracker as a kind of tracker.
 #include "certificates/dft_block/dft_block.hpp"
+#include "certificates/dft_block/dft_block_track.hpp"
 #include "certificates/dft_block/markdown_dft_block.hpp"
 #include "certificates/document/tracker_kind.hpp"
 
@@ -10,7 +11,8 @@ const TrackerKind& dft_block_kind() {
                                 .design_json = dft_block_design_json,
                                 .certify = certify_dft_block,
                                 .summary = dft_block_summary,
-                                .sections = dft_block_sections};
+                                .sections = dft_block_sections,
+                                .track = track_dft_block};
   return kind;
 }
 

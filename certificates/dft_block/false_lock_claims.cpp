@@ -55,7 +55,8 @@ void add_false_lock_claims(Certificate& certificate) {
   Claim every;
   every.id = "dft-block/every-start-locks";
   every.statement = fmt::format(
-      "{}, is fed, without noise, with the bins (4.9) of a tone of {} and a constant offset between {} and {} "
+      "{}, is fed, without noise, with the bins (4.9) of a tone of {} and a constant offset between {} and "
+      "{} "
       "bins. Whatever its first prediction and covariance, the offset error of some prediction is less than "
       "half a bin.",
       block_filter_words(tables), block_amplitude_words(tables.assume), tables.assume.offset[0].text,
@@ -70,9 +71,8 @@ void add_false_lock_claims(Certificate& certificate) {
   }
   if (!locks.empty()) {
     every.verdict = Verdict::refuted;
-    every.reason = fmt::format(
-        "A start of the set {} stays more than half a bin off for ever.",
-        locks.front().id.substr(std::string("dft-block/").size()));
+    every.reason = fmt::format("A start of the set {} stays more than half a bin off for ever.",
+                               locks.front().id.substr(std::string("dft-block/").size()));
   }
   certificate.claims.push_back(std::move(every));
   for (Claim& claim : locks) {

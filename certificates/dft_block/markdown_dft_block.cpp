@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "certificates/dft_block/dft_block_design.hpp"
+#include "certificates/dft_block/initial_landing.hpp"
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
 
@@ -33,7 +34,9 @@ std::string block_filter_section(const Certificate& certificate) {
 }
 
 std::string block_set_section(const Certificate& certificate) {
-  const theorems::Derivation& found = *find_derivation(certificate, "lock-set");
+  const bool is_gaussian = block_tables(certificate.design).assume.gaussian.has_value();
+  const theorems::Derivation& found =
+      *find_derivation(certificate, is_gaussian ? "lock-in-noise" : "lock-set");
   return "## The set about the exact lock: conditions " + markdown::satisfied(found.verdict) + "\n\n" +
          markdown::conditions_table(found) + "\n" + markdown::values_table(found) + "\n" +
          markdown::notes_list(found) + "\n";
@@ -50,7 +53,8 @@ std::string false_lock_section(const Certificate& certificate) {
       "## False locks: starts that never find the tone\n\nThe filter has other fixed points, about whole "
       "numbers of bins off, with a small estimated amplitude. Each set below is a ball $`|S(s - s_0)| \\le "
       "\\rho`$ of first predictions and covariances $`s`$; centre $`s_0`$, shape $`S`$ and radius $`\\rho`$ "
-      "are in `certificate.json`. The sets are small, since errors and covariance have to be bounded together; "
+      "are in `certificate.json`. The sets are small, since errors and covariance have to be bounded "
+      "together; "
       "what is drawn into them is more (`veritrack map`).\n\n";
   for (const theorems::Derivation* found : {below, above}) {
     text += fmt::format("### {}: {}\n\n", found->title, markdown::satisfied(found->verdict));
@@ -73,30 +77,68 @@ std::string false_lock_section(const Certificate& certificate) {
   return text;
 }
 
-std::string block_coverage() {
+/// "1234 (61.2 to 66.1 %)"
+std::string counted_share(const CountedShare& share) {
+  return fmt::format("{} ({:.2f} to {:.2f} %)", share.count, 100.0 * share.low, 100.0 * share.high);
+}
+
+std::string landing_section(const Certificate& certificate) {
+  const std::vector<InitialLanding> landings = simulate_initial_landing(certificate);
+  if (landings.empty()) {
+    return "";
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const InitialLanding& one : landings) {
+    rows.push_back(
+        {fmt::format("{:.4g} dB", one.snr_db), counted_share(one.near), counted_share(one.in_set)});
+  }
+  return fmt::format(
+             "## Where the initialisation lands\n\n*Sampled*, not proved: {} starts each by (4.35) and "
+             "(4.36) of "
+             "the thesis from the bins of one block (`trackers/dft_block/block_dft.hpp`), seed {}, tones of "
+             "the "
+             "lowest assumed amplitude, offsets uniform in the assumed band, any phase; with Clopper and "
+             "Pearson's "
+             "interval at 99 %. In the set are errors only; the covariance has to be as assumed.\n\n",
+             landings.front().starts, block_tables(certificate.design).simulate.seed) +
+         markdown::table({"SNR of the samples", "within half a bin of the tone", "in the certified set"},
+                         rows) +
+         "\n";
+}
+
+std::string block_coverage(bool is_gaussian) {
+  const std::string noise =
+      is_gaussian
+          ? "white Gaussian noise in the samples, of which the bins see independent parts of the variance "
+            "$`\\sigma^2/(2T)`$, as loud as assumed or less, and independent of how the offset moves; "
+          : "any noise in the bins up to the assumed length, whatever its distribution; ";
   return "## What this certificate covers, and what it does not\n\n- Covered: every tone whose offset stays "
          "between "
          "the assumed bounds and changes by no more than the assumed slew from one block to the next, and is "
-         "constant within each block; any noise in the bins up to the assumed length, whatever its "
-         "distribution; "
+         "constant "
+         "within each block, with its amplitude and phase going on from block to block; " +
+         noise +
          "every start within the assumed errors.\n- Of the model (4.9), not of the samples: what a real "
          "tone's "
-         "transform is beside it (about the amplitude over $`T`$) has to be counted as noise, and so has "
-         "what a "
-         "frequency that changes within a block adds.\n- Exact lock is a fixed point for every offset: "
-         "without "
+         "transform is beside it (about the amplitude over $`T`$) " +
+         (is_gaussian ? "is not in the noise that is assumed, and neither is"
+                      : "has to be counted as noise, and so has") +
+         " what a frequency that changes within a block adds.\n- Exact lock is a fixed point for every "
+         "offset: without "
          "noise and slew, errors of the set fall to zero.\n- Not covered: starts outside. From some of them "
-         "the filter never finds the tone, but stays about a number of bins off: `docs/block-tracker.md` of the "
-         "program's sources says how that is seen from outside, and `veritrack track` looks.\n- Exact arithmetic; every enclosure was "
-         "computed with "
-         "outward-rounded interval arithmetic. The simulation proves nothing.\n\n";
+         "the filter "
+         "never finds the tone, but stays about a number of bins off: `docs/block-tracker.md` of the "
+         "program's sources "
+         "says how that is seen from outside, and `veritrack track` looks.\n- Exact arithmetic; every "
+         "enclosure was "
+         "computed with outward-rounded interval arithmetic. The simulation proves nothing.\n\n";
 }
 
 }  // namespace
 
 std::string dft_block_summary(const Certificate& certificate) {
   std::string text;
-  for (const char* id : {"dft-block/guarantee", "dft-block/every-start-locks"}) {
+  for (const char* id : {"dft-block/guarantee", "dft-block/losing-lock", "dft-block/every-start-locks"}) {
     const auto claim = std::find_if(certificate.claims.begin(), certificate.claims.end(),
                                     [id](const Claim& one) { return one.id == id; });
     if (claim != certificate.claims.end()) {
@@ -114,7 +156,8 @@ std::string dft_block_sections(const Certificate& certificate, const MarkdownOpt
   }
   return block_filter_section(certificate) + block_set_section(certificate) +
          false_lock_section(certificate) + (figures.empty() ? "" : "## In simulation\n\n" + figures) +
-         block_coverage();
+         landing_section(certificate) +
+         block_coverage(block_tables(certificate.design).assume.gaussian.has_value());
 }
 
 }  // namespace veritrack::certificates

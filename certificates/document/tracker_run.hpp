@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,6 +28,18 @@ struct TrackerOutput {
   double nis;
 };
 
+/// A block of samples that a tracker in blocks has taken.
+struct TrackedBlock {
+  enum class State { settling, lock, false_lock, no_tone };
+  std::int64_t samples;      ///< of the block
+  double frequency;          ///< the estimate with this block, rad/sample
+  double unexplained_share;  ///< of the power of its bins, by the estimate: 0 in lock without noise
+  double last_blocks_share;  ///< the same over the last blocks
+  double best_frequency;     ///< the frequency near the tracker's bins that explains most of them, rad/sample
+  double best_share;         ///< what it explains
+  State state;
+};
+
 class TrackerRun {
  public:
   TrackerRun() = default;
@@ -48,6 +61,8 @@ class TrackerRun {
   /// One sample that is missing: the prediction, or nothing when this tracker cannot go on without the
   /// sample. Nearest rounding.
   [[nodiscard]] virtual std::optional<TrackerOutput> predict() = 0;
+  /// All blocks so far, of a tracker that takes samples in blocks; none of another.
+  [[nodiscard]] virtual std::span<const TrackedBlock> blocks() const { return {}; }
 };
 
 /// What a design assumes of its signal, in doubles: for a comparison with a recording.

@@ -88,8 +88,8 @@ bool definite_together(const Matrix3& a, const Matrix3& b, const Matrix3& c) {
   return definite(all);
 }
 
-bool definite_together(const Matrix3& a, const Matrix3& b, const Matrix3& c, const Matrix3& d, const Matrix3& e,
-                       const Matrix3& f) {
+bool definite_together(const Matrix3& a, const Matrix3& b, const Matrix3& c, const Matrix3& d,
+                       const Matrix3& e, const Matrix3& f) {
   const std::array<std::array<const Matrix3*, 3>, 3> lower{{{&a, &b, &d}, {&b, &c, &e}, {&d, &e, &f}}};
   SquareMatrix<9> all;
   for (std::size_t i = 0; i < 9; ++i) {

@@ -16,7 +16,7 @@ Matrix3 inverse_near(const Matrix3& a);
 /// The 6x6 matrix [a, b'; b, c].
 bool definite_together(const Matrix3& a, const Matrix3& b, const Matrix3& c);
 /// The 9x9 matrix [a, b', d'; b, c, e'; d, e, f].
-bool definite_together(const Matrix3& a, const Matrix3& b, const Matrix3& c, const Matrix3& d, const Matrix3& e,
-                       const Matrix3& f);
+bool definite_together(const Matrix3& a, const Matrix3& b, const Matrix3& c, const Matrix3& d,
+                       const Matrix3& e, const Matrix3& f);
 
 }  // namespace veritrack::checker

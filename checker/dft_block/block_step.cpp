@@ -7,7 +7,8 @@ namespace veritrack::checker {
 
 namespace {
 
-/// sinc d and its first two derivatives over a ball: by Taylor's formula about its middle, where |d^n sinc/dx^n|
+/// sinc d and its first two derivatives over a ball: by Taylor's formula about its middle, where |d^n
+/// sinc/dx^n|
 /// <= pi^n/(n + 1).
 struct Sinc {
   Ball value, slope, bend;
@@ -109,8 +110,8 @@ BlockNumbers block_step(const BlockNumbers& state, const BlockTone& tone) {
     t.emplace_back(sinc_over(tone.offset + Ball(1.0 * m)).value);
   }
   const BlockNumber g = BlockNumber(one) + state[0];  // x1
-  // h = g^2 a e^{j z_2} against t, divided by what makes R the unit matrix: rows of H are (2 g a, 0, g^2 b) and
-  // (0, g^2 a, 0) in the frame of the estimate.
+  // h = g^2 a e^{j z_2} against t, divided by what makes R the unit matrix: rows of H are (2 g a, 0, g^2 b)
+  // and (0, g^2 a, 0) in the frame of the estimate.
   const BlockNumber c = cos(state[1]);
   const BlockNumber s = sin(state[1]);
   const BlockNumber aa = dot(a, a);
@@ -187,8 +188,7 @@ BlockBallFound check_ball(const BlockBall& ball, const BlockTone& tone) {
     for (slong k = 0; k < kCount; ++k) {
       derivative.set(i, k, next[at].along[static_cast<std::size_t>(k)]);
     }
-    step.set(i, 0,
-             moved[at].value - ball.centre[at] - (i == 1 ? two * pi() * ball.turns : zero));
+    step.set(i, 0, moved[at].value - ball.centre[at] - (i == 1 ? two * pi() * ball.turns : zero));
   }
   // S DG S^-1 shortens by the rate when rate^2 I - M'M is definite.
   const Matrix m = ball.shape * derivative * back;
@@ -204,8 +204,7 @@ BlockBallFound check_ball(const BlockBall& ball, const BlockTone& tone) {
     squares += square(away(i, 0));
   }
   const Ball distance = sqrt(squares);
-  found.is_kept =
-      contracts && certainly_at_most(distance + ball.rate * ball.radius, ball.radius);
+  found.is_kept = contracts && certainly_at_most(distance + ball.rate * ball.radius, ball.radius);
   for (std::size_t i = 0; i < kBlockStates; ++i) {
     const Ball to_fixed = distance / (one - ball.rate) * reach[i];
     found.fixed.emplace_back(ball.centre[i] - to_fixed, ball.centre[i] + to_fixed);

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "checker/dft_block/false_lock_check.hpp"
-#include "checker/dft_block/lock_check.hpp"
+#include "checker/dft_block/lock_loss_check.hpp"
 #include "checker/document/design_number.hpp"
 #include "checker/document/evidence.hpp"
 #include "checker/numbers/decimal_text.hpp"
@@ -16,6 +16,8 @@ namespace {
 const std::string kGuarantee = "dft-block/guarantee";
 const std::string kOffsetError = "dft-block/offset-error";
 const std::string kSettles = "dft-block/settles";
+const std::string kLosingLock = "dft-block/losing-lock";
+const std::string kProbability = "dft-block/probability-of-losing-lock";
 const std::string kEveryStart = "dft-block/every-start-locks";
 const std::string kClaimOf = "dft-block/";  // and the id of a false lock
 constexpr int kMostHalfWidth = 8;
@@ -82,6 +84,14 @@ class BlockVerifier {
         problem_.half_width = i;
       }
     }
+    for (const char* key : {"block_length", "centre"}) {
+      if (chosen.find(key) != nullptr) {
+        const Ball number = read_positive(chosen.at(key), key, objections);
+        if (arb_is_int(number.raw()) == 0) {
+          objections.push_back(std::string(key) + " must be a whole number");
+        }
+      }
+    }
     if (problem_.half_width == 0) {
       objections.emplace_back("half_width must be a whole number from 1 to 8");
     }
@@ -104,7 +114,7 @@ class BlockVerifier {
     if (!certainly_at_most(-most, problem_.offset_low) || !certainly_at_most(problem_.offset_high, most)) {
       objections.emplace_back("offset must be from -8 to 8");
     }
-    problem_.noise = read_not_negative(assume_.at("noise"), "noise", objections);
+    read_noise(objections);
     problem_.slew = read_not_negative(assume_.at("slew"), "slew", objections);
     start_ = {read_not_negative(assume_.at("initial_amplitude_error"), "initial_amplitude_error", objections),
               read_not_negative(assume_.at("initial_phase_error"), "initial_phase_error", objections),
@@ -113,6 +123,43 @@ class BlockVerifier {
       objections.emplace_back("initial_amplitude_error must be below 1");
     }
     read_covariance(objections);
+  }
+
+  /// A bound, or Gaussian noise of the samples, from which that of the bins follows.
+  void read_noise(Objections& objections) {
+    const Tree& noise = assume_.at("noise");
+    is_gaussian_ = noise.find("text") == nullptr;
+    if (is_gaussian_ != (assume_.find("blocks") != nullptr)) {
+      objections.emplace_back("Gaussian noise and blocks belong together");
+    }
+    if (!is_gaussian_) {
+      problem_.noise = read_not_negative(noise, "noise", objections);
+      return;
+    }
+    problem_.noise = Ball::everything();  // there is no bound
+    if (noise.members().size() != 1) {
+      objections.emplace_back("noise is given by one number: snr_db or deviation");
+    }
+    Ball deviation;
+    if (const Tree* decibels = noise.find("snr_db")) {
+      if (!one_amplitude_) {
+        objections.emplace_back("snr_db goes with one amplitude");
+      }
+      deviation = problem_.amplitude_low *
+                  exp(-(read_number(*decibels, objections) / Ball(20.0)) * log(Ball(10.0))) / sqrt(two);
+    } else {
+      deviation = read_positive(noise.at("deviation"), "deviation", objections);
+    }
+    // Real and imaginary part of (4.4) have the variance deviation^2/(2 T).
+    const Ball length = read_number(design_.at("design").at("block_length"), objections);
+    noise_.deviation = deviation / sqrt(two * length);
+    if (!certainly_positive(noise_.deviation)) {
+      objections.emplace_back("the deviation of the noise is not a positive number");
+    }
+    noise_.blocks = read_positive(assume_.at("blocks"), "blocks", objections);
+    if (!certainly_at_most(one, noise_.blocks)) {
+      objections.emplace_back("blocks must be at least 1");
+    }
   }
 
   static void read_pair(const Tree& pair, const std::string& name, Ball& low, Ball& high,
@@ -171,13 +218,19 @@ class BlockVerifier {
     const Tree& require = design_.at("require");
     for (const auto& [key, value] : require.members()) {
       read_positive(value, key, objections);
-      if (key != "offset_error_below" && key != "settles_within" && key != "settled_below") {
+      const bool is_key =
+          is_gaussian_ ? key == "probability_of_losing_lock_below"
+                       : key == "offset_error_below" || key == "settles_within" || key == "settled_below";
+      if (!is_key) {
         objections.push_back("[require] has no key " + key);
       }
     }
     std::vector<Requirement> asked;
     if (require.find("offset_error_below") != nullptr) {
       asked.push_back({kOffsetError, required_text(kOffsetError)});
+    }
+    if (require.find("probability_of_losing_lock_below") != nullptr) {
+      asked.push_back({kProbability, required_text(kProbability)});
     }
     const bool within = require.find("settles_within") != nullptr;
     const bool below = require.find("settled_below") != nullptr;
@@ -197,6 +250,11 @@ class BlockVerifier {
     return read_number(design_.at("require").at(key), read_before);
   }
   [[nodiscard]] std::string required_text(const std::string& id) const {
+    if (id == kProbability) {
+      return "within the first " + text_of(assume_.at("blocks")) +
+             " blocks lock is lost with a probability below " +
+             asked_text("probability_of_losing_lock_below");
+    }
     return id == kOffsetError
                ? "the offset error is below " + asked_text("offset_error_below") + " bins in every block"
                : "from block " + asked_text("settles_within") + " on, the offset error is below " +
@@ -214,19 +272,36 @@ class BlockVerifier {
 
   [[nodiscard]] std::string amplitude_words() const {
     const Tree& amplitude = assume_.at("amplitude");
-    return one_amplitude_ ? "the amplitude " + text_of(amplitude)
-                          : "a constant amplitude from " + text_of(amplitude.at(0)) + " to " +
-                                text_of(amplitude.at(1));
+    return one_amplitude_
+               ? "the amplitude " + text_of(amplitude)
+               : "a constant amplitude from " + text_of(amplitude.at(0)) + " to " + text_of(amplitude.at(1));
+  }
+
+  [[nodiscard]] std::string noise_words() const {
+    const Tree& noise = assume_.at("noise");
+    if (!is_gaussian_) {
+      return "plus noise whose length in all bins of a block together is at most " + text_of(noise);
+    }
+    const Tree* decibels = noise.find("snr_db");
+    return "in a way that does not depend on the noise, plus Gaussian noise of mean zero, independent from "
+           "block "
+           "to block and from bin to bin, with independent real and imaginary parts of a deviation of at "
+           "most " +
+           lower_decimal(noise_.deviation) + " each: that of blocks of " +
+           text_of(design_.at("design").at("block_length")) + " samples with white noise and " +
+           (decibels != nullptr ? "an SNR of at least " + text_of(*decibels) + " dB"
+                                : "a deviation of at most " + text_of(noise.at("deviation")));
   }
 
   [[nodiscard]] std::string hypotheses() const {
     const auto text = [](const Tree& table, const char* key) { return text_of(table.at(key)); };
     return filter_words() + ", is fed with the bins (4.9) of a tone of " + amplitude_words() +
-           ", constant within each block, whose offset is between " + text_of(assume_.at("offset").at(0)) +
-           " and " + text_of(assume_.at("offset").at(1)) + " bins in every block and changes by at most " +
-           text(assume_, "slew") +
-           " bins from one to the next, plus noise whose length in all bins of a block together is at most " +
-           text(assume_, "noise") + ". Its first prediction has a root amplitude x1 within " +
+           ", constant within each block and continuous in phase from one to the next, whose offset is "
+           "between " +
+           text_of(assume_.at("offset").at(0)) + " and " + text_of(assume_.at("offset").at(1)) +
+           " bins in every block and changes by at most " + text(assume_, "slew") +
+           " bins from one to the next, " + noise_words() +
+           ". Its first prediction has a root amplitude x1 within " +
            text(assume_, "initial_amplitude_error") + " of the tone's, relative to it, a phase within " +
            text(assume_, "initial_phase_error") + " rad at the middle of the block, an offset within " +
            text(assume_, "initial_offset_error") + " bins, and the covariance " +
@@ -238,15 +313,18 @@ class BlockVerifier {
   void check_one(const Tree& derivation) {
     const std::string& id = derivation.at("id").text();
     Objections objections;
-    const bool is_known = id == "lock-set" || is_false_lock(id);
+    const bool is_known = id == (is_gaussian_ ? "lock-in-noise" : "lock-set") || is_false_lock(id);
     if (!is_known || !seen_.insert(id).second) {
       result_.parts.push_back({id, {is_known ? "a second derivation of this id" : kUnknown}});
       return;
     }
-    check_derivation(
-        derivation,
-        is_false_lock(id) ? false_lock(derivation, problem_, objections) : lock_set(derivation, objections),
-        objections);
+    check_derivation(derivation,
+                     is_false_lock(id) ? false_lock(derivation, problem_, objections)
+                     : is_gaussian_    ? lock_in_noise(derivation, problem_,
+                                                       {noise_.deviation, noise_.blocks, start_, covariance_},
+                                                       result_.cells, objections)
+                                       : lock_set(derivation, objections),
+                     objections);
     if (objections.empty() && verdict_of(derivation) == Verdict::proved) {
       (is_false_lock(id) ? false_locks_[id] : proved_) = &derivation;
     }
@@ -371,6 +449,9 @@ class BlockVerifier {
       return false_lock_claim(claim, id.substr(kClaimOf.size()), objections);
     }
     const Tree& require = design_.at("require");
+    if (is_gaussian_) {
+      return claim_in_noise(claim, objections);
+    }
     const bool is_asked = id == kGuarantee ||
                           (id == kOffsetError && require.find("offset_error_below") != nullptr) ||
                           (id == kSettles && require.find("settles_within") != nullptr);
@@ -381,6 +462,38 @@ class BlockVerifier {
     Claim found = id == kGuarantee ? guarantee(claim) : required_claim(id);
     if (proved_ == nullptr) {
       objections.emplace_back(kUnverified);
+    }
+    check_claim(claim, found, objections);
+    return found;
+  }
+
+  [[nodiscard]] Claim claim_in_noise(const Tree& claim, Objections& objections) const {
+    const std::string& id = claim.at("id").text();
+    const bool is_required =
+        id == kProbability && design_.at("require").find("probability_of_losing_lock_below") != nullptr;
+    if (id != kLosingLock && !is_required) {
+      objections.emplace_back(kUnknown);
+      return {};
+    }
+    if (proved_ == nullptr) {
+      objections.emplace_back(kUnverified);
+    }
+    Claim found;
+    const Ball probability = at_most("probability_of_losing_lock");
+    if (is_required) {
+      found.statement = hypotheses_ + required_text(id) + ".";
+      found.verdict = proved_if(certainly_less(probability, asked("probability_of_losing_lock_below")));
+      found.evidence = {bounded("probability_of_losing_lock")};
+    } else {
+      const Tree& evidence = claim.at("evidence");
+      const auto most = [&](const char* name) { return upper_decimal(high_of(evidence.at(name))); };
+      found.is_summary = true;
+      found.verdict = proved_if(certainly_less(probability, one) && at_most("offset_error_bound").finite());
+      found.evidence = {bounded("probability_of_losing_lock"), bounded("offset_error_bound")};
+      found.statement = hypotheses_ + "the probability that within the first " +
+                        text_of(assume_.at("blocks")) + " blocks the offset error of an estimate exceeds " +
+                        most("offset_error_bound") + " bins is at most " +
+                        most("probability_of_losing_lock") + ".";
     }
     check_claim(claim, found, objections);
     return found;
@@ -425,18 +538,18 @@ class BlockVerifier {
     const Tree* amplitude = quantities.find("amplitude");
     const FalseLockTone tone = false_lock_tone(*lock->second);
     found.verdict = Verdict::proved;
-    found.evidence = {{"offset_error", established("offset_error")},
-                      {"fixed_offset_error", established("fixed_offset_error")},
-                      {"amplitude", amplitude == nullptr ? Ball::everything() : high_of(*amplitude),
-                       Sense::bounds_above}};
-    found.statement =
-        filter_words() + ", is fed, without noise, with the bins (4.9) of a tone of the amplitude " +
-        tone.amplitude + " and the constant offset " + tone.offset +
-        " bins. From every first prediction and covariance of the set " + id +
-        ", the offset error of every prediction is between " + both_ends("offset_error") +
-        " bins, for ever; it tends to one between " + both_ends("fixed_offset_error") +
-        " bins, and the estimated amplitude to at most " +
-        upper_decimal(high_of(said.at("amplitude")), kDigits) + " of the tone's.";
+    found.evidence = {
+        {"offset_error", established("offset_error")},
+        {"fixed_offset_error", established("fixed_offset_error")},
+        {"amplitude", amplitude == nullptr ? Ball::everything() : high_of(*amplitude), Sense::bounds_above}};
+    found.statement = filter_words() +
+                      ", is fed, without noise, with the bins (4.9) of a tone of the amplitude " +
+                      tone.amplitude + " and the constant offset " + tone.offset +
+                      " bins. From every first prediction and covariance of the set " + id +
+                      ", the offset error of every prediction is between " + both_ends("offset_error") +
+                      " bins, for ever; it tends to one between " + both_ends("fixed_offset_error") +
+                      " bins, and the estimated amplitude to at most " +
+                      upper_decimal(high_of(said.at("amplitude")), kDigits) + " of the tone's.";
     check_claim(claim, found, objections);
     return found;
   }
@@ -481,6 +594,8 @@ class BlockVerifier {
   const Tree& assume_;
   Verification& result_;
   BlockProblem problem_;
+  BlockNoise noise_;  ///< deviation and blocks, where the noise is Gaussian
+  bool is_gaussian_ = false;
   bool one_amplitude_ = true;
   Vector3 start_;
   std::optional<Matrix3> covariance_;

@@ -76,15 +76,16 @@ Derivation false_lock(const Tree& derivation, const BlockProblem& problem, Objec
     objections.emplace_back("the tone is not one of those that are assumed");
     return found;
   }
-  const BlockTone tone{problem.q1 * four * pi() / amplitude, problem.q2, problem.q3,
-                       square(amplitude) / (four * problem.r), offset, problem.half_width};
+  const BlockTone tone{problem.q1 * four * pi() / amplitude,   problem.q2, problem.q3,
+                       square(amplitude) / (four * problem.r), offset,     problem.half_width};
   const BlockBallFound states = check_ball(ball, tone);
   const bool is_kept = states.is_kept && definite(covariance_of(ball));
   const Range error = states.all[2];
   const bool is_away =
       is_kept && (above ? certainly_less(half, error.low) : certainly_less(error.high, -half));
-  found.conditions = {{"set", "|G(s_0) - s_0|_S + \\kappa \\rho \\le \\rho,\\ \\kappa < 1", proved_if(is_kept)},
-                      {"away", above ? "\\tilde\\delta > 1/2" : "\\tilde\\delta < -1/2", proved_if(is_away)}};
+  found.conditions = {
+      {"set", "|G(s_0) - s_0|_S + \\kappa \\rho \\le \\rho,\\ \\kappa < 1", proved_if(is_kept)},
+      {"away", above ? "\\tilde\\delta > 1/2" : "\\tilde\\delta < -1/2", proved_if(is_away)}};
   if (!is_away) {
     objections.emplace_back(is_kept ? "the set is not more than half a bin off"
                                     : "the set is not certainly mapped into itself and contracted");

@@ -131,8 +131,9 @@ std::optional<BlockLock::OverCell> BlockLock::over(const Cell& cell, const ToneP
   more[2][2] = weight * power * (sums.bc - power * sums.bb);
 
   // The last row of J is taken first.
-  Matrix3 factor = diagonal(sqrt(jacobian[0][0] - square(two * x) * weight * power * square(sums.ab) / sums.bb),
-                            sqrt(jacobian[1][1]), sqrt(jacobian[2][2]));
+  Matrix3 factor =
+      diagonal(sqrt(jacobian[0][0] - square(two * x) * weight * power * square(sums.ab) / sums.bb),
+               sqrt(jacobian[1][1]), sqrt(jacobian[2][2]));
   factor[0][2] = two * sqrt(weight) * x * sums.ab / sqrt(sums.bb);
 
   const Matrix3 into = transposed(set_.frame);
@@ -183,8 +184,9 @@ bool BlockLock::drifts_in(const Cell& cell, const TonePolynomial& tone, const Bl
   const Matrix3 across = scaled(drift.weight * sqrt(drift.tilt),
                                 product(product(transposed(block->factor), block->spread), block->secant));
   return definite_together(
-      identity(drift.growth) - scaled(drift.weight, about(transposed(block->secant), block->spread)), block->step,
-      unit - scaled(one / drift.weight, turned), across, gain, unit - scaled(drift.weight, seen));
+      identity(drift.growth) - scaled(drift.weight, about(transposed(block->secant), block->spread)),
+      block->step, unit - scaled(one / drift.weight, turned), across, gain,
+      unit - scaled(drift.weight, seen));
 }
 
 bool BlockLock::true_near(const Ball& low, const Ball& high, const Ball& radius, const InCell& is_true,
@@ -236,8 +238,8 @@ bool BlockLock::true_near(const Ball& low, const Ball& high, const Ball& radius,
 
 bool BlockLock::falls(const BlockRate& rate, std::int64_t& cells) const {
   return true_everywhere(
-      rate.radius,
-      [&](const Cell& cell, const TonePolynomial& tone) { return falls_in(cell, tone, rate); }, cells);
+      rate.radius, [&](const Cell& cell, const TonePolynomial& tone) { return falls_in(cell, tone, rate); },
+      cells);
 }
 
 bool BlockLock::drifts(const BlockDrift& drift, std::int64_t& cells) const {
@@ -265,11 +267,10 @@ bool BlockLock::true_everywhere(const Ball& radius, const InCell& is_true, std::
                             .middle();
   };
   std::vector<std::int64_t> counts(count, 0);
-  const bool all =
-      first_failure(count, [&](std::size_t i) {
-        return true_near(i == 0 ? problem_.offset_low.lower() : border(i), border(i + 1), radius, is_true,
-                         counts[i]);
-      }) == count;
+  const bool all = first_failure(count, [&](std::size_t i) {
+                     return true_near(i == 0 ? problem_.offset_low.lower() : border(i), border(i + 1), radius,
+                                      is_true, counts[i]);
+                   }) == count;
   for (const std::int64_t one_count : counts) {
     cells += one_count;
   }

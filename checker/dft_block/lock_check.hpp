@@ -46,8 +46,8 @@ class BlockLock {
 
   /// True only when it is verified for all errors, offsets and amplitudes; `cells` counts.
   [[nodiscard]] bool falls(const BlockRate& rate, std::int64_t& cells) const;
-  /// True only when it is verified of the drift that, with A = F (1 - X secant) and J = N N', A'(1 - tilt F X N
-  /// N'X F')^-1 A <= growth and floor <= 1 - tilt F X N N'X F', likewise.
+  /// True only when it is verified of the drift that, with A = F (1 - X secant) and J = N N', A'(1 - tilt F X
+  /// N N'X F')^-1 A <= growth and floor <= 1 - tilt F X N N'X F', likewise.
   [[nodiscard]] bool drifts(const BlockDrift& drift, std::int64_t& cells) const;
   /// C^-1 (0, pi, 1)': added to C^-1 z by a change of the offset by a bin.
   [[nodiscard]] Vector3 slew_direction() const;

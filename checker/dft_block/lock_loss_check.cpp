@@ -6,9 +6,9 @@ namespace veritrack::checker {
 
 namespace {
 
-/// The probability that |e| exceeds the radius within the blocks, at most. With theta = tilt r/deviation^2, W =
-/// exp(theta |e|^2/2): E W+ <= det(floor)^(-1/2) exp(theta m'floor^-1 m ... /2) <= factor W^power, which is at
-/// most W + constant. Balls of everything where it is not defined.
+/// The probability that |e| exceeds the radius within the blocks, at most. With theta = tilt r/deviation^2, W
+/// = exp(theta |e|^2/2): E W+ <= det(floor)^(-1/2) exp(theta m'floor^-1 m ... /2) <= factor W^power, which is
+/// at most W + constant. Balls of everything where it is not defined.
 Ball probability_of_leaving(const BlockProblem& problem, const BlockNoise& noise, const BlockLock& lock,
                             const BlockDrift& drift, const Ball& slew_share) {
   const Ball theta = drift.tilt * problem.r / square(noise.deviation);
@@ -33,17 +33,17 @@ Ball probability_of_leaving(const BlockProblem& problem, const BlockNoise& noise
     return Ball::everything();
   }
   // factor W^power - W has its maximum at log W = log(power factor)/(1 - power).
-  const Ball log_constant =
-      (log(power) + log_factor) / (one - power) + log((one - power) / power);
+  const Ball log_constant = (log(power) + log_factor) / (one - power) + log((one - power) / power);
   const Ball level = half * theta * square(drift.radius);
   const Ball start_level = half * theta * square(lock.length_of(noise.start));
   return exp(start_level - level) + noise.blocks * exp(log_constant - level);
 }
 
 bool is_drift(const BlockDrift& drift) {
-  return certainly_positive(drift.radius) && certainly_positive(drift.tilt) && certainly_positive(drift.growth) &&
-         certainly_less(drift.growth, one) && certainly_positive(drift.weight) &&
-         certainly_positive(drift.floor_weight) && symmetric(drift.floor) && definite(drift.floor);
+  return certainly_positive(drift.radius) && certainly_positive(drift.tilt) &&
+         certainly_positive(drift.growth) && certainly_less(drift.growth, one) &&
+         certainly_positive(drift.weight) && certainly_positive(drift.floor_weight) &&
+         symmetric(drift.floor) && definite(drift.floor);
 }
 
 }  // namespace
@@ -61,8 +61,8 @@ Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, co
   const Tree& matrices = evidence->at("matrices");
   const auto number = [&](const char* name) { return exact_number(numbers.at(name)); };
   const BlockSet set{exact_matrix(matrices.at("frame")), number("above"), number("below"), zero};
-  const BlockDrift drift{number("radius"),       number("tilt"), number("growth"), number("weight"),
-                         number("floor_weight"), exact_matrix(matrices.at("floor"))};
+  const BlockDrift drift{number("radius"), number("tilt"),         number("growth"),
+                         number("weight"), number("floor_weight"), exact_matrix(matrices.at("floor"))};
   const Ball slew_share = number("slew_share");
   if (!is_drift(drift) || !certainly_at_most(one, set.above) || !certainly_at_most(one, set.below)) {
     objections.emplace_back("the evidence is no set");

@@ -1,4 +1,5 @@
-// The figure of a block tracker's certificate: simulated offset errors below what is proved.
+// The figures of a block tracker's certificate: simulated offset errors below what is proved, and false
+// locks.
 #pragma once
 
 #include <vector>
@@ -8,7 +9,6 @@
 
 namespace veritrack::reports {
 
-/// Empty when nothing is proved.
 [[nodiscard]] std::vector<Figure> draw_dft_block_figures(const certificates::Certificate& certificate);
 
 }  // namespace veritrack::reports

@@ -6,6 +6,7 @@
 
 #include "certificates/document/markdown_text.hpp"
 #include "reports/recording/chi_square.hpp"
+#include "reports/recording/track_blocks.hpp"
 #include "reports/recording/track_sentences.hpp"
 
 namespace veritrack::reports {
@@ -144,24 +145,31 @@ std::string lock_section(const TrackReport& report) {
 
 std::string headline(const TrackReport& report) {
   const RecordingUnits units(report.sample_rate);
+  if (!report.result.blocks.empty()) {
+    return block_lock_sentence(report.result, units);
+  }
   return lock_sentence(report.result, units) + " " + short_nis_sentence(report.result) +
          assumptions_sentence(report.result);
 }
 
-std::string to_markdown(const TrackReport& report, const std::string& figure) {
+std::string to_markdown(const TrackReport& report, const std::string& figure,
+                        const std::string& blocks_figure) {
   const RecordingUnits units(report.sample_rate);
   const TrackResult& result = report.result;
   std::string text = "# " + headline(report) + "\n\n";
   text += fmt::format("{}, tracker {}, on {}. Nothing on this page is proved.\n\n",
                       markdown::escaped(report.design->name), markdown::escaped(report.design->tracker),
                       markdown::escaped(report.recording));
-  text += bullets(report_sentences(report, units)) + "\n";
+  // A tracker in blocks is for tones that are too weak in single samples to be judged there.
+  const bool in_blocks = !result.blocks.empty();
+  text += in_blocks ? "" : bullets(report_sentences(report, units)) + "\n";
   if (!figure.empty()) {
     text += fmt::format("![Estimated frequency{}lock over the recording]({})\n\n",
                         result.has_innovation ? ", normalised innovations and " : " and ", figure);
   }
-  text += run_section(report, units) + lock_section(report) + nis_section(report) +
-          assumptions_section(report, units);
+  text += in_blocks ? blocks_section(report, blocks_figure) + run_section(report, units)
+                    : run_section(report, units) + lock_section(report) + nis_section(report) +
+                          assumptions_section(report, units);
   text += fmt::format(
       "## Files\n\n`track.csv` has {} rows, each for {}. `veritrack track --each FILE` writes a row for "
       "every "

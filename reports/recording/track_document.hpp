@@ -21,11 +21,13 @@ struct TrackReport {
   TrackResult result;
 };
 
-/// One line: lock, NIS, and whether the recording keeps to the assumptions.
+/// One line: lock, NIS, and whether the recording keeps to the assumptions; of a tracker in blocks the lock.
 [[nodiscard]] std::string headline(const TrackReport& report);
 
-/// `figure` is the name of the picture in the document's folder; empty when there is none. Throws nothing of
+/// `figure` is the name of the picture in the document's folder, `blocks_figure` that of the blocks; empty
+/// when there is none. Throws nothing of
 /// its own.
-[[nodiscard]] std::string to_markdown(const TrackReport& report, const std::string& figure);
+[[nodiscard]] std::string to_markdown(const TrackReport& report, const std::string& figure,
+                                      const std::string& blocks_figure = {});
 
 }  // namespace veritrack::reports

@@ -2,6 +2,7 @@
 
 #include "certificates/document/output_files.hpp"
 #include "reports/gnuplot.hpp"
+#include "reports/recording/track_blocks.hpp"
 #include "reports/recording/track_figure.hpp"
 #include "reports/recording/track_table.hpp"
 
@@ -15,17 +16,25 @@ TrackFiles write_track_files(const TrackReport& report, const std::filesystem::p
     files.keep(input);
   }
   std::string figure;
+  std::string blocks_figure;
   try {
     const std::string picture = draw_track(report);
     if (!picture.empty()) {
       figure = "track.svg";
       files.stage(directory / figure, picture);
     }
+    if (!report.result.blocks.empty()) {
+      files.stage(directory / "blocks.svg", draw_blocks(report.result));
+      blocks_figure = "blocks.svg";
+    }
   } catch (const FigureError& error) {
     written.missing_figure = error.what();
   }
   files.stage(directory / "track.csv", series_table(report.result.series, report.sample_rate));
-  files.stage(written.document, to_markdown(report, figure));
+  if (!report.result.blocks.empty()) {
+    files.stage(directory / "blocks.csv", blocks_table(report.result));
+  }
+  files.stage(written.document, to_markdown(report, figure, blocks_figure));
   files.commit();
   return written;
 }

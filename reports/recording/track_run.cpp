@@ -63,6 +63,7 @@ class Run {
 
   [[nodiscard]] TrackResult take() {
     result_.assumptions = check_.findings();
+    result_.blocks.assign(tracker_->blocks().begin(), tracker_->blocks().end());
     return std::move(result_);
   }
 

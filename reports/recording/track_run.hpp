@@ -61,6 +61,7 @@ struct TrackResult {
   Spread frequency;  ///< estimates in lock, rad/sample
   AssumptionFindings assumptions;
   TrackSeries series;
+  std::vector<certificates::TrackedBlock> blocks;  ///< of a tracker in blocks
 
   static constexpr std::size_t kStarts = 10;
 };

@@ -58,9 +58,12 @@ From tests/certificates/model-filter-long-run.toml, the same filter:
 model-filter-long-run  its tubes for the assumed noise, and in the long run
 From tests/certificates/model-filter-moving.toml, the same filter and a frequency that moves through two cells:
 model-filter-moving  its tubes for what is assumed
-From tests/certificates/dft-block.toml and dft-block-covariance.toml, as they are:
+From tests/certificates/dft-block.toml and dft-block-covariance.toml:
 dft-block            a block tracker near one offset, with noise and slew
 dft-block-covariance  the same with more bins, a range of amplitudes and a given P(1|0)
+dft-block-false-locks  of the first: its false locks, alone
+From tests/certificates/dft-block-gaussian.toml:
+dft-block-gaussian   the probability of losing lock in Gaussian noise
 """
 import fractions
 import json
@@ -358,6 +361,18 @@ def model_filter(certificate):
             claim["settled_frequency_error"] = "0.05"
 
 
+def without_false_locks(certificate):
+    keep(certificate, ["lock-set", "lock-in-noise"],
+         [claim["id"] for claim in certificate["claims"]
+          if not claim["id"].startswith(("dft-block/every-start", "dft-block/false-lock"))])
+
+
+def false_locks(certificate):
+    drop_requirements(certificate)
+    keep(certificate, ["false-lock-below", "false-lock-above"],
+         ["dft-block/every-start-locks", "dft-block/false-lock-below", "dft-block/false-lock-above"])
+
+
 def regulator(certificate):
     """The tracker's guarantee, its settling time, and the sets that they rest on."""
     tracker = certificate["frequency_tracker"]
@@ -406,8 +421,10 @@ KINDS = {
     "regulator": regulator,
     "model-filter-long-run": model_long_run,
     "model-filter-moving": model_filter_moving,
-    "dft-block": lambda certificate: None,
-    "dft-block-covariance": lambda certificate: None,
+    "dft-block": without_false_locks,
+    "dft-block-covariance": without_false_locks,
+    "dft-block-gaussian": without_false_locks,
+    "dft-block-false-locks": false_locks,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

@@ -104,8 +104,7 @@ TEST_CASE("the map is the tracker's step in the coordinates of the errors, at ev
         -0.002, 0.5, 0.03, 0.02;
     BlockProblem<double> map{5e-5 * 2.0 * kTurn, 1e-3, 2.5e-3, 1024.0 / 12.5, offset, 0.5 * kTurn, 2};
     const rigor::Vector<kStates> next = dft_block::block_map<double>(state, map);
-    const Followed seen =
-        follow(state, random.uniform(0.3, 2.0), random.uniform(-3.0, 3.0), 1, offset);
+    const Followed seen = follow(state, random.uniform(0.3, 2.0), random.uniform(-3.0, 3.0), 1, offset);
     CHECK((next - seen.last).cwiseAbs().maxCoeff() < 1e-9);
   }
 }

@@ -57,7 +57,7 @@ theorems::Statement false_lock(const PrintedDesign& design) {
                       rigor::upper_decimal(found->amplitude, 3) +
                       " of the amplitude; in the metric of the set, each block multiplies the distance from "
                       "it by at most " +
-                      rigor::upper_decimal(Interval(found->set.rate), 3) + "."
+                      rigor::upper_decimal(Interval(found->set.rate), 5) + "."
                 : "No such set was found.",
       {});
 }

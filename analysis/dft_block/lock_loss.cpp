@@ -6,6 +6,7 @@
 
 #include "analysis/dft_block/lock_search.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/linear_solve.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 

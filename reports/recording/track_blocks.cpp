@@ -50,7 +50,7 @@ std::string block_lock_sentence(const TrackResult& result, const RecordingUnits&
                                     [](const TrackedBlock& one) { return one.state == State::false_lock; });
     return fmt::format(
         "The lock is FALSE in {} of {} blocks, first in block {}: the estimate is {}, while {} explains "
-        "{:.0f} % of "
+        "{:.3g} % of "
         "the power.",
         in_false, judged, first - result.blocks.begin() + 1, units.frequency(first->frequency),
         units.frequency(first->best_frequency), 100.0 * first->best_share);
@@ -111,7 +111,7 @@ std::string draw_blocks(const TrackResult& result) {
   }
   return run_gnuplot(
       gnuplot_style(380) + "set xlabel 'block'\nset ylabel 'share of the power that is left unexplained'\n" +
-      fmt::format("set xrange [1:{}]\nset yrange [0:1.1]\n", std::max<std::size_t>(result.blocks.size(), 2)) +
+      fmt::format("set xrange [1:{}]\nset yrange [-0.05:1.25]\n", std::max<std::size_t>(result.blocks.size(), 2)) +
       table.block() +
       fmt::format(
           "plot $blocks using 1:2 with lines {} title 'by the estimate', '' using 1:3 with lines {} title "

@@ -47,7 +47,7 @@ TEST_CASE("what a kind of tracker does not have is not asked of it, and those th
   observer.tracker = "kkl-observer";
   CHECK_FALSE(reports::has_map(observer));
   CHECK_THROWS_AS((void)reports::write_map(observer, {}, "nowhere", {}), std::logic_error);
-  CHECK(reports::trackers_with_map() == "quadrature-ekf or model");
+  CHECK(reports::trackers_with_map() == "quadrature-ekf or model or dft-block-ekf");
 }
 
 TEST_CASE("a tracker that the registry does not know is an error, not another tracker") {

@@ -123,7 +123,7 @@ class KklObserver(CliTestCase):
         self.write(KKL)
         result = self.run_here("map", "design.toml")
         self.assertEqual((result.returncode, result.stdout), (2, ""))
-        self.assertRegex(result.stderr, r"^design\.toml:2:\d+: .*quadrature-ekf or model\n$")
+        self.assertRegex(result.stderr, r"^design\.toml:2:\d+: .*quadrature-ekf or model or dft-block-ekf\n$")
 
 
 if __name__ == "__main__":

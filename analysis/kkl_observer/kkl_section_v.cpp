@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/experiments/running_statistics.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "trackers/kkl_observer/adaptive_oscillator_observer.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
@@ -21,23 +22,6 @@ constexpr double kAmplitude = 2.0;
 constexpr double kFrequency = 3.0;
 constexpr double kDisturbance = 0.2;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-/// Mean and deviation, as numbers come in. One that is not a number spoils both, as it should.
-class Statistics {
- public:
-  void add(double value) {
-    ++count_;
-    const double from_mean = value - mean_;
-    mean_ += from_mean / count_;
-    squares_ += from_mean * (value - mean_);
-  }
-  [[nodiscard]] SteadyStatistics result() const { return {mean_, std::sqrt(squares_ / count_)}; }
-
- private:
-  double count_ = 0.0;
-  double mean_ = 0.0;
-  double squares_ = 0.0;
-};
 
 /// Runs an observer from 0 to `periods` times 2 pi seconds, with statistics over the last `last` of them.
 /// `step(first, last)` takes it over one interval; `estimate()` gives amplitude and frequency.
@@ -55,8 +39,8 @@ SectionVRun run(double disturbance_frequency, long steps_a_period, int periods, 
   SectionVRun result;
   result.disturbance_frequency = disturbance_frequency;
   result.samples.reserve(kSamples + 1);
-  Statistics amplitude;
-  Statistics frequency;
+  experiments::RunningStatistics amplitude;
+  experiments::RunningStatistics frequency;
   double before = signal(0);
   for (long k = 1; k <= steps; ++k) {
     const double now = signal(k);
@@ -76,8 +60,8 @@ SectionVRun run(double disturbance_frequency, long steps_a_period, int periods, 
       }
     }
   }
-  result.amplitude = amplitude.result();
-  result.frequency = frequency.result();
+  result.amplitude = {amplitude.mean(), amplitude.deviation()};
+  result.frequency = {frequency.mean(), frequency.deviation()};
   return result;
 }
 
@@ -165,8 +149,8 @@ SectionVRun run_caption_window(const Eigen::Vector4d& lambda, double ell, double
   const trackers::KklObserverDesign<double, 4> design{lambda, ell};
   const auto steps = static_cast<long>(std::ceil((kEnd - kBegin) / (2.0 * std::numbers::pi) *
                                                  static_cast<double>(steps_a_period(disturbance_frequency))));
-  Statistics amplitude;
-  Statistics frequency;
+  experiments::RunningStatistics amplitude;
+  experiments::RunningStatistics frequency;
   for (long k = 0; k <= steps; ++k) {
     const double time = kBegin + (kEnd - kBegin) * static_cast<double>(k) / static_cast<double>(steps);
     Eigen::Vector4d filters = Eigen::Vector4d::Zero();

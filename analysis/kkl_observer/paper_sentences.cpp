@@ -41,7 +41,44 @@ std::vector<Statement> steps_of_the_proof() {
         return 2 * (sb * xa - sa * xb) - (xa + xb) * (sb - sa) - (sa + sb) * (xa - xb);
       },
       2);
+  // det(L'L) of five filters, L = (λ, 1, -ξ), with the rates 0, 1, 2, 3, 4: a polynomial in ξ of degree 2.
+  const Verdict triples = is_zero_polynomial<5>(
+      [](const std::array<Whole, 5>& xi) {
+        Whole ll = 0;
+        Whole l1 = 0;
+        Whole lx = 0;
+        Whole ox = 0;
+        Whole xx = 0;
+        Whole sum = 0;
+        for (Whole i = 0; i < 5; ++i) {
+          const Whole at_i = xi.at(static_cast<std::size_t>(i));
+          ll += i * i;
+          l1 += i;
+          lx -= i * at_i;
+          ox -= at_i;
+          xx += at_i * at_i;
+          for (Whole j = i + 1; j < 5; ++j) {
+            for (Whole k = j + 1; k < 5; ++k) {
+              const Whole determinant = at_i * (j - k) + xi.at(static_cast<std::size_t>(j)) * (k - i) +
+                                        xi.at(static_cast<std::size_t>(k)) * (i - j);
+              sum += determinant * determinant;
+            }
+          }
+        }
+        return ll * (5 * xx - ox * ox) - l1 * (l1 * xx - ox * lx) + lx * (l1 * ox - 5 * lx) - sum;
+      },
+      2);
   return {
+      make_statement(
+          "kkl-paper/more-filters",
+          "With any number of filters above four, too, γ of (8) inverts T where ell is at most twice the "
+          "infimum "
+          "of (10), |MT|² being the sum over triples of filters of the squared determinant of (λ, 1, T).",
+          rigor::conjunction({triples, rearranged}),
+          "That sum is det(L'L) (Cauchy and Binet; exactly for five filters of the rates 0 to 4), and "
+          "positive on "
+          "T(O_r) as for four: mu = 0, and (15) has x as its only solution.",
+          {}),
       make_statement(
           "kkl-paper/vandermonde-step",
           "(16) becomes (17) by the common denominator: its numerator is λ(x1 - a x3) + (x2 - b x3) - λ³ "

@@ -124,6 +124,7 @@ constexpr std::array kFamilies{
     Family{"kkl-paper/left-inverse", praly_marconi_isidori, sentence, "paper, (15)", "kkl-ell"},
     Family{"kkl-paper/vandermonde-step", praly_marconi_isidori, sentence, "paper, (16) and (17)"},
     Family{"kkl-paper/ell-positive", praly_marconi_isidori, sentence, "paper, (10) and (17)"},
+    Family{"kkl-paper/more-filters", praly_marconi_isidori, sentence, "paper, section VI and (15)"},
     Family{"kkl-paper/bandwidth", praly_marconi_isidori, sentence, "paper, section V"},
     Family{"kkl-paper/section-v-errors/", praly_marconi_isidori, sentence, "paper, section V"},
     Family{"kkl-paper/section-v-ell", praly_marconi_isidori, sentence, "paper, section V", "kkl-ell"},

@@ -125,16 +125,14 @@ struct Coordinates {
 /// Looks at the images of a part: halves what is undecided, to a depth.
 class Crossing {
  public:
-  Crossing(bool is_mirrored, long& boxes) : is_mirrored_(is_mirrored), boxes_(&boxes) {}
+  Crossing(const PendulumPart& part, bool is_mirrored, long& boxes)
+      : part_(part), is_mirrored_(is_mirrored), boxes_(&boxes) {}
 
-  /// Does the image of this part cross the target from left to right?
-  [[nodiscard]] bool crosses(double left, double right) const {
-    const Interval height = symmetric_interval(parse_decimal(kHeight));
-    return is_left(Interval(left), height, kDepth) && is_right(Interval(right), height, kDepth) &&
-           is_inside_or_beside(Interval::from_bounds(left, right), height, kDepth);
+  [[nodiscard]] bool holds() const {
+    const Interval height = symmetric_interval(parse_decimal(part_.height));
+    return is_left(Interval(part_.left), height, kDepth) && is_right(Interval(part_.right), height, kDepth) &&
+           is_inside_or_beside(Interval::from_bounds(part_.left, part_.right), height, kDepth);
   }
-
-  static constexpr const char* kHeight = "0.3";
 
  private:
   static constexpr int kDepth = 14;
@@ -180,13 +178,14 @@ class Crossing {
   }
   [[nodiscard]] bool is_inside_or_beside(const Interval& a, const Interval& c, int depth) const {
     // Below the height as it is parsed: its lower end.
-    const Interval height(parse_decimal(kHeight).lower());
+    const Interval height(parse_decimal(part_.height).lower());
     return holds_for(a, c, depth, [&](const Coordinates& at) {
       return certainly_less(at.a, Interval(-kHalfWidth)) || certainly_less(Interval(kHalfWidth), at.a) ||
              certainly_less(abs(at.c), height);
     });
   }
 
+  PendulumPart part_;
   bool is_mirrored_;
   long* boxes_;
 };
@@ -218,13 +217,17 @@ PendulumBox image_of_states(const Interval& a, const Interval& c) {
   return {set.box.angle + rigor::pi(), set.box.rate};
 }
 
-Verdict has_horseshoe(long* boxes) {
+Verdict crosses(const PendulumPart& part, bool is_mirrored, long* boxes) {
   long count = 0;
-  const bool holds = Crossing(false, count).crosses(-0.04, 0.04) && Crossing(true, count).crosses(0.1, 0.22);
+  const bool holds = Crossing(part, is_mirrored, count).holds();
   if (boxes != nullptr) {
-    *boxes = count;
+    *boxes += count;
   }
   return holds ? Verdict::proved : Verdict::undecided;
+}
+
+Verdict has_horseshoe(long* boxes) {
+  return rigor::conjunction({crosses({-0.04, 0.04}, false, boxes), crosses({0.1, 0.22}, true, boxes)});
 }
 
 }  // namespace veritrack::theorems

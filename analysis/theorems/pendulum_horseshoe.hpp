@@ -13,8 +13,6 @@
 // (a nested intersection of compact sets): f has at least the topological entropy log 2.
 #pragma once
 
-#include <optional>
-
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/verdict.hpp"
 
@@ -35,8 +33,19 @@ struct PendulumFrame {
 };
 [[nodiscard]] PendulumFrame pendulum_frame();
 
-/// PROVED when what stands above is verified, else UNDECIDED; `boxes`, where given, is how many it took.
-/// Needs the upward rounding mode. Some tenths of a second.
+/// left <= a <= right, |c| <= height.
+struct PendulumPart {
+  double left, right;
+  const char* height = "0.3";  ///< a decimal
+};
+
+/// Does the image of the part cross |a| <= 1/4, |c| <= height, about the centre, or about its mirror image
+/// moved by two turns? PROVED or UNDECIDED; `boxes`, where given, grows by how many boxes of starts it took.
+/// Needs the upward rounding mode.
+[[nodiscard]] rigor::Verdict crosses(const PendulumPart& part, bool is_mirrored, long* boxes = nullptr);
+
+/// PROVED when what stands above is verified, else UNDECIDED. Needs the upward rounding mode. Some tenths of
+/// a second.
 [[nodiscard]] rigor::Verdict has_horseshoe(long* boxes = nullptr);
 
 }  // namespace veritrack::theorems

@@ -98,7 +98,8 @@ std::vector<Statement> monitoring_statements() {
                      {}),
       make_statement(
           "chapter-5/monitoring/trace/corrected",
-          "rbar_{k-1} <= Lambda r_{k-1} for every start with rbar_{-1} lambda_max(P_{-1}) <= Lambda.",
+          "rbar_{k-1} <= Lambda r_{k-1} for every start with rbar_{-1} lambda_max(P_{-1}) <= Lambda, and "
+          "rbar_{-1} <= Lambda r_{-1} as printed.",
           induction,
           "rbar phi'P phi <= Lambda |phi|^2: by induction Lambda (r + |phi|^2) - rbar (1 + phi'P phi) >= "
           "0, an identity with the slack.",

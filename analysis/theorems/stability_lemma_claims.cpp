@@ -161,8 +161,8 @@ std::vector<Statement> perturbation_statements() {
                      {}),
       make_statement(
           "chapter-2/lemma-2.4/size/corrected",
-          "With the first entry of (2.40) divided by eps_r, |gbar| <= eta eps_r: the eta of Lemma "
-          "2.4 exists.",
+          "With the first entry of (2.40) divided by eps_r, |gbar| <= eta eps_r, as far as p and q bound the "
+          "covariances: the eta of Lemma 2.4 exists.",
           vanishes<2>([](const std::array<Interval, 2>& x) { return x[0] * x[1] - x[1] * x[0]; }, 1),
           "eta eps_r is then at least the first entry, which bounds |gbar| by the triangle "
           "inequality and |kappa_f| <= rho_4 eps_r^2/2.",

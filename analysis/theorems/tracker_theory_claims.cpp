@@ -74,7 +74,7 @@ std::vector<Statement> parts_of_theorem_2_8() {
           make_statement(
               "chapter-2/theorem-2.8/decrease",
               "Without B(k), V decreases by at least |z|^2/(sp^2) (proof of Theorem 2.8), s as in section "
-              "2.4.3.",
+              "2.4.3, where I/q <= P(k|k) <= p I.",
               vanishes<2>([](const std::array<Interval, 2>& x) { return (x[0] + x[1]) - (x[1] + x[0]); }, 1),
               "z'P^-1 [P^-1 + F'Q^-1F]^-1 P^-1 z >= |P^-1 z|^2/(q + rho_1^2/delta_1), |P^-1 z| >= |z|/p, "
               "and s = q + rho_1^2/delta_1.",
@@ -153,11 +153,11 @@ std::vector<Statement> footnote_statements() {
     return make_statement(
         "chapter-3/table-3.1-footnote/" + name + (rises ? "-q1" : "-q2"),
         "For q1 > q2 " + name + (rises ? " increases with q1" : " decreases with q2") +
-            " (the footnote to Table 3.1).",
+            " (the footnote to Table 3.1; here for q1, q2, 1/b_1, b_2 and rho_1^2 between 1e-6 and 1e6).",
         rises ? decide(Interval(0.0), slope, Strictness::strict)
               : decide(slope, Interval(0.0), Strictness::strict),
-        "For q1, q2, 1/b_1, b_2 and rho_1^2 between 1e-6 and 1e6 its measure has the slope " +
-            enclosed(slope) + ".",
+        "Over that box its measure has the slope " + enclosed(slope) +
+            "; the largest eigenvalue of C is then q1, the smallest one q2.",
         {});
   };
   const Number beta = p * q;

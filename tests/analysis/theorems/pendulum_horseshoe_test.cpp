@@ -67,6 +67,12 @@ TEST_CASE("the images cross, as verified and as simulated") {
     long boxes = 0;
     CHECK(theorems::has_horseshoe(&boxes) == rigor::Verdict::proved);
     CHECK(boxes > 20);
+    // An edge that is not beyond the target, another target, an image that leaves through the top.
+    using rigor::Verdict;
+    CHECK(theorems::crosses({0.0, 0.04}, false) == Verdict::undecided);
+    CHECK(theorems::crosses({-0.04, 0.005}, false) == Verdict::undecided);
+    CHECK(theorems::crosses({-0.04, 0.04}, true) == Verdict::undecided);
+    CHECK(theorems::crosses({0.1, 0.22, "0.05"}, true) == Verdict::undecided);
   }
   for (const bool is_mirrored : {false, true}) {
     const double left = is_mirrored ? 0.1 : -0.04;

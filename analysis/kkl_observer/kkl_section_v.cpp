@@ -23,6 +23,10 @@ constexpr double kFrequency = 3.0;
 constexpr double kDisturbance = 0.2;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+SteadyStatistics steady(const experiments::RunningStatistics& statistics) {
+  return {statistics.mean(), statistics.deviation()};
+}
+
 /// Runs an observer from 0 to `periods` times 2 pi seconds, with statistics over the last `last` of them.
 /// `step(first, last)` takes it over one interval; `estimate()` gives amplitude and frequency.
 template <typename Step, typename Estimate>
@@ -60,8 +64,8 @@ SectionVRun run(double disturbance_frequency, long steps_a_period, int periods, 
       }
     }
   }
-  result.amplitude = {amplitude.mean(), amplitude.deviation()};
-  result.frequency = {frequency.mean(), frequency.deviation()};
+  result.amplitude = steady(amplitude);
+  result.frequency = steady(frequency);
   return result;
 }
 
@@ -167,7 +171,7 @@ SectionVRun run_caption_window(const Eigen::Vector4d& lambda, double ell, double
     amplitude.add(x(2) > 0.0 ? estimate.amplitude : kNone);
     frequency.add(x(2) > 0.0 ? estimate.frequency : kNone);
   }
-  return {disturbance_frequency, amplitude.result(), frequency.result(), {}};
+  return {disturbance_frequency, steady(amplitude), steady(frequency), {}};
 }
 
 SectionVRun run_adaptive_section_v(double disturbance_frequency) {

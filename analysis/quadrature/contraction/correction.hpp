@@ -98,6 +98,9 @@ template <typename Constant, typename Scalar>
 [[nodiscard]] Correction<Constant, Scalar> correction_at(const StepSetting<Constant>& setting,
                                                          const Scalar& a, const Scalar& chi) {
   using detail::value_of;
+  using rigor::arctangent_ratio;
+  using rigor::cosine_ratio;
+  using rigor::sine_ratio;
   using std::sqrt;
   using trackers::detail::sin_cos;
   using trackers::detail::square;
@@ -110,8 +113,8 @@ template <typename Constant, typename Scalar>
   const auto [sine, cosine] = sin_cos(chi);
   mean.sine = sine;
   mean.cosine = cosine;
-  mean.cosine_slope = chi * rigor::cosine_ratio(chi);
-  mean.sine_slope = rigor::sine_ratio(chi);
+  mean.cosine_slope = chi * cosine_ratio(chi);
+  mean.sine_slope = sine_ratio(chi);
   mean.rest1 = gains.rest_amplitude;
   mean.rest2 = gains.rest_phase;
   mean.gain3 = gains.mean_frequency;
@@ -121,7 +124,7 @@ template <typename Constant, typename Scalar>
   mean.imaginary = left[1];
   const Scalar slope = mean.imaginary / mean.real;
   mean.length = mean.real * sqrt(one + square(slope));
-  mean.phase_slope = rigor::arctangent_ratio(slope);
+  mean.phase_slope = arctangent_ratio(slope);
   result.z1 = mean.cosine - mean.rest1 * innovation[0];
   result.z2 = -mean.sine - mean.rest2 * innovation[1];
   result.reach = correction_reach<Constant>(

@@ -98,30 +98,29 @@ template <typename Constant, typename Scalar>
 }
 /// In the middle, with the remainder f''/24 of the midpoint rule. Along the segment (cos, sin)(arg z) has a
 /// second derivative of at most sqrt(2) |d|^2/|z|^2, and 1/z one of 2 |d|^2/|z|^3.
-[[nodiscard]] inline std::array<rigor::Interval, 4> averaged_jacobian(const BlockMetric<rigor::Interval>& t,
-                                                                      const rigor::Interval& z1,
-                                                                      const rigor::Interval& z2,
-                                                                      const rigor::Interval& d1,
-                                                                      const rigor::Interval& d2) {
-  using rigor::Interval;
-  const Interval half(0.5);
-  std::array<Interval, 4> b = polar_jacobian(t, Interval(z1 + half * d1), Interval(z2 + half * d2));
-  const Interval least = rigor::hull(z1, z1 + d1);  // |z| is at least its first component, which is positive
-  const Interval bend = (rigor::square(d1) + rigor::square(d2)) / rigor::square(least);
-  const Interval of_direction = t.amplitude * bend / Interval(16.0);
-  const Interval of_inverse = t.phase * bend / (Interval(12.0) * least);
+template <typename Set>
+[[nodiscard]] std::array<Set, 4> averaged_jacobian(const BlockMetric<Set>& t, const Set& z1, const Set& z2,
+                                                   const Set& d1, const Set& d2) {
+  using trackers::detail::square;
+  const Set half(0.5);
+  std::array<Set, 4> b = polar_jacobian(t, Set(z1 + half * d1), Set(z2 + half * d2));
+  const Set least = hull(z1, z1 + d1);  // |z| is at least its first component, which is positive
+  const Set bend = (square(d1) + square(d2)) / square(least);
+  const Set of_direction = t.amplitude * bend / Set(16.0);
+  const Set of_inverse = t.phase * bend / (Set(12.0) * least);
   for (std::size_t i = 0; i < 4; ++i) {
-    b[i] += rigor::symmetric((i < 2 ? of_direction : of_inverse).upper());
+    b[i] += detail::at_most(i < 2 ? of_direction : of_inverse);
   }
   return b;
 }
 /// Its derivatives: those of the Jacobian at any point of the segment.
-template <int N>
-[[nodiscard]] std::array<rigor::Dual<rigor::Interval, N>, 4> averaged_jacobian(
-    const BlockMetric<rigor::Interval>& t, const rigor::Dual<rigor::Interval, N>& z1,
-    const rigor::Dual<rigor::Interval, N>& z2, const rigor::Dual<rigor::Interval, N>& d1,
-    const rigor::Dual<rigor::Interval, N>& d2) {
-  const auto part = rigor::Interval::from_bounds(0.0, 1.0);
+template <typename Set, int N>
+[[nodiscard]] std::array<rigor::Dual<Set, N>, 4> averaged_jacobian(const BlockMetric<Set>& t,
+                                                                   const rigor::Dual<Set, N>& z1,
+                                                                   const rigor::Dual<Set, N>& z2,
+                                                                   const rigor::Dual<Set, N>& d1,
+                                                                   const rigor::Dual<Set, N>& d2) {
+  const auto part = Set::from_bounds(0.0, 1.0);
   return polar_jacobian(t, z1 + d1 * part, z2 + d2 * part);
 }
 

@@ -3,6 +3,7 @@
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/elementary_ratios.hpp"
+#include "analysis/rigor/quarter_turns.hpp"
 
 namespace veritrack::rigor::detail {
 
@@ -30,6 +31,14 @@ void arctangent_ratio_of_lanes(int count, const LaneBounds& x, LaneBounds& resul
 }
 void arctangent_ratio_slope_of_lanes(int count, const LaneBounds& x, LaneBounds& result) {
   each_lane(count, x, result, [](const Interval& lane) { return arctangent_ratio_slope(lane); });
+}
+void quarter_turns_of_lanes(int count, const LaneBounds& x, double (*flags)[LaneBounds::kMost]) {
+  for (int i = 0; i < count; ++i) {
+    for (int residue = 0; residue < 4; ++residue) {
+      const Interval lane = Interval::from_bounds(x.lower[i], x.upper[i]);
+      flags[residue][i] = may_contain_quarter_turn(lane, residue, 4) ? 1.0 : 0.0;
+    }
+  }
 }
 void sin_cos_of_lanes(int count, const LaneBounds& x, LaneBounds& sine, LaneBounds& cosine) {
   for (int i = 0; i < count; ++i) {

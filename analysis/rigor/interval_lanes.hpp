@@ -54,6 +54,10 @@ class IntervalLanes {
   [[nodiscard]] static IntervalLanes from_bounds(double lower, double upper) noexcept {
     return IntervalLanes(Interval::from_bounds(lower, upper));
   }
+  /// [-bound, bound]; empty unless bound >= 0.
+  [[nodiscard]] static IntervalLanes symmetric(const Numbers& bound) noexcept {
+    return from_bounds(R::negative(bound), bound);
+  }
   /// Of bounds in arrays, one of each in a lane.
   [[nodiscard]] static IntervalLanes load(const double* lower, const double* upper) noexcept {
     return from_bounds(R::load(lower), R::load(upper));
@@ -240,12 +244,6 @@ class IntervalLanes {
   Numbers minus_lower_, upper_;
 };
 
-/// [-bound, bound] in each lane; empty unless bound >= 0.
-template <int Lanes>
-[[nodiscard]] IntervalLanes<Lanes> symmetric_lanes(const typename Registers<Lanes>::Numbers& bound) noexcept {
-  return IntervalLanes<Lanes>::from_bounds(Registers<Lanes>::negative(bound), bound);
-}
-
 // ---- elementary functions, one lane after the other
 
 namespace detail {
@@ -259,7 +257,6 @@ void sine_ratio_of_lanes(int count, const LaneBounds& x, LaneBounds& result);
 void sine_ratio_slope_of_lanes(int count, const LaneBounds& x, LaneBounds& result);
 void arctangent_ratio_of_lanes(int count, const LaneBounds& x, LaneBounds& result);
 void arctangent_ratio_slope_of_lanes(int count, const LaneBounds& x, LaneBounds& result);
-void sin_cos_of_lanes(int count, const LaneBounds& x, LaneBounds& sine, LaneBounds& cosine);
 
 template <int Lanes, typename Function>
 [[nodiscard]] IntervalLanes<Lanes> lane_by_lane(const IntervalLanes<Lanes>& x, const Function& function) {
@@ -296,16 +293,6 @@ inline IntervalLanes<8> known_with(IntervalLanes<8> derivative, const IntervalLa
 }  // namespace detail
 
 template <int Lanes>
-[[nodiscard]] std::pair<IntervalLanes<Lanes>, IntervalLanes<Lanes>> sin_cos(const IntervalLanes<Lanes>& x) {
-  detail::LaneBounds operand;
-  detail::LaneBounds sine;
-  detail::LaneBounds cosine;
-  x.store(operand.lower, operand.upper);
-  detail::sin_cos_of_lanes(Lanes, operand, sine, cosine);
-  return {IntervalLanes<Lanes>::load(sine.lower, sine.upper),
-          IntervalLanes<Lanes>::load(cosine.lower, cosine.upper)};
-}
-template <int Lanes>
 [[nodiscard]] IntervalLanes<Lanes> sine_ratio(const IntervalLanes<Lanes>& x) {
   return detail::lane_by_lane(x, detail::sine_ratio_of_lanes);
 }
@@ -333,3 +320,5 @@ struct NumTraits<veritrack::rigor::IntervalLanes<Lanes>>
     : veritrack::rigor::CostlyEigenScalar<veritrack::rigor::IntervalLanes<Lanes>> {};
 
 }  // namespace Eigen
+
+#include "analysis/rigor/sine_cosine_lanes.hpp"  // IWYU pragma: export

@@ -165,7 +165,7 @@ template <std::size_t Size, int Lanes, int N>
         const Set straight = Set::at(midpoint(slope[i][j]));
         const Numbers rest = scaled(abs(slope[i][j] - straight), half_widths[index].at).upper();
         moved = R::opaque(moved + scaled(abs(slope[i][j]), half_widths[index].at).upper());
-        sum[i][j] += symmetric_lanes<Lanes>(rest);
+        sum[i][j] += Set::symmetric(rest);
         ways[index][i][j] = scaled(straight, half_widths[index].at);
       }
     }

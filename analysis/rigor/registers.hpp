@@ -33,6 +33,10 @@ struct Registers<2> {
   VERITRACK_INLINED Numbers predecessor(Numbers x) noexcept {
     return _mm_castsi128_pd(_mm_sub_epi64(_mm_castpd_si128(x), _mm_set1_epi64x(1)));
   }
+  /// Towards zero, for |x| < 2^31.
+  VERITRACK_INLINED Numbers truncated(Numbers x) noexcept {
+    return _mm_cvtepi32_pd(_mm_cvttpd_epi32(opaque(x)));
+  }
   VERITRACK_INLINED Mask less(Numbers a, Numbers b) noexcept { return _mm_cmplt_pd(a, b); }
   VERITRACK_INLINED Mask less_equal(Numbers a, Numbers b) noexcept { return _mm_cmple_pd(a, b); }
   VERITRACK_INLINED Mask equal(Numbers a, Numbers b) noexcept { return _mm_cmpeq_pd(a, b); }
@@ -67,6 +71,9 @@ struct Registers<4> {
   VERITRACK_INLINED Numbers sqrt(Numbers x) noexcept { return opaque(_mm256_sqrt_pd(opaque(x))); }
   VERITRACK_INLINED Numbers predecessor(Numbers x) noexcept {
     return _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_castpd_si256(x), _mm256_set1_epi64x(1)));
+  }
+  VERITRACK_INLINED Numbers truncated(Numbers x) noexcept {
+    return _mm256_cvtepi32_pd(_mm256_cvttpd_epi32(opaque(x)));
   }
   VERITRACK_INLINED Mask less(Numbers a, Numbers b) noexcept { return _mm256_cmp_pd(a, b, _CMP_LT_OS); }
   VERITRACK_INLINED Mask less_equal(Numbers a, Numbers b) noexcept { return _mm256_cmp_pd(a, b, _CMP_LE_OS); }
@@ -111,6 +118,9 @@ struct Registers<8> {
   }
   VERITRACK_INLINED Numbers predecessor(Numbers x) noexcept {
     return _mm512_castsi512_pd(_mm512_sub_epi64(_mm512_castpd_si512(x), _mm512_set1_epi64(1)));
+  }
+  VERITRACK_INLINED Numbers truncated(Numbers x) noexcept {
+    return _mm512_maskz_cvtepi32_pd(kAll, _mm512_maskz_cvttpd_epi32(kAll, opaque(x)));
   }
   VERITRACK_INLINED Mask less(Numbers a, Numbers b) noexcept { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OS); }
   VERITRACK_INLINED Mask less_equal(Numbers a, Numbers b) noexcept {

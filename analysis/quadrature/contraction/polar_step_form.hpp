@@ -124,15 +124,23 @@ template <typename Set, int N>
   return polar_jacobian(t, z1 + d1 * part, z2 + d2 * part);
 }
 
-/// The form at a point, or over a cell. Over intervals it means something only if `least_along` and
-/// `mean_real` are certainly positive: see Correction.
+/// A step, and the correction that it makes.
 template <typename Constant, typename Scalar>
-[[nodiscard]] PolarStepForm<Constant, Scalar> polar_step_form(const StepSetting<Constant>& setting,
-                                                              const RayCell<Constant, Scalar>& ray) {
+struct StepWithCorrection {
+  PolarStepForm<Constant, Scalar>
+      form;  ///< without `gain` and `gram`, which depend on where the correction is
+  Correction<Constant, Scalar> correction;
+};
+
+/// The step at the errors of a ray; its `along`, `across` and `reach` are not read.
+template <typename Constant, typename Scalar>
+[[nodiscard]] StepWithCorrection<Constant, Scalar> step_with_correction(
+    const StepSetting<Constant>& setting, const RayCell<Constant, Scalar>& ray) {
   using trackers::detail::sin_cos;
   using trackers::detail::square;
   const BlockMetric<Constant>& t = setting.metric;
-  PolarStepForm<Constant, Scalar> form;
+  StepWithCorrection<Constant, Scalar> result;
+  PolarStepForm<Constant, Scalar>& form = result.form;
 
   // |T (x b_x + y b_y + nu n)|^2, n = (0, -1, 1).
   const Constant a_axis = setting.largest_amplitude * ray.axis_cosine;
@@ -152,7 +160,8 @@ template <typename Constant, typename Scalar>
   const auto [beta_sine, beta_cosine] = sin_cos(ray.beta);
   const Scalar a = ray.scale * (setting.largest_amplitude * beta_cosine);
   const Scalar chi = ray.scale * (setting.largest_chi * beta_sine);
-  const Correction<Constant, Scalar> correction = correction_at(setting, a, chi);
+  result.correction = correction_at(setting, a, chi);
+  const Correction<Constant, Scalar>& correction = result.correction;
   const GainSpread<Scalar>& gains = correction.gains;
   const MeanCorrection<Scalar>& mean = correction.mean;
   form.spread = {gains.spread.p11, gains.spread.p22};
@@ -161,7 +170,18 @@ template <typename Constant, typename Scalar>
   form.mean_real = detail::value_of(mean.real);
   form.least_along = correction.least_along;
   form.reach = correction.reach;
+  return result;
+}
 
+/// The form of a step, where the correction lies where the ray says.
+template <typename Constant, typename Scalar>
+[[nodiscard]] PolarStepForm<Constant, Scalar> form_where(const StepWithCorrection<Constant, Scalar>& step,
+                                                         const StepSetting<Constant>& setting,
+                                                         const RayCell<Constant, Scalar>& ray) {
+  const BlockMetric<Constant>& t = setting.metric;
+  const Correction<Constant, Scalar>& correction = step.correction;
+  const GainSpread<Scalar>& gains = correction.gains;
+  PolarStepForm<Constant, Scalar> form = step.form;
   const std::array<Scalar, 4> b = averaged_jacobian(
       t, correction.z1, correction.z2, Scalar(ray.along * ray.reach[0]), Scalar(ray.across * ray.reach[1]));
   const Scalar none(0.0);
@@ -170,6 +190,14 @@ template <typename Constant, typename Scalar>
                  t.frequency * gains.mean_frequency}}};
   form.gram = gram(t, b, gains.spread, setting.design.r);
   return form;
+}
+
+/// The form at a point, or over a cell. Over intervals it means something only if `least_along` and
+/// `mean_real` are certainly positive: see Correction.
+template <typename Constant, typename Scalar>
+[[nodiscard]] PolarStepForm<Constant, Scalar> polar_step_form(const StepSetting<Constant>& setting,
+                                                              const RayCell<Constant, Scalar>& ray) {
+  return form_where(step_with_correction(setting, ray), setting, ray);
 }
 
 }  // namespace veritrack::quadrature

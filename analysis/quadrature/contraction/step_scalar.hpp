@@ -6,8 +6,12 @@
 
 #include "analysis/rigor/dual.hpp"
 #include "analysis/rigor/interval.hpp"
-#include "analysis/rigor/interval_lanes.hpp"
 #include "trackers/scalar_functions.hpp"
+
+namespace veritrack::rigor {
+template <int Lanes>
+class IntervalLanes;  // interval_lanes.hpp, for units that compute with it
+}  // namespace veritrack::rigor
 
 namespace veritrack::quadrature::detail {
 
@@ -74,7 +78,7 @@ inline rigor::Interval at_most(const rigor::Interval& x) {
 }
 template <int Lanes>
 rigor::IntervalLanes<Lanes> at_most(const rigor::IntervalLanes<Lanes>& x) {
-  return rigor::symmetric_lanes<Lanes>(x.upper());
+  return rigor::IntervalLanes<Lanes>::symmetric(x.upper());
 }
 /// The larger eigenvalue of [[a, b], [b, c]].
 template <typename Scalar>

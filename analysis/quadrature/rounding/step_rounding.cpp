@@ -117,6 +117,7 @@ StateDifference step_rounding(const Program& program, const HeldStates& box, con
   const auto variances = Interval::from_bounds(box.lower(2, 2).lower(), box.upper(2, 2).upper());
   const int regressions = pieces.regression * pieces.regression;
   std::vector<Turn> turns;
+  turns.reserve(static_cast<std::size_t>(pieces.angles));
   for (int i = 0; i < pieces.angles; ++i) {
     turns.emplace_back(piece(whole_turn, i, pieces.angles));
   }

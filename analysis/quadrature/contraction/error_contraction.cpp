@@ -230,13 +230,13 @@ class Cover {
   // ---- several cells
 
   void look_at_together(OpenCell* open, int count) const {
-    CellBatch batch;
+    CellBatch batch{};
     batch.count = count;
     set_reach(open, batch);
     for (int column = 0; column < CellBatch::kMost; ++column) {
       propose(open[std::min(column, count - 1)], batch, column);  // columns left over have copies
     }
-    CellAnswers answers;
+    CellAnswers answers{};
     const bool wide = instructions_ == InstructionSet::avx512;
     (wide ? detail::check_cells_avx512 : detail::check_cells_avx2)(setting_, constants_, batch, answers);
     for (int column = 0; column < count; ++column) {
@@ -266,7 +266,7 @@ class Cover {
     for (int column = 0; column < CellBatch::kMost; ++column) {
       write_sides(open[std::min(column, batch.count - 1)].cell, batch, column);
     }
-    CellReach found;
+    CellReach found{};
     const bool wide = instructions_ == InstructionSet::avx512;
     (wide ? detail::reach_of_cells_avx512 : detail::reach_of_cells_avx2)(setting_, batch, found);
     for (int column = 0; column < batch.count; ++column) {

@@ -18,6 +18,7 @@
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "bench/lanes/map_lanes.hpp"
 #include "tests/trackers/textbook_ekf.hpp"
 #include "trackers/quadrature/batch/quadrature_batch.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
@@ -212,6 +213,43 @@ void map_dual_of_interval(benchmark::State& state) {
   rotating_frame<veritrack::rigor::Dual<Interval, 9>>(state, differentiated<Interval>());
 }
 BENCHMARK(map_dual_of_interval);
+
+/// Several maps side by side; the counters are of one.
+template <InstructionSet set, bool over_intervals>
+void map_in_lanes(benchmark::State& state) {
+  if (!has(set)) {
+    state.SkipWithError("this processor has no such instructions");
+    return;
+  }
+  using namespace veritrack::bench;
+  constexpr std::size_t kLanes = set == InstructionSet::avx512 ? 8 : set == InstructionSet::avx2 ? 4 : 2;
+  constexpr RunMap* kDoubles = set == InstructionSet::avx512 ? run_doubles_avx512
+                               : set == InstructionSet::avx2 ? run_doubles_avx2
+                                                             : run_doubles_sse2;
+  constexpr RunMap* kIntervals = set == InstructionSet::avx512 ? run_intervals_avx512
+                                 : set == InstructionSet::avx2 ? run_intervals_avx2
+                                                               : run_intervals_sse2;
+  const auto d = design<double>();
+  MapOperands operands{{}, {0.01, -0.02, 0.0, kFrequency}, {d.q1, d.q2, d.r, d.epsilon}};
+  for (int i = 0; i < 9; ++i) {
+    operands.state[i] = locked()(i);
+  }
+  const auto run = [&] {
+    benchmark::DoNotOptimize((over_intervals ? kIntervals : kDoubles)(operands, signal().size()));
+  };
+  if constexpr (over_intervals) {
+    const veritrack::rigor::UpwardRounding upward;
+    measure(state, run, kLanes);
+  } else {
+    measure(state, run, kLanes);
+  }
+}
+BENCHMARK(map_in_lanes<InstructionSet::sse2, false>);
+BENCHMARK(map_in_lanes<InstructionSet::avx2, false>);
+BENCHMARK(map_in_lanes<InstructionSet::avx512, false>);
+BENCHMARK(map_in_lanes<InstructionSet::sse2, true>);
+BENCHMARK(map_in_lanes<InstructionSet::avx2, true>);
+BENCHMARK(map_in_lanes<InstructionSet::avx512, true>);
 
 void normal_deviate(benchmark::State& state) {
   RandomStream random(1);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "analysis/experiments/repeated_runs.hpp"
+#include "analysis/experiments/running_statistics.hpp"
 #include "analysis/search/maximize.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 #include "trackers/signals/random.hpp"
@@ -88,18 +89,16 @@ void run_kkl(double scale, const Input& input, double seconds, const Visit& visi
 class Window {
  public:
   void add(double value) {
-    ++count_;
-    const double from_mean = value - mean_;
-    mean_ += from_mean / count_;
-    squares_ += from_mean * (value - mean_);
+    statistics_.add(value);
     errors_ += (value - kTrueFrequency) * (value - kTrueFrequency);
   }
   [[nodiscard]] WindowStatistics result() const {
-    return {mean_, std::sqrt(squares_ / count_), std::sqrt(errors_ / count_)};
+    return {statistics_.mean(), statistics_.deviation(), std::sqrt(errors_ / statistics_.count())};
   }
 
  private:
-  double count_ = 0.0, mean_ = 0.0, squares_ = 0.0, errors_ = 0.0;
+  RunningStatistics statistics_;
+  double errors_ = 0.0;
 };
 
 /// `run(input, seconds, visit)`.

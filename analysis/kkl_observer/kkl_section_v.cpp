@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/experiments/running_statistics.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "trackers/kkl_observer/adaptive_oscillator_observer.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
@@ -22,22 +23,9 @@ constexpr double kFrequency = 3.0;
 constexpr double kDisturbance = 0.2;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Mean and deviation, as numbers come in. One that is not a number spoils both, as it should.
-class Statistics {
- public:
-  void add(double value) {
-    ++count_;
-    const double from_mean = value - mean_;
-    mean_ += from_mean / count_;
-    squares_ += from_mean * (value - mean_);
-  }
-  [[nodiscard]] SteadyStatistics result() const { return {mean_, std::sqrt(squares_ / count_)}; }
-
- private:
-  double count_ = 0.0;
-  double mean_ = 0.0;
-  double squares_ = 0.0;
-};
+SteadyStatistics steady(const experiments::RunningStatistics& statistics) {
+  return {statistics.mean(), statistics.deviation()};
+}
 
 /// Runs an observer from 0 to `periods` times 2 pi seconds, with statistics over the last `last` of them.
 /// `step(first, last)` takes it over one interval; `estimate()` gives amplitude and frequency.
@@ -55,8 +43,8 @@ SectionVRun run(double disturbance_frequency, long steps_a_period, int periods, 
   SectionVRun result;
   result.disturbance_frequency = disturbance_frequency;
   result.samples.reserve(kSamples + 1);
-  Statistics amplitude;
-  Statistics frequency;
+  experiments::RunningStatistics amplitude;
+  experiments::RunningStatistics frequency;
   double before = signal(0);
   for (long k = 1; k <= steps; ++k) {
     const double now = signal(k);
@@ -76,8 +64,8 @@ SectionVRun run(double disturbance_frequency, long steps_a_period, int periods, 
       }
     }
   }
-  result.amplitude = amplitude.result();
-  result.frequency = frequency.result();
+  result.amplitude = steady(amplitude);
+  result.frequency = steady(frequency);
   return result;
 }
 
@@ -165,8 +153,8 @@ SectionVRun run_caption_window(const Eigen::Vector4d& lambda, double ell, double
   const trackers::KklObserverDesign<double, 4> design{lambda, ell};
   const auto steps = static_cast<long>(std::ceil((kEnd - kBegin) / (2.0 * std::numbers::pi) *
                                                  static_cast<double>(steps_a_period(disturbance_frequency))));
-  Statistics amplitude;
-  Statistics frequency;
+  experiments::RunningStatistics amplitude;
+  experiments::RunningStatistics frequency;
   for (long k = 0; k <= steps; ++k) {
     const double time = kBegin + (kEnd - kBegin) * static_cast<double>(k) / static_cast<double>(steps);
     Eigen::Vector4d filters = Eigen::Vector4d::Zero();
@@ -183,7 +171,7 @@ SectionVRun run_caption_window(const Eigen::Vector4d& lambda, double ell, double
     amplitude.add(x(2) > 0.0 ? estimate.amplitude : kNone);
     frequency.add(x(2) > 0.0 ? estimate.frequency : kNone);
   }
-  return {disturbance_frequency, amplitude.result(), frequency.result(), {}};
+  return {disturbance_frequency, steady(amplitude), steady(frequency), {}};
 }
 
 SectionVRun run_adaptive_section_v(double disturbance_frequency) {

@@ -46,7 +46,7 @@ template <std::size_t Size, typename Entry>
 [[nodiscard]] LowerTriangle<Size> congruent(const LowerTriangle<Size>& c, const Entry& a) {
   LowerTriangle<Size> half;
   for (std::size_t i = 0; i < Size; ++i) {
-    for (std::size_t j = 0; j < Size; ++j) {
+    for (std::size_t j = 0; j <= i; ++j) {  // no more of it is needed
       Interval sum = c[i][0] * a(j, 0);
       for (std::size_t k = 1; k <= i; ++k) {
         sum += c[i][k] * (k < j ? a(j, k) : a(k, j));

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "analysis/single_channel/polynomial_identity.hpp"
+#include "analysis/rigor/polynomial_identity.hpp"
 #include "analysis/single_channel/propositions.hpp"
 #include "analysis/theorems/comparison.hpp"
 #include "analysis/theorems/paper_findings.hpp"
@@ -97,7 +97,7 @@ theorems::Quantity side(const std::string& name, const Interval& value) {
 template <typename Difference>
 Statement identity(std::string id, std::string sentence, const Difference& difference) {
   const Verdict verdict =
-      vanishes<4>([&](const Point& point) { return difference(Symbols(point)); }, kDegree);
+      rigor::vanishes<4>([&](const Point& point) { return difference(Symbols(point)); }, kDegree);
   return theorems::make_statement(std::move(id), std::move(sentence), verdict,
                                   "a polynomial identity, evaluated exactly on 5 values of each of z, K1, K2 "
                                   "and tan(x3/2); the degree is at most 4 in each",

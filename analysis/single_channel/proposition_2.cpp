@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "analysis/single_channel/polynomial_identity.hpp"
+#include "analysis/rigor/polynomial_identity.hpp"
 #include "analysis/single_channel/propositions.hpp"
 #include "analysis/theorems/comparison.hpp"
 #include "analysis/theorems/paper_findings.hpp"
@@ -16,7 +16,7 @@ using theorems::Statement;
 /// K_i = p_1i / (p_11 + r) from scaled and from unscaled values, multiplied out: variables alpha, p_11, p_1i,
 /// r.
 Verdict gain_is_unchanged() {
-  return vanishes<4>(
+  return rigor::vanishes<4>(
       [](const std::array<Interval, 4>& x) {
         const auto& [alpha, p11, p1i, r] = x;
         return alpha * p1i * (p11 + r) - p1i * (alpha * p11 + alpha * r);
@@ -27,7 +27,7 @@ Verdict gain_is_unchanged() {
 /// (p_ij - p_1i p_1j / (p_11 + r)) alpha from both, multiplied out by (p_11 + r)(alpha p_11 + alpha r):
 /// variables alpha, p_11, p_1i, p_1j, p_ij, r.
 Verdict update_is_scaled() {
-  return vanishes<6>(
+  return rigor::vanishes<6>(
       [](const std::array<Interval, 6>& x) {
         const auto& [alpha, p11, p1i, p1j, pij, r] = x;
         const Interval s = p11 + r;
@@ -40,7 +40,7 @@ Verdict update_is_scaled() {
 
 /// One entry of sum_kl f_ik p_kl f_jl + q_ij is linear in (p, q): one term and the noise represent all.
 Verdict prediction_is_scaled() {
-  return vanishes<5>(
+  return rigor::vanishes<5>(
       [](const std::array<Interval, 5>& x) {
         const auto& [alpha, fik, fjl, pkl, qij] = x;
         return (fik * (alpha * pkl) * fjl + alpha * qij) - alpha * (fik * pkl * fjl + qij);

@@ -41,6 +41,13 @@ const std::vector<PaperFinding>& paper_findings() {
   static const std::vector<PaperFinding> ledger{
       // La Scala 1994.
       {"baras-bensoussan-james/units", false_as_stated, "thesis, theorem 2.2, (2.16)"},
+      {"chapter-2/theorem-2.4/inverse-derivative", needs_unstated_assumption,
+       "thesis, the note before theorem 2.4; true on a compact set of states"},
+      {"chapter-2/theorem-2.6/chain", slip_without_consequence, "thesis, theorem 2.6"},
+      {"chapter-2/theorem-2.8/start", needs_unstated_assumption, "thesis, theorem 2.8, P(0|0)"},
+      {"chapter-2/lemma-2.3/transition-matrix", slip_without_consequence, "thesis, lemma 2.3"},
+      {"chapter-2/lemma-2.4/size", false_as_stated, "thesis, lemma 2.4, the first entry of (2.40)"},
+      {"chapter-2/lemma-2.5/covariance", slip_without_consequence, "thesis, proof of lemma 2.5, a sign"},
       {"theorem-2.9/final-bound-sum", slip_without_consequence, "thesis, theorem 2.7, the bound at k = 0"},
       {"theorem-2.9/zeta", false_as_stated, "thesis, theorem 2.7 and lemma 2.5, zeta"},
       {"theorem-2.9/past-errors", false_as_stated,
@@ -98,9 +105,24 @@ const std::vector<PaperFinding>& paper_findings() {
        "thesis, section 5.4, the formula; the printed number is right"},
       {"chapter-5/corollary-5.2.1/step", slip_without_consequence,
        "thesis, corollary 5.2.1; the factor Lambda is missing"},
+      {"chapter-5/regression", slip_without_consequence, "thesis, (5.5) and (5.7)"},
+      {"chapter-5/monitoring/trace", needs_unstated_assumption, "thesis, section 5.2.5, the bound on rbar"},
+      {"chapter-5/monitoring/condition-number", slip_without_consequence,
+       "thesis, section 5.2.5; the proofs do not use it"},
+      {"chapter-5/theorem-5.2/control-exists", needs_unstated_assumption, "thesis, theorem 5.2, theta_{n+1}"},
+      {"chapter-5/theorem-5.2/regressor-step", slip_without_consequence,
+       "thesis, proof of theorem 5.2, its last inequality"},
       // Bittanti and Savaresi 2000.
       {"proposition-1/denominator-printed", slip_without_consequence, "paper, (4) and (6)"},
       {"proposition-1/response-printed", slip_without_consequence, "paper, (6)"},
+      {"proposition-1/zeros", slip_without_consequence, "paper, after (7)"},
+      {"proposition-1/every-start", needs_unstated_assumption, "paper, proposition 1, the start"},
+      {"proposition-1/constant-sinusoid", false_as_stated, "paper, (7)"},
+      {"proposition-1/varying-gain", false_as_stated, "paper, (4) to (7), the gains K(t)"},
+      {"proposition-1/estimate-is-constant", false_as_stated, "paper, proof of proposition 1"},
+      {"proposition-1/bias-grows/everywhere", false_as_stated, "paper, section II, after proposition 1"},
+      {"proposition-1/indistinguishable", needs_unstated_assumption,
+       "paper, section II; a signal has to be there"},
       {"proposition-2/same-start", needs_unstated_assumption,
        "paper, the conclusion of the proof of proposition 2; P(0) is not named there"},
       // Praly, Marconi and Isidori.
@@ -109,6 +131,7 @@ const std::vector<PaperFinding>& paper_findings() {
        "that "
        "of (6) is the slip"},
       {"kkl-paper/dimensions", slip_without_consequence, "paper, (8)"},
+      {"kkl-paper/scaling", slip_without_consequence, "paper, section IV, a = 0"},
       {"kkl-paper/section-v-ell", false_as_stated, "paper, section V"}};
   return ledger;
 }

@@ -27,6 +27,8 @@ struct Family {
 constexpr std::string_view kContraction = "the contraction certificate (docs/contraction.md, docs/leak.md)";
 constexpr std::string_view kRiccati = "sound bounds for a window (docs/riccati-bounds.md)";
 
+constexpr std::string_view kCurve = "the invariant curve of the steady state (docs/single-channel.md)";
+
 /// The first that fits counts, so that the longer of two stands first.
 constexpr std::array kFamilies{
     Family{"theorem-2.9/printed/", la_scala_1994, hypothesis, "thesis, theorem 2.9", kContraction},
@@ -48,6 +50,21 @@ constexpr std::array kFamilies{
     Family{"lemma-3.1/", la_scala_1994, sentence, "thesis, lemma 3.1"},
     Family{"table-3.1/printed/", la_scala_1994, sentence, "thesis, Table 3.1", "table-3.1/errata"},
     Family{"table-3.1/errata/", la_scala_1994, sentence, "thesis, errata sheet to Table 3.1"},
+    Family{"chapter-2/section-2.2.4/", la_scala_1994, sentence, "thesis, section 2.2.4"},
+    Family{"chapter-2/theorem-2.4/", la_scala_1994, sentence, "thesis, theorem 2.4"},
+    Family{"chapter-2/theorem-2.6/", la_scala_1994, sentence, "thesis, theorem 2.6"},
+    Family{"chapter-2/corollary-2.6.1", la_scala_1994, sentence, "thesis, corollary 2.6.1"},
+    Family{"chapter-2/theorem-2.8/", la_scala_1994, sentence, "thesis, theorem 2.8",
+           "theorem-2.9/repaired (docs/repaired-theorem.md)"},
+    Family{"chapter-2/lemma-2.1", la_scala_1994, sentence, "thesis, lemma 2.1"},
+    Family{"chapter-2/lemma-2.2", la_scala_1994, sentence, "thesis, lemma 2.2"},
+    Family{"chapter-2/lemma-2.3/", la_scala_1994, sentence, "thesis, lemma 2.3"},
+    Family{"chapter-2/lemma-2.4/", la_scala_1994, sentence, "thesis, lemma 2.4"},
+    Family{"chapter-2/lemma-2.5/", la_scala_1994, sentence, "thesis, lemma 2.5"},
+    Family{"chapter-3/table-3.1-footnote/", la_scala_1994, sentence, "thesis, Table 3.1, its footnote"},
+    Family{"chapter-3/same-slew", la_scala_1994, sentence, "thesis, section 3.7"},
+    Family{"chapter-3/a-tenth", la_scala_1994, sentence, "thesis, Table 3.2"},
+    Family{"chapter-3/variance-by-parameters", la_scala_1994, sentence, "thesis, (3.12)"},
     Family{"chapter-3/frequency-variance", la_scala_1994, sentence, "thesis, (3.11) and (3.12)"},
     Family{"chapter-4/transform/", la_scala_1994, sentence, "thesis, (4.5)"},
     Family{"chapter-4/narrow-band/4.9", la_scala_1994, sentence, "thesis, (4.9)"},
@@ -56,13 +73,30 @@ constexpr std::array kFamilies{
     Family{"chapter-4/initial-estimate/", la_scala_1994, sentence, "thesis, section 4.5.2"},
     Family{"chapter-4/", la_scala_1994, sentence, "thesis, section 4.3"},
     Family{"chapter-5/example", la_scala_1994, sentence, "thesis, section 5.4, the examples"},
+    Family{"chapter-5/theorem-5.2/5.23", la_scala_1994, sentence, "thesis, (5.23)"},
+    Family{"chapter-5/theorem-5.2/5.24", la_scala_1994, sentence, "thesis, (5.24)"},
     Family{"chapter-5/theorem-5.2/", la_scala_1994, sentence, "thesis, theorem 5.2, its proof"},
     Family{"chapter-5/corollary-5.2.1/", la_scala_1994, sentence, "thesis, corollary 5.2.1, its proof"},
+    Family{"chapter-5/lemma-5.2", la_scala_1994, sentence, "thesis, lemma 5.2"},
+    Family{"chapter-5/regression/", la_scala_1994, sentence, "thesis, (5.5)"},
+    Family{"chapter-5/monitoring/", la_scala_1994, sentence, "thesis, section 5.2.5",
+           "rbar lambda_max(P) <= Lambda"},
     Family{"chapter-5/", la_scala_1994, sentence, "thesis, section 5.4, EFRA"},
+    Family{"chapter-6/", la_scala_1994, sentence, "thesis, section 6.2"},
+    Family{"zarchan/symmetry/oscillator-sign", zarchan_slides, sentence, "slides, alternate filter"},
+    Family{"zarchan/symmetry/oscillator", zarchan_slides, repair, "slides, alternate filter"},
+    Family{"zarchan/symmetry/square", zarchan_slides, repair, "slides, another filter (z = ω²)"},
+    Family{"zarchan/symmetry/phase", zarchan_slides, repair, "slides, initial formulation"},
+    Family{"zarchan/symmetry/known-amplitude", zarchan_slides, repair, "slides, two-state filter"},
+    Family{"zarchan/steady-state/", zarchan_slides, repair, "slides, all four filters"},
+    Family{"sam/", kang_song_lee, sentence, "page, abstract"},
+    Family{"pendulum/chaos", guan_chen_ueta, sentence, "page, Figure 1"},
+    Family{"pendulum/", guan_chen_ueta, sentence, "page, section II"},
     Family{"baras-bensoussan-james/units", cited, sentence, "thesis, theorem 2.2",
            "a condition without units (docs/published-results.md, section 4)"},
     Family{"baras-bensoussan-james/", cited, hypothesis, "Baras, Bensoussan, James 1988; thesis, theorem 2.2",
            kContraction},
+    Family{"picard/", cited, hypothesis, "Picard 1991; thesis, theorem 2.3", kContraction},
     Family{"song-grizzle/", cited, hypothesis, "Song, Grizzle 1993; thesis, theorem 2.5",
            "song-grizzle/local"},
     Family{"reif-1999/", cited, hypothesis, "Reif, Guenther, Yaz, Unbehauen 1999", "reif-1999/two-step"},
@@ -71,6 +105,14 @@ constexpr std::array kFamilies{
     Family{"proposition-1/numerator", bittanti_savaresi_2000, sentence, "paper, (4)"},
     Family{"proposition-1/response", bittanti_savaresi_2000, sentence, "paper, (6)",
            "proposition-1/response-corrected"},
+    Family{"proposition-1/zeros/", bittanti_savaresi_2000, sentence, "paper, after (7)"},
+    Family{"proposition-1/constant-sinusoid", bittanti_savaresi_2000, sentence, "paper, (7)", kCurve},
+    Family{"proposition-1/varying-gain", bittanti_savaresi_2000, sentence, "paper, (4) to (7)", kCurve},
+    Family{"proposition-1/estimate-is-constant", bittanti_savaresi_2000, sentence, "paper, proposition 1",
+           kCurve},
+    Family{"proposition-1/bias-grows/", bittanti_savaresi_2000, sentence, "paper, section II", kCurve},
+    Family{"proposition-1/indistinguishable", bittanti_savaresi_2000, sentence, "paper, section II"},
+    Family{"example-2/", bittanti_savaresi_2000, sentence, "paper, Example 2"},
     Family{"proposition-1/", bittanti_savaresi_2000, sentence, "paper, proposition 1"},
     Family{"proposition-2/", bittanti_savaresi_2000, sentence, "paper, proposition 2",
            "proposition-2/scaled-start"},
@@ -80,6 +122,11 @@ constexpr std::array kFamilies{
     Family{"kkl-paper/injectivity", praly_marconi_isidori, sentence, "paper, section IV"},
     Family{"kkl-paper/mu-vanishes", praly_marconi_isidori, sentence, "paper, (9) and (10)", "kkl-ell"},
     Family{"kkl-paper/left-inverse", praly_marconi_isidori, sentence, "paper, (15)", "kkl-ell"},
+    Family{"kkl-paper/vandermonde-step", praly_marconi_isidori, sentence, "paper, (16) and (17)"},
+    Family{"kkl-paper/ell-positive", praly_marconi_isidori, sentence, "paper, (10) and (17)"},
+    Family{"kkl-paper/more-filters", praly_marconi_isidori, sentence, "paper, section VI and (15)"},
+    Family{"kkl-paper/bandwidth", praly_marconi_isidori, sentence, "paper, section V"},
+    Family{"kkl-paper/section-v-errors/", praly_marconi_isidori, sentence, "paper, section V"},
     Family{"kkl-paper/section-v-ell", praly_marconi_isidori, sentence, "paper, section V", "kkl-ell"},
     Family{"kkl-paper/", praly_marconi_isidori, sentence, "paper, section IV"}};
 
@@ -129,6 +176,12 @@ std::string_view to_string(Paper paper) {
       return "S. Bittanti and S. M. Savaresi, 2000";
     case praly_marconi_isidori:
       return "L. Praly, L. Marconi and A. Isidori";
+    case zarchan_slides:
+      return "P. Zarchan, slides on tracking a sine wave";
+    case kang_song_lee:
+      return "D. H. Kang, J. Song and Y. H. Lee, 1996, first page";
+    case guan_chen_ueta:
+      return "Z.-H. Guan, G. Chen and T. Ueta, 2000, first page";
     case cited:
       return "Theorems by others, applied to the quadrature tracker";
   }

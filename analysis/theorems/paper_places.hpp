@@ -11,6 +11,9 @@ enum class Paper {
   la_scala_1994,           ///< the thesis, with its errata sheet
   bittanti_savaresi_2000,  ///< the single-channel tracker
   praly_marconi_isidori,   ///< the KKL observer
+  zarchan_slides,          ///< the four filters
+  kang_song_lee,           ///< the first page of the paper on subset averaged median filters
+  guan_chen_ueta,          ///< the first page of the paper on the pendulum
   cited                    ///< a theorem by others that the papers, or we, apply to the tracker
 };
 

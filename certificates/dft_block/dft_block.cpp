@@ -111,13 +111,7 @@ class BlockClaims {
   }
 
   [[nodiscard]] Claim required(const char* id, const Number& number, std::string requirement) const {
-    Claim claim;
-    claim.id = id;
-    claim.statement = hypotheses_ + requirement + ".";
-    claim.requirement = std::move(requirement);
-    claim.required = true;
-    claim.position = number.position;
-    return claim;
+    return required_claim(id, std::move(requirement), hypotheses_, number);
   }
 
   void add_offset_error(const Number& below) {

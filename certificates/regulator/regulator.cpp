@@ -125,13 +125,7 @@ class RegulatorClaims {
   }
 
   [[nodiscard]] Claim required(const char* id, const Number& number, std::string requirement) const {
-    Claim claim;
-    claim.id = id;
-    claim.statement = hypotheses_ + requirement + ".";
-    claim.requirement = std::move(requirement);
-    claim.required = true;
-    claim.position = number.position;
-    return claim;
+    return required_claim(id, std::move(requirement), hypotheses_, number);
   }
   static void decide(Claim& claim, bool is_met, const std::string& ground,
                      std::initializer_list<const theorems::Quantity*> evidence) {

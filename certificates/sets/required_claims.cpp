@@ -23,18 +23,6 @@ std::string contraction_objection(const sets::StartResult& starts) {
   return "The contraction certificate gives no bound for the assumed start.";
 }
 
-/// What [require] asks, in short and with all hypotheses.
-Claim claim_of(const char* id, std::string requirement, const std::string& hypotheses,
-               const Number& required) {
-  Claim claim;
-  claim.id = id;
-  claim.statement = hypotheses + requirement + ".";
-  claim.requirement = std::move(requirement);
-  claim.required = true;
-  claim.position = required.position;
-  return claim;
-}
-
 Claim frequency_error_claim(const sets::StartResult& starts, const GuaranteeTerms& terms) {
   const Assumptions& assume = terms.assume;
   const Number& required = *terms.require.frequency_error_below;
@@ -42,9 +30,9 @@ Claim frequency_error_claim(const sets::StartResult& starts, const GuaranteeTerm
   const std::optional<theorems::Quantity>& wrong_lock = starts.wrong_lock_frequency_error;
   const FrequencyUnits units(assume.sample_rate);
   Claim claim =
-      claim_of("ekf/frequency-error-bound",
-               fmt::format("the frequency error stays below {} for ever", frequency_words(required)),
-               hypotheses(terms), required);
+      required_claim("ekf/frequency-error-bound",
+                     fmt::format("the frequency error stays below {} for ever", frequency_words(required)),
+                     hypotheses(terms), required);
   if (bound && rigor::certainly_less(*bound, required.value)) {
     claim.verdict = Verdict::proved;
     claim.reason = fmt::format("By contraction it stays at or below {}.", units.at_most(*bound));
@@ -77,10 +65,10 @@ Claim settling_claim(const sets::StartResult& starts, const GuaranteeTerms& term
   const bool covered = starts.verdict == Verdict::proved;
   const theorems::Quantity& samples = starts.settling_samples;
   const theorems::Quantity& error = starts.settled_frequency_error;
-  Claim claim = claim_of("ekf/settling-time",
-                         fmt::format("from sample {} on, the frequency error stays below {}", within.text,
-                                     frequency_words(below)),
-                         hypotheses(terms), within);
+  Claim claim = required_claim("ekf/settling-time",
+                               fmt::format("from sample {} on, the frequency error stays below {}",
+                                           within.text, frequency_words(below)),
+                               hypotheses(terms), within);
   if (covered && samples.applies() && error.applies()) {
     const bool settles = rigor::certainly_less_equal(samples.value, within.value) &&
                          rigor::certainly_less(error.value, below.value);
@@ -113,7 +101,7 @@ struct LeastSize {
 
 Claim least_size_claim(const LeastSize& size, const GuaranteeTerms& terms, const Number& required) {
   const std::string tone_text = tone(terms, size.under_assumptions) + ", ";
-  Claim claim = claim_of(
+  Claim claim = required_claim(
       size.claim,
       fmt::format(fmt::runtime(size.statement), size.words == nullptr ? required.text : size.words(required)),
       tone_text, required);
@@ -136,6 +124,17 @@ Claim least_size_claim(const LeastSize& size, const GuaranteeTerms& terms, const
 }
 
 }  // namespace
+
+Claim required_claim(const char* id, std::string requirement, const std::string& hypotheses,
+                     const Number& required) {
+  Claim claim;
+  claim.id = id;
+  claim.statement = hypotheses + requirement + ".";
+  claim.requirement = std::move(requirement);
+  claim.required = true;
+  claim.position = required.position;
+  return claim;
+}
 
 void add_required_claims(Certificate& certificate, const GuaranteeTerms& terms) {
   const Assumptions& assume = terms.assume;

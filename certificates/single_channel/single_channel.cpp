@@ -165,6 +165,25 @@ void add_propositions(Certificate& certificate, const trackers::ToneModel<Interv
   add_all(single_channel::proposition_2());
 }
 
+/// The biases at the frequencies, of which that in the middle is returned.
+SteadyStateBias add_biases(Certificate& certificate, const trackers::ToneModel<Interval>& design,
+                           const std::vector<BiasFrequency>& frequencies, const Interval& band) {
+  const sets::LockBranch quadrature = sets::verify_lock_branch(design, band);
+  const std::size_t middle = frequencies.size() / 2;
+  SteadyStateBias at_middle;
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    const SteadyStateBias bias = steady_state_at(design, frequencies[i]);
+    if (i == middle) {
+      at_middle = bias;
+    }
+    certificate.derivations.push_back(
+        bias_derivation(bias, bias_around(design, bias),
+                        i == middle ? "single-channel-bias" : "single-channel-bias/" + frequencies[i].text,
+                        quadrature_bias(quadrature, frequencies[i].value)));
+  }
+  return at_middle;
+}
+
 }  // namespace
 
 std::vector<BiasFrequency> bias_frequencies(const Assumptions& assume) {
@@ -218,7 +237,7 @@ void single_channel_published_results(Certificate& certificate) {
 
 void certify_single_channel(Certificate& certificate, const CertifyProgress& /*progress*/) {
   const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
-  certificate.simulation = simulate_single_channel(tables);
+  const bool only_verdicts = certificate.extent == Extent::verdicts || certificate.extent == Extent::quick;
   const trackers::ToneModel<Interval> design = design_at_unit_amplitude(tables);
   const std::vector<BiasFrequency> frequencies = bias_frequencies(tables.assume);
   const std::size_t middle = frequencies.size() / 2;
@@ -227,20 +246,13 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
     certificate.claims.push_back(stability_claim(design.r));
   }
   const Interval band = rigor::hull(tables.assume.frequency[0].value, tables.assume.frequency[1].value);
-  const sets::LockBranch quadrature = sets::verify_lock_branch(design, band);
   SteadyStateBias at_middle;
-  for (std::size_t i = 0; i < frequencies.size(); ++i) {
-    const SteadyStateBias bias = steady_state_at(design, frequencies[i]);
-    if (i == middle) {
-      at_middle = bias;
-    }
-    certificate.derivations.push_back(
-        bias_derivation(bias, bias_around(design, bias),
-                        i == middle ? "single-channel-bias" : "single-channel-bias/" + frequencies[i].text,
-                        quadrature_bias(quadrature, frequencies[i].value)));
+  if (!only_verdicts) {
+    certificate.simulation = simulate_single_channel(tables);
+    at_middle = add_biases(certificate, design, frequencies, band);
   }
   single_channel::PhaseQuestion question{contraction_question(design, tables.assume, tables.require), band};
-  if (certificate.extent == Extent::verdicts || certificate.extent == Extent::quick) {
+  if (only_verdicts) {
     question.tracker.with_limits =
         tables.require.largest_noise_at_least || tables.require.largest_slew_at_least;
   }
@@ -248,11 +260,12 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
   certificate.derivations.push_back(std::move(contraction.derivation));
   certificate.contraction = std::move(contraction.result);
   const std::string covariance = start_covariance_words(contraction.bound_set);
-  certificate.derivations.push_back(single_channel::transfer_function(single_channel::mean_gain(
-      trackers::at_unit_amplitude(nearest_values(tables.design), tables.assume.amplitude.nearest),
-      midpoint(frequencies[middle].value))));
-
-  add_propositions(certificate, design, frequencies[middle], at_middle);
+  if (!only_verdicts) {
+    certificate.derivations.push_back(single_channel::transfer_function(single_channel::mean_gain(
+        trackers::at_unit_amplitude(nearest_values(tables.design), tables.assume.amplitude.nearest),
+        midpoint(frequencies[middle].value))));
+    add_propositions(certificate, design, frequencies[middle], at_middle);
+  }
   const GuaranteeTerms terms{tables.assume, tables.require, true, false, covariance, kDoublePrecision};
   add_required_claims(certificate, terms);
   certificate.claims.push_back(guarantee_claim(certificate, terms));

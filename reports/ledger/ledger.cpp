@@ -5,9 +5,16 @@
 #include <string_view>
 
 #include "analysis/dft_block/lock_claims.hpp"
+#include "analysis/kkl_observer/paper_sentences.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "analysis/single_channel/paper_sentences.hpp"
 #include "analysis/theorems/block_transform_claims.hpp"
 #include "analysis/theorems/regulator_claims.hpp"
+#include "analysis/theorems/self_tuning_claims.hpp"
+#include "analysis/theorems/sine_filter_claims.hpp"
+#include "analysis/theorems/spill_over_claims.hpp"
+#include "analysis/theorems/stability_lemma_claims.hpp"
+#include "analysis/theorems/tracker_theory_claims.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/markdown_text.hpp"
@@ -133,6 +140,13 @@ std::vector<Row> collect() {
   collection.add(theorems::block_transform_claims());
   collection.add(dft_block::lock_claims());
   collection.add(theorems::regulator_claims());
+  collection.add(theorems::stability_lemma_claims());
+  collection.add(theorems::tracker_theory_claims());
+  collection.add(theorems::self_tuning_claims());
+  collection.add(single_channel::paper_sentences());
+  collection.add(kkl_observer::paper_sentences());
+  collection.add(theorems::sine_filter_claims());
+  collection.add(theorems::spill_over_claims());
   return std::move(collection).rows();
 }
 

@@ -21,8 +21,10 @@ using theorems::FindingKind;
 using theorems::Paper;
 using theorems::PaperRole;
 
-constexpr std::array kPapers{Paper::la_scala_1994, Paper::bittanti_savaresi_2000,
-                             Paper::praly_marconi_isidori, Paper::cited};
+constexpr std::array kPapers{
+    Paper::la_scala_1994,  Paper::bittanti_savaresi_2000, Paper::praly_marconi_isidori,
+    Paper::zarchan_slides, Paper::kang_song_lee,          Paper::guan_chen_ueta,
+    Paper::cited};
 
 using Choice = std::function<bool(const Row& row)>;
 
@@ -176,7 +178,8 @@ std::string designs_of(const std::vector<Row>& rows, Paper paper) {
   for (const std::string& design : designs) {
     text += fmt::format("{}`veritrack certify designs/{}.toml`", text.empty() ? "" : ", ", design);
   }
-  return text + ", or, where no design enters, by `veritrack reproduce ledger`";
+  const std::string ledger = "`veritrack reproduce ledger`";
+  return text.empty() ? ledger : text + ", or, where no design enters, by " + ledger;
 }
 
 std::string paper_section(const std::vector<Row>& rows, Paper paper) {

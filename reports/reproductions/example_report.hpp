@@ -9,6 +9,7 @@
 
 #include "analysis/single_channel/published_examples.hpp"
 #include "reports/page/renderings.hpp"
+#include "reports/reproductions/reproduction.hpp"
 #include "reports/reproductions/written_report.hpp"
 
 namespace veritrack::reports {
@@ -39,5 +40,9 @@ using StartProgress = std::function<void(int, int)>;
 [[nodiscard]] WrittenReport write_example_report(int seeds, const std::filesystem::path& directory,
                                                  const page::Renderings& renderings = {},
                                                  const StartProgress& progress = {});
+
+/// Both examples at their own noise, for the ledger: every statement for Q = q I and a start at the true
+/// state with P(0|0) = I, which the paper does not give. Only entries.
+[[nodiscard]] Findings example_entries(int seeds, const ReproductionProgress& progress = {});
 
 }  // namespace veritrack::reports

@@ -110,7 +110,7 @@ Figure draw_comparison(const ObserverPairs& pairs) {
     panels.push_back({fmt::format("disturbance of {:.0f} rad/s", experiments::kDisturbances.at(i)),
                       "error [rad/s]",
                       {std::move(kkl), std::move(hou)},
-                      "set logscale xy\nset xrange [1:20]\nset yrange [*:*]\n"});
+                      "set bmargin 4\nset logscale xy\nset xrange [1:20]\nset yrange [*:*]\n"});
   }
   return draw_line_panels("comparison.svg", "Errors of both observers over the time in which they settle",
                           "settles after [s]", panels);

@@ -32,7 +32,7 @@ constexpr Reproduction of(std::string_view name, std::string_view about, int run
 
 constexpr std::array kReproductions{
     Reproduction{"bittanti-savaresi-2000", "examples of Bittanti and Savaresi (2000)", 200,
-                 &write_example_report},
+                 &write_example_report, &example_entries},
     Reproduction{"tracking-limits", "trackers compared with the Cramer-Rao bounds", 1000,
                  &write_limit_report},
     of<reproduce_table_1>("la-scala-bitmead-table-1", "Table I of La Scala and Bitmead (1996)", 1000),

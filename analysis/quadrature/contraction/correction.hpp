@@ -94,42 +94,77 @@ struct Correction {
   Constant least_along;           ///< lower bound on the component of the corrected z along the prediction
   Constant turn_tangent;          ///< bound on |tan| of the turn of the estimate
 };
-template <typename Constant, typename Scalar>
-[[nodiscard]] Correction<Constant, Scalar> correction_at(const StepSetting<Constant>& setting,
-                                                         const Scalar& a, const Scalar& chi) {
-  using detail::value_of;
-  using std::sqrt;
+
+/// What errors look like before a correction: all that does not depend on the covariance.
+template <typename Scalar>
+struct ErrorGeometry {
+  Scalar amplitude;                 ///< a
+  Scalar sine, cosine;              ///< of chi
+  Scalar cosine_slope, sine_slope;  ///< (1 - cos chi)/chi, (sin chi)/chi
+  std::array<Scalar, 2> innovation;
+};
+template <typename Scalar>
+[[nodiscard]] ErrorGeometry<Scalar> geometry_of(const Scalar& a, const Scalar& chi) {
+  using rigor::cosine_ratio;
+  using rigor::sine_ratio;
   using trackers::detail::sin_cos;
-  using trackers::detail::square;
+  ErrorGeometry<Scalar> result;
+  result.amplitude = a;
+  const auto [sine, cosine] = sin_cos(chi);
+  result.sine = sine;
+  result.cosine = cosine;
+  result.cosine_slope = chi * cosine_ratio(chi);
+  result.sine_slope = sine_ratio(chi);
+  result.innovation = {-(a + chi * result.cosine_slope), -(chi * result.sine_slope)};
+  return result;
+}
+
+/// The turn of the estimate: the first half of correction_at, of which `mean` gets its gains only.
+template <typename Constant, typename Scalar>
+[[nodiscard]] Correction<Constant, Scalar> turn_at(const StepSetting<Constant>& setting,
+                                                   const ErrorGeometry<Scalar>& errors) {
+  using detail::value_of;
   const Constant one(1.0);
   Correction<Constant, Scalar> result;
-  result.gains =
-      gain_spread(setting.covariance_lower, setting.covariance_upper, Scalar(one + a), setting.design);
+  result.gains = gain_spread(setting.covariance_lower, setting.covariance_upper,
+                             Scalar(one + errors.amplitude), setting.design);
   const GainSpread<Scalar>& gains = result.gains;
   MeanCorrection<Scalar>& mean = result.mean;
-  const auto [sine, cosine] = sin_cos(chi);
-  mean.sine = sine;
-  mean.cosine = cosine;
-  mean.cosine_slope = chi * rigor::cosine_ratio(chi);
-  mean.sine_slope = rigor::sine_ratio(chi);
   mean.rest1 = gains.rest_amplitude;
   mean.rest2 = gains.rest_phase;
   mean.gain3 = gains.mean_frequency;
-  const std::array<Scalar, 2> innovation = mean.innovation(a, chi);
-  const std::array<Scalar, 2> left = mean.left(innovation);
-  mean.real = one + left[0];
-  mean.imaginary = left[1];
-  const Scalar slope = mean.imaginary / mean.real;
-  mean.length = mean.real * sqrt(one + square(slope));
-  mean.phase_slope = rigor::arctangent_ratio(slope);
-  result.z1 = mean.cosine - mean.rest1 * innovation[0];
-  result.z2 = -mean.sine - mean.rest2 * innovation[1];
+  const std::array<Scalar, 2>& innovation = errors.innovation;
+  result.z1 = errors.cosine - mean.rest1 * innovation[0];
+  result.z2 = -errors.sine - mean.rest2 * innovation[1];
   result.reach = correction_reach<Constant>(
       setting, value_of(gains.spread.p11), value_of(gains.spread.p22),
       detail::larger(value_of(gains.largest_amplitude), value_of(gains.largest_phase)),
       {value_of(innovation[0]), value_of(innovation[1])});
   result.least_along = value_of(result.z1) - result.reach[0];
   result.turn_tangent = (detail::size(value_of(result.z2)) + result.reach[1]) / result.least_along;
+  return result;
+}
+
+template <typename Constant, typename Scalar>
+[[nodiscard]] Correction<Constant, Scalar> correction_at(const StepSetting<Constant>& setting,
+                                                         const Scalar& a, const Scalar& chi) {
+  using rigor::arctangent_ratio;
+  using std::sqrt;
+  using trackers::detail::square;
+  const Constant one(1.0);
+  const ErrorGeometry<Scalar> errors = geometry_of(a, chi);
+  Correction<Constant, Scalar> result = turn_at<Constant, Scalar>(setting, errors);
+  MeanCorrection<Scalar>& mean = result.mean;
+  mean.sine = errors.sine;
+  mean.cosine = errors.cosine;
+  mean.cosine_slope = errors.cosine_slope;
+  mean.sine_slope = errors.sine_slope;
+  const std::array<Scalar, 2> left = mean.left(errors.innovation);
+  mean.real = one + left[0];
+  mean.imaginary = left[1];
+  const Scalar slope = mean.imaginary / mean.real;
+  mean.length = mean.real * sqrt(one + square(slope));
+  mean.phase_slope = arctangent_ratio(slope);
   return result;
 }
 

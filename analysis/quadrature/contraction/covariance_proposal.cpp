@@ -16,10 +16,14 @@ Block plus(const Block& a, const Block& b, double factor) {
 
 /// The positive part of a block-diagonal matrix.
 Block positive_part(const Block& a) {
+  constexpr double kClearly = 1e-9;  // far above what rounding does to the eigenvalues below
   const double mean = 0.5 * (a.p22 + a.p33);
+  const double p11 = std::max(a.p11, 0.0);
+  if (a.p22 * a.p33 - a.p23 * a.p23 > kClearly * mean * mean) {
+    return mean > 0.0 ? Block{p11, a.p22, a.p23, a.p33} : Block{p11, 0.0, 0.0, 0.0};
+  }
   const double half = 0.5 * (a.p22 - a.p33);
   const double radius = std::hypot(half, a.p23);
-  const double p11 = std::max(a.p11, 0.0);
   if (mean - radius >= 0.0) {
     return {p11, a.p22, a.p23, a.p33};
   }

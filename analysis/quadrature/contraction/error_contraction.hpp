@@ -5,6 +5,7 @@
 #include <string>
 
 #include "analysis/quadrature/contraction/step_inequality.hpp"
+#include "trackers/instruction_set.hpp"
 
 namespace veritrack::quadrature {
 
@@ -21,11 +22,16 @@ struct ContractionOverSet {
 [[nodiscard]] double tangent_squared_from(const rigor::Interval& axis_cosine,
                                           const rigor::Interval& axis_sine, double low, double high);
 
+/// The widest that this processor has.
+[[nodiscard]] trackers::InstructionSet instructions_for_cells();
+
 /// Covers the projection {(a/A)^2 + (chi/C)^2 <= 1, chi >= 0} of the ellipsoid by cells in (s, beta),
 /// bisected until the inequality holds in each. Half of the ellipse is enough: the step commutes with the
 /// mirror image (psi, nu, P12, P13, v2, w) -> -(psi, nu, P12, P13, v2, w), which maps the set to itself.
-/// Needs the upward mode.
+/// The result does not depend on the set of instructions. Needs the upward mode; throws std::invalid_argument
+/// where this processor lacks the instructions.
 [[nodiscard]] ContractionOverSet prove_contraction(const StepSetting<rigor::Interval>& setting,
-                                                   const StepConstants<rigor::Interval>& constants);
+                                                   const StepConstants<rigor::Interval>& constants,
+                                                   trackers::InstructionSet set = instructions_for_cells());
 
 }  // namespace veritrack::quadrature

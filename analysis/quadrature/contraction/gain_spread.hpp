@@ -36,18 +36,19 @@ template <typename Scalar>
 
 /// The spread with its derivatives: one derivative, with respect to rho, and the chain rule. Needs the upward
 /// mode.
-template <int N>
-[[nodiscard]] GainSpread<rigor::Dual<rigor::Interval, N>> gain_spread(
-    const BlockCovariance<rigor::Interval>& lower, const BlockCovariance<rigor::Interval>& upper,
-    const rigor::Dual<rigor::Interval, N>& rho, const trackers::ToneModel<rigor::Interval>& design) {
-  using Slope = rigor::Dual<rigor::Interval, 1>;
-  const auto constant = [](const BlockCovariance<rigor::Interval>& p) {
+template <typename Set, int N>
+[[nodiscard]] GainSpread<rigor::Dual<Set, N>> gain_spread(const BlockCovariance<Set>& lower,
+                                                          const BlockCovariance<Set>& upper,
+                                                          const rigor::Dual<Set, N>& rho,
+                                                          const trackers::ToneModel<Set>& design) {
+  using Slope = rigor::Dual<Set, 1>;
+  const auto constant = [](const BlockCovariance<Set>& p) {
     return BlockCovariance<Slope>{Slope(p.p11), Slope(p.p22), Slope(p.p23), Slope(p.p33)};
   };
   const trackers::ToneModel<Slope> constants{Slope(design.q1), Slope(design.q2), Slope(design.r),
                                              Slope(design.epsilon)};
-  const GainSpread<Slope> f = gain_spread<Slope>(constant(lower), constant(upper),
-                                                 Slope(rho.value(), {rigor::Interval(1.0)}), constants);
+  const GainSpread<Slope> f =
+      gain_spread<Slope>(constant(lower), constant(upper), Slope(rho.value(), {Set(1.0)}), constants);
   const auto at = [&](const Slope& slope) { return rho.chain(slope.value(), slope.derivative(0)); };
   return {{at(f.spread.p11), at(f.spread.p22), at(f.spread.p23), at(f.spread.p33)},
           at(f.mean_amplitude),

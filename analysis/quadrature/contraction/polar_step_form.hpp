@@ -98,42 +98,49 @@ template <typename Constant, typename Scalar>
 }
 /// In the middle, with the remainder f''/24 of the midpoint rule. Along the segment (cos, sin)(arg z) has a
 /// second derivative of at most sqrt(2) |d|^2/|z|^2, and 1/z one of 2 |d|^2/|z|^3.
-[[nodiscard]] inline std::array<rigor::Interval, 4> averaged_jacobian(const BlockMetric<rigor::Interval>& t,
-                                                                      const rigor::Interval& z1,
-                                                                      const rigor::Interval& z2,
-                                                                      const rigor::Interval& d1,
-                                                                      const rigor::Interval& d2) {
-  using rigor::Interval;
-  const Interval half(0.5);
-  std::array<Interval, 4> b = polar_jacobian(t, Interval(z1 + half * d1), Interval(z2 + half * d2));
-  const Interval least = rigor::hull(z1, z1 + d1);  // |z| is at least its first component, which is positive
-  const Interval bend = (rigor::square(d1) + rigor::square(d2)) / rigor::square(least);
-  const Interval of_direction = t.amplitude * bend / Interval(16.0);
-  const Interval of_inverse = t.phase * bend / (Interval(12.0) * least);
+template <typename Set>
+[[nodiscard]] std::array<Set, 4> averaged_jacobian(const BlockMetric<Set>& t, const Set& z1, const Set& z2,
+                                                   const Set& d1, const Set& d2) {
+  using trackers::detail::square;
+  const Set half(0.5);
+  std::array<Set, 4> b = polar_jacobian(t, Set(z1 + half * d1), Set(z2 + half * d2));
+  const Set least = hull(z1, z1 + d1);  // |z| is at least its first component, which is positive
+  const Set bend = (square(d1) + square(d2)) / square(least);
+  const Set of_direction = t.amplitude * bend / Set(16.0);
+  const Set of_inverse = t.phase * bend / (Set(12.0) * least);
   for (std::size_t i = 0; i < 4; ++i) {
-    b[i] += rigor::symmetric((i < 2 ? of_direction : of_inverse).upper());
+    b[i] += detail::at_most(i < 2 ? of_direction : of_inverse);
   }
   return b;
 }
 /// Its derivatives: those of the Jacobian at any point of the segment.
-template <int N>
-[[nodiscard]] std::array<rigor::Dual<rigor::Interval, N>, 4> averaged_jacobian(
-    const BlockMetric<rigor::Interval>& t, const rigor::Dual<rigor::Interval, N>& z1,
-    const rigor::Dual<rigor::Interval, N>& z2, const rigor::Dual<rigor::Interval, N>& d1,
-    const rigor::Dual<rigor::Interval, N>& d2) {
-  const auto part = rigor::Interval::from_bounds(0.0, 1.0);
+template <typename Set, int N>
+[[nodiscard]] std::array<rigor::Dual<Set, N>, 4> averaged_jacobian(const BlockMetric<Set>& t,
+                                                                   const rigor::Dual<Set, N>& z1,
+                                                                   const rigor::Dual<Set, N>& z2,
+                                                                   const rigor::Dual<Set, N>& d1,
+                                                                   const rigor::Dual<Set, N>& d2) {
+  const auto part = Set::from_bounds(0.0, 1.0);
   return polar_jacobian(t, z1 + d1 * part, z2 + d2 * part);
 }
 
-/// The form at a point, or over a cell. Over intervals it means something only if `least_along` and
-/// `mean_real` are certainly positive: see Correction.
+/// A step, and the correction that it makes.
 template <typename Constant, typename Scalar>
-[[nodiscard]] PolarStepForm<Constant, Scalar> polar_step_form(const StepSetting<Constant>& setting,
-                                                              const RayCell<Constant, Scalar>& ray) {
+struct StepWithCorrection {
+  PolarStepForm<Constant, Scalar>
+      form;  ///< without `gain` and `gram`, which depend on where the correction is
+  Correction<Constant, Scalar> correction;
+};
+
+/// The step at the errors of a ray; its `along`, `across` and `reach` are not read.
+template <typename Constant, typename Scalar>
+[[nodiscard]] StepWithCorrection<Constant, Scalar> step_with_correction(
+    const StepSetting<Constant>& setting, const RayCell<Constant, Scalar>& ray) {
   using trackers::detail::sin_cos;
   using trackers::detail::square;
   const BlockMetric<Constant>& t = setting.metric;
-  PolarStepForm<Constant, Scalar> form;
+  StepWithCorrection<Constant, Scalar> result;
+  PolarStepForm<Constant, Scalar>& form = result.form;
 
   // |T (x b_x + y b_y + nu n)|^2, n = (0, -1, 1).
   const Constant a_axis = setting.largest_amplitude * ray.axis_cosine;
@@ -153,7 +160,8 @@ template <typename Constant, typename Scalar>
   const auto [beta_sine, beta_cosine] = sin_cos(ray.beta);
   const Scalar a = ray.scale * (setting.largest_amplitude * beta_cosine);
   const Scalar chi = ray.scale * (setting.largest_chi * beta_sine);
-  const Correction<Constant, Scalar> correction = correction_at(setting, a, chi);
+  result.correction = correction_at(setting, a, chi);
+  const Correction<Constant, Scalar>& correction = result.correction;
   const GainSpread<Scalar>& gains = correction.gains;
   const MeanCorrection<Scalar>& mean = correction.mean;
   form.spread = {gains.spread.p11, gains.spread.p22};
@@ -162,7 +170,18 @@ template <typename Constant, typename Scalar>
   form.mean_real = detail::value_of(mean.real);
   form.least_along = correction.least_along;
   form.reach = correction.reach;
+  return result;
+}
 
+/// The form of a step, where the correction lies where the ray says.
+template <typename Constant, typename Scalar>
+[[nodiscard]] PolarStepForm<Constant, Scalar> form_where(const StepWithCorrection<Constant, Scalar>& step,
+                                                         const StepSetting<Constant>& setting,
+                                                         const RayCell<Constant, Scalar>& ray) {
+  const BlockMetric<Constant>& t = setting.metric;
+  const Correction<Constant, Scalar>& correction = step.correction;
+  const GainSpread<Scalar>& gains = correction.gains;
+  PolarStepForm<Constant, Scalar> form = step.form;
   const std::array<Scalar, 4> b = averaged_jacobian(
       t, correction.z1, correction.z2, Scalar(ray.along * ray.reach[0]), Scalar(ray.across * ray.reach[1]));
   const Scalar none(0.0);
@@ -171,6 +190,14 @@ template <typename Constant, typename Scalar>
                  t.frequency * gains.mean_frequency}}};
   form.gram = gram(t, b, gains.spread, setting.design.r);
   return form;
+}
+
+/// The form at a point, or over a cell. Over intervals it means something only if `least_along` and
+/// `mean_real` are certainly positive: see Correction.
+template <typename Constant, typename Scalar>
+[[nodiscard]] PolarStepForm<Constant, Scalar> polar_step_form(const StepSetting<Constant>& setting,
+                                                              const RayCell<Constant, Scalar>& ray) {
+  return form_where(step_with_correction(setting, ray), setting, ray);
 }
 
 }  // namespace veritrack::quadrature

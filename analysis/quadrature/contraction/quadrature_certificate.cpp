@@ -1,5 +1,7 @@
 #include "analysis/quadrature/contraction/quadrature_certificate.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <array>
 #include <string>
 #include <utility>
@@ -193,12 +195,27 @@ void share_sets(const sets::ContractionQuestion& question, ContractionCertificat
   }
 }
 
+/// Searches that do not need each other's results, at the same time. Threads do not inherit a rounding mode.
+template <typename... Searches>
+void at_the_same_time(const Searches&... searches) {
+  tbb::parallel_invoke([&] {
+    const rigor::UpwardRounding upward;
+    searches();
+  }...);
+}
+
 /// The sets of every purpose.
 void find_all_sets(const sets::ContractionQuestion& question, ContractionCertificate& certificate) {
-  certificate.set = find_set(question, Objective::start_error);
-  if (question.with_limits || !certificate.set) {
-    certificate.noise_set = find_set(question, Objective::noise);
-    certificate.slew_set = find_set(question, Objective::slew);
+  const auto find_start = [&] { certificate.set = find_set(question, Objective::start_error); };
+  const auto find_noise = [&] { certificate.noise_set = find_set(question, Objective::noise); };
+  const auto find_slew = [&] { certificate.slew_set = find_set(question, Objective::slew); };
+  if (question.with_limits) {
+    at_the_same_time(find_start, find_noise, find_slew);
+  } else {
+    find_start();
+    if (!certificate.set) {
+      at_the_same_time(find_noise, find_slew);
+    }
   }
   share_sets(question, certificate);
   if (!certificate.set && certificate.noise_set) {
@@ -207,18 +224,21 @@ void find_all_sets(const sets::ContractionQuestion& question, ContractionCertifi
   if (!certificate.set) {
     return;
   }
-  certificate.bound_set = find_set(question, Objective::frequency_bound);
+  const auto find_bound = [&] { certificate.bound_set = find_set(question, Objective::frequency_bound); };
   // cannot bind (question.noise, question.slew): without either the searches that follow find nothing to
   // improve.
   const bool disturbed = certainly_positive(question.noise) || certainly_positive(question.slew);
   if (!disturbed) {
+    find_bound();
     share_sets(question, certificate);
     return;
   }
-  certificate.ultimate_set = find_set(question, Objective::ultimate_error);
-  if (!certificate.ultimate_set) {
-    certificate.ultimate_set = find_inner_set(question, certificate.set->set);
-  }
+  at_the_same_time(find_bound, [&] {
+    certificate.ultimate_set = find_set(question, Objective::ultimate_error);
+    if (!certificate.ultimate_set) {
+      certificate.ultimate_set = find_inner_set(question, certificate.set->set);
+    }
+  });
   const Interval ultimate = Promises(question, sets_of(question, certificate)).ultimate_frequency_error();
   certificate.settling_set = find_set(question, Objective::settling,
                                       question.settled_frequency_error.value_or(2.0 * ultimate.upper()));

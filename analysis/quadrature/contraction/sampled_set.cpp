@@ -12,16 +12,9 @@ namespace {
 /// Estimates closer to zero than this, along the prediction or the signal, are not worth a try.
 constexpr double kLeastComponent = 0.05;
 
-/// The form at a point on its own axis, the correction at these shares of its reach.
-PolarStepForm<double, double> form_at(const StepSetting<double>& setting, double scale, double beta,
-                                      double along, double across) {
-  RayCell<double, double> ray{scale, beta, std::cos(beta), std::sin(beta), along, across, {0.0, 0.0}};
-  const PolarStepForm<double, double> still = polar_step_form(setting, ray);
-  if (along == 0.0 && across == 0.0) {
-    return still;
-  }
-  ray.reach = still.reach;
-  return polar_step_form(setting, ray);
+/// A point on its own axis.
+RayCell<double, double> ray_at(double scale, double beta) {
+  return {scale, beta, std::cos(beta), std::sin(beta), 0.0, 0.0, {0.0, 0.0}};
 }
 
 /// Moves the covariance bounds of the setting out until the images of the boundary stay between them. False
@@ -31,16 +24,19 @@ bool find_covariance_bounds(StepSetting<double>& setting, const BlockCovariance<
   constexpr int kMostSteps = 80;
   constexpr double kStandstill = 1e-4;
   CovarianceBounds bounds(steady);
+  std::array<ErrorGeometry<double>, 9> errors;
+  for (std::size_t j = 0; j < errors.size(); ++j) {
+    const double beta = std::numbers::pi * static_cast<double>(j) / static_cast<double>(errors.size() - 1);
+    errors[j] = geometry_of(setting.largest_amplitude * std::cos(beta), setting.largest_chi * std::sin(beta));
+  }
   for (int k = 0; k < kMostSteps; ++k) {
     std::array<TurnSample, 9> turns;
     for (std::size_t j = 0; j < turns.size(); ++j) {
-      const double beta = std::numbers::pi * static_cast<double>(j) / static_cast<double>(turns.size() - 1);
-      const double a = setting.largest_amplitude * std::cos(beta);
-      const auto correction = correction_at(setting, a, setting.largest_chi * std::sin(beta));
+      const auto correction = turn_at<double, double>(setting, errors[j]);
       if (!(correction.least_along > kLeastComponent)) {
         return false;
       }
-      turns[j] = {1.0 + a, correction.turn_tangent};
+      turns[j] = {1.0 + errors[j].amplitude, correction.turn_tangent};
     }
     const double moved = bounds.iterate(turns, setting.design, request.covariance_margin);
     if (request.start_covariance) {
@@ -84,8 +80,17 @@ SampledSet sample_set(const SampleRequest& request, const BlockCovariance<double
                                             {0.6, -1.0, 1.0}}};
   for (int j = 0; j <= kAngles; ++j) {
     const double beta = std::numbers::pi * j / kAngles;
+    RayCell<double, double> ray = ray_at(kSamples[0].scale, beta);
+    StepWithCorrection<double, double> step = step_with_correction(result.setting, ray);
     for (const Sample& sample : kSamples) {
-      const auto form = form_at(result.setting, sample.scale, beta, sample.along, sample.across);
+      if (sample.scale != ray.scale) {
+        ray.scale = sample.scale;
+        step = step_with_correction(result.setting, ray);
+      }
+      ray.along = sample.along;
+      ray.across = sample.across;
+      ray.reach = step.form.reach;
+      const auto form = form_where(step, result.setting, ray);
       if (!(form.least_along > kLeastComponent) || !(form.mean_real > kLeastComponent)) {
         return result;
       }

@@ -80,45 +80,6 @@ Range range_of_multipliers(const PolarStepForm<double, double>& form,
   return range;
 }
 
-constexpr std::size_t kAcrossRow = 4;
-constexpr std::size_t kAlongRow = 5;
-
-/// The matrix without the rows of v, in the order T e+, nu, y, x.
-template <typename Constant, typename Scalar>
-rigor::LowerTriangle<6, Scalar> remaining_matrix(const PolarStepForm<Constant, Scalar>& form,
-                                                 const BlockMetric<Constant>& metric,
-                                                 const StepConstants<Constant>& constants,
-                                                 const ReducedForm<Constant, Scalar>& reduced) {
-  const Gram<Scalar>& w = reduced.schur;
-  const Gram<Constant>& q = form.size;
-  const Constant& k = constants.rate_squared;
-  const auto& c = reduced.centre;
-  const Scalar none(0.0);
-  return {{{w.g11, none, none, none, none, none},
-           {w.g12, w.g22, none, none, none, none},
-           {w.g13, w.g23, w.g33, none, none, none},
-           {none, Scalar(metric.coupling), Scalar(metric.frequency), Scalar(k * q.g33), none, none},
-           {c[1][0], c[1][1], c[1][2], Scalar(k * q.g23), k * q.g22 - reduced.offset22, none},
-           {c[0][0], c[0][1], c[0][2], Scalar(k * q.g13), k * q.g12 - reduced.offset12,
-            k * q.g11 - reduced.offset11}}};
-}
-
-/// The multiplier for the angle that leaves most room.
-double propose_angle_multiplier(rigor::LowerTriangle<6, double> a, double tangent_squared) {
-  if (!std::isfinite(tangent_squared) || !rigor::eliminate(a, kAcrossRow)) {
-    return 0.0;
-  }
-  // The rest is a form in (y, x): (s_xx - tau t^2)(s_yy + tau) is largest half way between its roots.
-  const double middle = 0.5 * (a[kAlongRow][kAlongRow] / tangent_squared - a[kAcrossRow][kAcrossRow]);
-  return middle > 0.0 ? middle : 0.0;
-}
-
-template <typename Scalar>
-void add_angle(rigor::LowerTriangle<6, Scalar>& a, const Scalar& multiplier, const Scalar& tangent_squared) {
-  a[kAlongRow][kAlongRow] -= multiplier * tangent_squared;
-  a[kAcrossRow][kAcrossRow] += multiplier;
-}
-
 }  // namespace
 
 double rate_squared_with(const PolarStepForm<double, double>& form, const BlockMetric<double>& metric,
@@ -140,6 +101,21 @@ RayRate propose_rate(const PolarStepForm<double, double>& form, const BlockMetri
   return {best.cost, std::exp(best.point)};
 }
 
+double propose_angle_multiplier(const PolarStepForm<double, double>& form, const BlockMetric<double>& metric,
+                                const StepConstants<double>& constants, double multiplier,
+                                double tangent_squared) {
+  using detail::kAcrossRow;
+  using detail::kAlongRow;
+  rigor::LowerTriangle<6, double> a =
+      detail::remaining_matrix(form, metric, constants, reduced_form(form, metric, constants, multiplier));
+  if (!std::isfinite(tangent_squared) || !rigor::eliminate(a, kAcrossRow)) {
+    return 0.0;
+  }
+  // The rest is a form in (y, x): (s_xx - tau t^2)(s_yy + tau) is largest half way between its roots.
+  const double middle = 0.5 * (a[kAlongRow][kAlongRow] / tangent_squared - a[kAcrossRow][kAcrossRow]);
+  return middle > 0.0 ? middle : 0.0;
+}
+
 CellVerdict check_cell(const CellForms& forms, const BlockMetric<Interval>& metric,
                        const StepConstants<Interval>& constants, const BlockMetric<double>& proposed_metric,
                        const StepConstants<double>& proposed_constants, double multiplier) {
@@ -148,21 +124,20 @@ CellVerdict check_cell(const CellForms& forms, const BlockMetric<Interval>& metr
   if (!certainly_positive(lambda)) {
     return verdict;
   }
-  const rigor::LowerTriangle<6, double> proposed =
-      remaining_matrix(forms.proposal, proposed_metric, proposed_constants,
-                       reduced_form(forms.proposal, proposed_metric, proposed_constants, multiplier));
-  const double tau = propose_angle_multiplier(proposed, forms.tangent_squared);
+  const double tau = propose_angle_multiplier(forms.proposal, proposed_metric, proposed_constants, multiplier,
+                                              forms.tangent_squared);
   const ReducedForm<Interval, Interval> middle = reduced_form(forms.middle, metric, constants, lambda);
   const ReducedForm<Interval, Derivatives> over = reduced_form(forms.over, metric, constants, lambda);
   if (!certainly_positive(over.noise_pivots[0]) || !certainly_positive(over.noise_pivots[1])) {
     return verdict;
   }
-  rigor::LowerTriangle<6> at_middle = remaining_matrix(forms.middle, metric, constants, middle);
+  rigor::LowerTriangle<6> at_middle = detail::remaining_matrix(forms.middle, metric, constants, middle);
   if (tau > 0.0) {
-    add_angle(at_middle, Interval(tau), Interval(forms.tangent_squared));
+    detail::add_angle(at_middle, Interval(tau), Interval(forms.tangent_squared));
   }
   verdict.holds = rigor::certainly_definite_over<6, kCellVariables>(
-      at_middle, remaining_matrix(forms.over, metric, constants, over), forms.half_widths, verdict.influence);
+      at_middle, detail::remaining_matrix(forms.over, metric, constants, over), forms.half_widths,
+      verdict.influence);
   return verdict;
 }
 

@@ -98,6 +98,39 @@ template <typename Constant, typename Scalar>
   return reduced;
 }
 
+namespace detail {
+
+inline constexpr std::size_t kAcrossRow = 4;
+inline constexpr std::size_t kAlongRow = 5;
+
+/// The matrix without the rows of v, in the order T e+, nu, y, x.
+template <typename Constant, typename Scalar>
+rigor::LowerTriangle<6, Scalar> remaining_matrix(const PolarStepForm<Constant, Scalar>& form,
+                                                 const BlockMetric<Constant>& metric,
+                                                 const StepConstants<Constant>& constants,
+                                                 const ReducedForm<Constant, Scalar>& reduced) {
+  const Gram<Scalar>& w = reduced.schur;
+  const Gram<Constant>& q = form.size;
+  const Constant& k = constants.rate_squared;
+  const auto& c = reduced.centre;
+  const Scalar none(0.0);
+  return {{{w.g11, none, none, none, none, none},
+           {w.g12, w.g22, none, none, none, none},
+           {w.g13, w.g23, w.g33, none, none, none},
+           {none, Scalar(metric.coupling), Scalar(metric.frequency), Scalar(k * q.g33), none, none},
+           {c[1][0], c[1][1], c[1][2], Scalar(k * q.g23), k * q.g22 - reduced.offset22, none},
+           {c[0][0], c[0][1], c[0][2], Scalar(k * q.g13), k * q.g12 - reduced.offset12,
+            k * q.g11 - reduced.offset11}}};
+}
+
+template <typename Scalar>
+void add_angle(rigor::LowerTriangle<6, Scalar>& a, const Scalar& multiplier, const Scalar& tangent_squared) {
+  a[kAlongRow][kAlongRow] -= multiplier * tangent_squared;
+  a[kAcrossRow][kAcrossRow] += multiplier;
+}
+
+}  // namespace detail
+
 /// The contraction on one ray, proposed in double: the smallest rate for which the inequality is certified on
 /// the axis (y = 0) by some multiplier, and that multiplier lambda.
 struct RayRate {
@@ -113,6 +146,13 @@ struct RayRate {
 [[nodiscard]] double rate_squared_with(const PolarStepForm<double, double>& form,
                                        const BlockMetric<double>& metric,
                                        const StepConstants<double>& constants, double multiplier);
+
+/// The multiplier tau for the angle that leaves most room beside the multiplier lambda; 0 when none does.
+/// Proposal only.
+[[nodiscard]] double propose_angle_multiplier(const PolarStepForm<double, double>& form,
+                                              const BlockMetric<double>& metric,
+                                              const StepConstants<double>& constants, double multiplier,
+                                              double tangent_squared);
 
 /// The matrix of the inequality over a cell is that in its middle plus, for each of s, beta, along and
 /// across, an enclosure of the derivative times the way from the middle.

@@ -1,6 +1,8 @@
 #include "analysis/quadrature/rounding/step_rounding.hpp"
 
 #include <limits>
+#include <tuple>
+#include <vector>
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounded.hpp"
@@ -69,10 +71,18 @@ Factors factors_of(const HeldStates& box, const Interval& frequency_variance) {
   return f;
 }
 
+/// An orientation.
+struct Turn {
+  Interval sine, cosine, sine_twice, cosine_twice;
+  explicit Turn(const Interval& angle) {
+    std::tie(sine, cosine) = rigor::sin_cos(angle);
+    std::tie(sine_twice, cosine_twice) = rigor::sin_cos(Interval(2.0) * angle);
+  }
+};
+
 /// The states turned by the angles, as the program holds them.
-Estimate turned(const HeldStates& box, const Factors& f, const Interval& angle, double largest_frequency) {
-  const auto [sine, cosine] = rigor::sin_cos(angle);
-  const auto [sine_twice, cosine_twice] = rigor::sin_cos(Interval(2.0) * angle);
+Estimate turned(const HeldStates& box, const Factors& f, const Turn& turn, double largest_frequency) {
+  const auto& [sine, cosine, sine_twice, cosine_twice] = turn;
   const Interval half(0.5);
   const Interval mean = half * (f.m11 + f.m22);
   const Interval half_difference = half * (f.m11 - f.m22);
@@ -106,6 +116,11 @@ StateDifference step_rounding(const Program& program, const HeldStates& box, con
   const auto whole_turn = Interval::from_bounds(0.0, (Interval(2.0) * rigor::pi()).upper());
   const auto variances = Interval::from_bounds(box.lower(2, 2).lower(), box.upper(2, 2).upper());
   const int regressions = pieces.regression * pieces.regression;
+  std::vector<Turn> turns;
+  turns.reserve(static_cast<std::size_t>(pieces.angles));
+  for (int i = 0; i < pieces.angles; ++i) {
+    turns.emplace_back(piece(whole_turn, i, pieces.angles));
+  }
   StateDifference all;
   for (int part = 0; part < pieces.frequency_variance * regressions * pieces.amplitude; ++part) {
     const int of_regression = part % regressions;
@@ -116,9 +131,8 @@ StateDifference step_rounding(const Program& program, const HeldStates& box, con
     f.u2 = piece(f.u2, of_regression / pieces.regression, pieces.regression);
     HeldStates states = box;
     states.z1 = piece(box.z1, of_rest / pieces.frequency_variance, pieces.amplitude);
-    for (int i = 0; i < pieces.angles; ++i) {
-      const Estimate before =
-          turned(states, f, piece(whole_turn, i, pieces.angles), program.largest_frequency);
+    for (const Turn& turn : turns) {
+      const Estimate before = turned(states, f, turn, program.largest_frequency);
       all = larger(all, difference_of(trackers::step(before, measurement, measurement, design).filtered));
     }
   }

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <set>
+#include <string>
+
 #include "reports/reproductions/seed_share.hpp"
 
 namespace veritrack::reports {
@@ -21,6 +24,19 @@ TEST_CASE("the sentence says which reading reproduces everything, whatever that 
   CHECK(reading_sentence({rates_of(0.05, 0.05)}, kMany).find("Neither reading") != std::string::npos);
   CHECK(reading_sentence({rates_of(0.05, 0.05), rates_of(0.05, 0.12)}, kMany)
             .find("only Q = q diag(1, 1, 1)") != std::string::npos);
+}
+
+TEST_CASE("for the ledger: the seven statements at the examples' own noise, each once") {
+  const Findings found = example_entries(40);
+  std::set<std::string> ids;
+  for (const Entry& entry : found.entries) {
+    CAPTURE(entry.id);
+    CHECK(ids.insert(entry.id).second);
+    CHECK(entry.place.find(entry.id.find("example-1") != std::string::npos ? "Example 1" : "Example 2") !=
+          std::string::npos);
+    CHECK((entry.verdict == EntryVerdict::agrees || entry.verdict == EntryVerdict::undecided));
+  }
+  CHECK(ids.size() == 7);
 }
 
 TEST_CASE("few seeds decide nothing, and the sentence says so") {

@@ -6,25 +6,6 @@
 
 namespace veritrack::trackers {
 
-bool has(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::sse2:
-      return true;
-    case InstructionSet::avx2:
-      return __builtin_cpu_supports("avx2") != 0;
-    case InstructionSet::avx512:
-      return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0;
-  }
-  return false;
-}
-
-InstructionSet widest_instruction_set() {
-  static const InstructionSet widest = has(InstructionSet::avx512) ? InstructionSet::avx512
-                                       : has(InstructionSet::avx2) ? InstructionSet::avx2
-                                                                   : InstructionSet::sse2;
-  return widest;
-}
-
 QuadratureBatch::QuadratureBatch(const std::vector<ToneModel<double>>& designs,
                                  const std::vector<QuadratureEstimate<double>>& starts)
     : size_(designs.size()), groups_((size_ + kGroup - 1) / kGroup) {

@@ -5,17 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "trackers/instruction_set.hpp"
 #include "trackers/quadrature/quadrature_ekf.hpp"
 
 namespace veritrack::trackers {
-
-/// What a register holds, and the instructions that use it.
-enum class InstructionSet { sse2, avx2, avx512 };
-
-/// True when this processor, and its operating system, have it.
-[[nodiscard]] bool has(InstructionSet set);
-/// The widest that this processor has.
-[[nodiscard]] InstructionSet widest_instruction_set();
 
 /// Where the samples of a batch are: those of tracker t at samples + t * stride, in-phase and quadrature part
 /// one after the other, `length` of each. A stride of 0: the same for all.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "tests/support/random.hpp"
 
@@ -46,6 +47,42 @@ TEST_CASE("cells that cross the pole of the corrected estimate are not proved, h
   CHECK(prove_contraction(setting_of(0.5, 0.1, 0.5, 0.2), generous(true)).proved);
   CHECK_FALSE(prove_contraction(setting_of(0.5, 0.1, 0.5, 2.5), generous(true)).proved);
   CHECK_FALSE(prove_contraction(setting_of(0.5, 0.1, 0.5, 1e3), generous(true)).proved);
+}
+
+TEST_CASE(
+    "every set of instructions finds the same of the same cells, where they hold and where they do not") {
+  using trackers::InstructionSet;
+  const rigor::UpwardRounding upward;
+  test::Random random(82);
+  int proved = 0;
+  int many = 0;
+  const std::int64_t count = test::effort(12);
+  for (std::int64_t k = 0; k < count; ++k) {
+    const bool noisy = k % 2 == 0;
+    // One time in ten so much noise that nothing is known of where the corrections are.
+    const double noise = !noisy ? 0.0 : k % 20 == 0 ? 1e200 : random.uniform(0.0, 0.3);
+    const StepSetting<Interval> setting =
+        setting_of(random.uniform(0.05, 0.95), random.uniform(0.02, 0.6), random.uniform(0.05, 2.5), noise);
+    StepConstants<Interval> constants = generous(noisy);
+    if (k % 3 != 0) {
+      constants.rate_squared = Interval(random.uniform(0.9, 4.0));
+      constants.noise_gain_squared = Interval(random.uniform(1.0, 10.0));
+    }
+    const ContractionOverSet one = prove_contraction(setting, constants, InstructionSet::sse2);
+    proved += one.proved ? 1 : 0;
+    many += one.cells > 128 ? 1 : 0;
+    for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
+      if (trackers::has(set)) {
+        const ContractionOverSet other = prove_contraction(setting, constants, set);
+        CHECK(other.proved == one.proved);
+        CHECK(other.cells == one.cells);
+        CHECK(other.reason == one.reason);
+      }
+    }
+  }
+  CHECK(proved > count / 10);
+  CHECK(proved < count);
+  CHECK(many > count / 10);
 }
 
 TEST_CASE("the angle to the axis is bounded over the whole cell, from above and closely") {

@@ -12,26 +12,25 @@
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/verdict.hpp"
 
-namespace veritrack::single_channel {
+namespace veritrack::rigor {
 
 /// Is `difference`, a polynomial in N variables of degree at most `degree` in each, identically zero? PROVED:
 /// it vanishes on the grid {-1, 0, 1, 2, ...}^N of degree + 1 values. REFUTED: at some point of the grid it
 /// is certainly not zero. Needs the upward mode.
 template <std::size_t N, typename Difference>
-[[nodiscard]] rigor::Verdict vanishes(const Difference& difference, int degree) {
-  using rigor::Interval;
+[[nodiscard]] Verdict vanishes(const Difference& difference, int degree) {
   std::array<int, N> index{};
-  rigor::Verdict verdict = rigor::Verdict::proved;
+  Verdict verdict = Verdict::proved;
   for (;;) {
     std::array<Interval, N> point;
     for (std::size_t i = 0; i < N; ++i) {
       point[i] = Interval(static_cast<double>(index[i] - 1));
     }
     const Interval value = difference(point);
-    if (rigor::certainly_positive(value) || rigor::certainly_negative(value)) {
-      return rigor::Verdict::refuted;
+    if (certainly_positive(value) || certainly_negative(value)) {
+      return Verdict::refuted;
     }
-    verdict = value == Interval(0.0) ? verdict : rigor::Verdict::undecided;
+    verdict = value == Interval(0.0) ? verdict : Verdict::undecided;
     std::size_t position = 0;
     while (position < N && index[position] == degree) {
       index[position] = 0;
@@ -44,4 +43,4 @@ template <std::size_t N, typename Difference>
   }
 }
 
-}  // namespace veritrack::single_channel
+}  // namespace veritrack::rigor

@@ -1,0 +1,51 @@
+"""Units for one set of instructions define no function that another unit could be given by the linker.
+
+    python3 instruction_sets_test.py OBJECT...
+
+A function that several units define is kept once, from any of them. If it came from one that is compiled for AVX, a
+processor without AVX would stop there. So what such a unit defines weakly has its number of lanes in its name, which no
+other unit has.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+LANES = {"avx2": 4, "avx512": 8}
+
+
+def units(objects):
+    """(path, lanes) of the objects that are compiled for a set of instructions."""
+    for path in objects:
+        found = re.search(r"_(avx2|avx512)\.cpp\.o$", os.path.basename(path))
+        if found:
+            yield path, LANES[found.group(1)]
+
+
+def shared_names(listing, lanes):
+    """The weak definitions in the output of nm that do not name the lanes."""
+    weak = re.findall(r"^[0-9a-f]+ [WVu] (.+)$", listing, re.MULTILINE)
+    return [name for name in weak if not name.startswith("DW.ref.") and not re.search(rf"[<, ]{lanes}>", name)]
+
+
+class InstructionSetsTest(unittest.TestCase):
+    objects = []
+
+    def test_names_of_functions_for_one_set(self):
+        found = list(units(self.objects))
+        self.assertGreaterEqual(len(found), 4)
+        for path, lanes in found:
+            with self.subTest(unit=os.path.basename(path)):
+                listing = subprocess.run(["nm", "-C", path], check=True, capture_output=True, text=True).stdout
+                self.assertEqual(shared_names(listing, lanes), [])
+
+    def test_a_shared_name_is_seen(self):
+        listing = "00 W std::vector<double>::size() const\n10 W f<8>(double)\n20 T g()\n U h()\n"
+        self.assertEqual(shared_names(listing, 8), ["std::vector<double>::size() const"])
+
+
+if __name__ == "__main__":
+    InstructionSetsTest.objects = sys.argv[1:]
+    unittest.main(argv=sys.argv[:1])

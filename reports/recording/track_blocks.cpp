@@ -111,7 +111,8 @@ std::string draw_blocks(const TrackResult& result) {
   }
   return run_gnuplot(
       gnuplot_style(380) + "set xlabel 'block'\nset ylabel 'share of the power that is left unexplained'\n" +
-      fmt::format("set xrange [1:{}]\nset yrange [-0.05:1.25]\n", std::max<std::size_t>(result.blocks.size(), 2)) +
+      fmt::format("set xrange [1:{}]\nset yrange [-0.05:1.25]\n",
+                  std::max<std::size_t>(result.blocks.size(), 2)) +
       table.block() +
       fmt::format(
           "plot $blocks using 1:2 with lines {} title 'by the estimate', '' using 1:3 with lines {} title "

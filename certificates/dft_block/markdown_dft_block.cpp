@@ -62,7 +62,8 @@ std::string false_lock_section(const Certificate& certificate) {
     if (!found->evidence.empty()) {
       const theorems::Evidence& evidence = found->evidence.front();
       for (const auto& [name, value] : evidence.decimals) {
-        text += fmt::format("- {} of the tone: {}\n", name, value);
+        text +=
+            fmt::format("- {} of the tone: {} {}\n", name, value, name == "offset" ? "bins" : "signal units");
       }
       const auto& centre = evidence.matrices.front().second;
       text += fmt::format(

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "analysis/rigor/decimal.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/sets/required_claims.hpp"
 #include "certificates/single_channel/single_channel.hpp"
@@ -71,22 +70,11 @@ std::string objection_to(const SingleChannelEkfTables& tables) {
   return "";
 }
 
-/// How much of a wide band is told of, rad/sample.
-constexpr double kToldWidth = 0.02;
-
-/// In the unit of the design file, with the sample rate where that is Hz: the band, or its middle.
-std::string band_text(const Assumptions& assume, bool is_whole) {
+/// In the unit of the design file, with the sample rate where that is Hz.
+std::string band_text(const Assumptions& assume) {
   const auto& [low, high] = assume.frequency;
   const auto written = [](const Number& number) { return number.text.substr(0, number.text.find(' ')); };
-  std::string ends = fmt::format("[{}, {}]", written(low), written(high));
-  const double width = high.nearest - low.nearest;
-  if (!is_whole && width > 2.0 * kToldWidth) {
-    const double from = midpoint(rigor::parse_decimal(written(low)));
-    const double to = midpoint(rigor::parse_decimal(written(high)));
-    const double middle = 0.5 * (from + to);
-    const double half = 0.5 * kToldWidth * (to - from) / width;
-    ends = fmt::format("[{:.6g}, {:.6g}]", middle - half, middle + half);
-  }
+  const std::string ends = fmt::format("[{}, {}]", written(low), written(high));
   return low.in_hertz ? fmt::format("{{ hz = {} }}\nsample_rate = {}", ends, assume.sample_rate.value().text)
                       : ends;
 }
@@ -150,8 +138,8 @@ noise = {}
 
 [require]
 )",
-      q1, q2, r, tables.design.epsilon.text, leaks ? kJacobian : "", assume.amplitude.text,
-      band_text(assume, question.whole_band), assume.noise.text);
+      q1, q2, r, tables.design.epsilon.text, leaks ? kJacobian : "", assume.amplitude.text, band_text(assume),
+      assume.noise.text);
   if (question.largest_noise) {
     text += fmt::format("largest_noise_at_least = {}\n", tables.require.largest_noise_at_least.value().text);
   }
@@ -164,17 +152,16 @@ noise = {}
 
 void add_recursion(Certificate& certificate, const CertifyProgress& progress) {
   const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
-  RecursionPart part{std::nullopt, objection_to(tables)};
+  RecursionPart part;
   const auto& radius = tables.require.frequency_error_radius_at_least;
   RecursionQuestion question;
   question.largest_noise = is_open(certificate, kLargestNoise);
   // Under the assumed slew, which the recursion's sets do not have.
   question.radius =
       is_open(certificate, kRadius) && tables.assume.slew.value == rigor::Interval(0.0) && !radius->in_hertz;
-  question.whole_band = question.largest_noise || question.radius;
-  const bool is_wanted = certificate.extent == Extent::everything ||
-                         (certificate.extent != Extent::quick && question.whole_band);
-  if (part.objection.empty() && is_wanted) {
+  const bool is_asked = question.asks() && certificate.extent != Extent::quick;
+  part.objection = is_asked ? objection_to(tables) : "";
+  if (is_asked && part.objection.empty()) {
     const std::string text = recursion_design_text(tables, question);
     try {
       Design recursion = read_design(text, "recursion");

@@ -16,13 +16,11 @@ struct RecursionPart {
   std::string objection;                   ///< then why, as a sentence
 };
 
-/// What the recursion is certified for.
+/// What the recursion's own [require] asks, of what this design's does.
 struct RecursionQuestion {
-  /// Otherwise the middle of a wide band, rad/sample: all of it takes minutes to hours.
-  bool whole_band = false;
-  // What its own [require] asks, of what this design's does; for the whole band.
   bool largest_noise = false;
   bool radius = false;
+  [[nodiscard]] bool asks() const { return largest_noise || radius; }
 };
 
 /// The design file of the recursion: the same filter and tone, at a constant frequency, started anywhere in
@@ -30,9 +28,8 @@ struct RecursionQuestion {
 [[nodiscard]] std::string recursion_design_text(const SingleChannelEkfTables& tables,
                                                 const RecursionQuestion& question);
 
-/// Certifies the recursion and adds what is told of it as claims "recursion/...": over the whole band where
-/// it can decide what is required and still open; else, with the extent `everything`, in the middle of the
-/// band. Needs the upward mode; call when every other claim is there.
+/// Certifies the recursion where it can decide what is required and still open, and adds what it tells beside
+/// that as claims "recursion/...". Needs the upward mode; call when every other claim is there.
 void add_recursion(Certificate& certificate, const CertifyProgress& progress);
 
 [[nodiscard]] const RecursionPart& recursion_part(const Certificate& certificate);

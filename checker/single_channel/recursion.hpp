@@ -29,7 +29,6 @@ class Recursion {
  private:
   Verification found_;
   bool is_verified_ = false;
-  bool is_whole_band_ = false;
 };
 
 }  // namespace veritrack::checker

@@ -92,53 +92,63 @@ TEST_CASE("the recursion is the tracker: a step from random states") {
   }
 }
 
-TEST_CASE("the recursion has the amplitude, the noise and the band, or the middle of a wide band") {
+TEST_CASE("the recursion has the amplitude, the noise and the band, and what it is asked") {
   const Design design = design_of(kChosen, kAssumed, "largest_noise_at_least = 0.002");
   const ModelTables& told = model_tables(recursion_of(design));
   CHECK(told.assume.amplitude.text == "2");
   CHECK(told.assume.noise.text == "0.01");
-  CHECK(told.assume.frequency[0].text == "1.49");
-  CHECK(told.assume.frequency[1].text == "1.51");
+  CHECK(told.assume.frequency[0].text == "0.4");
+  CHECK(told.assume.frequency[1].text == "2.6");
   CHECK(told.assume.slew.text == "0");
   CHECK_FALSE(told.require.sets.largest_noise_at_least);
-  const Design asked = recursion_of(design, {.whole_band = true, .largest_noise = true});
+  const Design asked = recursion_of(design, {.largest_noise = true});
   CHECK(model_tables(asked).assume.frequency[0].text == "0.4");
   CHECK(model_tables(asked).assume.frequency[1].text == "2.6");
   CHECK(model_tables(asked).require.sets.largest_noise_at_least->text == "0.002");
   const Design hertz =
       recursion_of(design_of(kChosen, "frequency = { hz = [100, 400] }\nsample_rate = 1000\nnoise = 0.01"));
   CHECK(model_tables(hertz).assume.frequency_in_hertz);
-  CHECK(std::stod(model_tables(hertz).assume.frequency[0].text) == doctest::Approx(250 - 1.59155));
+  CHECK(model_tables(hertz).assume.frequency[0].text == "100");
   CHECK(model_tables(hertz).assume.sample_rate->text == "1000");
-  const Design narrow = recursion_of(design_of(kChosen, "frequency = [0.9, 0.93]\nnoise = 0.01"));
-  CHECK(model_tables(narrow).assume.frequency[0].text == "0.9");
 }
 
-/// Everything but what is looked for in the recursion.
-Certificate without_search(const Design& design, Extent extent) {
+/// Of a certificate with nothing but a required claim that is open, or decided.
+Certificate with_recursion(const Design& design, Extent extent, Verdict verdict) {
   Certificate certificate;
   certificate.design = design;
   certificate.extent = extent;
+  Claim claim;
+  claim.id = "ekf/largest-noise";
+  claim.required = true;
+  claim.verdict = verdict;
+  certificate.claims.push_back(claim);
   const rigor::UpwardRounding upward;
   add_recursion(certificate, {});
   return certificate;
 }
 
 TEST_CASE("nothing is looked for where there is nothing to find, or nothing open") {
+  const std::string require = "largest_noise_at_least = 0.002";
   for (const char* chosen : {"q = 0.005\nr = 0.01\nprocess_noise = \"frequency-only\"",
                              "lambda = 0\nprocess_noise = \"identity\""}) {
-    const Certificate certificate = without_search(design_of(chosen, kAssumed), Extent::everything);
+    const Certificate certificate =
+        with_recursion(design_of(chosen, kAssumed, require), Extent::everything, Verdict::undecided);
     CHECK_FALSE(has_recursion(certificate));
     CHECK(recursion_part(certificate).objection.starts_with("Not looked for"));
   }
-  const Certificate single =
-      without_search(design_of(kChosen, "frequency = 0.9\nnoise = 0.01"), Extent::everything);
+  const Certificate single = with_recursion(design_of(kChosen, "frequency = 0.9\nnoise = 0.01", require),
+                                            Extent::everything, Verdict::undecided);
   CHECK(recursion_part(single).objection.find("not a single one") != std::string::npos);
-  for (const Extent extent : {Extent::requirements, Extent::verdicts, Extent::quick}) {
-    const Certificate certificate = without_search(design_of(kChosen, kAssumed), extent);
-    CHECK_FALSE(has_recursion(certificate));
-    CHECK(recursion_part(certificate).objection.empty());
-    CHECK(certificate.claims.empty());
+  for (const Extent extent : {Extent::everything, Extent::requirements, Extent::verdicts, Extent::quick}) {
+    for (const Verdict verdict : {Verdict::proved, Verdict::refuted, Verdict::undecided}) {
+      if (verdict == Verdict::undecided && extent != Extent::quick) {
+        continue;
+      }
+      const Certificate certificate = with_recursion(design_of(kChosen, kAssumed, require), extent, verdict);
+      CHECK_FALSE(has_recursion(certificate));
+      CHECK(recursion_part(certificate).objection.empty());
+      CHECK(certificate.claims.size() == 1);
+    }
   }
 }
 

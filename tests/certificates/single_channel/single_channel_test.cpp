@@ -116,8 +116,8 @@ TEST_CASE("without a leak there is none; a band has its bias at nine frequencies
   const std::string band = text_of("q = 0.005\nr = 0.01\nprocess_noise = \"identity\"", "");
   std::string text = band;
   text.replace(text.find("frequency = 0.9"), 15, "frequency = [0.6, 2.2]");
-  const Certificate certificate = certificates::certify(certificates::read_design(text, "d.toml"), "d.toml",
-                                                        text, {}, certificates::Extent::requirements);
+  const Certificate certificate =
+      certificates::certify(certificates::read_design(text, "d.toml"), "d.toml", text);
   const auto biases = certificates::derivations_of(certificate, "single-channel-bias");
   CHECK(biases.size() == 9);
   for (const auto& bias : biases) {

@@ -104,6 +104,10 @@ class FilterNumbers {
     }
     return f;
   }
+  /// The prediction from the estimate of which the Jacobian was asked last.
+  [[nodiscard]] SmallVector predicted() const {
+    return Eigen::Map<const VectorXd>(results_.data(), states());
+  }
   /// The change of F along a direction.
   [[nodiscard]] Small change(const SmallVector& estimate, const SmallVector& direction) {
     constexpr double kPart = 1e-4;
@@ -196,15 +200,7 @@ class FilterOrbit {
   void begin(double phase) {
     phase_ = phase;
     estimate_ = at(phase);
-    const VectorXd state = state_at(*curve_, phase);
-    const Index n = numbers_.states();
-    Small covariance(n, n);
-    Index place = n;
-    for (Index i = 0; i < n; ++i) {
-      for (Index j = i; j < n; ++j) {
-        covariance(i, j) = covariance(j, i) = state[place++];
-      }
-    }
+    const Small covariance = steady_covariance(phase);
     updated_low_ = updated_high_ = covariance;
     here_.shape = parameters_.process.asDiagonal();
     here_.low = here_.high = covariance;
@@ -213,6 +209,7 @@ class FilterOrbit {
   [[nodiscard]] bool step() {
     const Index n = numbers_.states();
     const Small f = numbers_.jacobian(estimate_);
+    const SmallVector predicted = numbers_.predicted();
     const Eigen::LLT<Small> root(here_.shape);
     if (root.info() != Eigen::Success || !(here_.shape.maxCoeff() < 1e12)) {
       return false;
@@ -263,6 +260,12 @@ class FilterOrbit {
     here_ = std::move(next);
     phase_ += curve_->frequency;
     estimate_ = at(phase_);
+    // The innovation on the curve itself, which a leak makes other than 0: from the correction, and the gain
+    // there.
+    const SmallVector correction = estimate_ - predicted;
+    const Small gain = steady_covariance(phase_) * numbers_.weighted().transpose();
+    innovation_ = (gain.transpose() * gain).ldlt().solve(gain.transpose() * correction);
+    offset_ = gain_ * innovation_ - correction;
     return true;
   }
   [[nodiscard]] const FilterOnOrbit& here() const { return here_; }
@@ -298,6 +301,9 @@ class FilterOrbit {
     }
     const Wide of_squares = in_units(Wide(contraction_ * second));
     const Wide reach_of_squares = -factor.transpose() * numbers_.measured() * second;
+    // What the range of gains does to the curve.
+    const Small offset = in_units(Small(offset_));
+    const Small reach_of_offset = factor.transpose() * innovation_;
     const auto largest = [](const Small& symmetric) {
       return Eigen::SelfAdjointEigenSolver<Small>(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
     };
@@ -345,7 +351,8 @@ class FilterOrbit {
         }
       }
       const Wide squares = stacked(of_squares, reach_of_squares);
-      const double whole = linear + std::sqrt(largest(Small(squares * squares.transpose())));
+      const double whole = linear + std::sqrt(largest(Small(squares * squares.transpose()))) +
+                           stacked(offset, reach_of_offset).norm();
       if (whole < worst.whole) {
         worst = {whole, alone};
       }
@@ -354,6 +361,18 @@ class FilterOrbit {
   }
 
  private:
+  [[nodiscard]] Small steady_covariance(double phase) const {
+    const VectorXd state = state_at(*curve_, phase);
+    const Index n = numbers_.states();
+    Small covariance(n, n);
+    Index place = n;
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = i; j < n; ++j) {
+        covariance(i, j) = covariance(j, i) = state[place++];
+      }
+    }
+    return covariance;
+  }
   [[nodiscard]] SmallVector at(double phase) const {
     return state_at(*curve_, phase).head(numbers_.states());
   }
@@ -364,7 +383,8 @@ class FilterOrbit {
   FilterParameters parameters_;
   Surroundings around_;
   const Eigen::MatrixXcd* slope_;
-  SmallVector move_;  ///< how the curve moves with the frequency
+  SmallVector move_;                 ///< how the curve moves with the frequency
+  SmallVector innovation_, offset_;  ///< on the curve: y - h(x^), and what the middle gain makes of it
   double phase_ = 0.0;
   SmallVector estimate_;
   Small updated_low_, updated_high_, delta_, gain_, contraction_, jacobian_, before_;

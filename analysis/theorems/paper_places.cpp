@@ -88,6 +88,7 @@ constexpr std::array kFamilies{
     Family{"zarchan/symmetry/square", zarchan_slides, repair, "slides, another filter (z = ω²)"},
     Family{"zarchan/symmetry/phase", zarchan_slides, repair, "slides, initial formulation"},
     Family{"zarchan/symmetry/known-amplitude", zarchan_slides, repair, "slides, two-state filter"},
+    Family{"zarchan/horizon/", zarchan_slides, sentence, "slides, two-state filter"},
     Family{"zarchan/steady-state/", zarchan_slides, repair, "slides, all four filters"},
     Family{"sam/", kang_song_lee, sentence, "page, abstract"},
     Family{"pendulum/chaos", guan_chen_ueta, sentence, "page, Figure 1"},

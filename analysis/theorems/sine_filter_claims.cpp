@@ -3,8 +3,11 @@
 #include <array>
 #include <string>
 
+#include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/polynomial_identity.hpp"
+#include "analysis/theorems/comparison.hpp"
 #include "analysis/theorems/signed_expression.hpp"
+#include "analysis/theorems/sine_filter_horizon.hpp"
 #include "trackers/zarchan/zarchan_ekf.hpp"
 
 namespace veritrack::theorems {
@@ -182,6 +185,21 @@ std::vector<Statement> steady_states() {
           never_settles("square", "(x, x', z), where x is not 0,", falls, second + ").")};
 }
 
+/// Is the frequency found to within this, for every noise of that size?
+Statement found_in_time(const std::string& id, const HorizonQuestion& question, const char* within) {
+  const Interval found = frequency_after(question);
+  const Interval error = abs(found - rigor::parse_decimal(question.frequency));
+  return make_statement(
+      "zarchan/horizon/" + id,
+      "The filter of (phi, omega), which assumes a noise of 0.1, finds omega = " + question.frequency +
+          " from the estimate " + question.first_frequency + " for every noise of at most " + question.noise +
+          ": after 20 s it is within " + within + " rad/s.",
+      decide(error, rigor::parse_decimal(within), Strictness::weak),
+      "Verified simulation of states and covariance together: the estimate is in " + enclosed(found) +
+          " rad/s.",
+      {});
+}
+
 }  // namespace
 
 std::vector<Statement> sine_filter_claims() {
@@ -189,6 +207,8 @@ std::vector<Statement> sine_filter_claims() {
   for (Statement& statement : steady_states()) {
     statements.push_back(std::move(statement));
   }
+  statements.push_back(found_in_time("positive", {"1", "2", "1e-4", "0.01"}, "0.0002"));
+  statements.push_back(found_in_time("negative", {"-1", "2", "1e-5", "0.01"}, "0.00002"));
   return statements;
 }
 

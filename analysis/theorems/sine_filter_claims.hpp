@@ -1,5 +1,6 @@
 // What P. Zarchan's slides "Tracking a Sine Wave" show in single runs and what is true of their four filters
-// in every run: symmetries, and that without process noise nothing settles.
+// in every run: symmetries, that without process noise nothing settles, and runs with any noise of a bounded
+// size.
 #pragma once
 
 #include <vector>

@@ -114,4 +114,24 @@ std::string fenced(std::string_view text, std::string_view language) {
   return block + fence + "\n";
 }
 
+std::string with_lower_headings(const std::string& text) {
+  std::string result;
+  std::string fence;  // that is open
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    const std::string line = text.substr(begin, end - begin);
+    const std::size_t ticks = std::min(line.find_first_not_of('`'), line.size());
+    if (fence.empty()) {
+      result += line.starts_with('#') ? "#" : "";
+      fence = ticks >= 3 ? line.substr(0, ticks) : "";
+    } else if (line.starts_with(fence)) {
+      fence.clear();
+    }
+    result += line;
+    begin = end;
+  }
+  return result;
+}
+
 }  // namespace veritrack::certificates::markdown

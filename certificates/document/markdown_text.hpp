@@ -44,4 +44,7 @@ namespace veritrack::certificates::markdown {
 /// A fenced block of text, with a fence longer than any in the text.
 [[nodiscard]] std::string fenced(std::string_view text, std::string_view language);
 
+/// A document inside another one: its headings one level below. What is fenced stays as it is.
+[[nodiscard]] std::string with_lower_headings(const std::string& text);
+
 }  // namespace veritrack::certificates::markdown

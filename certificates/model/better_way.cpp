@@ -19,16 +19,23 @@ std::ptrdiff_t required_claims_of(const Certificate& certificate) {
                        [](const Claim& claim) { return claim.required; });
 }
 
+bool says_nothing(const Certificate& certificate) {
+  return std::none_of(certificate.claims.begin(), certificate.claims.end(),
+                      [](const Claim& claim) { return claim.verdict == rigor::Verdict::proved; });
+}
+
 }  // namespace
 
 Certificate better_way(const std::function<Certificate(bool by_structure)>& certify) {
   Certificate first = certify(true);
-  if (!model_sets(first).bounds_covariance || required_and_proved(first) >= required_claims_of(first) ||
-      first.deadline.is_over()) {
+  const bool is_enough = required_and_proved(first) >= required_claims_of(first) && !says_nothing(first);
+  if (!model_sets(first).bounds_covariance || is_enough || first.deadline.is_over()) {
     return first;
   }
   Certificate second = certify(false);
-  return required_and_proved(second) > required_and_proved(first) ? second : first;
+  const bool is_better = required_and_proved(second) > required_and_proved(first) ||
+                         (says_nothing(first) && !says_nothing(second));
+  return is_better ? second : first;
 }
 
 }  // namespace veritrack::certificates

@@ -68,17 +68,26 @@ class ModelClaims {
       add(claim);
     }
     const ModelSet& starts = sets_->starts;
-    if (const Scope scope = sets_->noise ? scope_of({&starts, &*sets_->noise}) : Scope{};
-        scope.is_any && starts.reach > 0.0) {
-      Claim claim = told("model/limits", words_for(scope.part).constant_tone());
+    // With a bias no set contains errors of both signs.
+    const bool has_reach = starts.reach > 0.0 && std::isfinite(starts.reach) && scope_of({&starts}).is_any;
+    const Scope of_noise = !sets_->noise ? Scope{}
+                           : has_reach   ? scope_of({&starts, &*sets_->noise})
+                                         : scope_of({&*sets_->noise});
+    if (of_noise.is_any && sets_->noise->tubes.noise > 0.0) {
+      Claim claim = told("model/limits", words_for(of_noise.part).constant_tone());
       const std::string noise = below(sets_->noise->tubes.noise);
-      const std::string reach = below(starts.reach);
-      claim.values = {{"noise", noise}, {"reach", reach}};
-      add_part(claim, scope);
-      claim.statement += fmt::format(
-          ", the tracker tolerates noise up to {}, and without noise a certified invariant set contains "
-          "frequency errors up to {} at every phase",
-          noise, units_.at_least(reach));
+      claim.values = {{"noise", noise}};
+      claim.statement += fmt::format(", the tracker tolerates noise up to {}", noise);
+      if (has_reach) {
+        const std::string reach = below(starts.reach);
+        claim.values.emplace_back("reach", reach);
+        claim.statement += fmt::format(
+            ", and without noise a certified invariant set contains frequency errors up to {} at every phase",
+            units_.at_least(reach));
+      } else {
+        claim.statement += ": a certified invariant set exists";
+      }
+      add_part(claim, of_noise);
       add(claim);
     }
     if (const Scope scope = scope_of({&starts}); scope.is_any && knows_bias()) {

@@ -45,22 +45,10 @@ std::string output_section(const Certificate& certificate) {
          markdown::conditions_table(found) + "\n" + markdown::quantities_table(found) + "\n";
 }
 
-/// Headings one level below.
-std::string lowered(const std::string& text) {
-  std::string result;
-  bool at_start = true;
-  for (const char letter : text) {
-    result += at_start && letter == '#' ? "#" : "";
-    result += letter;
-    at_start = letter == '\n';
-  }
-  return result;
-}
-
 std::string tracker_section(const Certificate& certificate) {
   const Certificate& tracker = regulator_particulars(certificate).tracker;
   return "## The frequency tracker\n\nWhat follows is about the tracker alone.\n\n" +
-         lowered(kind_of(tracker.design).sections(tracker, {}));
+         markdown::with_lower_headings(kind_of(tracker.design).sections(tracker, {}));
 }
 
 std::string loop_coverage() {

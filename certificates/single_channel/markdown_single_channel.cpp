@@ -7,6 +7,8 @@
 
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
+#include "certificates/document/tracker_kind.hpp"
+#include "certificates/single_channel/recursion_part.hpp"
 #include "certificates/single_channel/single_channel.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
 
@@ -115,6 +117,35 @@ std::string single_channel_summary(const Certificate& certificate) {
                     proved, undecided, refuted.empty() ? "none" : refuted);
 }
 
+std::string recursion_summary(const Certificate& certificate) {
+  std::string text;
+  for (const Claim& claim : certificate.claims) {
+    if (claim.id.starts_with("recursion/")) {
+      text += fmt::format("{}: {}\n\n", markdown::verdict(claim.verdict), claim.statement);
+    }
+  }
+  return text;
+}
+
+std::string recursion_section(const Certificate& certificate) {
+  const auto& [recursion, objection] = recursion_part(certificate);
+  if (!recursion && objection.empty()) {
+    return "";
+  }
+  const std::string heading = "## The same filter as a recursion\n\n";
+  if (!recursion) {
+    return heading + objection + "\n\n";
+  }
+  return heading +
+         "What follows is the certificate of this filter as a design of the tracker `model`, in exact "
+         "arithmetic "
+         "and at a constant frequency. Without a leak its sets are ellipsoids of the estimate alone, with "
+         "the "
+         "covariance between two matrices: the estimate after a sample is affine in the covariance, and the "
+         "covariance is monotone. With a leak the covariance is among the states.\n\n" +
+         markdown::with_lower_headings(kind_of(recursion->design).sections(*recursion, {}));
+}
+
 std::string single_channel_design_section(const Certificate& certificate) {
   const SingleChannelDesignTable& chosen = single_channel_tables(certificate.design).design;
   std::string text = "## The design\n\n";
@@ -200,7 +231,10 @@ std::string single_channel_coverage_section() {
          "contraction certificate is valid at every phase, for every frequency that stays in "
          "the band, and for any noise and any change of frequency within the bounds, with any statistics. It "
          "covers a tracker without a leak, started with the steady-state covariance, and a signal of "
-         "constant amplitude.\n- The bias is that of the steady state which the tracker reaches from the "
+         "constant amplitude.\n- What is proved by the structure of the filter covers the tracker with a "
+         "leak, too, "
+         "at a constant frequency and in exact arithmetic, started in the sets that are named.\n- The bias "
+         "is that of the steady state which the tracker reaches from the "
          "exact estimate, on a tone without noise at the frequencies of the table, and around them where the "
          "table says so. Elsewhere it is not enclosed.\n- The contraction certificate covers the tracker as "
          "it "

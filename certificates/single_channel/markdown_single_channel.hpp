@@ -10,6 +10,12 @@ namespace veritrack::certificates {
 /// The answers in a few sentences.
 [[nodiscard]] std::string single_channel_summary(const Certificate& certificate);
 
+/// What is proved of the same filter as a recursion, a sentence each.
+[[nodiscard]] std::string recursion_summary(const Certificate& certificate);
+
+/// The sets of the same filter as a recursion, or why there are none.
+[[nodiscard]] std::string recursion_section(const Certificate& certificate);
+
 [[nodiscard]] std::string single_channel_design_section(const Certificate& certificate);
 
 /// The bias with its ripple, at the frequencies of the band.

@@ -17,6 +17,7 @@
 #include "certificates/sets/guarantee_sentence.hpp"
 #include "certificates/sets/required_claims.hpp"
 #include "certificates/sets/statement_claim.hpp"
+#include "certificates/single_channel/recursion_part.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
 #include "trackers/tone_model.hpp"
 
@@ -235,7 +236,7 @@ void single_channel_published_results(Certificate& certificate) {
   add_propositions(certificate, design, middle, steady_state_at(design, middle));
 }
 
-void certify_single_channel(Certificate& certificate, const CertifyProgress& /*progress*/) {
+void certify_single_channel(Certificate& certificate, const CertifyProgress& progress) {
   const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
   const bool only_verdicts = certificate.extent == Extent::verdicts || certificate.extent == Extent::quick;
   const trackers::ToneModel<Interval> design = design_at_unit_amplitude(tables);
@@ -272,6 +273,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& /*p
   for (Claim& claim : set_claims(certificate, terms)) {
     certificate.claims.push_back(std::move(claim));
   }
+  add_recursion(certificate, progress);
 }
 
 }  // namespace veritrack::certificates

@@ -1,6 +1,8 @@
 #include "certificates/single_channel/single_channel_json.hpp"
 
+#include "certificates/document/json.hpp"
 #include "certificates/sets/assumptions_json.hpp"
+#include "certificates/single_channel/recursion_part.hpp"
 #include "certificates/single_channel/single_channel_design.hpp"
 
 namespace veritrack::certificates {
@@ -21,6 +23,14 @@ Json single_channel_design_json(const Design& read) {
                                   : "frequency-only";
   }
   return {{"design", chosen}, {"assume", assume_json(assume)}, {"require", require_json(require)}};
+}
+
+Json single_channel_evidence_json(const Certificate& certificate) {
+  Json json = Json::object();
+  if (has_recursion(certificate)) {
+    json["recursion"] = inner_certificate_json(*recursion_part(certificate).certificate);
+  }
+  return json;
 }
 
 Json single_channel_report_json(const Certificate& certificate) {

@@ -9,6 +9,9 @@ namespace veritrack::certificates {
 /// The tables of the design, with a member a table.
 [[nodiscard]] Json single_channel_design_json(const Design& read);
 
+/// The certificate of the same filter as a recursion, where something is proved of it.
+[[nodiscard]] Json single_channel_evidence_json(const Certificate& certificate);
+
 /// The settings of the simulated run.
 [[nodiscard]] Json single_channel_report_json(const Certificate& certificate);
 

@@ -19,13 +19,14 @@ namespace veritrack::certificates {
 namespace {
 
 std::string summary(const Certificate& certificate) {
-  return guarantee_section(certificate) + single_channel_summary(certificate);
+  return guarantee_section(certificate) + recursion_summary(certificate) +
+         single_channel_summary(certificate);
 }
 
 std::string sections(const Certificate& certificate, const MarkdownOptions& options) {
   const SingleChannelEkfTables& tables = single_channel_tables(certificate.design);
   return single_channel_design_section(certificate) + assumptions_section(tables.assume) +
-         contraction_section(certificate) + bias_section(certificate) +
+         contraction_section(certificate) + recursion_section(certificate) + bias_section(certificate) +
          simulated_run_section(certificate, tables.simulate, options) + single_channel_coverage_section();
 }
 
@@ -47,6 +48,8 @@ const TrackerKind& single_channel_kind() {
                                 .sections = sections,
                                 .published_results = single_channel_published_results,
                                 .published = published,
+                                .limited_in_time = true,
+                                .evidence_json = single_channel_evidence_json,
                                 .report_json = single_channel_report_json,
                                 .formal_proofs = coq::proposition_1_proofs,
                                 .tune = tune_single_channel,

@@ -346,18 +346,23 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
 
 Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
   const TubeSet* noise = find("noise", part);
-  const TubeSet* starts = find("starts", part);
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   Claim found;
   found.is_summary = true;
-  found.statement = words.constant_tone() + ", the tracker tolerates noise up to " +
-                    claim.at("noise").text() +
-                    ", and without noise a certified invariant set contains frequency errors up to " +
-                    units_.at_least(claim.at("reach").text()) + " at every phase.";
-  const Ball reach = written(claim, "reach");
-  found.verdict = proved_if(noise != nullptr && starts != nullptr && certainly_positive(reach) &&
-                            certainly_at_most(written(claim, "noise"), Ball(noise->noise)) &&
-                            of(*starts).contains_errors(reach));
+  found.statement = words.constant_tone() + ", the tracker tolerates noise up to " + claim.at("noise").text();
+  const Ball tolerated = written(claim, "noise");
+  bool certain =
+      noise != nullptr && certainly_positive(tolerated) && certainly_at_most(tolerated, Ball(noise->noise));
+  if (const Tree* errors = claim.find("reach")) {
+    const TubeSet* starts = find("starts", part);
+    const Ball reach = written(claim, "reach");
+    found.statement += ", and without noise a certified invariant set contains frequency errors up to " +
+                       units_.at_least(errors->text()) + " at every phase.";
+    certain = certain && starts != nullptr && certainly_positive(reach) && of(*starts).contains_errors(reach);
+  } else {
+    found.statement += ": a certified invariant set exists.";
+  }
+  found.verdict = proved_if(certain);
   return found;
 }
 

@@ -7,13 +7,14 @@
 #include "checker/single_channel/frozen_filter.hpp"
 #include "checker/single_channel/phase_contraction.hpp"
 #include "checker/single_channel/proposition_claims.hpp"
+#include "checker/single_channel/recursion.hpp"
 #include "checker/single_channel/single_channel_design.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
-void verify(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
+void verify(const Tree& certificate, bool all_boxes, Verification& result) {
   Objections objections;
   const SingleChannelDesign design = read_single_channel_design(certificate.at("design"), objections);
   const Guarantee guarantee(certificate.at("design"), {true, false, kDoublePrecision}, objections);
@@ -43,9 +44,13 @@ void verify(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
     }
     result.parts.push_back({id, objections});
   }
+  const Recursion recursion(certificate, design, all_boxes, result);
   const std::map<std::string, Claim> propositions = proposition_claims();
   const auto check = [&](const Tree& claim, Objections& found) {
     const std::string& id = claim.at("id").text();
+    if (Recursion::is_of_recursion(id) || Recursion::decides(claim)) {
+      return recursion.check(claim, found);
+    }
     if (Guarantee::is_guarantee(id)) {
       return guarantee.check(claim, promises, found);
     }

@@ -58,6 +58,8 @@ From tests/certificates/model-filter-long-run.toml, the same filter:
 model-filter-long-run  its tubes for the assumed noise, and in the long run
 From tests/certificates/model-filter-moving.toml, the same filter and a frequency that moves through two cells:
 model-filter-moving  its tubes for what is assumed
+From tests/certificates/recursion.toml, the single-channel tracker at almost one frequency:
+recursion         its certificate as a recursion, with the tube for the assumed noise, and the claims that rest on it
 From tests/certificates/dft-block.toml and dft-block-covariance.toml:
 dft-block            a block tracker near one offset, with noise and slew
 dft-block-covariance  the same with more bins, a range of amplitudes and a given P(1|0)
@@ -380,6 +382,13 @@ def false_locks(certificate):
          ["dft-block/every-start-locks", "dft-block/false-lock-below", "dft-block/false-lock-above"])
 
 
+def recursion(certificate):
+    """The tube for the assumed noise, with three levels."""
+    keep(certificate, [], ["recursion/guarantee", "ekf/largest-noise"])
+    inner = certificate["recursion"]
+    model_filter(inner)
+
+
 def regulator(certificate):
     """The tracker's guarantee, its settling time, and the sets that they rest on."""
     tracker = certificate["frequency_tracker"]
@@ -425,6 +434,7 @@ KINDS = {
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
     "model-filter-gaussian": model_gaussian,
+    "recursion": recursion,
     "regulator": regulator,
     "model-filter-long-run": model_long_run,
     "model-filter-moving": model_filter_moving,

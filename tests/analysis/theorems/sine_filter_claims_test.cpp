@@ -48,7 +48,7 @@ TEST_CASE("all symmetries are proved, and that nothing settles") {
     CHECK(found.insert(statement.id).second);
     CHECK(statement.verdict == rigor::Verdict::proved);
   }
-  CHECK(found.size() == 11);
+  CHECK(found.size() == 13);
 }
 
 TEST_CASE("without process noise the variance of the frequency goes on falling") {

@@ -49,4 +49,11 @@ TEST_CASE("a fence is longer than any fence in the text") {
   CHECK(markdown::fenced("```\n", "") == "````\n```\n````\n");
 }
 
+TEST_CASE("a document inside another one has lower headings, and what is fenced as it was") {
+  CHECK(markdown::with_lower_headings("# A\ntext\n```\n# a comment\n```\n## B\n") ==
+        "## A\ntext\n```\n# a comment\n```\n### B\n");
+  CHECK(markdown::with_lower_headings("````c\n```\n# in\n````\n# out") == "````c\n```\n# in\n````\n## out");
+  CHECK(markdown::with_lower_headings("").empty());
+}
+
 }  // namespace

@@ -50,6 +50,25 @@ Taken taken(int by_structure, int without, bool bounds_covariance = true, bool i
   return result;
 }
 
+TEST_CASE("where nothing is required, the other way is taken only if it alone says something") {
+  for (const bool first_says : {false, true}) {
+    for (const bool second_says : {false, true}) {
+      int tried = 0;
+      const Certificate certificate = better_way([&](bool structure) {
+        ++tried;
+        Certificate made = with_proved(0, structure);
+        made.claims.resize(structure ? (first_says ? 3U : 0U) : (second_says ? 3U : 0U));
+        for (Claim& claim : made.claims) {
+          claim.required = false;
+        }
+        return made;
+      });
+      CHECK(tried == (first_says ? 1 : 2));
+      CHECK(model_sets(certificate).bounds_covariance == (first_says || !second_says));
+    }
+  }
+}
+
 TEST_CASE("a filter whose requirements are proved by structure is not certified again") {
   const Taken result = taken(2, 2);
   CHECK(result.tried == std::vector<bool>{true});

@@ -213,6 +213,12 @@ TEST_CASE("a part that is empty, or in which too little is proved, has no claims
   CHECK_FALSE(has(sets, "model/limits"));
   sets.noise->tubes.tubes.clear();
   CHECK_FALSE(has(sets, "model/limits"));
+  sets = sets_of();
+  sets.starts.reach = 0.0;  // as with a bias: of the noise alone
+  const Certificate biased = certificate_of(sets, text_of(kRequired));
+  REQUIRE(find(biased, "model/limits") != nullptr);
+  CHECK(find(biased, "model/limits")->values.size() == 1);
+  CHECK(find(biased, "model/limits")->statement.ends_with(": a certified invariant set exists."));
   sets.starts.ripple = INFINITY;
   CHECK_FALSE(has(sets, "model/steady-state"));
   sets = sets_of();

@@ -145,10 +145,10 @@ double near_best_multiplier(const PlaceMatrix& spread, const std::vector<BallPol
                             const std::vector<BallPolynomial>& aside, const VectorMonomials& monomials,
                             double of_gaussian) {
   const StackedLength length(spread, deviation, aside, monomials, of_gaussian);
-  const double largest = length.known() ? length.largest_spread() : -1.0;
-  if (!std::isfinite(largest)) {
+  if (!length.known()) {
     return 0.0;
   }
+  const double largest = length.largest_spread();
   const double unit = std::max(largest, 0.0) + std::numeric_limits<double>::min();
   // mu = (1 + e^u) times the largest eigenvalue of the spread.
   const auto multiplier = [&](double u) { return unit * (1.0 + std::exp(u)); };
@@ -161,14 +161,18 @@ double near_best_multiplier(const PlaceMatrix& spread, const std::vector<BallPol
   };
   double t = share(kUsualShare);
   double u = best_mu(t, kLow, kHigh, 9);
-  if (length.has_others() && !(of_gaussian > 0.0)) {
-    const double logit =
-        place_of_least(0.0, 9.0, 8, [&](double tried) { return length.at(multiplier(u), share(tried)); });
-    t = share(logit);
+  double logit = kUsualShare;
+  // One after the other, twice.
+  for (const double width : {4.0, 0.8}) {
+    if (length.has_others() && !(of_gaussian > 0.0)) {
+      logit = place_of_least(logit - width, logit + width, 8,
+                             [&](double tried) { return length.at(multiplier(u), share(tried)); });
+      t = share(logit);
+    }
+    u = best_mu(t, u - 0.2 * width, u + 0.2 * width, 7);
   }
-  u = best_mu(t, u - 0.7, u + 0.7, 8);
   const double mu = multiplier(u);
-  return std::isfinite(length.at(mu, t)) ? mu : 0.0;
+  return std::isfinite(mu) && std::isfinite(length.at(mu, t)) ? mu : 0.0;
 }
 
 }  // namespace veritrack::checker

@@ -39,7 +39,7 @@ TEST_CASE("of one state the length is that of both parts together") {
   for (const double spread : {0.01, 0.3, 2.0}) {
     for (const double b : {0.05, 0.4, 1.5}) {
       constexpr double kA = 0.7;
-      const PlaceMatrix s{{BallPolynomial(spread)}};
+      const PlaceMatrix s = symmetric_of({BallPolynomial(spread)}, 1);
       const std::vector<BallPolynomial> deviation{kA * x};
       const std::vector<BallPolynomial> aside{b * x};
       const double mu = near_best_multiplier(s, deviation, aside, monomials, 0.0);
@@ -71,9 +71,12 @@ TEST_CASE("no multiplier of a fine grid is better by more than a little") {
 TEST_CASE("where nothing is known there is no multiplier") {
   const VectorMonomials monomials(1);
   const std::vector<BallPolynomial> x{BallPolynomial::variable(monomials, 0)};
-  CHECK(near_best_multiplier({{BallPolynomial::everything()}}, x, x, monomials, 0.0) == 0.0);
-  CHECK(near_best_multiplier({{BallPolynomial(0.1)}}, {BallPolynomial::everything()}, x, monomials, 0.0) ==
-        0.0);
+  const PlaceMatrix spread = symmetric_of({BallPolynomial(0.1)}, 1);
+  const PlaceMatrix unknown = symmetric_of({BallPolynomial::everything()}, 1);
+  CHECK(near_best_multiplier(spread, x, x, monomials, 0.0) > 0.1);
+  CHECK(near_best_multiplier(unknown, x, x, monomials, 0.0) == 0.0);
+  CHECK(near_best_multiplier(spread, {BallPolynomial::everything()}, x, monomials, 0.0) == 0.0);
+  CHECK(near_best_multiplier(spread, x, {BallPolynomial::everything()}, monomials, 0.0) == 0.0);
 }
 
 }  // namespace

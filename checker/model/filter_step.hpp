@@ -47,7 +47,7 @@ class FilterStep {
  private:
   /// What depends on the place only, a sample later.
   struct LaterPlace {
-    PlaceMatrix gain;    ///< (K + K')/2 of both updated bounds
+    PlaceMatrix gain;    ///< of the middle of both updated bounds
     PlaceMatrix reach;   ///< L of R^-1 H delta H' R^-1, delta half of their difference
     PlaceMatrix spread;  ///< U^-1 delta U^-T
   };

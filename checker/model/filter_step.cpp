@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "checker/model/dependence.hpp"
-#include "checker/model/length_bound.hpp"
+#include "checker/model/spread_multiplier.hpp"
 
 namespace veritrack::checker {
 
@@ -245,7 +244,10 @@ bool FilterStep::keeps_covariance(double radius, const BoundsToSpare& spare) con
   return is_kept(high, next_high, true) && is_kept(low, next_low, false);
 }
 
-std::vector<BallPolynomial> FilterStep::map(double radius, double noise, double of_gaussian) const {
+const FilterStep::LaterPlace& FilterStep::later() const {
+  if (later_) {
+    return *later_;
+  }
   const PlaceMatrix low = updated(symmetric_of(there_.covariance_low, states_));
   const PlaceMatrix high = updated(symmetric_of(there_.covariance_high, states_));
   const BallPolynomial halved(0.5);
@@ -257,10 +259,24 @@ std::vector<BallPolynomial> FilterStep::map(double radius, double noise, double 
       delta[i][j] = halved * (high[i][j] - low[i][j]);
     }
   }
-  const PlaceMatrix gain = product(middle, mirrored(weighted_));
-  // P+ = middle + D Y D', D D' = delta, |Y| <= 1: what it does beside the middle is D p with |p| <= |L' i|, L
-  // L' = R^-1 H delta H' R^-1 and i the innovation.
-  const PlaceMatrix reach = root_of(congruence(weighted_, delta));
+  PlaceMatrix columns;
+  for (std::size_t j = 0; j < states_; ++j) {
+    columns.push_back(there_.coordinates(mirrored(delta)[j]));  // row j: U^-1 times column j
+  }
+  const PlaceMatrix turned = mirrored(columns);
+  PlaceMatrix spread;
+  for (std::size_t i = 0; i < states_; ++i) {
+    spread.push_back(there_.coordinates(turned[i]));
+  }
+  later_ = {product(middle, mirrored(weighted_)), root_of(congruence(weighted_, delta)), std::move(spread)};
+  return *later_;
+}
+
+// P+ = middle + D Y D', D D' = delta, |Y| <= 1: what it does beside the middle is D p with |p| <= |L' i|, L
+// L' = R^-1 H delta H' R^-1 and i the innovation. |m + D p|^2 <= m' (I - spread/mu)^-1 m + mu |p|^2 for every
+// mu above the spread.
+std::vector<BallPolynomial> FilterStep::map(double radius, double noise, double of_gaussian) const {
+  const LaterPlace& place = later();
   const TubeOver there = moved();
   std::vector<BallPolynomial> samples = signal_;
   if (noise != 0.0) {
@@ -272,7 +288,7 @@ std::vector<BallPolynomial> FilterStep::map(double radius, double noise, double 
   std::vector<BallPolynomial> next = parts.predicted;
   for (std::size_t i = 0; i < states_; ++i) {
     for (std::size_t c = 0; c < samples.size(); ++c) {
-      next[i] += gain[i][c] * parts.innovation[c];
+      next[i] += place.gain[i][c] * parts.innovation[c];
     }
     next[i] -= there.curve[i];
   }
@@ -281,60 +297,25 @@ std::vector<BallPolynomial> FilterStep::map(double radius, double noise, double 
   for (std::size_t d = 0; d < samples.size(); ++d) {
     BallPolynomial component;
     for (std::size_t c = d; c < samples.size(); ++c) {
-      component += reach[c][d] * parts.innovation[c];
+      component += place.reach[c][d] * parts.innovation[c];
     }
     aside.push_back(component);
   }
-  // U^-1 delta U^-T.
-  PlaceMatrix columns;
-  for (std::size_t j = 0; j < states_; ++j) {
-    columns.push_back(there_.coordinates(mirrored(delta)[j]));  // row j: U^-1 times column j
+  const double mu = near_best_multiplier(place.spread, deviation, aside, *monomials_, of_gaussian);
+  if (!(mu > 0.0)) {
+    return std::vector<BallPolynomial>(states_, BallPolynomial::everything());
   }
-  const PlaceMatrix turned = mirrored(columns);
-  PlaceMatrix spread;
+  PlaceMatrix rest = place_matrix(states_, states_);
   for (std::size_t i = 0; i < states_; ++i) {
-    spread.push_back(there_.coordinates(turned[i]));
+    rest[i][i] = BallPolynomial(1.0);
   }
-  // |m + D p|^2 <= m' (I - spread/mu)^-1 m + mu |p|^2 for every mu above the spread.
-  const double size = std::max(trace_of(spread).constant(), 0.0) + std::numeric_limits<double>::min();
-  std::vector<BallPolynomial> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (const double share : {0.4, 0.55, 0.75, 1.0, 1.3, 1.7, 2.3, 3.2, 4.5, 7.0, 12.0, 30.0}) {
-    const double mu = share * size;
-    const Ball inverse = one / Ball(mu);
-    PlaceMatrix rest = place_matrix(states_, states_);
-    for (std::size_t i = 0; i < states_; ++i) {
-      rest[i][i] = BallPolynomial(1.0);
-    }
-    std::vector<BallPolynomial> vector =
-        forward(root_of(sum(rest, spread, BallPolynomial(-inverse))), deviation);
-    const BallPolynomial root(sqrt(Ball(mu)));
-    for (const BallPolynomial& component : aside) {
-      vector.push_back(root * component);
-    }
-    if (!std::all_of(vector.begin(), vector.end(), [](const BallPolynomial& each) { return each.known(); })) {
-      continue;
-    }
-    const LinearLength linear(vector, *monomials_);
-    const auto consider = [&](double length) {
-      if (std::isfinite(length) && length < least) {
-        least = length;
-        best = vector;
-      }
-    };
-    if (of_gaussian > 0.0) {
-      consider(linear.near_sum(1.0, of_gaussian));
-      continue;
-    }
-    for (const double t : {0.5, 0.65, 0.78, 0.88, 0.95, 1.0}) {
-      const bool is_alone = noise == 0.0;
-      if (is_alone != (t == 1.0)) {
-        continue;
-      }
-      consider(linear.near_sum(1.0 / t, is_alone ? 0.0 : 1.0 / (1.0 - t)));
-    }
+  std::vector<BallPolynomial> vector =
+      forward(root_of(sum(rest, place.spread, BallPolynomial(-(one / Ball(mu))))), deviation);
+  const BallPolynomial root(sqrt(Ball(mu)));
+  for (const BallPolynomial& component : aside) {
+    vector.push_back(root * component);
   }
-  return best.empty() ? std::vector<BallPolynomial>(states_, BallPolynomial::everything()) : best;
+  return vector;
 }
 
 }  // namespace veritrack::checker

@@ -6,6 +6,7 @@
 // that it is between the updated bounds.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "checker/model/place_matrix.hpp"
@@ -44,6 +45,13 @@ class FilterStep {
   [[nodiscard]] std::vector<BallPolynomial> map(double radius, double noise, double of_gaussian = 0.0) const;
 
  private:
+  /// What depends on the place only, a sample later.
+  struct LaterPlace {
+    PlaceMatrix gain;    ///< of the middle of both updated bounds
+    PlaceMatrix reach;   ///< L of R^-1 H delta H' R^-1, delta half of their difference
+    PlaceMatrix spread;  ///< U^-1 delta U^-T
+  };
+  [[nodiscard]] const LaterPlace& later() const;
   [[nodiscard]] PlaceMatrix updated(const PlaceMatrix& predicted) const;
   /// Curve and shape a sample later, as functions of zeta.
   [[nodiscard]] TubeOver moved() const;
@@ -59,6 +67,7 @@ class FilterStep {
   std::vector<BallPolynomial> signal_;
   PlaceMatrix measured_, process_noise_, noise_;  ///< H, Q, R
   PlaceMatrix weighted_;                          ///< R^-1 H
+  mutable std::optional<LaterPlace> later_;       ///< once it was asked for
 };
 
 }  // namespace veritrack::checker

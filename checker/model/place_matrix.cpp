@@ -21,38 +21,6 @@ double coefficient(const BallPolynomial& x, std::size_t place) {
   return place < block.size() ? block[place] : 0.0;
 }
 
-/// The inverse of the Cholesky factor in doubles, row by row; without rows when there is none. Not evidence.
-std::vector<std::vector<double>> near_inverse_root(const std::vector<std::vector<double>>& a) {
-  const std::size_t n = a.size();
-  std::vector<std::vector<double>> l(n, std::vector<double>(n, 0.0));
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t i = j; i < n; ++i) {
-      double rest = a[i][j];
-      for (std::size_t k = 0; k < j; ++k) {
-        rest -= l[i][k] * l[j][k];
-      }
-      if (i == j && !(rest > 0.0)) {
-        return {};
-      }
-      l[i][j] = i == j ? std::sqrt(rest) : rest / l[j][j];
-    }
-  }
-  std::vector<std::vector<double>> x(n, std::vector<double>(n, 0.0));
-  for (std::size_t column = 0; column < n; ++column) {
-    for (std::size_t i = column; i < n; ++i) {
-      double rest = i == column ? 1.0 : 0.0;
-      for (std::size_t k = column; k < i; ++k) {
-        rest -= l[i][k] * x[k][column];
-      }
-      x[i][column] = rest / l[i][i];
-      if (!std::isfinite(x[i][column])) {
-        return {};
-      }
-    }
-  }
-  return x;
-}
-
 /// The root of the sum of squares of the entries.
 Ball length_of_matrix(const Matrix& matrix) {
   Ball squares;
@@ -202,6 +170,37 @@ double near_least_eigenvalue(const PlaceMatrix& a, const PlaceMatrix& unit) {
     return kNothing;
   }
   return least;
+}
+
+std::vector<std::vector<double>> near_inverse_root(const std::vector<std::vector<double>>& a) {
+  const std::size_t n = a.size();
+  std::vector<std::vector<double>> l(n, std::vector<double>(n, 0.0));
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = j; i < n; ++i) {
+      double rest = a[i][j];
+      for (std::size_t k = 0; k < j; ++k) {
+        rest -= l[i][k] * l[j][k];
+      }
+      if (i == j && !(rest > 0.0)) {
+        return {};
+      }
+      l[i][j] = i == j ? std::sqrt(rest) : rest / l[j][j];
+    }
+  }
+  std::vector<std::vector<double>> x(n, std::vector<double>(n, 0.0));
+  for (std::size_t column = 0; column < n; ++column) {
+    for (std::size_t i = column; i < n; ++i) {
+      double rest = i == column ? 1.0 : 0.0;
+      for (std::size_t k = column; k < i; ++k) {
+        rest -= l[i][k] * x[k][column];
+      }
+      x[i][column] = rest / l[i][i];
+      if (!std::isfinite(x[i][column])) {
+        return {};
+      }
+    }
+  }
+  return x;
 }
 
 bool certainly_definite(const PlaceMatrix& a) {

@@ -31,6 +31,9 @@ PlaceMatrix middle_of(const PlaceMatrix& a);
 /// infinity when there is none. Not evidence.
 double near_least_eigenvalue(const PlaceMatrix& a, const PlaceMatrix& unit);
 
+/// The inverse of the Cholesky factor in doubles, row by row; without rows when there is none. Not evidence.
+std::vector<std::vector<double>> near_inverse_root(const std::vector<std::vector<double>>& a);
+
 /// True only when the symmetric matrix whose lower triangle this is is positive definite for all s and z.
 bool certainly_definite(const PlaceMatrix& a);
 

@@ -60,6 +60,7 @@ PartAnswer ask_of_filter(const TubeSet& set, std::size_t number, const FilterSte
   double by_phase = 0.0;
   double by_frequency = 0.0;
   bool lacks_bounds = false;  // what the widths do to these is not known
+  bool is_telling = true;
   for (const std::size_t j : pairs) {
     const double radius = tube.levels[j];
     const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, set.noise)); };
@@ -72,9 +73,10 @@ PartAnswer ask_of_filter(const TubeSet& set, std::size_t number, const FilterSte
       by_phase += bound.by_phase() / radius;
       by_frequency += bound.by_frequency() / radius;
       lacks_bounds = lacks_bounds || !has_bounds;
+      is_telling = is_telling && bound.tells_extents(radius);
     }
   }
-  if (!lacks_bounds && std::isfinite(by_phase + by_frequency)) {
+  if (!lacks_bounds && is_telling && std::isfinite(by_phase + by_frequency)) {
     answer.halve_frequencies = by_frequency > by_phase;
   }
   return answer;

@@ -12,19 +12,25 @@ namespace {
 constexpr int kMostHalvings = 40;
 /// The middle of a part is asked after every so many halvings.
 constexpr int kBetweenMiddles = 3;
+/// After so many halvings of one direction the other one is halved, whatever the answers say: they are
+/// guesses.
+constexpr int kMostAlike = 6;
 
 /// A part that is not certain yet.
 struct OpenPart {
   TubePart part;
   std::vector<std::size_t> questions;
   int halvings = 0;
+  bool was_by_frequency = false;  ///< the last ones, `alike` of them
+  int alike = 0;
 };
 
 bool is_certain(std::size_t tube, const TubePart& first, std::size_t count, const PartQuestion& ask,
                 std::int64_t& cells) {
   std::vector<std::size_t> all(count);
   std::iota(all.begin(), all.end(), std::size_t{0});
-  std::vector<OpenPart> open{{first, std::move(all), 0}};
+  std::vector<OpenPart> open;
+  open.push_back({first, std::move(all)});
   while (!open.empty()) {
     const OpenPart here = std::move(open.back());
     open.pop_back();
@@ -39,10 +45,13 @@ bool is_certain(std::size_t tube, const TubePart& first, std::size_t count, cons
       return false;
     }
     // Where it is not known what helps, both directions take their turns.
-    const bool by_frequency = answer.halve_frequencies.value_or(here.halvings % 2 == 0);
+    const bool by_frequency = here.alike == kMostAlike
+                                  ? !here.was_by_frequency
+                                  : answer.halve_frequencies.value_or(here.halvings % 2 == 0);
+    const int alike = here.alike > 0 && by_frequency == here.was_by_frequency ? here.alike + 1 : 1;
     for (const bool second : {true, false}) {
       open.push_back({by_frequency ? here.part.half_of_frequencies(second) : here.part.half_of_phases(second),
-                      answer.open, here.halvings + 1});
+                      answer.open, here.halvings + 1, by_frequency, alike});
     }
   }
   return true;

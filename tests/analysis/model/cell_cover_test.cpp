@@ -85,5 +85,18 @@ TEST_CASE("what is never proved ends with the budget, and nothing is known of th
   CHECK(is_grid({4, 1, 100}));
 }
 
+TEST_CASE("where it is not known which width makes a cell fail, both are halved") {
+  const auto of_width = [](double phases, double frequencies) {
+    return [=](const TubeCell& cell) {
+      CellAnswer result = answer(cell.half_turn < phases && cell.half_z < frequencies);
+      result.by_phase = result.by_frequency = std::nan("");
+      return result;
+    };
+  };
+  CHECK(cover_cells(of_width(0.3, 0.3), {4, 1, 20000}).is_proved);
+  CHECK(cover_cells(of_width(0.02, 2.0), {4, 1, 20000}).is_proved);
+  CHECK(cover_cells(of_width(0.01, 0.1), {4, 1, 20000}).is_proved);
+}
+
 }  // namespace
 }  // namespace veritrack::model

@@ -194,6 +194,27 @@ TEST_CASE("bands are covered without gaps") {
   CHECK(end == doctest::Approx(0.5).epsilon(1e-12));
 }
 
+TEST_CASE("cells that are proposed and turned down are halved, while that is allowed") {
+  const test::ExampleTracker example = test::phase_locked_loop();
+  BandSettings settings;
+  settings.widest = 0.1;
+  int asked = 0;
+  settings.decided = [&](const TubeProposal& cell, bool may_be_halved) {
+    ++asked;
+    return cell.half_width < 0.03 || !may_be_halved;
+  };
+  const BandProposal band = propose_band(tone_of(example), 0.25, 0.35, settings);
+  CHECK(band.is_complete);
+  CHECK(asked == 3);
+  REQUIRE(band.cells.size() == 2);
+  CHECK(band.cells[0].half_width == doctest::Approx(0.025));
+  CHECK(band.cells[1].frequency == doctest::Approx(0.325));
+  // Where narrow ones are turned down, too, the next ones are not divided.
+  settings.decided = [&](const TubeProposal&, bool) { return false; };
+  const BandProposal none = propose_band(tone_of(example), 0.25, 0.35, settings);
+  CHECK(none.cells.size() <= 6);
+}
+
 TEST_CASE("the part of a band without a steady state is named") {
   // Starts far off the tone, at a bandwidth that does not pull in.
   test::ExampleTracker example = test::phase_locked_loop();

@@ -113,5 +113,5 @@ TEST_CASE("a filter with a slew whose bounds of the covariance do not fit is ref
        {"a margin that borders exceed", [](Json& c) { set_in(c, "assumed")["margin"] = hexadecimal(1e-12); }},
        {"bounds that are narrower in one cell",
         [](Json& c) { scale_series(cell_of(c, "assumed")["covariance_high"], 0.99); }},
-       {"more slew", [](Json& c) { scale_number(set_in(c, "assumed")["slew"], 30.0); }}});
+       {"more slew", [](Json& c) { scale_number(set_in(c, "assumed")["slew"], 100.0); }}});
 }

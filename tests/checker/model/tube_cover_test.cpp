@@ -1,0 +1,49 @@
+#include "checker/model/tube_cover.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <optional>
+
+namespace veritrack::checker {
+namespace {
+
+/// Certain where a part is narrow enough; `halve_frequencies` is what an answer guesses.
+bool covers(double half_turn, double half_z, std::optional<bool> halve_frequencies, std::int64_t& cells) {
+  const auto ask = [&](std::size_t, const TubePart& part, const std::vector<std::size_t>& questions) {
+    PartAnswer answer{questions, halve_frequencies};
+    if (part.half_turn <= half_turn && part.half_z <= half_z) {
+      answer.open.clear();
+    }
+    return answer;
+  };
+  return certain_everywhere({{4, 1, 1}}, ask, cells);
+}
+
+TEST_CASE("where it is not known which width makes a part fail, both are halved") {
+  std::int64_t cells = 0;
+  CHECK(covers(0x1p-3, 0.3, {}, cells));
+  CHECK(covers(0x1p-9, 2.0, {}, cells));
+  CHECK(covers(0x1p-8, 0.1, {}, cells));
+  CHECK(cells > 0);
+}
+
+TEST_CASE("a wrong guess of which width makes a part fail does not make it fail for ever") {
+  std::int64_t cells = 0;
+  // Only frequencies help, and phases are halved; and the other way round.
+  CHECK(covers(1.0, 0.5, false, cells));
+  CHECK(covers(0x1p-4, 1.0, true, cells));
+}
+
+TEST_CASE("what fails at a point fails, whatever is halved") {
+  std::int64_t cells = 0;
+  for (const std::optional<bool> guess : {std::optional<bool>(), std::optional(true), std::optional(false)}) {
+    CHECK_FALSE(covers(-1.0, 1.0, guess, cells));
+    CHECK_FALSE(covers(std::numeric_limits<double>::quiet_NaN(), 1.0, guess, cells));
+  }
+  CHECK_FALSE(certain_everywhere(
+      {}, [](std::size_t, const TubePart&, const std::vector<std::size_t>&) { return PartAnswer{}; }, cells));
+}
+
+}  // namespace
+}  // namespace veritrack::checker

@@ -7,9 +7,8 @@ namespace veritrack::checker {
 
 namespace {
 
-/// sinc d and its first two derivatives over a ball: by Taylor's formula about its middle, where |d^n
-/// sinc/dx^n|
-/// <= pi^n/(n + 1).
+/// sinc d and its first two derivatives over a ball: by Taylor's formula about its middle; the derivative of
+/// order n is at most pi^n/(n + 1).
 struct Sinc {
   Ball value, slope, bend;
 };

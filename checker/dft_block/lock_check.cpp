@@ -93,6 +93,24 @@ bool BlockLock::is_outside(const Cell& cell, const Ball& radius) const {
   return certainly_less(square(radius), sum);
 }
 
+Matrix3 block_information(const MeetingSums& sums, const Ball& weight, const Ball& x) {
+  const Ball power = square(x);
+  Matrix3 result = diagonal(four * weight * power * sums.aa, weight * square(power) * sums.aa,
+                            weight * square(power) * sums.bb);
+  result[0][2] = two * weight * power * x * sums.ab;
+  result[2][0] = result[0][2];
+  return result;
+}
+
+Matrix3 root_of_block_information(const MeetingSums& sums, const Ball& weight, const Ball& x) {
+  // The last row is taken first.
+  const Ball root = sqrt(weight) * x;
+  Matrix3 result = diagonal(two * root * sqrt(sums.aa - square(sums.ab) / sums.bb), root * x * sqrt(sums.aa),
+                            root * x * sqrt(sums.bb));
+  result[0][2] = two * root * sums.ab / sqrt(sums.bb);
+  return result;
+}
+
 struct BlockLock::OverCell {
   Matrix3 spread;  ///< X is the middle of its bounds, and up to this more or less
   Matrix3 step;    ///< F (1 - X secant) at that middle
@@ -110,11 +128,6 @@ std::optional<BlockLock::OverCell> BlockLock::over(const Cell& cell, const ToneP
   const auto [sine, cosine] = ratios(cell.side(1));
   const Ball x = one + first;
   const Ball power = square(x);
-  // H'R^-1 H at the estimate.
-  Matrix3 jacobian = diagonal(four * weight * power * sums.aa, weight * square(power) * sums.aa,
-                              weight * square(power) * sums.bb);
-  jacobian[0][2] = two * weight * power * x * sums.ab;
-  jacobian[2][0] = jacobian[0][2];
   // H'R^-1 (h(truth) - h(estimate)) = -secant z, and what the secant has more than the Jacobian.
   const Ball grown = two + first;
   Matrix3 secant =
@@ -130,14 +143,8 @@ std::optional<BlockLock::OverCell> BlockLock::over(const Cell& cell, const ToneP
   more[2][0] = -(weight * power * first * sums.ab);
   more[2][2] = weight * power * (sums.bc - power * sums.bb);
 
-  // The last row of J is taken first.
-  Matrix3 factor =
-      diagonal(sqrt(jacobian[0][0] - square(two * x) * weight * power * square(sums.ab) / sums.bb),
-               sqrt(jacobian[1][1]), sqrt(jacobian[2][2]));
-  factor[0][2] = two * sqrt(weight) * x * sums.ab / sqrt(sums.bb);
-
   const Matrix3 into = transposed(set_.frame);
-  const Matrix3 information = about(into, jacobian);
+  const Matrix3 information = about(into, block_information(sums, weight, x));
   const Ball least = one / set_.above;
   const Matrix3 high = inverse_near(information + identity(least));
   const Matrix3 low = inverse_near(information + identity(set_.below));
@@ -153,7 +160,7 @@ std::optional<BlockLock::OverCell> BlockLock::over(const Cell& cell, const ToneP
   const Matrix3 centre = scaled(half, high + low);
   found.step = product(turn_, kept - product(centre, about(into, more)));
   found.secant = about(into, secant);
-  found.factor = product(into, factor);
+  found.factor = product(into, root_of_block_information(sums, weight, x));
   found.gain = product(product(turn_, centre), found.factor);
   return found;
 }

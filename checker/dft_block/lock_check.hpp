@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "checker/dft_block/tone_polynomial.hpp"
 #include "checker/numbers/matrix3.hpp"
 
 namespace veritrack::checker {
@@ -40,6 +41,12 @@ struct BlockDrift {
   Matrix3 floor;
 };
 
+/// J = H'R^-1 H in the coordinates of section 2, where the estimate is x times the tone's root amplitude;
+/// weight is A^2/(4 r).
+Matrix3 block_information(const MeetingSums& sums, const Ball& weight, const Ball& x);
+/// N with N N' = J, where that is defined: not finite otherwise.
+Matrix3 root_of_block_information(const MeetingSums& sums, const Ball& weight, const Ball& x);
+
 class BlockLock {
  public:
   BlockLock(const BlockProblem& problem, const BlockSet& set);
@@ -64,7 +71,7 @@ class BlockLock {
   struct Cell;
   [[nodiscard]] bool is_outside(const Cell& cell, const Ball& radius) const;
   struct OverCell;
-  using InCell = std::function<bool(const Cell&, const class TonePolynomial&)>;
+  using InCell = std::function<bool(const Cell&, const TonePolynomial&)>;
   /// What a block does over a cell; nothing unless the covariances stay between their bounds.
   [[nodiscard]] std::optional<OverCell> over(const Cell& cell, const TonePolynomial& tone) const;
   [[nodiscard]] bool falls_in(const Cell& cell, const TonePolynomial& tone, const BlockRate& rate) const;

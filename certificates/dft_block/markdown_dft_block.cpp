@@ -89,6 +89,7 @@ std::string landing_section(const Certificate& certificate) {
     return "";
   }
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(landings.size());
   for (const InitialLanding& one : landings) {
     rows.push_back(
         {fmt::format("{:.4g} dB", one.snr_db), counted_share(one.near), counted_share(one.in_set)});

@@ -41,8 +41,7 @@ class MovingSearch {
       proved.grid.phases = 1.0 - rate < kLittleRoom ? 64 : 32;
     }
     if (set.tubes.front().tube.bounds_covariance()) {
-      constexpr double kMargin = 0.005;  // of the slack of the proposals; the rest is for the width of cells
-      set.covariance_margin = kMargin;
+      set.covariance_margin = margin_at_borders();
     }
     slow_ = 1.0 - 0.05 * (1.0 - rate);
     fast_ = 1.0 - 0.5 * (1.0 - rate);
@@ -113,6 +112,32 @@ class MovingSearch {
         failed_.push_back(i);
       }
     }
+  }
+
+  /// The least share of themselves that bounds of the covariance lose where they are fitted anew; of the
+  /// slack of the proposals, whose rest is for the width of cells.
+  [[nodiscard]] double margin_at_borders() const {
+    constexpr std::array<double, 3> kMargins{0.005, 0.0075, 0.01};
+    constexpr double kHalf = 0.5;  // of the level, so that the bounds decide
+    constexpr double kSlow = 1e-3;
+    const double slew = most_slew_ > 0.0 ? kSlow * most_slew_ : 1e-9;
+    const auto fits = [&](const Tube& from, const Tube& to, double margin) {
+      return verify_border(*model_, from, to, {kHalf * level_, level_, slew, 1.0, margin},
+                           set_->tubes.front().grid)
+                 .verdict == Verdict::proved;
+    };
+    for (const double margin : kMargins) {
+      bool all = true;
+      for (std::size_t i = 0; i + 1 < set_->tubes.size() && all; ++i) {
+        const Tube& a = set_->tubes[i].tube;
+        const Tube& b = set_->tubes[i + 1].tube;
+        all = fits(a, b, margin) && fits(b, a, margin);
+      }
+      if (all) {
+        return margin;
+      }
+    }
+    return kMargins.front();
   }
 
   /// Whether levels from `scale` radius to radius shrink by the factor in a cell.

@@ -27,7 +27,7 @@ Drawing draw(const certificates::Certificate& certificate, std::string& missing)
   try {
     Drawing drawing{draw_figures(certificate), {}};
     if (!drawing.figures.empty()) {
-      drawing.drawn_with = gnuplot_version();
+      drawing.drawn_with = gnuplot_version(drawing.figures.front().svg);
     }
     return drawing;
   } catch (const FigureError& error) {

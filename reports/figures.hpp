@@ -12,17 +12,21 @@ namespace veritrack::reports {
 struct Figure {
   std::string file;     ///< name of the file, e.g. "error.svg"
   std::string caption;  ///< what is seen, with units
-  std::string svg;
+  std::string script;   ///< draws it, for gnuplot (gnuplot.hpp)
   std::string title =
       {};  ///< what it shows, in a few words: the title of the SVG, and the text instead of it
   std::vector<FigureTable> data = {};  ///< the numbers in it
   std::string values = {};  ///< of a map, what is under the pointer: JSON (map_values.hpp); or none
+  std::string svg = {};     ///< the picture; empty until it is drawn
 };
 
-/// The figure with its title inside the SVG, in place of gnuplot's own name.
-[[nodiscard]] Figure with_title(Figure figure);
+/// The figures with their pictures, which have the figure's title in place of gnuplot's own name, drawn by
+/// one gnuplot. Throws FigureError, which names the figure that it could not draw.
+[[nodiscard]] std::vector<Figure> with_pictures(std::vector<Figure> figures);
+[[nodiscard]] Figure with_picture(Figure figure);
 
-/// The figures that certificates of this kind of tracker have; none when it has none. Throws FigureError.
+/// The figures that certificates of this kind of tracker have, drawn; none when it has none. Throws
+/// FigureError.
 [[nodiscard]] std::vector<Figure> draw_figures(const certificates::Certificate& certificate);
 
 }  // namespace veritrack::reports

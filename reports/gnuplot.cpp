@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -80,9 +79,22 @@ std::string last_line(const std::string& text) {
   return text.substr(start, end + 1 - start);
 }
 
-}  // namespace
+/// Follows each picture in what gnuplot writes. No text of a picture can have it: there, "<" is "&lt;".
+constexpr std::string_view kEndOfPicture = "<end of picture>";
 
-std::string run_gnuplot(const std::string& script) {
+/// Everything as gnuplot has it when it starts: its settings, and the pen that its SVG terminal would leave
+/// to the next picture, which a page without anything in it resets.
+constexpr std::string_view kAnew =
+    "\nreset session\nset terminal svg\nset output '/dev/null'\nset multiplot\nunset multiplot\nset output\n"
+    "reset session\n";
+
+struct GnuplotRun {
+  std::string output;
+  std::string errors;
+  bool has_succeeded = false;
+};
+
+GnuplotRun execute(const std::string& script) {
   const MemoryFile input("gnuplot-script");
   const MemoryFile output("gnuplot-output");
   const MemoryFile errors("gnuplot-errors");
@@ -108,11 +120,44 @@ std::string run_gnuplot(const std::string& script) {
       fail(std::string("waitpid: ") + std::strerror(errno));
     }
   }
-  std::string picture = output.read_all();
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || picture.empty()) {
-    fail(last_line(errors.read_all()));
+  return {output.read_all(), errors.read_all(), WIFEXITED(status) && WEXITSTATUS(status) == 0};
+}
+
+}  // namespace
+
+std::string run_gnuplot(const std::string& script) {
+  GnuplotRun run = execute(script);
+  if (!run.has_succeeded || run.output.empty()) {
+    fail(last_line(run.errors));
   }
-  return picture;
+  return std::move(run.output);
+}
+
+std::vector<std::string> draw_pictures(const std::vector<GnuplotScript>& scripts) {
+  if (scripts.empty()) {
+    return {};
+  }
+  std::string all;
+  for (const GnuplotScript& script : scripts) {
+    all += all.empty() ? "" : kAnew;
+    all += script.text + "\nset print '-'\nprint '" + std::string(kEndOfPicture) + "'\n";
+  }
+  const GnuplotRun run = execute(all);
+  const std::string end = std::string(kEndOfPicture) + '\n';
+  std::vector<std::string> pictures;
+  std::size_t from = 0;
+  for (const GnuplotScript& script : scripts) {
+    const std::size_t to = run.output.find(end, from);
+    if (to == std::string::npos || to == from) {
+      fail(script.name + ": " + last_line(run.errors));
+    }
+    pictures.push_back(run.output.substr(from, to - from));
+    from = to + end.size();
+  }
+  if (!run.has_succeeded || from != run.output.size()) {
+    fail(last_line(run.errors));
+  }
+  return pictures;
 }
 
 std::string gnuplot_style(std::size_t height) {
@@ -126,12 +171,15 @@ std::string gnuplot_style(std::size_t height) {
          "set key outside below center horizontal Left reverse samplen 4\n";
 }
 
-std::string gnuplot_version() {
-  std::string version = run_gnuplot(
-      "set print '-'\nprint sprintf('gnuplot %s patchlevel %s', gprintf('%.1f', GPVAL_VERSION), "
-      "GPVAL_PATCHLEVEL)\n");
-  version.erase(std::find(version.begin(), version.end(), '\n'), version.end());
-  return version;
+std::string gnuplot_version(std::string_view svg) {
+  constexpr std::string_view kBefore = "<desc>Produced by GNUPLOT ";
+  const std::size_t before = svg.find(kBefore);
+  const std::size_t end = svg.find(" </desc>", before);
+  if (before == std::string_view::npos || end == std::string_view::npos) {
+    fail("a picture without its version");
+  }
+  const std::size_t start = before + kBefore.size();
+  return "gnuplot " + std::string(svg.substr(start, end - start));
 }
 
 }  // namespace veritrack::reports

@@ -55,25 +55,10 @@ std::span<const TrackerReports* const> tracker_reports() {
   return all;
 }
 
-Figure with_title(Figure figure) {
-  const std::string begin = "<title>";
-  const std::size_t at = figure.svg.find(begin);
-  const std::size_t end = figure.svg.find("</title>");
-  if (at != std::string::npos && end != std::string::npos) {
-    figure.svg.replace(at + begin.size(), end - at - begin.size(), figure.title);
-  }
-  return figure;
-}
-
 std::vector<Figure> draw_figures(const certificates::Certificate& certificate) {
   const TrackerReports* reports = reports_of(certificate.design.tracker);
-  std::vector<Figure> figures = reports != nullptr && reports->figures != nullptr
-                                    ? reports->figures(certificate)
-                                    : std::vector<Figure>{};
-  for (Figure& figure : figures) {
-    figure = with_title(std::move(figure));
-  }
-  return figures;
+  return reports != nullptr && reports->figures != nullptr ? with_pictures(reports->figures(certificate))
+                                                           : std::vector<Figure>{};
 }
 
 std::string trackers_with_map() {

@@ -47,7 +47,7 @@ Figure frequency_figure(const certificates::Certificate& certificate) {
           "Frequency of the signal (broad, light) and of the tracker (thin), rad/sample, along the "
           "simulated run." +
               stride_remark(certificate),
-          run_gnuplot(script),
+          std::move(script),
           "Frequency of signal and tracker along the simulated run",
           {std::move(run)}};
 }

@@ -20,7 +20,7 @@ namespace veritrack::reports {
 /// The style of a figure over the samples.
 [[nodiscard]] std::string over_samples(std::size_t height);
 
-/// The tracker's frequency beside the true one. Throws FigureError.
+/// The tracker's frequency beside the true one. Not drawn yet.
 [[nodiscard]] Figure frequency_figure(const certificates::Certificate& certificate);
 
 /// The table `run`: the sample, then the columns that `values` gives of a theorems::TrajectoryRecord.

@@ -35,7 +35,7 @@ struct MapResult {
 
 struct TrackerReports {
   std::string_view tracker;  ///< as the key `tracker` of a design file names it
-  /// Figures for the certificate; null when there are none. Throws FigureError.
+  /// Figures for the certificate; null when there are none. Not drawn yet.
   std::vector<Figure> (*figures)(const certificates::Certificate& certificate) = nullptr;
   /// The proved region of attraction, written into a folder; null when there is no such map. Throws
   /// certificates::OutputError, FigureError.

@@ -174,7 +174,7 @@ Json certify(const Json& request) {
   if (request.value("figures", true)) {
     try {
       figures = reports::draw_figures(certificate);
-      options.drawn_with = figures.empty() ? std::string() : reports::gnuplot_version();
+      options.drawn_with = figures.empty() ? std::string() : reports::gnuplot_version(figures.front().svg);
     } catch (const reports::FigureError& error) {
       figures.clear();
       json["missing_figures"] = error.what();

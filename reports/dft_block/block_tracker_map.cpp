@@ -132,7 +132,7 @@ Figure draw_map(const Certificate& certificate, const StartsOnATone& starts, int
           "the exact lock, in floating point. Circles: certified sets of false locks, which are smaller "
           "than the circle and have another amplitude and covariance than the starts.",
           starts.amplitude, starts.offset, starts.runs.size(), kMapBlocks),
-      run_gnuplot(script + plot), "Where starts end", std::move(data)};
+      script + plot, "Where starts end", std::move(data)};
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ MapResult write_block_tracker_map(const certificates::Design& design, const MapR
   for (const auto& run : starts.runs) {
     ++counts.at(static_cast<std::size_t>(end_of(run)));
   }
-  const Figure figure = with_title(draw_map(certificate, starts, columns, rows, kReach));
+  const Figure figure = with_picture(draw_map(certificate, starts, columns, rows, kReach));
   const auto share = [&](std::size_t count) {
     return fmt::format("{:.1f} %",
                        100.0 * static_cast<double>(count) / static_cast<double>(starts.runs.size()));

@@ -54,7 +54,7 @@ Figure offset_error_figure(const certificates::Certificate& certificate, const t
       "Size of the offset error in three simulated runs (thin): tones at both ends and in the middle of the "
       "assumed offsets that move as fast as assumed, " +
           seen + " The simulations prove nothing.",
-      run_gnuplot(script + "\n"), "Offset error, simulated, below the proved bounds", std::move(data)};
+      script + "\n", "Offset error, simulated, below the proved bounds", std::move(data)};
 }
 
 /// Runs that end in lock, and runs that do not.
@@ -94,7 +94,7 @@ Figure false_lock_figure(const certificates::Certificate& certificate) {
               "tone of amplitude {:.4g} that is {:.4g} bins off, without noise; the exact lock (dash-dotted) "
               "and the false locks that are proved (bold). The simulations prove nothing.",
               starts.runs.size(), kReach, starts.amplitude, starts.offset),
-          run_gnuplot(script + "\n"), "Runs that end in lock and in false locks", std::move(data)};
+          script + "\n", "Runs that end in lock and in false locks", std::move(data)};
 }
 
 }  // namespace

@@ -26,9 +26,9 @@ struct Panel {
   double EstimateSample::*estimate;
 };
 
-/// A figure: the picture and its numbers.
+/// A figure: what draws it, and its numbers.
 struct Drawing {
-  std::string svg;
+  std::string script;
   std::vector<FigureTable> data;
 };
 
@@ -73,7 +73,7 @@ Drawing draw(const std::vector<SectionVRun>& runs, const std::vector<Panel>& pan
     }
     script += '\n';
   }
-  return {run_gnuplot(script + "unset multiplot\n"), {std::move(table)}};
+  return {script + "unset multiplot\n", {std::move(table)}};
 }
 
 }  // namespace
@@ -99,11 +99,12 @@ std::vector<Figure> draw_kkl_figures(const certificates::Certificate& certificat
        "The simulations of the paper's section V (its Figures 1 to 6) with the ell in use: estimated "
        "amplitude and frequency over time (s) under a disturbance of amplitude 0.2 at 10, 100 and 1000 "
        "rad/s. Where a line is missing the observer has no estimate.",
-       std::move(estimates.svg), "Estimates in the simulations of section V", std::move(estimates.data)},
+       std::move(estimates.script), "Estimates in the simulations of section V", std::move(estimates.data)},
       {"section-v-adaptive.svg",
        "The adaptive observer on the same signals (the paper's Figures 7 to 9), with our own parameters: "
        "estimated frequency over time (s).",
-       std::move(of_adaptive.svg), "The adaptive observer on the same signals", std::move(of_adaptive.data)}};
+       std::move(of_adaptive.script), "The adaptive observer on the same signals",
+       std::move(of_adaptive.data)}};
 }
 
 }  // namespace veritrack::reports

@@ -9,7 +9,7 @@
 namespace veritrack::reports {
 
 /// The estimates of the KKL observer, and of the adaptive one beside it, under the three disturbances of
-/// section V; none for a design with other rates. Throws FigureError.
+/// section V; none for a design with other rates. Not drawn yet.
 [[nodiscard]] std::vector<Figure> draw_kkl_figures(const certificates::Certificate& certificate);
 
 }  // namespace veritrack::reports

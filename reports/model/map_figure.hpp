@@ -16,7 +16,7 @@ namespace veritrack::reports {
 [[nodiscard]] std::string labelled(const certificates::MappedState& state);
 
 /// Proved cells by the number of samples after which they are captured, cells that lock in simulation only,
-/// and those that do not; with the edge of the certified set. Throws FigureError.
+/// and those that do not; with the edge of the certified set. Not drawn yet.
 [[nodiscard]] Figure draw_model_map(const certificates::ModelMap& map);
 
 }  // namespace veritrack::reports

@@ -105,7 +105,7 @@ Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::
                       "band, the ripple to be below the solid line; the dashed lines are computed from the "
                       "curve of the certificate in floating point and are not proved.",
                       unit),
-          run_gnuplot(script),
+          std::move(script),
           "Bias and ripple over the frequency of the signal",
           {std::move(cells), std::move(curve)}};
 }
@@ -154,7 +154,7 @@ Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& 
                       "phase a set contains states with a frequency error of that size. Proved for each cell "
                       "of frequencies.",
                       units.drawn_unit()),
-          run_gnuplot(script + plot + "\n"),
+          script + plot + "\n",
           "How far the certified sets reach",
           {std::move(table)}};
 }

@@ -203,7 +203,7 @@ MapResult write_model_map(const certificates::Design& design, const MapRequest& 
     return {std::nullopt, result.reason};
   }
   const ModelMap& map = *result.found;
-  const Figure figure = with_title(draw_model_map(map));
+  const Figure figure = with_picture(draw_model_map(map));
   page::Document document{"map", model_map_document(design, map, figure)};
   document.figures = {figure};
   certificates::OutputFiles files;

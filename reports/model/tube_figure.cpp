@@ -143,19 +143,19 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
     add_run(i + 1, run, units, errors);
     starts.add({static_cast<double>(i + 1), phase / kFullTurn, units.drawn(run.front().frequency_error)});
   }
-  const std::string script = gnuplot_style(440) +
-                             fmt::format(
-                                 "set xlabel 'phase of the signal, turns'\nset ylabel 'frequency error, {}'\n"
-                                 "set xrange [0:1]\nset xtics 0.25\n"
-                                 "set offsets 0, 0, graph 0.06, graph 0.06\n",
-                                 unit) +
-                             envelope.block() + starts.block() + errors.block() +
-                             "plot $errors using 2:3 with lines lw 0.7 lc rgb '#888888' title 'simulated', "
-                             "$starts using 2:3 with points pt 7 ps 0.7 lc rgb '#000000' title 'starts', "
-                             "$envelope using 1:2 with lines lw 2 lc rgb '#000000' title 'whole tube', "
-                             "'' using 1:3 with lines lw 2 lc rgb '#000000' notitle, "
-                             "'' using 1:4 with lines lw 2 dt 2 lc rgb '#000000' title 'lowest level', "
-                             "'' using 1:5 with lines lw 2 dt 2 lc rgb '#000000' notitle\n";
+  std::string script = gnuplot_style(440) +
+                       fmt::format(
+                           "set xlabel 'phase of the signal, turns'\nset ylabel 'frequency error, {}'\n"
+                           "set xrange [0:1]\nset xtics 0.25\n"
+                           "set offsets 0, 0, graph 0.06, graph 0.06\n",
+                           unit) +
+                       envelope.block() + starts.block() + errors.block() +
+                       "plot $errors using 2:3 with lines lw 0.7 lc rgb '#888888' title 'simulated', "
+                       "$starts using 2:3 with points pt 7 ps 0.7 lc rgb '#000000' title 'starts', "
+                       "$envelope using 1:2 with lines lw 2 lc rgb '#000000' title 'whole tube', "
+                       "'' using 1:3 with lines lw 2 lc rgb '#000000' notitle, "
+                       "'' using 1:4 with lines lw 2 dt 2 lc rgb '#000000' title 'lowest level', "
+                       "'' using 1:5 with lines lw 2 dt 2 lc rgb '#000000' notitle\n";
   return {
       "tube.svg",
       fmt::format(
@@ -167,7 +167,7 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
           set.noise > 0.0
               ? ", with the noise that pushes outward most at every sample, at a constant frequency"
               : ""),
-      run_gnuplot(script),
+      std::move(script),
       "The certified tube, with simulated runs",
       {std::move(envelope), std::move(starts), std::move(errors)}};
 }

@@ -8,7 +8,7 @@
 namespace veritrack::reports {
 
 /// At the middle of the band: what frequency errors the tube and its lowest level reach over the phase, and
-/// simulated errors from the rim under the set's noise. For a set that is complete. Throws FigureError.
+/// simulated errors from the rim under the set's noise. For a set that is complete. Not drawn yet.
 [[nodiscard]] Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set,
                                const certificates::FrequencyUnits& units);
 

@@ -53,9 +53,9 @@ struct LockCurves {
   double required = 0.0;  ///< probability within them
 };
 
-/// A figure: the picture and its numbers.
+/// A figure: what draws it, and its numbers.
 struct Drawn {
-  std::string svg;
+  std::string script;
   std::vector<FigureTable> data;
 };
 
@@ -114,7 +114,7 @@ Drawn over_decibels(const LockCurves& curves) {
         "noise', ";
   }
   script += fmt::format("{:.6g} with lines lw 1 dt '.' lc rgb '#000000' title 'required'\n", rate);
-  return {run_gnuplot(script),
+  return {std::move(script),
           {std::move(simulated), std::move(certified), std::move(places), std::move(curve)}};
 }
 
@@ -173,14 +173,14 @@ Drawn over_sample_numbers(const LockCurves& curves) {
     }
     table.add(std::move(row));
   }
-  const std::string script =
+  std::string script =
       gnuplot_style(400) + table.block() +
       fmt::format(
           "set xlabel 'samples'\nset ylabel 'probability of losing lock'\nset logscale xy\nunset mxtics\n"
           "unset mytics\nset format xy '10^{{%L}}'\nset xrange [1:{:.6g}]\nset yrange [{:.6g}:1]\n"
           "set key maxcols 2\n{}\n",
           last, 1e-6 * curves.required, plot);
-  return {run_gnuplot(script), {std::move(table)}};
+  return {std::move(script), {std::move(table)}};
 }
 
 }  // namespace
@@ -203,19 +203,19 @@ std::vector<Figure> draw_lock_figures(const Certificate& certificate) {
       required ? required->nearest : 1e-6};
   Drawn decibels = over_decibels(curves);
   Drawn samples = over_sample_numbers(curves);
-  return {
-      {"lock-snr.svg",
-       "Probability of losing lock per sample (within the assumed samples, divided by their number) over "
-       "the signal-to-noise ratio: certified from the lowest ratio on (black; dots where a set is in the "
-       "certificate); counted in simulation (circles) and extrapolated with log rate linear in 1/sigma^2 "
-       "(dashed), which proves nothing; and what the certificate for bounded noise would give, by the "
-       "probability that its noise is exceeded (grey).",
-       std::move(decibels.svg), "Probability of losing lock over the signal-to-noise ratio",
-       std::move(decibels.data)},
-      {"lock-samples.svg",
-       "Probability of losing lock within so many samples, each at a ratio of its own: certified, "
-       "simulated and extrapolated, which proves nothing, and by the union bound.",
-       std::move(samples.svg), "Probability of losing lock within so many samples", std::move(samples.data)}};
+  return {{"lock-snr.svg",
+           "Probability of losing lock per sample (within the assumed samples, divided by their number) over "
+           "the signal-to-noise ratio: certified from the lowest ratio on (black; dots where a set is in the "
+           "certificate); counted in simulation (circles) and extrapolated with log rate linear in 1/sigma^2 "
+           "(dashed), which proves nothing; and what the certificate for bounded noise would give, by the "
+           "probability that its noise is exceeded (grey).",
+           std::move(decibels.script), "Probability of losing lock over the signal-to-noise ratio",
+           std::move(decibels.data)},
+          {"lock-samples.svg",
+           "Probability of losing lock within so many samples, each at a ratio of its own: certified, "
+           "simulated and extrapolated, which proves nothing, and by the union bound.",
+           std::move(samples.script), "Probability of losing lock within so many samples",
+           std::move(samples.data)}};
 }
 
 }  // namespace veritrack::reports

@@ -9,7 +9,7 @@
 namespace veritrack::reports {
 
 /// Over the signal-to-noise ratio and over the number of samples; none when no set is certified for the
-/// lowest ratio. Throws FigureError.
+/// lowest ratio. Not drawn yet.
 [[nodiscard]] std::vector<Figure> draw_lock_figures(const certificates::Certificate& certificate);
 
 }  // namespace veritrack::reports

@@ -12,7 +12,6 @@
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
 #include "certificates/quadrature/tube.hpp"
-#include "reports/gnuplot.hpp"
 #include "reports/line_styles.hpp"
 #include "reports/quadrature/lock_figures.hpp"
 #include "reports/quadrature/region_map.hpp"
@@ -144,7 +143,7 @@ Figure error_figure(const Certificate& certificate) {
   }
   return {"error.svg",
           caption + small + stride_remark(certificate),
-          run_gnuplot(script),
+          std::move(script),
           "Error along the simulated run, with its bounds",
           {std::move(run), std::move(table)}};
 }
@@ -212,7 +211,7 @@ Figure tube_figure(const Certificate& certificate, const certificates::Frequency
           "disturbances and with noise and slew that increase the errors. The runs prove nothing.",
           tube.from_assumed_starts ? "within the assumed errors" : "in the certified set",
           long_run ? ", the bound that it approaches in the long run (dash-dotted)" : ""),
-      run_gnuplot(script),
+      std::move(script),
       "Frequency error: certified bound and simulated runs",
       {std::move(table), table_of_levels(levels)}};
 }

@@ -99,7 +99,7 @@ MapResult write_quadrature_map(const certificates::Design& design, const MapRequ
   if (!result.found) {
     return {std::nullopt, result.reason};
   }
-  const Figure figure = with_title(draw_region_map(result.found->region, result.found->basin));
+  const Figure figure = with_picture(draw_region_map(result.found->region, result.found->basin));
   page::Document document{"map", quadrature_map_document(design, region, *result.found, figure)};
   document.figures = {figure};
   certificates::OutputFiles files;

@@ -230,7 +230,7 @@ Figure draw_region_map(const Region& region, const SimulatedBasin& basin) {
   script += '\n';
   return {"region.svg",
           caption(region, basin),
-          run_gnuplot(script),
+          std::move(script),
           "Region of attraction: starts that are captured",
           {table_of_region(region)},
           region_values(region, basin)};

@@ -25,8 +25,8 @@ struct MapRectangle {
 [[nodiscard]] std::string percent(double share);
 
 /// The map, with the outline of the simulated basin and, in the caption, the share of it that is proved.
-/// Where cells of several amplitude errors lie on top of each other the weakest verdict is seen. Throws
-/// FigureError.
+/// Where cells of several amplitude errors lie on top of each other the weakest verdict is seen. Not
+/// drawn yet.
 [[nodiscard]] Figure draw_region_map(const quadrature::Region& region,
                                      const quadrature::SimulatedBasin& basin);
 

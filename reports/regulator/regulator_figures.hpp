@@ -8,7 +8,7 @@
 
 namespace veritrack::reports {
 
-/// Output over the samples, simulated, and what is proved of it; none where nothing is. Throws FigureError.
+/// Output over the samples, simulated, and what is proved of it; none where nothing is. Not drawn yet.
 [[nodiscard]] std::vector<Figure> draw_regulator_figures(const certificates::Certificate& certificate);
 
 }  // namespace veritrack::reports

@@ -97,7 +97,7 @@ Figure draw_panels(const char* file, const char* title, const std::vector<Panel>
         "lw 1 lc rgb '#000000'\n",
         panels[i].title, i, i + 1 == panels.size() ? "set xlabel 'sample t'\n" : "");
   }
-  return {file, {}, run_gnuplot(script + "unset multiplot\n"), title, {std::move(table)}};
+  return {file, {}, script + "unset multiplot\n", title, {std::move(table)}};
 }
 
 /// The estimate of the frequency and of the quadrature part of one run.
@@ -109,7 +109,7 @@ Figure draw_failure(const char* file, const char* title, const ExampleRun& run) 
       "plot $runs using 2:3 with lines lw 3 lc rgb '#aaaaaa', '' using 2:4 with lines lw 1 lc rgb '#000000'\n"
       "set autoscale y\nset title 'estimate of the quadrature part'\nset ylabel 'signal units'\n"
       "set xlabel 'sample t'\nplot $runs using 2:5 with lines lw 1 lc rgb '#000000'\nunset multiplot\n";
-  return {file, {}, run_gnuplot(script), title, {std::move(table)}};
+  return {file, {}, std::move(script), title, {std::move(table)}};
 }
 
 /// How far two runs are apart in frequency, logarithmic.
@@ -132,7 +132,7 @@ Figure draw_difference(const char* file, const char* title, const std::vector<Pa
         fmt::format("{}$differences index {} using 2:3 with lines lw 1.4 dt {} lc rgb '#000000' title '{}'",
                     i == 0 ? "" : ", ", i, i + 1, others[i].title);
   }
-  return {file, {}, run_gnuplot(script + "\n"), title, {std::move(table)}};
+  return {file, {}, script + "\n", title, {std::move(table)}};
 }
 
 std::string rate_table(const std::vector<StartRates>& rates, int seeds) {
@@ -286,19 +286,16 @@ WrittenReport write_example_report(int seeds, const std::filesystem::path& direc
   const std::vector<StartRates> rates = simulate_published_examples(seeds, progress);
   page::Document report{"report", document(rates, seeds, figure_3_seed)};
   report.figure_folder = "figures/";
-  report.figures = {
-      draw_panels("figure-2.svg", "Two panels: the estimate over 1000 samples, with and without leak",
-                  {{"(a) ε = 0.05", run(drawn(Example::one, kIdentity, 0.005, 0.01, 0.05))},
-                   {"(b) ε = 0", run(drawn(Example::one, kIdentity, 0.005, 0.01, 0.0))}}),
-      draw_panels("figure-3.svg", "Three panels: the estimate for lambda = 0, 1 and 10",
-                  {{"(a) λ = 0", run_2(0.0)}, {"(b) λ = 1", run_2(1.0)}, {"(c) λ = 10", run_2(10.0)}}),
-      draw_failure("near-zero.svg", "The frequency estimate near zero, the quadrature part large",
-                   run(drawn(Example::one, ProcessNoiseReading::frequency_only, 0.005, 0.01, 0.0))),
-      draw_difference("start-influence.svg", "The difference of the estimates falls below rounding",
-                      {{"α = 2", scaled(2.0)}, {"α = 100", scaled(100.0)}}, scaled(1.0))};
-  for (Figure& figure : report.figures) {
-    figure = with_title(std::move(figure));
-  }
+  report.figures = with_pictures(
+      {draw_panels("figure-2.svg", "Two panels: the estimate over 1000 samples, with and without leak",
+                   {{"(a) ε = 0.05", run(drawn(Example::one, kIdentity, 0.005, 0.01, 0.05))},
+                    {"(b) ε = 0", run(drawn(Example::one, kIdentity, 0.005, 0.01, 0.0))}}),
+       draw_panels("figure-3.svg", "Three panels: the estimate for lambda = 0, 1 and 10",
+                   {{"(a) λ = 0", run_2(0.0)}, {"(b) λ = 1", run_2(1.0)}, {"(c) λ = 10", run_2(10.0)}}),
+       draw_failure("near-zero.svg", "The frequency estimate near zero, the quadrature part large",
+                    run(drawn(Example::one, ProcessNoiseReading::frequency_only, 0.005, 0.01, 0.0))),
+       draw_difference("start-influence.svg", "The difference of the estimates falls below rounding",
+                       {{"α = 2", scaled(2.0)}, {"α = 100", scaled(100.0)}}, scaled(1.0))});
   certificates::OutputFiles files;
   stage_document(files, directory, report, renderings);
   files.commit();

@@ -8,7 +8,6 @@
 
 #include "analysis/limits/posterior_bound.hpp"
 #include "analysis/limits/tone_bounds.hpp"
-#include "reports/gnuplot.hpp"
 
 namespace veritrack::reports {
 
@@ -159,8 +158,7 @@ template <typename Panel>
 std::string draw_panels(std::string script, const Panel& panel) {
   const std::string above = panel(Channels::quadrature);
   const std::string below = panel(Channels::single);
-  script += "set multiplot layout 2,1\n" + above + below + "unset multiplot\n";
-  return run_gnuplot(script);
+  return script + "set multiplot layout 2,1\n" + above + below + "unset multiplot\n";
 }
 
 }  // namespace

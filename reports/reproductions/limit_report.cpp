@@ -318,8 +318,8 @@ WrittenReport write_limit_report(int runs, const std::filesystem::path& director
   const LimitStudy study = simulate_limits(runs, progress);
   page::Document document{"report", limit_document(study)};
   document.figure_folder = "figures/";
-  document.figures = {with_title(draw_random_walks(study.random_walks)),
-                      with_title(draw_errors_over_time(study.over_time))};
+  document.figures =
+      with_pictures({draw_random_walks(study.random_walks), draw_errors_over_time(study.over_time)});
   certificates::OutputFiles files;
   stage_document(files, directory, document, renderings);
   files.commit();

@@ -44,8 +44,7 @@ Figure draw_line_panels(std::string file, std::string title, const std::string& 
     }
     script += "\n";
   }
-  return {
-      std::move(file), {}, run_gnuplot(script + "unset multiplot\n"), std::move(title), {std::move(table)}};
+  return {std::move(file), {}, script + "unset multiplot\n", std::move(title), {std::move(table)}};
 }
 
 }  // namespace veritrack::reports

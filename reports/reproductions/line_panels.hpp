@@ -21,7 +21,7 @@ struct LinePanel {
   std::string settings = {};  ///< of gnuplot, whole lines
 };
 
-/// One SVG. `x_label`: with the unit. Data: panel, line, x, y. Throws FigureError.
+/// One SVG. `x_label`: with the unit. Data: panel, line, x, y. Not drawn yet.
 [[nodiscard]] Figure draw_line_panels(std::string file, std::string title, const std::string& x_label,
                                       const std::vector<LinePanel>& panels);
 

@@ -51,9 +51,7 @@ WrittenReport write_findings(Findings findings, int runs, const std::filesystem:
                              const page::Renderings& renderings) {
   page::Document document{"report", std::move(findings.markdown)};
   document.figure_folder = "figures/";
-  for (Figure& figure : findings.figures) {
-    document.figures.push_back(with_title(std::move(figure)));
-  }
+  document.figures = with_pictures(std::move(findings.figures));
   certificates::OutputFiles files;
   stage_document(files, directory, document, renderings);
   files.commit();

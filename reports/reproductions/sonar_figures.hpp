@@ -1,4 +1,4 @@
-// Figures 4.4 to 4.12 of the thesis, and the sums of Table 4.2 over the noise. All throw FigureError.
+// Figures 4.4 to 4.12 of the thesis, and the sums of Table 4.2 over the noise. None is drawn yet.
 #pragma once
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 
 namespace veritrack::reports::vibration {
 
-/// Figures 5.3 to 5.5; `limit`: Lambda of the monitored estimator. All three throw FigureError.
+/// Figures 5.3 to 5.5; `limit`: Lambda of the monitored estimator. Not drawn yet.
 [[nodiscard]] Figure draw_example_1(double limit);
 /// Figures 5.8 and 5.9.
 [[nodiscard]] Figure draw_example_2();

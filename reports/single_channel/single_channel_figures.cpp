@@ -67,7 +67,7 @@ Figure bias_figure(const std::vector<Derivation>& biases) {
       "Steady-state error of the frequency estimate on a noise-free tone, rad/sample, against the frequency "
       "of the tone: mean over the phase (black) and the range of the ripple (grey bars). The enclosures of "
       "all of them are narrower than the lines.",
-      run_gnuplot(script),
+      std::move(script),
       "Bias and ripple over the frequency of the tone",
       {std::move(table)}};
 }
@@ -104,7 +104,7 @@ Figure response_figure(const Derivation& filter) {
       "Response of the filter with frozen frequency and gain, from the measurement to the innovation, "
       "logarithmic, as an enclosure over 400 cells. Its zero is at the frozen frequency. It is cut off at "
       "0.001.",
-      run_gnuplot(script),
+      std::move(script),
       "Response of the filter with frozen frequency",
       {std::move(table)}};
 }

@@ -101,8 +101,8 @@ Figure draw_trade_off(const TradeOff& trade_off) {
       ", $bad using 1:2 with points pt 2 ps 0.6 lw 1.2 lc rgb '#777777' title 'something is not met'"
       ", $given using 1:2 with points pt 4 ps 1.4 lw 2 lc rgb '#000000' title 'given'"
       ", $chosen using 1:2 with points pt 7 ps 1.3 lc rgb '#000000' title 'chosen'\n";
-  return with_title({"trade-off.svg", caption(trade_off), run_gnuplot(script),
-                     capital(trade_off.words) + " against the response of the tracker"});
+  return with_picture({"trade-off.svg", caption(trade_off), std::move(script),
+                       capital(trade_off.words) + " against the response of the tracker"});
 }
 
 }  // namespace veritrack::reports

@@ -99,8 +99,8 @@ SampledSet sample_set(const SampleRequest& request, const BlockCovariance<double
           rate_squared_with(form, metric, request.constants, worst.multiplier) <= worst.rate_squared) {
         continue;
       }
-      const RayRate rate = propose_rate(form, metric, request.constants);
-      if (!(rate.rate_squared < 1.0)) {
+      const RayRate rate = propose_rate(form, metric, request.constants, worst.rate_squared);
+      if (!(rate.rate_squared < request.useless_rate_squared)) {
         return result;
       }
       if (rate.rate_squared > worst.rate_squared) {

@@ -12,7 +12,7 @@ namespace veritrack::quadrature {
 struct SampledSet {
   StepSetting<double> setting;  ///< with the covariance bounds found
   /// The least rate^2 with which the samples satisfy the inequality of step_inequality.hpp; infinity when
-  /// there are no bounds or a sample does not contract.
+  /// there are no bounds or it is found to be useless.
   double rate_squared;
 };
 
@@ -27,6 +27,7 @@ struct SampleRequest {
   /// room for a proof.
   double covariance_margin = 0.02;
   std::optional<CovarianceRange> start_covariance;  ///< to be held by the bounds as well
+  double useless_rate_squared = 1.0;                ///< from here on it does not matter how large it is
 };
 
 /// Finds covariance bounds by iteration from the steady state and samples the inequality.

@@ -93,7 +93,8 @@ SampledSet ShapeSearch::sample(const Shape& shape, double radius, double noise) 
        noise,
        {0.0, shape.noise_gain * shape.noise_gain, shape.slew_gain * shape.slew_gain, noisy_, slewing_},
        covariance_margin(request_.objective),
-       request_.start_covariance},
+       request_.start_covariance,
+       kLargestRateSquared},
       steady_);
 }
 
@@ -109,6 +110,9 @@ double ShapeSearch::largest_radius(const Shape& shape) const {
   constexpr double kStep = 1.8;
   const double pushed_out = pushed(shape);
   const auto holds = [&](double radius) {
+    if (!(pushed_out < radius * radius)) {
+      return false;  // whatever the rate
+    }
     const double rate_squared = sample(shape, radius, request_.noise).rate_squared;
     return rate_squared < kLargestRateSquared &&
            rate_squared * radius * radius + pushed_out < radius * radius;

@@ -88,7 +88,7 @@ double rate_squared_with(const PolarStepForm<double, double>& form, const BlockM
 }
 
 RayRate propose_rate(const PolarStepForm<double, double>& form, const BlockMetric<double>& metric,
-                     const StepConstants<double>& constants) {
+                     const StepConstants<double>& constants, double enough) {
   const auto bound = [&](double log_lambda) {
     return rate_squared_with(form, metric, constants, std::exp(log_lambda));
   };
@@ -97,7 +97,7 @@ RayRate propose_rate(const PolarStepForm<double, double>& form, const BlockMetri
     return {kInfinity, 0.0};
   }
   constexpr int kSteps = 12;
-  const search::GoldenPoint best = search::golden_section(low, high, kSteps, bound);
+  const search::GoldenPoint best = search::golden_section(low, high, kSteps, bound, enough);
   return {best.cost, std::exp(best.point)};
 }
 

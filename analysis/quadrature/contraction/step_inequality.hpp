@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "analysis/quadrature/contraction/polar_step_form.hpp"
 #include "analysis/rigor/small_definiteness.hpp"
@@ -138,9 +139,11 @@ struct RayRate {
   double multiplier;
 };
 
-/// Proposal only; the rate in `constants` is not read. A rate of infinity when no multiplier works.
+/// Proposal only; the rate in `constants` is not read. A rate of infinity when no multiplier works. The
+/// search ends at a rate squared of at most `enough`.
 [[nodiscard]] RayRate propose_rate(const PolarStepForm<double, double>& form,
-                                   const BlockMetric<double>& metric, const StepConstants<double>& constants);
+                                   const BlockMetric<double>& metric, const StepConstants<double>& constants,
+                                   double enough = -std::numeric_limits<double>::infinity());
 
 /// The rate squared that this one multiplier certifies there, infinity when none: never below the smallest.
 [[nodiscard]] double rate_squared_with(const PolarStepForm<double, double>& form,

@@ -28,5 +28,26 @@ TEST_CASE("a step narrows the interval by 0.618, with one new cost each") {
   CHECK(calls == 14);
 }
 
+TEST_CASE("what ends at enough would have ended no higher") {
+  const auto cost = [](double x) { return std::fabs(x - 0.3); };
+  const double least = golden_section(-4.0, 3.0, 40, cost).cost;
+  for (const double enough : {3.0, 0.5, 0.01, 1e-5}) {
+    int calls = 0;
+    const GoldenPoint found = golden_section(
+        -4.0, 3.0, 40,
+        [&](double x) {
+          ++calls;
+          return cost(x);
+        },
+        enough);
+    CAPTURE(enough);
+    CHECK(found.cost == cost(found.point));
+    CHECK(found.cost <= enough);
+    CHECK(found.cost >= least);
+    CHECK(calls < 42);
+  }
+  CHECK(golden_section(-4.0, 3.0, 40, cost, -1.0).cost == least);
+}
+
 }  // namespace
 }  // namespace veritrack::search

@@ -35,10 +35,10 @@ TEST_CASE("only what is proved is drawn") {
   certificates::ModelSets sets = model_sets(certificate);
   sets.assumed->tubes.is_complete = false;  // tubes of a part of the band are drawn
   certificate.particulars = sets;
-  CHECK(draw_model_figures(certificate)[0].svg.find("assumed noise") != std::string::npos);
+  CHECK(draw_model_figures(certificate)[0].script.find("assumed noise") != std::string::npos);
   sets.assumed->tubes.tubes.clear();
   certificate.particulars = sets;
-  std::vector<Figure> figures = draw_model_figures(certificate);
+  std::vector<Figure> figures = with_pictures(draw_model_figures(certificate));
   REQUIRE(figures.size() == 3);
   CHECK(figures[1].caption.find("without noise") != std::string::npos);
   CHECK(figures[0].svg.find("assumed noise") == std::string::npos);

@@ -103,7 +103,7 @@ TEST_CASE("what a design does not have is refused, with the key that it is about
 
 TEST_CASE("the document begins with the answer and names the hypotheses") {
   const ModelMap& map = small_map();
-  const Figure figure = draw_model_map(map);
+  const Figure figure = with_picture(draw_model_map(map));
   const std::string document = model_map_document(loop(), map, figure);
   CHECK(document.starts_with("# "));
   CHECK(document.find("of the starts are PROVED to lock (" + std::to_string(map.proved()) + " of 9 cells)") <
@@ -137,18 +137,18 @@ TEST_CASE("the figure has shades for proved cells, all below a round number of s
     CHECK(of_other.size() <= 5);
     CHECK(of_other.back() >= longest);
   }
-  const Figure figure = draw_model_map(map);
+  const Figure figure = with_picture(draw_model_map(map));
   CHECK(figure.file == "region.svg");
   CHECK(figure.svg.find("</svg>") != std::string::npos);
   CHECK(figure.svg.find("edge of the certified set") != std::string::npos);
   CHECK(figure.caption.find("theta, rad") != std::string::npos);
-  CHECK(figure.svg == draw_model_map(map).svg);
+  CHECK(figure.svg == with_picture(draw_model_map(map)).svg);
 }
 
 TEST_CASE("a unit is whatever the design says, and nothing but a text") {
   ModelMap map = small_map();
   map.y.unit = "m'; print 'said'; # <b> *x*";
-  const Figure figure = draw_model_map(map);
+  const Figure figure = with_picture(draw_model_map(map));
   CHECK(figure.svg.find("m'; print 'said'; # &lt;b>") != std::string::npos);
   CHECK(figure.svg.find("\nsaid") == std::string::npos);
   CHECK(figure.caption.find("\\<b\\> \\*x\\*") != std::string::npos);

@@ -21,7 +21,7 @@ std::set<std::string> written(const Renderings& renderings) {
   FigureTable second("levels", {"y"});
   Document document{"report", "# T\n\n![t](figures/a.svg)\n"};
   document.figure_folder = "figures/";
-  document.figures = {{"a.svg", "", "<svg/>", "t", {first, second}}};
+  document.figures = {{"a.svg", "", "", "t", {first, second}, "", "<svg/>"}};
   certificates::OutputFiles files;
   stage_document(files, folder, document, renderings);
   files.commit();

@@ -82,7 +82,7 @@ TEST_CASE("the map shows the three verdicts, and its caption the shares with uni
   Region region;
   region.cells = {cell(-1.0, 0.0, -2.0, 2.0, Verdict::proved), cell(0.0, 0.65, -2.0, 2.0, Verdict::undecided),
                   cell(0.65, 1.0, -2.0, 2.0, Verdict::refuted)};
-  const auto figure = reports::draw_region_map(region, basin());
+  const auto figure = reports::with_picture(reports::draw_region_map(region, basin()));
   CHECK(figure.file == "region.svg");
   CHECK(figure.svg.find("</svg>") != std::string::npos);
   for (const char* words : {"proved captured", "proved to lock at a wrong frequency", "undecided",
@@ -103,7 +103,7 @@ TEST_CASE("a share says 100 % only when it is all") {
 }
 
 TEST_CASE("a map without cells or without a basin can be drawn, and says so") {
-  const auto empty = reports::draw_region_map(Region{}, basin());
+  const auto empty = reports::with_picture(reports::draw_region_map(Region{}, basin()));
   CHECK(empty.svg.find("</svg>") != std::string::npos);
   CHECK(empty.caption.find("Proved: 0 %") != std::string::npos);
   auto none = basin();

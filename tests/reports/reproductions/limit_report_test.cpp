@@ -24,8 +24,8 @@ TEST_CASE("the report of a few runs: the same twice, with a table for every walk
   const std::string warning = undecided_thresholds(study);
   CHECK(warning.find("10 runs are too few for ") == 0);
   CHECK(document.find("\n\n*" + warning + "*\n\n") != std::string::npos);
-  CHECK(draw_random_walks(study.random_walks).svg.find("</svg>") != std::string::npos);
-  CHECK(draw_errors_over_time(study.over_time).svg.find("</svg>") != std::string::npos);
+  CHECK(with_picture(draw_random_walks(study.random_walks)).svg.find("</svg>") != std::string::npos);
+  CHECK(with_picture(draw_errors_over_time(study.over_time)).svg.find("</svg>") != std::string::npos);
 }
 
 TEST_CASE("what the report says of thresholds and lost runs is what was simulated") {

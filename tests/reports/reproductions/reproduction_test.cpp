@@ -29,7 +29,7 @@ void check_findings(const Findings& findings, std::size_t entries) {
     CHECK(findings.markdown.find('`' + entry.id + '`') != std::string::npos);
     CHECK((entry.verdict != EntryVerdict::cannot_be_compared || !entry.because.empty()));
   }
-  for (const Figure& figure : findings.figures) {
+  for (const Figure& figure : with_pictures(findings.figures)) {
     CAPTURE(figure.file);
     CHECK(figure.svg.find("</svg>") != std::string::npos);
     CHECK(findings.markdown.find("(figures/" + figure.file + ")") != std::string::npos);

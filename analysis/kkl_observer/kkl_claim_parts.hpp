@@ -15,7 +15,7 @@ namespace veritrack::kkl_observer::detail {
 /// The quantity, not applicable where its value is empty.
 [[nodiscard]] theorems::Quantity bounded(theorems::Quantity quantity);
 
-/// Adds what is said of gamma, for four filters. Needs the upward mode.
+/// Adds what is said of gamma, for four to eight filters. Needs the upward mode.
 void add_inverse(const KklClaimsQuestion& question, theorems::Derivation& derivation);
 
 }  // namespace veritrack::kkl_observer::detail

@@ -118,8 +118,8 @@ void add_injectivity(const KklClaimsQuestion& question, theorems::Derivation& de
 }  // namespace
 
 theorems::Derivation derive_kkl_claims(const KklClaimsQuestion& question) {
-  constexpr std::size_t kFilters = 4;
-  if (question.lambda.size() < kFilters) {
+  constexpr std::size_t kPrinted = 4;  // filters of the paper
+  if (question.lambda.size() < kPrinted) {
     throw std::invalid_argument("a KKL observer needs at least four filters");
   }
   const rigor::UpwardRounding upward;
@@ -129,12 +129,11 @@ theorems::Derivation derive_kkl_claims(const KklClaimsQuestion& question) {
   derivation.conditions = claims_of_every_design();
   derivation.conditions.push_back(section_v_claim());
   add_injectivity(question, derivation);
-  if (question.lambda.size() == kFilters) {
-    add_inverse(question, derivation);
-  } else {
+  add_inverse(question, derivation);
+  if (question.lambda.size() > kPrinted) {
     derivation.notes.emplace_back(
-        "The paper gives its inverse for four filters. For a design with more, only injectivity is "
-        "certified.");
+        "The paper prints M for four filters. For more, |M xi|^2 is the sum over triples of filters of the "
+        "squared determinant of (lambda, 1, xi), which is det(L'L), as for four.");
   }
   // A REFUTED claim is a slip of the paper's, not a fault of the design; together they have no verdict.
   derivation.verdict = Verdict::undecided;

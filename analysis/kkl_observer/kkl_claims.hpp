@@ -13,18 +13,16 @@ namespace veritrack::kkl_observer {
 
 /// What the claims are about.
 struct KklClaimsQuestion {
-  std::vector<rigor::Interval> lambda;  ///< four filter rates or more, 1/s; certainly positive and distinct
+  std::vector<rigor::Interval> lambda;  ///< four to eight filter rates, 1/s; certainly positive and distinct
   rigor::Interval frequency;            ///< rad/s; certainly positive
   rigor::Interval amplitude;            ///< signal units; certainly positive
-  /// In use in (9); of importance for four filters only, for which the paper gives gamma.
-  rigor::Interval ell;
-  /// The infimum of (10) over the frequencies (enclose_ell); for four filters.
-  rigor::Interval infimum;
+  rigor::Interval ell;                  ///< in use in (9)
+  rigor::Interval infimum;              ///< that of (10) over the frequencies (enclose_ell)
 };
 
 /// The derivation "kkl-paper": one condition for each claim, with a witness where it is REFUTED. Quantities
-/// vandermonde_singular_value, injectivity_constant and, for four filters, continuity_modulus. Opens its own
-/// rounding scope. Throws std::invalid_argument for fewer than four filters.
+/// vandermonde_singular_value, injectivity_constant and continuity_modulus. Opens its own rounding scope.
+/// Throws std::invalid_argument unless there are four to eight filters.
 [[nodiscard]] theorems::Derivation derive_kkl_claims(const KklClaimsQuestion& question);
 
 /// A signal at one moment, in exact doubles.
@@ -39,8 +37,10 @@ struct SignalWitness {
 };
 
 /// A signal of the range for which mu of (9) certainly does not vanish on T, so that gamma(T(x)) is not x:
-/// (L'L + mu) (gamma - x) = -mu x. Nothing when none was found. Needs the upward mode.
-[[nodiscard]] std::optional<SignalWitness> find_inverse_witness(const KklRange& range,
+/// (L'L + mu) (gamma - x) = -mu x. Nothing when none was found. Needs the upward mode. For four to eight
+/// filters.
+template <int M>
+[[nodiscard]] std::optional<SignalWitness> find_inverse_witness(const KklRangeOf<M>& range,
                                                                 const rigor::Interval& ell);
 
 /// The signal of this frequency (rad/s) with the smallest |M T|^2 / |T|^2, scaled somehow: a proposal in
@@ -52,8 +52,10 @@ struct SignalWitness {
 ///
 /// With g = |lambda|^2 |1|^2 - (lambda'1)^2, det Phi >= |M xi|^2 + mu g >= min(g, 1/2) ell |xi|^2, and the
 /// trace of Phi bounds the product of its two larger eigenvalues: lambda_min >= det / (trace / 2)^2. Then Phi
-/// dgamma = d(L'F^2 xi) - dPhi gamma, with every factor bounded by norms; mu is Lipschitz.
-[[nodiscard]] rigor::Interval continuity_modulus(const rigor::IntervalVector<4>& lambda,
+/// dgamma = d(L'F^2 xi) - dPhi gamma, with every factor bounded by norms; mu is Lipschitz. For four to eight
+/// filters.
+template <int M>
+[[nodiscard]] rigor::Interval continuity_modulus(const rigor::IntervalVector<M>& lambda,
                                                  const rigor::Interval& ell, const rigor::Interval& lower,
                                                  const rigor::Interval& upper);
 

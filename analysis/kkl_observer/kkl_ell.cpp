@@ -24,30 +24,34 @@ using theorems::Sense;
 constexpr double kRelativeWidth = 1e-9;
 
 /// The range in double, for the solvers.
+template <int M>
 struct Midpoints {
-  Eigen::Vector4d lambda;
+  Eigen::Matrix<double, M, 1> lambda;
   double frequency_low, frequency_high;
 };
 
-Midpoints midpoints(const KklRange& range) {
+template <int M>
+Midpoints<M> midpoints(const KklRangeOf<M>& range) {
   return {rigor::midpoint(range.lambda), range.frequency.lower(), range.frequency.upper()};
 }
 
 /// |M T(x)|^2 / |T(x)|^2 at a state that a solver proposes: the value of (10) at that state scaled to |T|
 /// = 1.
-double ratio_at(const Eigen::Vector3d& x, const Eigen::Vector4d& lambda) {
-  const Eigen::Vector4d transformed = trackers::kkl_transform<double, 4>(x, lambda);
-  return trackers::kkl_excitation<double, 4>(transformed, lambda) / transformed.squaredNorm();
+template <int M>
+double ratio_at(const Eigen::Vector3d& x, const Eigen::Matrix<double, M, 1>& lambda) {
+  const Eigen::Matrix<double, M, 1> transformed = trackers::kkl_transform<double, M>(x, lambda);
+  return trackers::kkl_excitation<double, M>(transformed, lambda) / transformed.squaredNorm();
 }
 
 /// Problem (10) as the paper states it: minimize |M T(x)|^2 subject to |T(x)|^2 = 1 and x3 in its range.
-double solve_as_stated(const Midpoints& at) {
+template <int M>
+double solve_as_stated(const Midpoints<M>& at) {
   using Dual = rigor::Dual<double, 3>;
-  using DualVector = Eigen::Matrix<Dual, 4, 1>;
+  using DualVector = Eigen::Matrix<Dual, M, 1>;
   const DualVector lambda = at.lambda.unaryExpr([](double rate) { return Dual(rate); });
   const auto differentiated = [&lambda](const Eigen::VectorXd& x, auto function) {
     const Dual value =
-        function(trackers::kkl_transform<Dual, 4>(rigor::variables(Eigen::Vector3d(x)), lambda));
+        function(trackers::kkl_transform<Dual, M>(rigor::variables(Eigen::Vector3d(x)), lambda));
     search::Differentiated result{Eigen::VectorXd(1), Eigen::MatrixXd(1, 3)};
     result.value(0) = value.value();
     for (int i = 0; i < 3; ++i) {
@@ -62,13 +66,13 @@ double solve_as_stated(const Midpoints& at) {
   double scale = 1.0;
   problem.objective = [&](const Eigen::VectorXd& x) {
     return differentiated(x, [&](const DualVector& transformed) {
-      return trackers::kkl_excitation<Dual, 4>(transformed, lambda) / scale;
+      return trackers::kkl_excitation<Dual, M>(transformed, lambda) / scale;
     });
   };
   problem.constraints = [&](const Eigen::VectorXd& x) {
     return differentiated(x, [](const DualVector& transformed) {
       Dual sum(0.0);
-      for (int i = 0; i < 4; ++i) {
+      for (int i = 0; i < M; ++i) {
         sum += square(transformed(i));
       }
       return sum;
@@ -81,7 +85,7 @@ double solve_as_stated(const Midpoints& at) {
   for (const double place : {0.5, 0.02, 0.98}) {
     const double frequency = at.frequency_low * std::pow(at.frequency_high / at.frequency_low, place);
     Eigen::Vector3d start(1.0, frequency, frequency * frequency);
-    start.head<2>() /= trackers::kkl_transform<double, 4>(start, at.lambda).norm();
+    start.head<2>() /= trackers::kkl_transform<double, M>(start, at.lambda).norm();
     problem.start = start;
     scale = ratio_at(start, at.lambda);  // the solver's tolerances are absolute
     const double value = ratio_at(search::minimize_constrained(problem).point, at.lambda);
@@ -91,8 +95,9 @@ double solve_as_stated(const Midpoints& at) {
 }
 
 /// The reduced problem, one variable, by NLopt.
-double solve_reduced(const Midpoints& at, search::SearchMethod method) {
-  const ExcitationRatio<double> ratio(at.lambda);
+template <int M>
+double solve_reduced(const Midpoints<M>& at, search::SearchMethod method) {
+  const ExcitationRatio<double, M> ratio(at.lambda);
   search::SearchSpace space;
   space.lower = Eigen::VectorXd::Constant(1, std::log(at.frequency_low));
   space.upper = Eigen::VectorXd::Constant(1, std::log(at.frequency_high));
@@ -142,9 +147,10 @@ std::string comparison(const std::string& solver, double value, const Interval& 
 
 }  // namespace
 
-search::VerifiedMinimum<1> enclose_ell(const KklRange& range) {
+template <int M>
+search::VerifiedMinimum<1> enclose_ell(const KklRangeOf<M>& range) {
   const rigor::UpwardRounding upward;
-  const ExcitationRatio<Interval> ratio(range.lambda);
+  const ExcitationRatio<Interval, M> ratio(range.lambda);
   rigor::IntervalVector<1> box;
   box(0) = range.frequency;
   search::BranchAndBoundSettings<1> settings;
@@ -154,11 +160,12 @@ search::VerifiedMinimum<1> enclose_ell(const KklRange& range) {
                                       settings);
 }
 
-theorems::Derivation derive_kkl_ell(const KklRange& range, const search::VerifiedMinimum<1>& minimum) {
+template <int M>
+theorems::Derivation derive_kkl_ell(const KklRangeOf<M>& range, const search::VerifiedMinimum<1>& minimum) {
   std::array<double, 3> proposals{};
   {
     const rigor::NearestRounding nearest;
-    const Midpoints at = midpoints(range);
+    const Midpoints<M> at = midpoints(range);
     proposals = {solve_as_stated(at), solve_reduced(at, search::SearchMethod::subplex),
                  solve_reduced(at, search::SearchMethod::direct)};
   }
@@ -213,5 +220,16 @@ theorems::Derivation derive_kkl_ell(const KklRange& range, const search::Verifie
       comparison("DIRECT", proposals[2], ell)};
   return derivation;
 }
+
+template search::VerifiedMinimum<1> enclose_ell(const KklRangeOf<4>&);
+template search::VerifiedMinimum<1> enclose_ell(const KklRangeOf<5>&);
+template search::VerifiedMinimum<1> enclose_ell(const KklRangeOf<6>&);
+template search::VerifiedMinimum<1> enclose_ell(const KklRangeOf<7>&);
+template search::VerifiedMinimum<1> enclose_ell(const KklRangeOf<8>&);
+template theorems::Derivation derive_kkl_ell(const KklRangeOf<4>&, const search::VerifiedMinimum<1>&);
+template theorems::Derivation derive_kkl_ell(const KklRangeOf<5>&, const search::VerifiedMinimum<1>&);
+template theorems::Derivation derive_kkl_ell(const KklRangeOf<6>&, const search::VerifiedMinimum<1>&);
+template theorems::Derivation derive_kkl_ell(const KklRangeOf<7>&, const search::VerifiedMinimum<1>&);
+template theorems::Derivation derive_kkl_ell(const KklRangeOf<8>&, const search::VerifiedMinimum<1>&);
 
 }  // namespace veritrack::kkl_observer

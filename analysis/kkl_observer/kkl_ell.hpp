@@ -8,22 +8,27 @@
 
 namespace veritrack::kkl_observer {
 
-/// Four filters and the frequencies that the signal may have.
-struct KklRange {
-  rigor::IntervalVector<4> lambda;  ///< filter rates, 1/s; certainly positive and distinct
+/// M filters and the frequencies that the signal may have.
+template <int M>
+struct KklRangeOf {
+  rigor::IntervalVector<M> lambda;  ///< filter rates, 1/s; certainly positive and distinct
   rigor::Interval frequency;        ///< rad/s; certainly positive
 };
+/// The paper's four filters.
+using KklRange = KklRangeOf<4>;
 
 /// Encloses the infimum of |M T(x)|^2 over |T(x)| = 1 and the frequencies of the range, (10), by branch and
 /// bound over the frequency; `where` are the frequencies (rad/s) that can attain it. Opens its own rounding
-/// scope.
-[[nodiscard]] search::VerifiedMinimum<1> enclose_ell(const KklRange& range);
+/// scope. For four to eight filters.
+template <int M>
+[[nodiscard]] search::VerifiedMinimum<1> enclose_ell(const KklRangeOf<M>& range);
 
 /// The derivation "kkl-ell" from what enclose_ell found for the range: quantities ell, ell_ipopt, ell_nlopt,
 /// ell_nlopt_global, argmin_omega, of which only ell and argmin_omega are proved; conditions that ell is
 /// enclosed to 1e-9 and is positive. How each solver's value compares with the enclosure is in the notes.
-/// Opens its own rounding scopes.
-[[nodiscard]] theorems::Derivation derive_kkl_ell(const KklRange& range,
+/// Opens its own rounding scopes. For four to eight filters.
+template <int M>
+[[nodiscard]] theorems::Derivation derive_kkl_ell(const KklRangeOf<M>& range,
                                                   const search::VerifiedMinimum<1>& minimum);
 
 }  // namespace veritrack::kkl_observer

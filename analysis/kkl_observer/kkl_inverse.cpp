@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "analysis/kkl_observer/kkl_claim_parts.hpp"
+#include "analysis/kkl_observer/number_of_filters.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
 
@@ -35,7 +36,8 @@ std::string decimal(double value) {
 }
 
 /// mu vanishes, and gamma inverts T on the range.
-void add_left_inverse(const KklRange& range, const KklClaimsQuestion& question,
+template <int M>
+void add_left_inverse(const KklRangeOf<M>& range, const KklClaimsQuestion& question,
                       theorems::Derivation& derivation) {
   const Interval& infimum = question.infimum;
   const Interval limit = Interval(2.0) * infimum;
@@ -52,9 +54,9 @@ void add_left_inverse(const KklRange& range, const KklClaimsQuestion& question,
     inverse.reason =
         "mu vanishes on T(O_r), where det(L'L) = |M xi|^2 is positive: (15) has x as its only solution.";
   } else if (const auto witness = find_inverse_witness(range, question.ell)) {
-    const rigor::IntervalVector<4> xi = trackers::kkl_transform<Interval, 4>(witness->state(), range.lambda);
+    const rigor::IntervalVector<M> xi = trackers::kkl_transform<Interval, M>(witness->state(), range.lambda);
     const trackers::OscillatorState<Interval> found =
-        trackers::kkl_inverse<Interval, 4>(xi, {range.lambda, question.ell});
+        trackers::kkl_inverse<Interval, M>(xi, {range.lambda, question.ell});
     vanishes.verdict = inverse.verdict = Verdict::refuted;
     const std::string at = "Witness (x1, x2) = (" + decimal(witness->x1) + ", " + decimal(witness->x2) +
                            ") at " + decimal(witness->frequency) + " rad/s";
@@ -80,11 +82,12 @@ void add_positive_definite(const Interval& ell, theorems::Derivation& derivation
 }
 
 /// A bound on the slope of gamma on an annulus that holds T of the range.
-void add_continuity(const KklRange& range, const KklClaimsQuestion& question,
+template <int M>
+void add_continuity(const KklRangeOf<M>& range, const KklClaimsQuestion& question,
                     theorems::Derivation& derivation) {
   // |T_i| <= A / sqrt(lambda_i^2 + w^2).
   Interval largest_gain(0.0);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < M; ++i) {
     const Interval gain = Interval(1.0) / sqrt(square(range.lambda(i)) + square(range.frequency));
     largest_gain += square(gain);
   }
@@ -92,15 +95,17 @@ void add_continuity(const KklRange& range, const KklClaimsQuestion& question,
   // Two filters give (x1, x2) back, which bounds |xi| from below.
   const Interval s = square(range.frequency);
   const Interval first = square(range.lambda(0)) + s;
-  const Interval last = square(range.lambda(3)) + s;
-  const Interval apart = abs(range.lambda(0) - range.lambda(3));
-  // x1 = (d1 xi1 - d4 xi4) / (l1 - l4), x2 = (l1 d4 xi4 - l4 d1 xi1) / (l1 - l4), A^2 = x1^2 + x2^2 / s.
-  const Interval inverse_norm = sqrt((square(first) + square(last)) +
-                                     (square(range.lambda(0) * last) + square(range.lambda(3) * first)) / s) /
-                                apart;
+  const Interval last = square(range.lambda(M - 1)) + s;
+  const Interval apart = abs(range.lambda(0) - range.lambda(M - 1));
+  // With 1 the first and m the last filter: x1 = (d1 xi1 - dm xim) / (l1 - lm),
+  // x2 = (l1 dm xim - lm d1 xi1) / (l1 - lm), A^2 = x1^2 + x2^2 / s.
+  const Interval inverse_norm =
+      sqrt((square(first) + square(last)) +
+           (square(range.lambda(0) * last) + square(range.lambda(M - 1) * first)) / s) /
+      apart;
   const Interval lower = question.amplitude / inverse_norm;
   const Interval modulus =
-      continuity_modulus(range.lambda, question.ell, Interval(lower.lower()), Interval(upper.upper()));
+      continuity_modulus<M>(range.lambda, question.ell, Interval(lower.lower()), Interval(upper.upper()));
   derivation.quantities.push_back(
       bounded({"continuity_modulus", "K", "", "docs/kkl-observer.md", modulus, std::nullopt, Sense::at_most,
                "bound on the slope of the inverse"}));
@@ -120,20 +125,24 @@ void add_continuity(const KklRange& range, const KklClaimsQuestion& question,
 }  // namespace
 
 void add_inverse(const KklClaimsQuestion& question, theorems::Derivation& derivation) {
-  KklRange range;
-  for (int i = 0; i < 4; ++i) {
-    range.lambda(i) = question.lambda[static_cast<std::size_t>(i)];
-  }
-  range.frequency = question.frequency;
-  add_left_inverse(range, question, derivation);
-  add_positive_definite(question.ell, derivation);
-  add_continuity(range, question, derivation);
+  with_number_of_filters(question.lambda.size(), [&](auto filters) {
+    constexpr int kFilters = decltype(filters)::value;
+    KklRangeOf<kFilters> range;
+    for (int i = 0; i < kFilters; ++i) {
+      range.lambda(i) = question.lambda[static_cast<std::size_t>(i)];
+    }
+    range.frequency = question.frequency;
+    add_left_inverse(range, question, derivation);
+    add_positive_definite(question.ell, derivation);
+    add_continuity(range, question, derivation);
+  });
 }
 
 }  // namespace detail
 
-std::optional<SignalWitness> find_inverse_witness(const KklRange& range, const Interval& ell) {
-  const trackers::KklObserverDesign<Interval, 4> design{range.lambda, ell};
+template <int M>
+std::optional<SignalWitness> find_inverse_witness(const KklRangeOf<M>& range, const Interval& ell) {
+  const trackers::KklObserverDesign<Interval, M> design{range.lambda, ell};
   constexpr int kPhases = 180;
   for (const double frequency : {range.frequency.upper(), range.frequency.lower()}) {
     for (int k = 0; k < kPhases; ++k) {
@@ -144,8 +153,8 @@ std::optional<SignalWitness> find_inverse_witness(const KklRange& range, const I
         witness.x1 = x(0);
         witness.x2 = x(1);
       }
-      const rigor::IntervalVector<4> xi = trackers::kkl_transform<Interval, 4>(witness.state(), range.lambda);
-      if (certainly_positive(trackers::kkl_regularization<Interval, 4>(xi, design))) {
+      const rigor::IntervalVector<M> xi = trackers::kkl_transform<Interval, M>(witness.state(), range.lambda);
+      if (certainly_positive(trackers::kkl_regularization<Interval, M>(xi, design))) {
         return witness;
       }
     }
@@ -172,26 +181,29 @@ SignalWitness propose_least_excited(const Eigen::Vector4d& lambda, double freque
   return {least(0), least(1) * frequency, frequency};
 }
 
-Interval continuity_modulus(const rigor::IntervalVector<4>& lambda, const Interval& ell,
+template <int M>
+Interval continuity_modulus(const rigor::IntervalVector<M>& lambda, const Interval& ell,
                             const Interval& lower, const Interval& upper) {
   Interval squares(0.0);
   Interval largest_square(0.0);
   Interval gram(0.0);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < M; ++i) {
     squares += square(lambda(i));
     largest_square = max(largest_square, square(lambda(i)));
-    for (int j = i + 1; j < 4; ++j) {
+    for (int j = i + 1; j < M; ++j) {
       gram += square(lambda(i) - lambda(j));
     }
   }
-  const Interval matrix_norm = Interval(2.0) * gram;  // of M, squared: each difference occurs in it twice
+  // Of the matrix M of (9), squared: each difference of rates occurs in all triples of filters with both.
+  const Interval matrix_norm = Interval(M - 2) * gram;
   const Interval four(4.0);
+  const Interval filters(M);
   const Interval two(2.0);
   const Interval one(1.0);
   const Interval determinant = min(gram, Interval(0.5)) * ell * square(lower);
-  const Interval trace = squares + four + square(upper) * (one + Interval(3.0) * ell);
+  const Interval trace = squares + filters + square(upper) * (one + Interval(3.0) * ell);
   const Interval smallest = determinant / square(trace / two);
-  const Interval l_norm = sqrt(squares + four + square(upper));
+  const Interval l_norm = sqrt(squares + filters + square(upper));
   const Interval driven = largest_square * upper;  // |F^2 xi|
   const Interval gamma = l_norm * driven / smallest;
   const Interval right_slope = driven + l_norm * largest_square;
@@ -199,5 +211,21 @@ Interval continuity_modulus(const rigor::IntervalVector<4>& lambda, const Interv
   const Interval modulus = (right_slope + phi_slope * gamma) / smallest;
   return rigor::is_finite(modulus) ? Interval(modulus.upper()) : Interval();
 }
+
+template std::optional<SignalWitness> find_inverse_witness(const KklRangeOf<4>&, const Interval&);
+template std::optional<SignalWitness> find_inverse_witness(const KklRangeOf<5>&, const Interval&);
+template std::optional<SignalWitness> find_inverse_witness(const KklRangeOf<6>&, const Interval&);
+template std::optional<SignalWitness> find_inverse_witness(const KklRangeOf<7>&, const Interval&);
+template std::optional<SignalWitness> find_inverse_witness(const KklRangeOf<8>&, const Interval&);
+template Interval continuity_modulus(const rigor::IntervalVector<4>&, const Interval&, const Interval&,
+                                     const Interval&);
+template Interval continuity_modulus(const rigor::IntervalVector<5>&, const Interval&, const Interval&,
+                                     const Interval&);
+template Interval continuity_modulus(const rigor::IntervalVector<6>&, const Interval&, const Interval&,
+                                     const Interval&);
+template Interval continuity_modulus(const rigor::IntervalVector<7>&, const Interval&, const Interval&,
+                                     const Interval&);
+template Interval continuity_modulus(const rigor::IntervalVector<8>&, const Interval&, const Interval&,
+                                     const Interval&);
 
 }  // namespace veritrack::kkl_observer

@@ -7,6 +7,7 @@
 #include "analysis/kkl_observer/kkl_claims.hpp"
 #include "analysis/kkl_observer/kkl_ell.hpp"
 #include "analysis/kkl_observer/kkl_section_v.hpp"
+#include "analysis/kkl_observer/number_of_filters.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/kkl_observer/kkl_observer_design.hpp"
 #include "certificates/sets/required_claims.hpp"
@@ -97,12 +98,10 @@ Claim bound_claim(const Certificate& certificate, const std::string& id, const s
   if (!bound) {
     claim.statement += ".";
     claim.reason = "No bound is certified for the assumed range and disturbance";
-    constexpr std::size_t kFiltersOfInverse = 4;
-    if (kkl_observer_tables(certificate.design).design.lambda.size() != kFiltersOfInverse) {
+    if (kkl_observer_tables(certificate.design).design.lambda.size() != kFilters) {
       claim.reason +=
-          ": the inverse (9) and its ell are given for four filters, and with more of them only injectivity "
-          "is "
-          "decided here";
+          ": with more than four filters ell and the inverse are decided here, the errors under a "
+          "disturbance are not";
     }
     if (const theorems::Derivation* derivation = find_derivation(certificate, kRobustness)) {
       for (const theorems::Condition& condition : derivation->conditions) {
@@ -153,15 +152,6 @@ void add_required_claims(Certificate& certificate, const KklRequirements& requir
 }
 
 }  // namespace
-
-kkl_observer::KklRange kkl_range(const KklObserverTables& tables) {
-  kkl_observer::KklRange range;
-  for (std::size_t i = 0; i < kFilters; ++i) {
-    range.lambda(static_cast<Eigen::Index>(i)) = tables.design.lambda.at(i).value;
-  }
-  range.frequency = hull_of(tables.assume.frequency);
-  return range;
-}
 
 kkl_observer::KklRobustnessQuestion kkl_robustness_question(const KklObserverTables& tables,
                                                             const Interval& ell) {
@@ -218,13 +208,13 @@ void kkl_observer_published_results(Certificate& certificate) {
   }
   claims.frequency = hull_of(tables.assume.frequency);
   claims.amplitude = hull_of(tables.assume.amplitude);
-  if (claims.lambda.size() == kFilters) {
-    const kkl_observer::KklRange range = kkl_range(tables);
+  kkl_observer::with_number_of_filters(claims.lambda.size(), [&](auto filters) {
+    const auto range = kkl_range<decltype(filters)::value>(tables);
     const search::VerifiedMinimum<1> infimum = kkl_observer::enclose_ell(range);
     certificate.derivations.push_back(kkl_observer::derive_kkl_ell(range, infimum));
     claims.infimum = infimum.value();
-    claims.ell = kkl_ell_in_use(certificate).value;
-  }
+  });
+  claims.ell = kkl_ell_in_use(certificate).value;
   certificate.derivations.push_back(kkl_observer::derive_kkl_claims(claims));
 }
 

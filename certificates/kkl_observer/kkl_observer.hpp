@@ -1,6 +1,7 @@
 // What is certified of a design of the KKL observer.
 #pragma once
 
+#include "analysis/kkl_observer/kkl_ell.hpp"
 #include "analysis/kkl_observer/kkl_robustness.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/tuning.hpp"
@@ -10,7 +11,7 @@ namespace veritrack::certificates {
 
 /// Adds the derivations "kkl-ell", "kkl-paper" and "kkl-robustness" (and "kkl-section-v" for the paper's
 /// rates), the required claims and their verdict to a certificate whose design is one of the KKL observer;
-/// with more than four filters "kkl-paper" alone. Needs the upward mode.
+/// with more than four filters there is no "kkl-robustness". Needs the upward mode.
 void certify_kkl_observer(Certificate& certificate, const CertifyProgress& progress);
 
 /// Of these, ell and the claims of the paper alone. Needs the upward mode.
@@ -21,8 +22,17 @@ void kkl_observer_published_results(Certificate& certificate);
 /// is left to the certificate. Opens its own rounding scopes.
 [[nodiscard]] TuningResult tune_kkl_observer(const Design& design, const TuningRequest& request);
 
-/// The range of the signal, for four filters. Needs the upward mode.
-[[nodiscard]] kkl_observer::KklRange kkl_range(const KklObserverTables& tables);
+/// The range of the signal, for M filters. Needs the upward mode. Throws std::out_of_range when there are
+/// fewer.
+template <int M = 4>
+[[nodiscard]] kkl_observer::KklRangeOf<M> kkl_range(const KklObserverTables& tables) {
+  kkl_observer::KklRangeOf<M> range;
+  for (int i = 0; i < M; ++i) {
+    range.lambda(i) = tables.design.lambda.at(static_cast<std::size_t>(i)).value;
+  }
+  range.frequency = rigor::hull(tables.assume.frequency[0].value, tables.assume.frequency[1].value);
+  return range;
+}
 
 /// What is asked of the observer's robustness, for four filters and an ell in use. Needs the upward mode.
 [[nodiscard]] kkl_observer::KklRobustnessQuestion kkl_robustness_question(const KklObserverTables& tables,

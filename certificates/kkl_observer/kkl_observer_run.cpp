@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/kkl_observer/kkl_ell.hpp"
+#include "analysis/kkl_observer/number_of_filters.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/kkl_observer/kkl_observer.hpp"
 #include "certificates/kkl_observer/kkl_observer_design.hpp"
@@ -67,13 +68,11 @@ double ell_of(const KklObserverTables& tables) {
   if (tables.design.ell) {
     return tables.design.ell->nearest;
   }
-  constexpr std::size_t kRatesOfProof = 4;
-  if (tables.design.lambda.size() != kRatesOfProof) {
-    throw NotTrackable("ell is proved for four filter rates only; allowed: ell under [design]");
-  }
   const double ell = [&] {
     const rigor::UpwardRounding upward;
-    return kkl_observer::enclose_ell(kkl_range(tables)).value().lower();
+    return kkl_observer::with_number_of_filters(tables.design.lambda.size(), [&](auto filters) {
+      return kkl_observer::enclose_ell(kkl_range<decltype(filters)::value>(tables)).value().lower();
+    });
   }();
   if (!(ell > 0.0)) {
     throw NotTrackable("no ell above 0 was proved for this design; allowed: ell under [design]");
@@ -81,29 +80,17 @@ double ell_of(const KklObserverTables& tables) {
   return ell;
 }
 
-template <int M>
 std::unique_ptr<TrackerRun> run_of(const KklObserverTables& tables, double ell) {
-  KklObserverDesign<double, M> design;
-  for (int i = 0; i < M; ++i) {
-    design.lambda(i) = tables.design.lambda[static_cast<std::size_t>(i)].nearest;
-  }
-  design.ell = ell;
-  return std::make_unique<KklRun<M>>(design, tables.design.sampling_interval->nearest);
-}
-
-std::unique_ptr<TrackerRun> run_of(const KklObserverTables& tables, double ell) {
-  switch (tables.design.lambda.size()) {
-    case 4:
-      return run_of<4>(tables, ell);
-    case 5:
-      return run_of<5>(tables, ell);
-    case 6:
-      return run_of<6>(tables, ell);
-    case 7:
-      return run_of<7>(tables, ell);
-    default:
-      return run_of<8>(tables, ell);
-  }
+  return kkl_observer::with_number_of_filters(
+      tables.design.lambda.size(), [&](auto filters) -> std::unique_ptr<TrackerRun> {
+        constexpr int kSize = decltype(filters)::value;
+        KklObserverDesign<double, kSize> design;
+        for (int i = 0; i < kSize; ++i) {
+          design.lambda(i) = tables.design.lambda[static_cast<std::size_t>(i)].nearest;
+        }
+        design.ell = ell;
+        return std::make_unique<KklRun<kSize>>(design, tables.design.sampling_interval->nearest);
+      });
 }
 
 }  // namespace

@@ -53,6 +53,9 @@ KklDesign read_kkl_design(const Tree& tree, Objections& objections) {
   if (design.lambda.size() < 4) {
     objections.emplace_back("four rates or more are needed");
   }
+  if (design.lambda.size() > 8) {
+    objections.emplace_back("eight rates are the most");
+  }
   return design;
 }
 

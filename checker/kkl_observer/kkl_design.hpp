@@ -19,7 +19,7 @@ struct KklDesign {
   // any W from the frequency up.
   std::optional<Ball> bound, disturbance_amplitude, disturbance_frequency;
 
-  /// The checks of everything but injectivity are for four filters, as the paper's inverse is.
+  /// The checks of the bounds under a disturbance are for four filters.
   [[nodiscard]] bool has_four_filters() const { return lambda.size() == 4; }
 };
 

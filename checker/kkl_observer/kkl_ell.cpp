@@ -1,77 +1,128 @@
 #include "checker/kkl_observer/kkl_ell.hpp"
 
-#include <algorithm>
+#include <bit>
+#include <utility>
 
 #include "checker/document/evidence.hpp"
-#include "checker/kkl_observer/moves.hpp"
 #include "checker/numbers/slope.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
-/// Four filters, and what of three of them does not depend on the frequency. |M xi|^2 is the sum over triples
-/// of filters of det(xi, lambda, 1)^2.
+/// |M xi|^2 is the sum over triples of filters of det(xi, lambda, 1)^2, for any number of filters.
+///
+/// inf |M T(x)|^2 / |T(x)|^2 over the signals of one frequency w: T is linear in (x1, x2), so that this is
+/// the smaller eigenvalue of a pencil (seen, length) of 2x2 matrices, each a sum of squares of rows. Of such
+/// matrices det(seen) + z det(mixed) + z^2 det(length) has sums of squares of 2x2 determinants of the rows.
+/// The row of a set of filters is V (Re z, Im z / w) / |z|^2 with V its Vandermonde determinant and z the
+/// product of its rates + jw: for one filter that is T, for three the determinant of the triple. So the
+/// determinant of the rows of P and Q is V V' Im(conj(z) z') / w over |z|^2 |z'|^2, from which what is in
+/// both sets cancels: with z and z' of P \ Q and Q \ P it is over the |z|^2 of all filters in P or Q.
 class Excitation {
  public:
-  explicit Excitation(const std::vector<Ball>& lambda) {
-    std::copy_n(lambda.begin(), kFilters, lambda_.begin());
-    for (std::size_t left_out = 0; left_out < kFilters; ++left_out) {
-      Filters three;
-      std::copy_if(lambda_.begin(), lambda_.end(), three.begin(),
-                   [&](const Ball& rate) { return &rate != &lambda_[left_out]; });
-      const auto& [a, b, c, unused] = three;
-      Triple& triple = triples_[left_out];
-      triple.vandermonde = (a - b) * (b - c) * (a - c);
-      triple.sum = a + b + c;
-      triple.constant = a * b * c - lambda_[left_out] * (a * b + b * c + c * a);
+  explicit Excitation(const std::vector<Ball>& lambda) : lambda_(lambda) {
+    std::vector<unsigned> single;
+    std::vector<unsigned> triples;
+    for (unsigned set = 1; set < 1U << lambda.size(); ++set) {
+      const int size = std::popcount(set);
+      if (size == 1) {
+        single.push_back(set);
+      } else if (size == 3) {
+        triples.push_back(set);
+      }
+    }
+    length_ = pairs_of(single);
+    seen_ = pairs_of(triples);
+    for (const unsigned triple : triples) {
+      for (const unsigned filter : single) {
+        mixed_.push_back(pair_of(triple, filter));
+      }
     }
   }
 
-  /// inf |M T(x)|^2 / |T(x)|^2 over the signals of one frequency: T is linear in (x1, x2), so that this is
-  /// the smaller eigenvalue of a pencil (seen, length) of 2x2 matrices, each a sum of squares of rows. Of
-  /// such matrices det(seen) + z det(mixed) + z^2 det(length) has sums of squares of 2x2 determinants of the
-  /// rows. T is (1, lambda) / (lambda^2 + s), and the row of a triple a, b, c is V (Re z, Im z / w) / |z|^2
-  /// with V its Vandermonde determinant and z = (a + jw)(b + jw)(c + jw): so the determinants are these
-  /// products, in which nothing cancels that is large.
   template <typename S>
   [[nodiscard]] S at(const S& frequency) const {
     const S s = square(frequency);
-    std::array<S, kFilters> over;
-    S all(one);
-    for (std::size_t i = 0; i < kFilters; ++i) {
-      over[i] = reciprocal(square(lambda_[i]) + s);
-      all = all * over[i];
+    std::vector<S> over(std::size_t{1} << lambda_.size());  // 1/|z|^2, by set
+    over[0] = S(one);
+    for (std::size_t set = 1; set < over.size(); ++set) {
+      const Ball& first = lambda_[static_cast<std::size_t>(std::countr_zero(set))];
+      over[set] = over[set & (set - 1)] * reciprocal(square(first) + s);
     }
-    S seen(zero);
-    S length(zero);
-    S mixed(zero);
-    for (std::size_t i = 0; i < kFilters; ++i) {
-      const Triple& triple = triples_[i];
-      // The row of the triple with that of the filter left out, and with those of its own three.
-      mixed = mixed + square(triple.vandermonde * (triple.constant + (lambda_[i] - triple.sum) * s) * all);
-      for (std::size_t j = 0; j < kFilters; ++j) {
-        if (j == i) {
-          continue;
+    const auto sum = [&](const std::vector<Pair>& pairs) {
+      S total(zero);
+      for (const Pair& pair : pairs) {
+        // The powers of s that do not occur have no coefficient.
+        S imaginary(pair.coefficients.back());
+        for (std::size_t i = pair.coefficients.size() - 1; i-- > 0;) {
+          imaginary = S(pair.coefficients[i]) + imaginary * s;
         }
-        const Ball others = triple.sum - lambda_[j];
-        mixed = mixed + square(triple.vandermonde * others * all * (square(lambda_[i]) + s));
-        if (j > i) {
-          const Ball apart = lambda_[i] - lambda_[j];
-          length = length + square(apart * over[i] * over[j]);
-          seen = seen + square(triple.vandermonde * triples_[j].vandermonde * apart * all);
-        }
+        total = total + square(pair.vandermonde * (imaginary * over[pair.all]));
       }
-    }
+      return total;
+    };
+    const S seen = sum(seen_);
+    const S mixed = sum(mixed_);
+    const S length = sum(length_);
     return two * seen / (mixed + sqrt(square(mixed) - four * seen * length));
   }
 
  private:
-  struct Triple {
-    Ball vandermonde, sum, constant;
+  /// The determinant of the rows of two sets: V V', Im(conj(z) z') / w by powers of s, and all their filters.
+  struct Pair {
+    Ball vandermonde;
+    std::vector<Ball> coefficients;
+    unsigned all;
   };
-  Filters lambda_;
-  std::array<Triple, kFilters> triples_;  ///< by the filter that is left out
+
+  [[nodiscard]] Pair pair_of(unsigned p, unsigned q) const {
+    // The product of l - X over P \ Q and of l + X over Q \ P, in powers of X = jw.
+    std::vector<Ball> product{one};
+    for (std::size_t i = 0; i < lambda_.size(); ++i) {
+      if (((p ^ q) >> i & 1U) == 0) {
+        continue;
+      }
+      const Ball sign = (p >> i & 1U) != 0 ? -one : one;
+      std::vector<Ball> next(product.size() + 1, zero);
+      for (std::size_t k = 0; k < product.size(); ++k) {
+        next[k] += lambda_[i] * product[k];
+        next[k + 1] += sign * product[k];
+      }
+      product = std::move(next);
+    }
+    // X, X^3 and X^5 are jw, -jw s and jw s^2.
+    Pair pair{vandermonde(p) * vandermonde(q), {}, p | q};
+    for (std::size_t k = 1; k < product.size(); k += 2) {
+      pair.coefficients.push_back(k % 4 == 1 ? product[k] : -product[k]);
+    }
+    return pair;
+  }
+
+  [[nodiscard]] std::vector<Pair> pairs_of(const std::vector<unsigned>& sets) const {
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      for (std::size_t j = i + 1; j < sets.size(); ++j) {
+        pairs.push_back(pair_of(sets[i], sets[j]));
+      }
+    }
+    return pairs;
+  }
+
+  [[nodiscard]] Ball vandermonde(unsigned set) const {
+    Ball product = one;
+    for (std::size_t i = 0; i < lambda_.size(); ++i) {
+      for (std::size_t j = i + 1; j < lambda_.size(); ++j) {
+        if ((set >> i & set >> j & 1U) != 0) {
+          product = product * (lambda_[i] - lambda_[j]);
+        }
+      }
+    }
+    return product;
+  }
+
+  std::vector<Ball> lambda_;
+  std::vector<Pair> length_, mixed_, seen_;
 };
 
 /// Walks the frequencies.
@@ -138,10 +189,6 @@ bool is_true(const EllEnclosure& enclosure, const KklDesign& design) {
 
 std::optional<EllEnclosure> check_kkl_ell(const Tree& claimed, const KklDesign& design,
                                           Objections& objections) {
-  if (!design.has_four_filters()) {
-    objections.emplace_back("ell is defined for four filters");
-    return std::nullopt;
-  }
   Derivation found;
   found.title = "The constant of (10): the distance of T(x) from the singular set of the inverse";
   const Tree& quantities = claimed.at("quantities");

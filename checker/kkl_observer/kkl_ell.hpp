@@ -1,4 +1,4 @@
-// The constant ell of (10) of the KKL observer, for four filters: the derivation "kkl-ell".
+// The constant ell of (10) of the KKL observer, for four to eight filters: the derivation "kkl-ell".
 #pragma once
 
 #include <optional>

@@ -132,21 +132,23 @@ Ball continuity_modulus(const KklDesign& design, const Ball& ell) {
   }
   // |T_i| <= A / sqrt(lambda_i^2 + w^2), and the first and last filter give (x1, x2) back.
   const Ball upper = design.amplitude_high * sqrt(gains);
-  const Ball first = square(l[0]) + square(design.frequency_high);
-  const Ball last = square(l[3]) + square(design.frequency_high);
-  const Ball given_back = sqrt(square(first) + square(last) +
-                               (square(l[0] * last) + square(l[3] * first)) / square(design.frequency_low)) /
-                          abs(l[0] - l[3]);
+  const Ball first = square(l.front()) + square(design.frequency_high);
+  const Ball last = square(l.back()) + square(design.frequency_high);
+  const Ball given_back =
+      sqrt(square(first) + square(last) +
+           (square(l.front() * last) + square(l.back() * first)) / square(design.frequency_low)) /
+      abs(l.front() - l.back());
   const Ball lower = design.amplitude_low / given_back;
 
+  const Ball filters(static_cast<double>(l.size()));
   const Ball determinant = min(gram, half) * ell * square(lower);
-  const Ball trace = squares + four + square(upper) * (one + Ball(3.0) * ell);
+  const Ball trace = squares + filters + square(upper) * (one + Ball(3.0) * ell);
   const Ball smallest = determinant / square(trace / two);
-  const Ball length = sqrt(squares + four + square(upper));  // of L
-  const Ball driven = largest * upper;                       // of F^2 xi
+  const Ball length = sqrt(squares + filters + square(upper));  // of L
+  const Ball driven = largest * upper;                          // of F^2 xi
   const Ball gamma = length * driven / smallest;
-  // |M|^2 <= 2 gram: M contains each difference of rates twice, in both signs.
-  const Ball phi_slope = two * length + two * ell * upper + Ball(8.0) * gram * upper;
+  // |M|^2 <= (m - 2) gram: each difference of the rates of m filters is in the determinants of m - 2 triples.
+  const Ball phi_slope = two * length + two * ell * upper + four * (filters - two) * gram * upper;
   return (driven + length * largest + phi_slope * gamma) / smallest;
 }
 
@@ -239,7 +241,7 @@ void check_paper_claims(const Tree& claimed, const KklDesign& design, const Ball
   found.conditions.push_back({"injectivity",
                               R"(|\Delta x_1| + |\Delta x_2| + c |\Delta x_3| \le d\, |\Delta T|)",
                               proved_if(certainly_positive(eigenvalue.low)), eigenvalue});
-  if (design.has_four_filters() && infimum) {
+  if (infimum) {
     add_inverse(design, ell, *infimum, claimed, found);
   }
   // A slip of the paper is none of the design.

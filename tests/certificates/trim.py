@@ -26,6 +26,9 @@ kkl-rounding      its bounds
 From tests/certificates/kkl-close-rates.toml and kkl-wide-rates.toml, as they are:
 kkl-close-rates   rates 1, 1.001, 1.002, 1.003: ell is 8e-27
 kkl-wide-rates    rates 0.01, 1, 100, 1e4
+From tests/certificates/kkl-five-filters.toml and kkl-six-filters.toml, observers with more filters than the paper's:
+kkl-five-filters  its ell and the paper's claims, with an ell in use that the design gives
+kkl-six-filters   the same with the proved ell
 From tests/certificates/steady-state.toml, the single-channel tracker with a leak at one frequency:
 steady-state      its bias and Proposition 1
 frozen-filter     its frozen filter, alone
@@ -419,6 +422,8 @@ KINDS = {
     "kkl-paper": kkl_paper,
     "kkl-close-rates": lambda certificate: None,
     "kkl-wide-rates": lambda certificate: None,
+    "kkl-five-filters": lambda certificate: None,
+    "kkl-six-filters": lambda certificate: None,
     "lock": lock,
     "mean-square": mean_square(0.045),
     "mean-square-with-leak": mean_square(0.05),

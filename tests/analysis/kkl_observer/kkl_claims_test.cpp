@@ -2,12 +2,17 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <stdexcept>
 
 #include "analysis/kkl_observer/kkl_identities.hpp"
+#include "analysis/kkl_observer/number_of_filters.hpp"
 #include "tests/support/random.hpp"
 
 namespace veritrack::kkl_observer {
@@ -24,8 +29,15 @@ KklClaimsQuestion question(const std::vector<double>& rates, double ell) {
   q.frequency = Interval::from_bounds(1.0, 5.0);
   q.amplitude = Interval::from_bounds(1.0, 2.0);
   q.ell = Interval(ell);
-  if (rates.size() == 4) {
-    q.infimum = enclose_ell({{q.lambda[0], q.lambda[1], q.lambda[2], q.lambda[3]}, q.frequency}).value();
+  if (rates.size() >= 4) {
+    with_number_of_filters(rates.size(), [&](auto filters) {
+      KklRangeOf<decltype(filters)::value> range;
+      for (std::size_t i = 0; i < rates.size(); ++i) {
+        range.lambda(static_cast<Eigen::Index>(i)) = q.lambda[i];
+      }
+      range.frequency = q.frequency;
+      q.infimum = enclose_ell(range).value();
+    });
   }
   return q;
 }
@@ -78,7 +90,7 @@ TEST_CASE("a witness against the inverse is one in double, too") {
   const rigor::UpwardRounding upward;
   const Eigen::Vector4d lambda(1.0, 2.0, 3.0, 4.0);
   const auto witness =
-      find_inverse_witness({rigor::to_interval(lambda), Interval::from_bounds(1.0, 5.0)}, Interval(0.01));
+      find_inverse_witness<4>({rigor::to_interval(lambda), Interval::from_bounds(1.0, 5.0)}, Interval(0.01));
   REQUIRE(witness);
   const rigor::NearestRounding nearest;
   const Eigen::Vector3d x(witness->x1, witness->x2, witness->frequency * witness->frequency);
@@ -153,8 +165,8 @@ TEST_CASE("the modulus of continuity bounds differences of gamma") {
   double modulus = 0.0;
   {
     const rigor::UpwardRounding upward;
-    modulus =
-        continuity_modulus(rigor::to_interval(lambda), Interval(ell), Interval(0.5), Interval(1.0)).upper();
+    modulus = continuity_modulus<4>(rigor::to_interval(lambda), Interval(ell), Interval(0.5), Interval(1.0))
+                  .upper();
   }
   REQUIRE(std::isfinite(modulus));
   for (std::int64_t trial = 0; trial < test::effort(500); ++trial) {
@@ -172,8 +184,99 @@ TEST_CASE("the modulus of continuity bounds differences of gamma") {
   }
 }
 
-TEST_CASE("fewer than four filters are refused") {
+TEST_CASE("fewer than four filters are refused, and more than eight") {
   CHECK_THROWS_AS((void)derive_kkl_claims(question({1.0, 2.0, 3.0}, 1.0)), std::invalid_argument);
+  KklClaimsQuestion nine = question({1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0}, 1e-6);
+  nine.lambda.emplace_back(9.0);
+  CHECK_THROWS_AS((void)derive_kkl_claims(nine), std::invalid_argument);
+}
+
+/// The largest |(x3_hat - x3) / x3| of the observer with M filters over a grid of frequencies and directions
+/// of signals, without the tracker's code: (15) by Eigen's least squares, regularized by the square root of
+/// mu.
+template <int M>
+double worst_on_a_grid(const Eigen::Matrix<double, M, 1>& lambda, double ell, double low, double high) {
+  double worst = 0.0;
+  constexpr int kSteps = 20;
+  constexpr int kDirections = 200;
+  for (int step = 0; step <= kSteps; ++step) {
+    const double frequency = low + (high - low) * step / kSteps;
+    for (int k = 0; k < kDirections; ++k) {
+      const std::complex<double> direction = std::polar(1.0, std::numbers::pi * k / kDirections);
+      Eigen::Matrix<double, M, 1> xi;
+      for (int i = 0; i < M; ++i) {
+        xi(i) = (direction / std::complex<double>(lambda(i), frequency)).imag();
+      }
+      Eigen::Matrix<double, M, 3> l;
+      l << lambda, Eigen::Matrix<double, M, 1>::Ones(), -xi;
+      const double excitation = (l.transpose() * l).determinant();
+      const double mu = std::max(0.0, ell * xi.squaredNorm() - 2.0 * excitation);
+      Eigen::Matrix<double, M + 3, 3> regularized;
+      regularized << l, std::sqrt(mu) * Eigen::Matrix3d::Identity();
+      Eigen::Matrix<double, M + 3, 1> right = Eigen::Matrix<double, M + 3, 1>::Zero();
+      right.template head<M>() = lambda.cwiseAbs2().cwiseProduct(xi);
+      const Eigen::Vector3d x = regularized.colPivHouseholderQr().solve(right);
+      const double s = frequency * frequency;
+      worst = std::max(worst, std::fabs(x(2) - s) / s);
+    }
+  }
+  return worst;
+}
+
+TEST_CASE_TEMPLATE("with more filters gamma inverts T exactly where it is said to", Filters,
+                   std::integral_constant<int, 5>, std::integral_constant<int, 6>) {
+  constexpr int kFilters = Filters::value;
+  test::Random random(600 + kFilters);
+  for (std::int64_t trial = 0; trial < test::effort(4); ++trial) {
+    CAPTURE(trial);
+    Eigen::Matrix<double, kFilters, 1> lambda;
+    for (int i = 0; i < kFilters; ++i) {
+      lambda(i) = 0.5 + i + random.uniform(0.0, 0.8);
+    }
+    const std::vector<double> rates(lambda.begin(), lambda.end());
+    const double largest = 2.0 * question(rates, 1.0).infimum.lower();
+    for (const auto& [share, expected] :
+         {std::pair{0.999, Verdict::proved}, std::pair{1.1, Verdict::refuted}}) {
+      CAPTURE(share);
+      const auto claims = derive_kkl_claims(question(rates, share * largest));
+      CHECK(verdict_of(claims, "mu-vanishes") == expected);
+      CHECK(verdict_of(claims, "left-inverse") == expected);
+      CHECK(verdict_of(claims, "positive-definite") == Verdict::proved);
+      CHECK(verdict_of(claims, "continuity") == Verdict::proved);
+      const double worst = worst_on_a_grid<kFilters>(lambda, share * largest, 1.0, 5.0);
+      if (expected == Verdict::proved) {
+        CHECK(worst < 1e-6);
+      } else {
+        CHECK(worst > 1e-4);
+      }
+    }
+  }
+}
+
+TEST_CASE("the modulus of continuity bounds differences of gamma of six filters") {
+  test::Random random(53);
+  using Six = Eigen::Matrix<double, 6, 1>;
+  const Six lambda(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
+  const double ell = 0.5;
+  double modulus = 0.0;
+  {
+    const rigor::UpwardRounding upward;
+    modulus = continuity_modulus<6>(rigor::to_interval(lambda), Interval(ell), Interval(0.5), Interval(1.0))
+                  .upper();
+  }
+  REQUIRE(std::isfinite(modulus));
+  for (std::int64_t trial = 0; trial < test::effort(500); ++trial) {
+    const auto point = [&] {
+      const Six direction = Six::NullaryExpr([&] { return random.uniform(-1.0, 1.0); });
+      return Six(direction.normalized() * random.uniform(0.5, 1.0));
+    };
+    const Six a = point();
+    const Six b = point();
+    const double change = (trackers::kkl_inverse<double, 6>(a, {lambda, ell}) -
+                           trackers::kkl_inverse<double, 6>(b, {lambda, ell}))
+                              .norm();
+    CHECK(change <= 0.5 * std::numbers::pi * modulus * (a - b).norm());
+  }
 }
 
 TEST_CASE("the least excited signal of a frequency is excited as little as the branch and bound says") {

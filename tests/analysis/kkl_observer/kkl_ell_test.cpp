@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <string>
 
@@ -159,6 +161,63 @@ TEST_CASE("an enclosure that is none decides nothing") {
     minimum.upper = 1e-3;
     CHECK(verdict_of("enclosed") == Verdict::undecided);
     CHECK(verdict_of("positive") == Verdict::undecided);
+  }
+}
+
+/// Rates for M filters, 1/s.
+template <int M>
+Eigen::Matrix<double, M, 1> random_rates(test::Random& random) {
+  Eigen::Matrix<double, M, 1> lambda;
+  for (int i = 0; i < M; ++i) {
+    lambda(i) = 0.5 + i + random.uniform(0.0, 0.8);
+  }
+  return lambda;
+}
+
+/// The oracle for any number of filters: the filters' responses as complex numbers, and det(L'L) by the
+/// singular values of L = (lambda, 1, T), over a grid of directions.
+template <int M>
+double ratio_on_a_grid(const Eigen::Matrix<double, M, 1>& lambda, double frequency, int directions) {
+  double smallest = 1e300;
+  for (int k = 0; k < directions; ++k) {
+    const std::complex<double> direction = std::polar(1.0, std::numbers::pi * k / directions);
+    Eigen::Matrix<double, M, 3> l;
+    for (int i = 0; i < M; ++i) {
+      l.row(i) << lambda(i), 1.0, (direction / std::complex<double>(lambda(i), frequency)).imag();
+    }
+    const double root = Eigen::JacobiSVD<Eigen::Matrix<double, M, 3>>(l).singularValues().prod();
+    smallest = std::min(smallest, root * root / l.col(2).squaredNorm());
+  }
+  return smallest;
+}
+
+TEST_CASE_TEMPLATE("with more filters the minimum is enclosed, against a grid of frequencies and directions",
+                   Filters, std::integral_constant<int, 5>, std::integral_constant<int, 6>,
+                   std::integral_constant<int, 8>) {
+  constexpr int kFilters = Filters::value;
+  test::Random random(500 + kFilters);
+  for (std::int64_t trial = 0; trial < test::effort(6); ++trial) {
+    CAPTURE(trial);
+    const auto lambda = random_rates<kFilters>(random);
+    const double low = random.uniform(0.3, 2.0);
+    const double high = low * random.uniform(1.0, 4.0);
+    const ExcitationRatio<double, kFilters> ratio(lambda);
+    double smallest = 1e300;
+    constexpr int kSteps = 20;
+    for (int k = 0; k <= kSteps; ++k) {
+      const double frequency = k == kSteps ? high : low + (high - low) * k / kSteps;
+      const double here = ratio_on_a_grid<kFilters>(lambda, frequency, 600);
+      CHECK(ratio.at(frequency) <= here * (1.0 + 1e-7));
+      CHECK(ratio.at(frequency) >= here * (1.0 - 1e-2));
+      smallest = std::min(smallest, here);
+    }
+    const KklRangeOf<kFilters> over{rigor::to_interval(lambda), Interval::from_bounds(low, high)};
+    const auto minimum = enclose_ell(over);
+    CHECK(minimum.converged);
+    CHECK(minimum.lower <= smallest * (1.0 + 1e-7));
+    // The ends of the range, where the ratio is least in every case tried, are on the grid.
+    CHECK(minimum.upper >= smallest * (1.0 - 1e-2));
+    CHECK(derive_kkl_ell(over, minimum).verdict == Verdict::proved);
   }
 }
 

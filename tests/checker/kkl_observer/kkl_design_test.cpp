@@ -59,6 +59,8 @@ TEST_CASE("designs that can be, and that cannot") {
   CHECK(objections(disturbance(bound)) == 0);
   CHECK(objections(disturbance(amplitude + ", " + frequency)) == 0);
   CHECK(objections("", {1, 2, 3, 4, 5}) == 0);
+  CHECK(objections("", {1, 2, 3, 4, 5, 6, 7, 8}) == 0);
+  CHECK(objections("", {1, 2, 3, 4, 5, 6, 7, 8, 9}) > 0);
   for (const std::string& members :
        {std::string(), amplitude, frequency, bound + ", " + amplitude,
         bound + ", " + amplitude + ", " + frequency, R"("bound": )" + number(-0.5)}) {

@@ -3,8 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <string>
 #include <utility>
 
@@ -75,6 +77,58 @@ TEST_CASE("the least ratio of a frequency is the least over its phases") {
     const double found = checker::excitation_ratio(rates, Ball(frequency)).near();
     CHECK(found <= sampled * (1.0 + 1e-9));
     CHECK(found >= sampled * (1.0 - 1e-2));
+  }
+}
+
+TEST_CASE("the least ratio of more filters, against a grid of directions") {
+  test::Random random(145);
+  for (const int filters : {5, 6, 8}) {
+    for (std::int64_t trial = 0; trial < test::effort(5); ++trial) {
+      CAPTURE(filters);
+      CAPTURE(trial);
+      std::vector<double> lambda;
+      std::vector<Ball> rates;
+      for (int j = 0; j < filters; ++j) {
+        lambda.push_back(j + random.uniform(0.5, 1.3));
+        rates.emplace_back(lambda.back());
+      }
+      const double frequency = random.uniform(0.5, 6.0);
+      double sampled = HUGE_VAL;
+      constexpr int kDirections = 2000;
+      for (int k = 0; k < kDirections; ++k) {
+        // The filters' complex responses; |M xi|^2 is det(L'L), L = (lambda, 1, xi).
+        const std::complex<double> direction = std::polar(1.0, 3.15 * k / kDirections);
+        Eigen::MatrixXd l(filters, 3);
+        for (int i = 0; i < filters; ++i) {
+          const double rate = lambda[static_cast<std::size_t>(i)];
+          l.row(i) << rate, 1.0, (direction / std::complex<double>(rate, frequency)).imag();
+        }
+        sampled = std::min(sampled, (l.transpose() * l).determinant() / l.col(2).squaredNorm());
+      }
+      const double found = checker::excitation_ratio(rates, Ball(frequency)).near();
+      // The oracle loses digits where the determinant is small.
+      CHECK(found <= sampled * (1.0 + 1e-6) + 1e-11);
+      CHECK(found >= sampled * (1.0 - 1e-2) - 1e-11);
+    }
+  }
+}
+
+TEST_CASE("the bound of more filters is the least of the range, and nothing above") {
+  for (const int filters : {5, 6, 8}) {
+    CAPTURE(filters);
+    checker::KklDesign design;
+    for (int i = 1; i <= filters; ++i) {
+      design.lambda.emplace_back(static_cast<double>(i));
+    }
+    design.frequency_low = Ball(2.0);
+    design.frequency_high = Ball(4.0);
+    const double least = checker::excitation_ratio(design.lambda, Ball(4.0)).near();
+    const auto is_enclosure = [&](double low, double high) {
+      return checker::is_true({Ball(low), Ball(high), Ball(4.0)}, design);
+    };
+    CHECK(is_enclosure(least * (1.0 - 1e-10), least * (1.0 + 1e-10)));
+    CHECK(!is_enclosure(least * (1.0 + 1e-10), least * (1.0 + 2e-10)));
+    CHECK(!is_enclosure(least * (1.0 - 2e-10), least * (1.0 - 1e-10)));
   }
 }
 

@@ -22,6 +22,7 @@ void put_title(std::string& svg, const std::string& title) {
 
 std::vector<Figure> with_pictures(std::vector<Figure> figures) {
   std::vector<GnuplotScript> scripts;
+  scripts.reserve(figures.size());
   for (Figure& figure : figures) {
     scripts.push_back({figure.file, std::move(figure.script)});
   }

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -76,7 +77,7 @@ TEST_CASE("a tone's bins: (4.5) with the conjugate in its second term, and (4.9)
     const double amplitude = random.uniform(0.5, 2.0);
     const double phase = random.uniform(-3.0, 3.0);
     const double offset = random.uniform(-1.5, 1.5);
-    const auto samples = tone(length, amplitude, phase, centre + offset);
+    const auto samples = tone(length, amplitude, phase, static_cast<double>(centre) + offset);
     BlockDft<double> transform(length, centre, 2);
     const auto bins = transformed(transform, samples);
     Real printed_gap = 0;
@@ -106,6 +107,49 @@ TEST_CASE("a tone's bins: (4.5) with the conjugate in its second term, and (4.9)
       CHECK(wrong_sign > 0.02L * Real(amplitude));
     }
   }
+}
+
+TEST_CASE("what docs/block-tracker.md says that a tone of samples adds to (4.9), as a length of its bins") {
+  Random random(414);
+  Real least_room = 1;
+  for (int run = 0; run < 200; ++run) {
+    const std::size_t length = run % 2 == 0 ? 64 : 501;
+    const long centre = 4 + static_cast<long>(random.below(length / 2 - 8));
+    const double amplitude = random.uniform(0.5, 2.0);
+    const double phase = random.uniform(-3.0, 3.0);
+    const double offset = random.uniform(-0.5, 0.5);
+    const double slew = random.uniform(0.0, 0.05);
+    const auto samples = tone(length, amplitude, phase, static_cast<double>(centre) + offset);
+    Real transform = 0;
+    Real transform_bound = 0;
+    Real motion = 0;
+    for (long m = centre - 2; m <= centre + 2; ++m) {
+      const Real near = static_cast<Real>(centre - m) + Real(offset);
+      const Complex model = std::polar(Real(amplitude) / (2 * kTurn), Real(phase)) *
+                            (std::polar(Real(1), kTurn * Real(offset)) - Real(1)) / (Complex(0, 1) * near);
+      transform += std::norm(direct(samples, m) - model);
+      const Real x = kTurn * near / static_cast<Real>(length);
+      const Real image = kTurn * (static_cast<Real>(centre + m) + Real(offset)) / static_cast<Real>(length);
+      const Real bound =
+          Real(amplitude) / (2 * static_cast<Real>(length)) * std::abs(std::sin(kTurn / 2 * Real(offset))) *
+          (std::hypot(Real(1), 1 / std::tan(x / 2) - 2 / x) + 1 / std::abs(std::sin(image / 2)));
+      transform_bound += bound * bound;
+      // The frequency rises by `slew` bins from the start of the block to its end.
+      std::vector<double> moved(length);
+      for (std::size_t t = 0; t < length; ++t) {
+        const Real share = static_cast<Real>(t) / static_cast<Real>(length);
+        const Real turned = kTurn * (static_cast<Real>(centre) + Real(offset)) * share + Real(phase);
+        moved[t] = static_cast<double>(
+            Real(amplitude) *
+            (std::cos(turned - kTurn / 2 * Real(slew) * share * (1 - share)) - std::cos(turned)));
+      }
+      motion += std::norm(direct(moved, m));
+    }
+    CHECK(transform <= transform_bound);
+    least_room = std::min(least_room, 1 - std::sqrt(transform / transform_bound));
+    CHECK(std::sqrt(motion) <= kTurn / 2 * Real(amplitude) * Real(slew) / std::sqrt(Real(60)));
+  }
+  CHECK(least_room <= 0.05L);
 }
 
 TEST_CASE("the printed taps of the filter bank give the conjugate of the bin, turned") {

@@ -5,13 +5,17 @@
 #include <string_view>
 
 #include "analysis/dft_block/lock_claims.hpp"
+#include "analysis/kkl_observer/injectivity_claims.hpp"
 #include "analysis/kkl_observer/paper_sentences.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/single_channel/paper_sentences.hpp"
+#include "analysis/single_channel/printed_recursion_claims.hpp"
 #include "analysis/theorems/block_transform_claims.hpp"
+#include "analysis/theorems/design_paper_claims.hpp"
 #include "analysis/theorems/regulator_claims.hpp"
 #include "analysis/theorems/self_tuning_claims.hpp"
 #include "analysis/theorems/sine_filter_claims.hpp"
+#include "analysis/theorems/sine_listing_claims.hpp"
 #include "analysis/theorems/spill_over_claims.hpp"
 #include "analysis/theorems/stability_lemma_claims.hpp"
 #include "analysis/theorems/tracker_theory_claims.hpp"
@@ -144,8 +148,14 @@ std::vector<Row> collect() {
   collection.add(theorems::tracker_theory_claims());
   collection.add(theorems::self_tuning_claims());
   collection.add(single_channel::paper_sentences());
+  collection.add(single_channel::printed_recursion_claims());
   collection.add(kkl_observer::paper_sentences());
+  collection.add(kkl_observer::injectivity_claims());
+  collection.add(theorems::design_paper_claims());
+  collection.add(theorems::design_paper_lemma_claims());
+  collection.add(theorems::design_paper_loop_claims());
   collection.add(theorems::sine_filter_claims());
+  collection.add(theorems::sine_listing_claims());
   collection.add(theorems::spill_over_claims());
   return std::move(collection).rows();
 }

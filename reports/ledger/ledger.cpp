@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <string_view>
 
 #include "analysis/dft_block/lock_claims.hpp"
@@ -58,10 +59,14 @@ class Collection {
     }
   }
 
-  /// Statements in which no design enters.
+  /// Statements in which no design enters. Throws std::logic_error when one is not about a publication: it
+  /// would have no row.
   void add(const std::vector<theorems::Statement>& statements) {
     design_ = kNoDesign;
     for (const theorems::Statement& statement : statements) {
+      if (!theorems::is_published(statement.id)) {
+        throw std::logic_error(statement.id + " has no place in a publication (paper_places.cpp)");
+      }
       add(statement.id, certificates::markdown::escaped(statement.sentence), statement.verdict,
           statement.witness);
     }
@@ -133,6 +138,18 @@ bool Row::is_everywhere(Verdict verdict) const {
 bool Row::is_anywhere(Verdict verdict) const {
   return std::any_of(verdicts.begin(), verdicts.end(),
                      [&](const DesignVerdict& each) { return each.verdict == verdict; });
+}
+
+bool Row::is_illegible() const {
+  return finding != nullptr && finding->kind == FindingKind::illegible;
+}
+
+bool Row::stands() const {
+  return !is_illegible() && is_everywhere(Verdict::proved);
+}
+
+bool Row::falls() const {
+  return !is_illegible() && is_anywhere(Verdict::refuted);
 }
 
 std::vector<Row> collect() {

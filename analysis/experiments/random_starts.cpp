@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "analysis/rigor/rounding.hpp"

@@ -142,14 +142,17 @@ std::vector<Statement> linear_filter_statements() {
 }
 
 std::vector<Statement> covariance_statements() {
-  const Verdict above = vanishes<6>(
-      [](const std::array<Interval, 6>& at) {
-        const auto& [u1, u2, l11, l21, l22, weight] = at;
-        const Interval p11 = square(l11);
+  const Verdict above = vanishes<9>(
+      [](const std::array<Interval, 9>& at) {
+        const auto& [u1, u2, u3, l11, l21, l22, l31, l32, l33] = at;
         const Interval p12 = l11 * l21;
-        const Interval p22 = square(l21) + square(l22);
-        const Interval form = square(u1) * p11 + Interval(2.0) * u1 * u2 * p12 + square(u2) * p22;
-        return weight * (form - square(u1 * l11 + u2 * l21) - square(u2 * l22));
+        const Interval p13 = l11 * l31;
+        const Interval p23 = l21 * l31 + l22 * l32;
+        const Interval squares = square(u1) * square(l11) + square(u2) * (square(l21) + square(l22)) +
+                                 square(u3) * (square(l31) + square(l32) + square(l33));
+        const Interval products = u1 * u2 * p12 + u1 * u3 * p13 + u2 * u3 * p23;
+        return squares + Interval(2.0) * products - square(u1 * l11 + u2 * l21 + u3 * l31) -
+               square(u2 * l22 + u3 * l32) - square(u3 * l33);
       },
       2);
   const Interval q = parse_decimal("0.0005");

@@ -76,9 +76,9 @@ std::string noise_words(const char* first, const SteadyLoop& one, const char* se
          second + ".";
 }
 
-/// The frequency error while the frequency rises by 0.04 a sample, at this frequency.
-Interval error_in_slew(const SteadyLoop& loop, const char* frequency) {
-  return loop.lag(parse_decimal("0.04") + loop.epsilon * parse_decimal(frequency));
+/// The frequency error while the frequency rises by 0.04 a sample, as it passes 0.5 rad/sample.
+Interval error_in_slew(const SteadyLoop& loop) {
+  return loop.error_in_ramp(Interval(0.5), parse_decimal("0.04"));
 }
 
 std::vector<Statement> choices_of_q(const Figures& of) {
@@ -102,9 +102,9 @@ std::vector<Statement> choices_of_q(const Figures& of) {
           "paper-1996/figure-4/tracking",
           "It follows the largest slew as well as that of Figure 3: at 0.5 rad/sample, with the frequency "
           "rising by 0.04 rad/sample a sample, it lags no further behind.",
-          decide(error_in_slew(of.figure_4, "0.5"), error_in_slew(of.figure_3, "0.5"), Strictness::weak),
-          "To first order the frequency is too low by " + enclosed(error_in_slew(of.figure_4, "0.5")) +
-              " rad/sample in Figure 4 and " + enclosed(error_in_slew(of.figure_3, "0.5")) + " in Figure 3.",
+          decide(error_in_slew(of.figure_4), error_in_slew(of.figure_3), Strictness::weak),
+          "To first order the frequency is too low by " + enclosed(error_in_slew(of.figure_4)) +
+              " rad/sample in Figure 4 and " + enclosed(error_in_slew(of.figure_3)) + " in Figure 3.",
           {})};
 }
 
@@ -141,13 +141,13 @@ std::vector<Statement> choices_of_r(const Figures& of) {
           {}),
       make_statement(
           "paper-1996/slew-by-variance",
-          "The largest slew that the tracker follows is determined by q2 and the leak, whatever R: a "
-          "fivefold R with Q and leak of Figure 4 lags by the same, to a tenth.",
-          decide(larger.lag(Interval(1.0)), parse_decimal("1.1") * of.figure_4.lag(Interval(1.0)),
-                 Strictness::weak),
-          "To first order a frequency that rises by s a sample is followed " +
-              enclosed(of.figure_4.lag(Interval(1.0))) + " s behind with R = 0.01 and " +
-              enclosed(larger.lag(Interval(1.0))) + " s with R = 0.05.",
+          "The largest slew that the tracker follows is determined by q2 and the leak, whatever R: with a "
+          "fivefold R, and Q and leak of Figure 4, it lags by the same, to a tenth.",
+          decide(error_in_slew(larger), parse_decimal("1.1") * error_in_slew(of.figure_4), Strictness::weak),
+          "To first order, as the frequency passes 0.5 rad/sample, rising by 0.04 a sample, the estimate "
+          "is " +
+              enclosed(error_in_slew(of.figure_4)) + " rad/sample behind with R = 0.01 and " +
+              enclosed(error_in_slew(larger)) + " with R = 0.05.",
           {})};
 }
 
@@ -163,10 +163,11 @@ std::vector<Statement> figure_5_statements(const Figures& of) {
           "paper-1996/figure-5/over-design",
           "It is Q and R above their actual values that make the filter of Figure 5 better than that of "
           "Figure 1: with the same leak, 0.05, it lags less behind a frequency that rises.",
-          decide(same_leak.lag(Interval(1.0)), of.figure_1.lag(Interval(1.0)), Strictness::strict),
-          "q/r is 0.046 in Figure 5 and 0.05 in Figure 1: at the same leak the lags are " +
-              enclosed(same_leak.lag(Interval(1.0))) + " s and " + enclosed(of.figure_1.lag(Interval(1.0))) +
-              " s. It is the leak that differs: of a constant frequency it takes the share " +
+          decide(error_in_slew(same_leak), error_in_slew(of.figure_1), Strictness::strict),
+          "q/r is 0.046 in Figure 5 and 0.05 in Figure 1: at the same leak, as the frequency passes 0.5 "
+          "rad/sample, rising by 0.04 a sample, the estimates are " +
+              enclosed(error_in_slew(same_leak)) + " and " + enclosed(error_in_slew(of.figure_1)) +
+              " rad/sample behind. It is the leak that differs: of a constant frequency it takes the share " +
               enclosed(figure_1) + " in Figure 1 and " + enclosed(figure_5) + " in Figure 5.",
           {})};
 }

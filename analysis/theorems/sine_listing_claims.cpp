@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/dual.hpp"
@@ -73,16 +74,17 @@ std::vector<Statement> derived_matrices() {
               "The discrete process noise of the filters with the phase, with TS^3/3, TS^2/2 and TS, is "
               "the integral that is given.",
               integrals, integral, {}),
-          make_statement(
-              "zarchan/matrices/oscillator-noise",
-              "That of the filter of (x, x', omega), with 1.333 TS^3, TS^2 and TS, is the integral that "
-              "is given, to the printed digits.",
-              rigor::conjunction({integrals, rounds_to("1.333", Interval(4.0) * third)}), integral, {}),
-          make_statement(
-              "zarchan/matrices/square-noise",
-              "That of the filter of (x, x', z), with .333 TS^3, .5 TS^2 and TS, is the integral that is "
-              "given, to the printed digits.",
-              rigor::conjunction({integrals, rounds_to("0.333", third)}), integral, {}),
+          make_statement("zarchan/matrices/oscillator-noise",
+                         "The discrete process noise of the filter of (x, x', omega), with 1.333 TS^3, TS^2 "
+                         "and TS, is the integral that "
+                         "is given, to the printed digits.",
+                         rigor::conjunction({integrals, rounds_to("1.333", Interval(4.0) * third)}), integral,
+                         {}),
+          make_statement("zarchan/matrices/square-noise",
+                         "The discrete process noise of the filter of (x, x', z), with .333 TS^3, .5 TS^2 "
+                         "and TS, is the integral that is "
+                         "given, to the printed digits.",
+                         rigor::conjunction({integrals, rounds_to("0.333", third)}), integral, {}),
           make_statement("zarchan/matrices/oscillator-jacobian",
                          "The second row of F of the filter of (x, x', omega) is (-omega^2, 0, -2 omega x).",
                          oscillator, "The derivatives of -omega^2 x, an identity.", {})};

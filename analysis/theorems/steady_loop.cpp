@@ -110,6 +110,16 @@ Interval SteadyLoop::lag(const Interval& drift) const {
   return drift / (epsilon + covariance / variance);
 }
 
+Interval SteadyLoop::error_in_ramp(const Interval& frequency, const Interval& slew) const {
+  // I - A = [[g, -left], [k, epsilon + k]], g + left = 1.
+  const Interval g = phase_gain();
+  const Interval left = r / (variance + r);
+  const Interval k = frequency_gain();
+  const Interval determinant = g * epsilon + k;
+  const Interval inner = epsilon * slew / determinant;
+  return (k * (inner * left) + g * (slew + epsilon * frequency - inner * g)) / determinant;
+}
+
 Interval SteadyLoop::noise_variance(const Interval& noise) const {
   const Interval left = r / (variance + r);
   const Interval k2 = phase_gain();

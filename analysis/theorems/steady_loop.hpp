@@ -29,10 +29,14 @@ struct SteadyLoop {
   [[nodiscard]] rigor::Interval squared_factor() const;
   /// Are the two factors certainly a complex pair?
   [[nodiscard]] bool oscillates() const;
-  /// The frequency's constant error when it rises by `drift` a sample more than the model predicts,
-  /// rad/sample: drift/(epsilon + b/a). For a tone of the frequency omega that rises by s a sample, drift = s
-  /// + epsilon omega.
+  /// The frequency's constant error when it departs by `drift` a sample from what the model predicts,
+  /// rad/sample: drift/(epsilon + b/a).
   [[nodiscard]] rigor::Interval lag(const rigor::Interval& drift) const;
+  /// Its error, true minus estimated, when it has risen by `slew` a sample for ever and is now `frequency`.
+  /// With A = (I - K H) F, the error of phase and frequency obeys e+ = A e + (0, slew + epsilon frequency),
+  /// which has the solution (I - A)^-1 ((0, slew + epsilon frequency) - (I - A)^-1 (0, epsilon slew)).
+  [[nodiscard]] rigor::Interval error_in_ramp(const rigor::Interval& frequency,
+                                              const rigor::Interval& slew) const;
   /// Variance of the frequency estimate under white noise of variance `noise` in each channel,
   /// (rad/sample)^2; empty when the linear equations for it could not be solved.
   [[nodiscard]] rigor::Interval noise_variance(const rigor::Interval& noise) const;

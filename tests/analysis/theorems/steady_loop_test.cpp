@@ -19,22 +19,19 @@ trackers::ToneModel<Interval> design(double q, double r, double epsilon) {
   return {Interval(q), Interval(q), Interval(r), Interval(epsilon)};
 }
 
-/// The tracker itself, in lock with a tone of amplitude 1 whose frequency is 0 and then rises by `slew`; the
-/// frequency's error after so many samples.
-double simulated_lag(double q, double r, double slew) {
+/// The tracker itself, in lock with a tone of amplitude 1 whose frequency rises by `slew` from -1500 slew to
+/// 1500 slew: the frequency's error, true minus estimated, at the end.
+double simulated_error(double q, double r, double epsilon, double slew) {
+  double frequency = -1500.0 * slew;
   trackers::QuadratureEkf<double> tracker(
-      {q, q, r, 0.0},
-      {1.0, 0.0, 0.0, trackers::FactoredCovariance<double>::from_matrix(r * Eigen::Matrix3d::Identity())});
+      {q, q, r, epsilon},
+      {1.0, 0.0, frequency,
+       trackers::FactoredCovariance<double>::from_matrix(r * Eigen::Matrix3d::Identity())});
   double phase = 0.0;
-  double frequency = 0.0;
   for (int k = 0; k < 3000; ++k) {
     phase += frequency;
+    frequency += slew;
     tracker.step(std::cos(phase), std::sin(phase));
-    if (k > 1000 && k < 2999) {
-      frequency += slew;
-    } else if (k < 1000) {
-      frequency = 0.0;
-    }
   }
   return frequency - tracker.filtered().frequency;
 }
@@ -86,10 +83,22 @@ TEST_CASE("the steady loop of the tracker is enclosed, and its gains are those o
 
 TEST_CASE("a frequency that rises slowly is followed as far behind as the linear loop says") {
   const rigor::UpwardRounding upward;
-  const auto loop = theorems::steady_loop(design(0.0023, 0.05, 0.0));
-  REQUIRE(loop);
-  const double lag = rigor::midpoint(loop->lag(Interval(1e-5)));
-  CHECK(simulated_lag(0.0023, 0.05, 1e-5) == doctest::Approx(lag).epsilon(1e-3));
+  constexpr double kSlew = 1e-6;
+  for (const double epsilon : {0.0, 0.01, 0.05}) {
+    CAPTURE(epsilon);
+    const auto loop = theorems::steady_loop(design(0.0023, 0.05, epsilon));
+    REQUIRE(loop);
+    const double error = rigor::midpoint(loop->error_in_ramp(Interval(1500.0 * kSlew), Interval(kSlew)));
+    CHECK(simulated_error(0.0023, 0.05, epsilon, kSlew) == doctest::Approx(error).epsilon(1e-3));
+    // At a constant drift, which is a rise of the frequency without leak, and its share with one.
+    if (epsilon == 0.0) {
+      CHECK(rigor::midpoint(loop->lag(Interval(kSlew))) == doctest::Approx(error).epsilon(1e-9));
+    } else {
+      CHECK(
+          rigor::midpoint(loop->lag(Interval(epsilon))) ==
+          doctest::Approx(rigor::midpoint(loop->error_in_ramp(Interval(1.0), Interval(0.0)))).epsilon(1e-9));
+    }
+  }
 }
 
 TEST_CASE("without a steady state nothing is enclosed") {

@@ -112,6 +112,21 @@ const std::vector<PaperFinding>& paper_findings() {
       {"chapter-5/theorem-5.2/control-exists", needs_unstated_assumption, "thesis, theorem 5.2, theta_{n+1}"},
       {"chapter-5/theorem-5.2/regressor-step", slip_without_consequence,
        "thesis, proof of theorem 5.2, its last inequality"},
+      // La Scala and Bitmead 1996.
+      {"paper-1996/locally-observable", needs_unstated_assumption,
+       "1996 paper, section II; (x1, x2) other than 0"},
+      {"paper-1996/lemma-1/admits", false_as_stated, "1996 paper, lemma 1, with the theorem behind it"},
+      {"paper-1996/predicted", false_as_stated, "1996 paper, section V, Figure 1"},
+      {"paper-1996/over-design", needs_unstated_assumption,
+       "1996 paper, section IV; a start that is over-designed, too"},
+      {"paper-1996/under-estimate", false_as_stated, "1996 paper, section IV, after Jazwinski"},
+      {"paper-1996/gramian/bounded", needs_unstated_assumption,
+       "1996 paper, section IV.A; bounded estimates"},
+      {"paper-1996/r-less-critical", needs_unstated_assumption,
+       "1996 paper, section IV.C; true near the best ratio of Q and R"},
+      {"paper-1996/slew-by-variance", needs_unstated_assumption, "1996 paper, section IV.B; R fixed"},
+      {"paper-1996/figure-5/over-design", needs_unstated_assumption,
+       "1996 paper, section V, Figure 5; it takes the smaller leak"},
       // Bittanti and Savaresi 2000.
       {"proposition-1/denominator-printed", slip_without_consequence, "paper, (4) and (6)"},
       {"proposition-1/response-printed", slip_without_consequence, "paper, (6)"},
@@ -125,6 +140,8 @@ const std::vector<PaperFinding>& paper_findings() {
        "paper, section II; a signal has to be there"},
       {"proposition-2/same-start", needs_unstated_assumption,
        "paper, the conclusion of the proof of proposition 2; P(0) is not named there"},
+      {"bittanti-savaresi/linearization-point", false_as_stated, "paper, below (2b) and below (14), F(t)"},
+      {"bittanti-savaresi/I3", false_as_stated, "paper, below (2b), I3 = diag(0, 0, 1)"},
       // Praly, Marconi and Isidori.
       {"kkl-paper/phase-formula", illegible,
        "paper, section III; with (4), which the scan lost, one could tell whether the sign of the formula or "
@@ -132,7 +149,14 @@ const std::vector<PaperFinding>& paper_findings() {
        "of (6) is the slip"},
       {"kkl-paper/dimensions", slip_without_consequence, "paper, (8)"},
       {"kkl-paper/scaling", slip_without_consequence, "paper, section IV, a = 0"},
-      {"kkl-paper/section-v-ell", false_as_stated, "paper, section V"}};
+      {"kkl-paper/injectivity-constant", slip_without_consequence,
+       "paper, section IV, d; nothing else rests on its value"},
+      {"kkl-paper/section-v-ell", false_as_stated, "paper, section V"},
+      // Zarchan.
+      {"zarchan/listings/second", slip_without_consequence,
+       "slides, second listing, Q(1,2); PHIS is 0 there"},
+      {"zarchan/listings/fourth", slip_without_consequence,
+       "slides, fourth listing, Q(2,2); PHIS is 0 there"}};
   return ledger;
 }
 

@@ -1,6 +1,7 @@
 // Where in a publication a claim stands: for the ledger of published claims (veritrack reproduce ledger).
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,7 @@ namespace veritrack::theorems {
 /// The publications, in the order of the ledger.
 enum class Paper {
   la_scala_1994,           ///< the thesis, with its errata sheet
+  la_scala_bitmead_1996,   ///< the paper on the design of the quadrature tracker
   bittanti_savaresi_2000,  ///< the single-channel tracker
   praly_marconi_isidori,   ///< the KKL observer
   zarchan_slides,          ///< the four filters
@@ -16,6 +18,13 @@ enum class Paper {
   guan_chen_ueta,          ///< the first page of the paper on the pendulum
   cited                    ///< a theorem by others that the papers, or we, apply to the tracker
 };
+
+/// All of them, in that order.
+inline constexpr std::array kAllPapers{Paper::la_scala_1994,          Paper::la_scala_bitmead_1996,
+                                       Paper::bittanti_savaresi_2000, Paper::praly_marconi_isidori,
+                                       Paper::zarchan_slides,         Paper::kang_song_lee,
+                                       Paper::guan_chen_ueta,         Paper::cited};
+static_assert(static_cast<std::size_t>(Paper::cited) + 1 == kAllPapers.size());
 
 /// "B. F. La Scala, ...", for a heading.
 [[nodiscard]] std::string_view to_string(Paper paper);

@@ -2,16 +2,21 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <string_view>
 
 #include "analysis/dft_block/lock_claims.hpp"
+#include "analysis/kkl_observer/injectivity_claims.hpp"
 #include "analysis/kkl_observer/paper_sentences.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/single_channel/paper_sentences.hpp"
+#include "analysis/single_channel/printed_recursion_claims.hpp"
 #include "analysis/theorems/block_transform_claims.hpp"
+#include "analysis/theorems/design_paper_claims.hpp"
 #include "analysis/theorems/regulator_claims.hpp"
 #include "analysis/theorems/self_tuning_claims.hpp"
 #include "analysis/theorems/sine_filter_claims.hpp"
+#include "analysis/theorems/sine_listing_claims.hpp"
 #include "analysis/theorems/spill_over_claims.hpp"
 #include "analysis/theorems/stability_lemma_claims.hpp"
 #include "analysis/theorems/tracker_theory_claims.hpp"
@@ -54,10 +59,14 @@ class Collection {
     }
   }
 
-  /// Statements in which no design enters.
+  /// Statements in which no design enters. Throws std::logic_error when one is not about a publication: it
+  /// would have no row.
   void add(const std::vector<theorems::Statement>& statements) {
     design_ = kNoDesign;
     for (const theorems::Statement& statement : statements) {
+      if (!theorems::is_published(statement.id)) {
+        throw std::logic_error(statement.id + " has no place in a publication (paper_places.cpp)");
+      }
       add(statement.id, certificates::markdown::escaped(statement.sentence), statement.verdict,
           statement.witness);
     }
@@ -131,6 +140,18 @@ bool Row::is_anywhere(Verdict verdict) const {
                      [&](const DesignVerdict& each) { return each.verdict == verdict; });
 }
 
+bool Row::is_illegible() const {
+  return finding != nullptr && finding->kind == FindingKind::illegible;
+}
+
+bool Row::stands() const {
+  return !is_illegible() && is_everywhere(Verdict::proved);
+}
+
+bool Row::falls() const {
+  return !is_illegible() && is_anywhere(Verdict::refuted);
+}
+
 std::vector<Row> collect() {
   Collection collection;
   for (const certificates::EmbeddedText& design : certificates::published_designs()) {
@@ -144,8 +165,14 @@ std::vector<Row> collect() {
   collection.add(theorems::tracker_theory_claims());
   collection.add(theorems::self_tuning_claims());
   collection.add(single_channel::paper_sentences());
+  collection.add(single_channel::printed_recursion_claims());
   collection.add(kkl_observer::paper_sentences());
+  collection.add(kkl_observer::injectivity_claims());
+  collection.add(theorems::design_paper_claims());
+  collection.add(theorems::design_paper_lemma_claims());
+  collection.add(theorems::design_paper_loop_claims());
   collection.add(theorems::sine_filter_claims());
+  collection.add(theorems::sine_listing_claims());
   collection.add(theorems::spill_over_claims());
   return std::move(collection).rows();
 }

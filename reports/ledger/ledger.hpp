@@ -37,6 +37,14 @@ struct Row {
   [[nodiscard]] bool is_everywhere(rigor::Verdict verdict) const;
   /// Is it that for any design?
   [[nodiscard]] bool is_anywhere(rigor::Verdict verdict) const;
+
+  /// Does the scan leave open what is printed? Its verdicts are then about a reading of ours, and the row
+  /// counts neither as proved nor as refuted.
+  [[nodiscard]] bool is_illegible() const;
+  /// PROVED for every design, and legible.
+  [[nodiscard]] bool stands() const;
+  /// REFUTED for at least one design, and legible.
+  [[nodiscard]] bool falls() const;
 };
 
 /// All rows, by publication, those of one in the order of its certificates. Opens its own rounding scopes.

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <functional>
 #include <utility>
 
 #include "certificates/document/markdown_text.hpp"
 #include "certificates/document/output_files.hpp"
+#include "reports/ledger/ledger_summary.hpp"
 
 namespace veritrack::reports::ledger {
 
@@ -20,62 +19,6 @@ using rigor::Verdict;
 using theorems::FindingKind;
 using theorems::Paper;
 using theorems::PaperRole;
-
-constexpr std::array kPapers{
-    Paper::la_scala_1994,  Paper::bittanti_savaresi_2000, Paper::praly_marconi_isidori,
-    Paper::zarchan_slides, Paper::kang_song_lee,          Paper::guan_chen_ueta,
-    Paper::cited};
-
-using Choice = std::function<bool(const Row& row)>;
-
-std::size_t count(const std::vector<Row>& rows, const Choice& choice) {
-  return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), choice));
-}
-
-std::string_view words_of(PaperRole role) {
-  switch (role) {
-    case PaperRole::sentence:
-      return "asserted";
-    case PaperRole::hypothesis:
-      return "assumed, asked of the publication's own designs";
-    case PaperRole::repair:
-      return "ours, in place of what is printed";
-  }
-  return "";
-}
-
-/// The rows of one paper in one role, by verdict.
-std::vector<std::string> count_row(const std::vector<Row>& rows, Paper paper, PaperRole role) {
-  const auto of = [&](const Choice& choice) {
-    return std::to_string(count(rows, [&](const Row& row) {
-      return row.place.paper == paper && row.place.role == role && choice(row);
-    }));
-  };
-  const auto everywhere = [](Verdict verdict) -> Choice {
-    return [verdict](const Row& row) { return row.is_everywhere(verdict); };
-  };
-  return {std::string(to_string(paper)),
-          std::string(words_of(role)),
-          of([](const Row&) { return true; }),
-          of(everywhere(Verdict::proved)),
-          of(everywhere(Verdict::refuted)),
-          of(everywhere(Verdict::undecided)),
-          of([](const Row& row) { return !row.is_uniform(); })};
-}
-
-std::string counts_table(const std::vector<Row>& rows) {
-  std::vector<std::vector<std::string>> lines;
-  for (const Paper paper : kPapers) {
-    for (const PaperRole role : {PaperRole::sentence, PaperRole::hypothesis, PaperRole::repair}) {
-      std::vector<std::string> line = count_row(rows, paper, role);
-      if (line[2] != "0") {
-        lines.push_back(std::move(line));
-      }
-    }
-  }
-  return certificates::markdown::table(
-      {"Publication", "What is", "Claims", "PROVED", "REFUTED", "UNDECIDED", "depends on the design"}, lines);
-}
 
 /// "3.2, 3.4": the designs without the words that they all begin with.
 std::string designs_with(const Row& row, Verdict verdict) {
@@ -96,6 +39,9 @@ std::string designs_with(const Row& row, Verdict verdict) {
 }
 
 std::string verdict_cell(const Row& row) {
+  if (row.is_illegible()) {
+    return "*illegible*";
+  }
   if (row.is_uniform()) {
     return certificates::markdown::verdict(row.verdicts.front().verdict);
   }
@@ -122,7 +68,8 @@ std::string ground_cell(const Row& row) {
     const auto found = std::find_if(row.verdicts.begin(), row.verdicts.end(),
                                     [&](const DesignVerdict& each) { return each.verdict == verdict; });
     if (found != row.verdicts.end()) {
-      return escaped(without_finding(row, found->ground));
+      return (row.is_illegible() ? "As we read the scan it would be false: " : "") +
+             escaped(without_finding(row, found->ground));
     }
   }
   return escaped(row.verdicts.front().ground);
@@ -142,18 +89,18 @@ std::string finding_table(const std::vector<Row>& rows, FindingKind kind) {
 std::string falls_section(const std::vector<Row>& rows) {
   std::string text = "## What falls, and what is proved in its place\n\n";
   for (const FindingKind kind : {FindingKind::false_as_stated, FindingKind::needs_unstated_assumption,
-                                 FindingKind::slip_without_consequence, FindingKind::illegible}) {
+                                 FindingKind::slip_without_consequence}) {
     std::string heading(to_string(kind));
     heading.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(heading.front())));
     text += fmt::format("### {}\n\n{}\n", heading, finding_table(rows, kind));
   }
-  return text;
+  return text + "## What cannot be read in the scan\n\n" + finding_table(rows, FindingKind::illegible) + "\n";
 }
 
 std::string stands_section(const std::vector<Row>& rows) {
   std::vector<std::vector<std::string>> lines;
   for (const Row& row : rows) {
-    if (row.place.role == PaperRole::sentence && row.is_everywhere(Verdict::proved)) {
+    if (row.place.role == PaperRole::sentence && row.stands()) {
       lines.push_back({escaped(row.place.place), row.words});
     }
   }
@@ -193,40 +140,6 @@ std::string paper_section(const std::vector<Row>& rows, Paper paper) {
   return fmt::format("### {}\n\nDerived again by {}.\n\n{}\n", to_string(paper), designs_of(rows, paper),
                      certificates::markdown::table(
                          {"Claim", "Place", "What it says", "Verdict", "Ground", "Consequence"}, lines));
-}
-
-std::string summary(const std::vector<Row>& rows) {
-  const auto in_role = [&](PaperRole role, const Choice& choice) {
-    return count(rows, [&](const Row& row) { return row.place.role == role && choice(row); });
-  };
-  const auto of_kind = [&](FindingKind kind) {
-    return count(rows, [&](const Row& row) { return row.finding != nullptr && row.finding->kind == kind; });
-  };
-  const auto all = [](const Row&) { return true; };
-  const auto stands = [](const Row& row) { return row.is_everywhere(Verdict::proved); };
-  const auto falls = [](const Row& row) { return row.is_anywhere(Verdict::refuted); };
-  const auto is_open = [&](const Row& row) { return !stands(row) && !falls(row); };
-  return fmt::format(
-             "**{} claims of the publications are decided here; {} more are open.** The publications assert "
-             "{} of them: {} are PROVED for every design, {} are REFUTED for at least one. The other {} are "
-             "hypotheses of theorems, asked of the designs that the publications print: {} are PROVED for "
-             "every design, {} are REFUTED for at least one. Of the sentences that are REFUTED {} are false "
-             "as stated, {} need an assumption that is not stated, {} are slips without consequence, and {} "
-             "cannot be read in the scan; the others fail for numbers that are printed. {} sentences of ours "
-             "stand beside those that they repair.\n\n",
-             count(rows,
-                   [&](const Row& row) { return row.place.role != PaperRole::repair && !is_open(row); }),
-             count(rows, is_open), in_role(PaperRole::sentence, all), in_role(PaperRole::sentence, stands),
-             in_role(PaperRole::sentence, falls), in_role(PaperRole::hypothesis, all),
-             in_role(PaperRole::hypothesis, stands), in_role(PaperRole::hypothesis, falls),
-             of_kind(FindingKind::false_as_stated), of_kind(FindingKind::needs_unstated_assumption),
-             of_kind(FindingKind::slip_without_consequence), of_kind(FindingKind::illegible),
-             in_role(PaperRole::repair, all)) +
-         "REFUTED is about a sentence as it is printed, and mostly about its constants. What engineers take "
-         "from these publications survives: the signal is observable, the observer has an inverse, the signs "
-         "of the design rules are right with the errata sheet, the tracker without a leak has no bias. What "
-         "does not survive is a guarantee with numbers: no design that the thesis prints satisfies the "
-         "conditions of its stability theorem. The certificates of this program give such a guarantee.\n\n";
 }
 
 /// Of what is said of simulations: how much of it comes out.
@@ -272,7 +185,7 @@ std::vector<SimulatedReport> simulate_reports(int runs, const ReproductionProgre
 
 std::string decided_sections(const std::vector<Row>& rows) {
   std::string text = falls_section(rows) + stands_section(rows) + "## Every claim\n\n";
-  for (const Paper paper : kPapers) {
+  for (const Paper paper : theorems::kAllPapers) {
     text += paper_section(rows, paper);
   }
   return text;
@@ -280,12 +193,16 @@ std::string decided_sections(const std::vector<Row>& rows) {
 
 std::string ledger_document(const std::vector<Row>& rows, const std::vector<SimulatedReport>& simulated) {
   return "# What the publications claim, decided\n\n" + summary(rows) + simulated_summary(simulated) +
-         counts_table(rows) +
+         "## How it is decided, and how many\n\n" + count_sentences(rows) + counts_table(rows) +
          "\nPROVED and REFUTED are computed with outward-rounded interval arithmetic, or are identities "
-         "evaluated exactly; UNDECIDED is everything else. A claim is evaluated for every design that its "
-         "publication prints (the four of Table 3.2, both examples, section V); where the verdicts differ, "
-         "the designs are named. The certificates of these designs hold the numbers, and `veritrack-verify` "
-         "checks them. Places are those of the scans; what a scan has lost is not held against anybody.\n\n" +
+         "evaluated exactly; UNDECIDED is everything else, and *illegible* is what the scan leaves open. A "
+         "claim "
+         "is evaluated for every design that its publication prints (the four of Table 3.2, both examples, "
+         "section V); where the verdicts differ, the designs are named. The certificates of these designs "
+         "hold "
+         "the numbers, and `veritrack-verify` checks them. Places are those of the scans; what a scan has "
+         "lost "
+         "is not held against anybody.\n\n" +
          decided_sections(rows) + simulated_section(simulated);
 }
 

@@ -202,6 +202,14 @@ Entry entry_of(const PrintedSentence& printed, const Outcome& outcome, const Con
   return entry_from(printed.id, printed.place, printed.what, "–", outcome, conditions);
 }
 
+Entry beside_mean(Entry deviation, const Entry& mean) {
+  if (deviation.verdict == EntryVerdict::agrees && mean.verdict == EntryVerdict::cannot_be_compared) {
+    deviation.verdict = EntryVerdict::cannot_be_compared;
+    deviation.because = "the mean beside it does not come out";
+  }
+  return deviation;
+}
+
 std::string verdict_words(const Entry& entry) {
   switch (entry.verdict) {
     case EntryVerdict::agrees:

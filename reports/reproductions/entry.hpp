@@ -103,6 +103,10 @@ struct Entry {
 [[nodiscard]] Entry entry_of(const PrintedSentence& printed, const Outcome& outcome,
                              const Conditions& conditions = {});
 
+/// The row of a deviation over runs, beside that of their mean: one that agrees says nothing for the
+/// experiment where the mean cannot be compared, and cannot be compared either.
+[[nodiscard]] Entry beside_mean(Entry deviation, const Entry& mean);
+
 /// "agrees", "does not agree", "cannot be compared", "undecided: too few runs", with the reason.
 [[nodiscard]] std::string verdict_words(const Entry& entry);
 

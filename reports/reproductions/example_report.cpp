@@ -302,25 +302,4 @@ WrittenReport write_example_report(int seeds, const std::filesystem::path& direc
   return {directory / "report.md", too_few_seeds(rates, seeds)};
 }
 
-Findings example_entries(int seeds, const ReproductionProgress& /*progress*/) {
-  constexpr std::size_t kTrueState = 3;
-  constexpr Conditions kStart{Conditions::Kind::chosen, "the start of the tracker is unpublished"};
-  const std::vector<StatementRate> rates = single_channel::statement_rates(
-      ProcessNoiseReading::identity, single_channel::example_starts().at(kTrueState), seeds);
-  Findings found;
-  int index = 0;
-  for (const StatementRate& one : rates) {
-    std::vector<bool> held(static_cast<std::size_t>(seeds), false);
-    std::fill_n(held.begin(), std::lround(one.rate * seeds), true);
-    const bool is_first = one.statement.starts_with("Example 1");
-    const std::string id =
-        fmt::format("bittanti-savaresi/{}/{}", is_first ? "example-1" : "example-2", ++index);
-    const PrintedSentence printed{id, is_first ? "paper, Example 1, Figure 2" : "paper, Example 2, Figure 3",
-                                  one.statement};
-    // A figure is one run.
-    found.entries.push_back(entry_of(printed, share_of_runs(Claimed::sometimes, held), kStart));
-  }
-  return found;
-}
-
 }  // namespace veritrack::reports

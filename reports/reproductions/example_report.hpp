@@ -41,8 +41,9 @@ using StartProgress = std::function<void(int, int)>;
                                                  const page::Renderings& renderings = {},
                                                  const StartProgress& progress = {});
 
-/// Both examples at their own noise, for the ledger: every statement for Q = q I and a start at the true
-/// state with P(0|0) = I, which the paper does not give. Only entries.
+/// Both examples at their own noise, for the ledger: every statement for Q = q I, F at x(t|t) and a start at
+/// the true state with P(0|0) = I, which the paper does not give; and whether I3, or F(t), as printed brings
+/// them out from any start. Only entries.
 [[nodiscard]] Findings example_entries(int seeds, const ReproductionProgress& progress = {});
 
 }  // namespace veritrack::reports

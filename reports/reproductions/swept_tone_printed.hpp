@@ -122,6 +122,10 @@ inline constexpr std::array<Table1Row, 4> kTable1{{
           "the same: standard deviation over the runs", "17.868"}},
     },
 }};
+inline constexpr PrintedSentence kOwnRegion{"la-scala-bitmead-1996/lemma-1/own-region", "1996 paper, lemma 1",
+                                            "lemma 1 for the tracker itself: of random starts fewer do not "
+                                            "lock with Q = q2 I than with q1 = q2/10, the "
+                                            "four designs together"};
 inline constexpr PrintedSentence kEkfFirstAt17{
     "la-scala-bitmead-1996/table-1/order/17", kTable1Place,
     "at 17 dB the best EKF has a smaller mean than the best notch filter"};

@@ -105,6 +105,18 @@ TEST_CASE("the verdict: what comes out agrees; what does not depends on whose th
   CHECK(verdict_words(entry_of(kSentence, {}, searched)) == "undecided: too few runs");
 }
 
+TEST_CASE("a deviation supports nothing where its mean cannot be compared") {
+  constexpr Conditions kChosen{Conditions::Kind::chosen, "the signal is unpublished"};
+  const Entry right = entry_of(kNumber, {ComesOut::yes, "2.5"}, kChosen);
+  const Entry other = entry_of(kNumber, {ComesOut::no, "9"}, kChosen);
+  CHECK(beside_mean(right, right).verdict == EntryVerdict::agrees);
+  CHECK(beside_mean(right, other).verdict == EntryVerdict::cannot_be_compared);
+  CHECK(verdict_words(beside_mean(right, other)) ==
+        "cannot be compared, because the mean beside it does not come out");
+  CHECK(beside_mean(other, other).because == "the signal is unpublished");
+  CHECK(beside_mean(entry_of(kNumber, {ComesOut::undecided, "?"}), other).verdict == EntryVerdict::undecided);
+}
+
 TEST_CASE("counts, warnings and the table") {
   const std::array<Entry, 3> entries{entry_of(kNumber, decided(true, "2.5")), entry_of(kSentence, {}),
                                      entry_of(kNumber, decided(true, "2.5"))};

@@ -6,6 +6,7 @@
 
 #include "analysis/dft_block/lock_claims.hpp"
 #include "analysis/kkl_observer/paper_sentences.hpp"
+#include "analysis/regulator/limit_claims.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/single_channel/paper_sentences.hpp"
 #include "analysis/theorems/block_transform_claims.hpp"
@@ -15,6 +16,7 @@
 #include "analysis/theorems/spill_over_claims.hpp"
 #include "analysis/theorems/stability_lemma_claims.hpp"
 #include "analysis/theorems/tracker_theory_claims.hpp"
+#include "analysis/theorems/vibration_loop_claims.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/markdown_text.hpp"
@@ -142,7 +144,11 @@ std::vector<Row> collect() {
   collection.add(theorems::regulator_claims());
   collection.add(theorems::stability_lemma_claims());
   collection.add(theorems::tracker_theory_claims());
+  collection.add(theorems::vibration_model_claims());
   collection.add(theorems::self_tuning_claims());
+  collection.add(theorems::parameter_convergence_claims());
+  collection.add(regulator::limit_polynomial_claims());
+  collection.add(regulator::limit_loop_claims());
   collection.add(single_channel::paper_sentences());
   collection.add(kkl_observer::paper_sentences());
   collection.add(theorems::sine_filter_claims());

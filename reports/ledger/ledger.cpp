@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "analysis/dft_block/lock_claims.hpp"
+#include "analysis/dft_block/thesis_claims.hpp"
 #include "analysis/kkl_observer/paper_sentences.hpp"
 #include "analysis/regulator/limit_claims.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -140,6 +141,11 @@ std::vector<Row> collect() {
   }
   const rigor::UpwardRounding upward;
   collection.add(theorems::block_transform_claims());
+  collection.add(dft_block::filter_bank_claims());
+  collection.add(dft_block::model_output_claims());
+  collection.add(dft_block::observability_claims());
+  collection.add(dft_block::tuning_claims());
+  collection.add(dft_block::initial_estimate_claims());
   collection.add(dft_block::lock_claims());
   collection.add(theorems::regulator_claims());
   collection.add(theorems::stability_lemma_claims());

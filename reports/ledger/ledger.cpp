@@ -6,8 +6,10 @@
 #include <string_view>
 
 #include "analysis/dft_block/lock_claims.hpp"
+#include "analysis/dft_block/thesis_claims.hpp"
 #include "analysis/kkl_observer/injectivity_claims.hpp"
 #include "analysis/kkl_observer/paper_sentences.hpp"
+#include "analysis/regulator/limit_claims.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/single_channel/paper_sentences.hpp"
 #include "analysis/single_channel/printed_recursion_claims.hpp"
@@ -20,6 +22,7 @@
 #include "analysis/theorems/spill_over_claims.hpp"
 #include "analysis/theorems/stability_lemma_claims.hpp"
 #include "analysis/theorems/tracker_theory_claims.hpp"
+#include "analysis/theorems/vibration_loop_claims.hpp"
 #include "certificates/design/design_reader.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/document/markdown_text.hpp"
@@ -159,11 +162,20 @@ std::vector<Row> collect() {
   }
   const rigor::UpwardRounding upward;
   collection.add(theorems::block_transform_claims());
+  collection.add(dft_block::filter_bank_claims());
+  collection.add(dft_block::model_output_claims());
+  collection.add(dft_block::observability_claims());
+  collection.add(dft_block::tuning_claims());
+  collection.add(dft_block::initial_estimate_claims());
   collection.add(dft_block::lock_claims());
   collection.add(theorems::regulator_claims());
   collection.add(theorems::stability_lemma_claims());
   collection.add(theorems::tracker_theory_claims());
+  collection.add(theorems::vibration_model_claims());
   collection.add(theorems::self_tuning_claims());
+  collection.add(theorems::parameter_convergence_claims());
+  collection.add(regulator::limit_polynomial_claims());
+  collection.add(regulator::limit_loop_claims());
   collection.add(single_channel::paper_sentences());
   collection.add(single_channel::printed_recursion_claims());
   collection.add(kkl_observer::paper_sentences());

@@ -1,0 +1,19 @@
+// What sections 5.3 and 5.4 of the thesis say of the controllers in which the self-tuning regulator ends,
+// decided for the printed ones (Tables 5.1 and 5.2), as statements with verdicts.
+#pragma once
+
+#include <vector>
+
+#include "analysis/theorems/statement.hpp"
+
+namespace veritrack::regulator {
+
+/// The loops that they close: stability, gains, sensitivity, beside the ideal one. Ids
+/// "chapter-5/limits/...". Needs the upward mode.
+[[nodiscard]] std::vector<theorems::Statement> limit_loop_claims();
+
+/// Their polynomials: multiples of the ideal ones, poles, and what the internal model principle asks for. Ids
+/// "chapter-5/limits/..." and "chapter-5/internal-model/...". Needs the upward mode.
+[[nodiscard]] std::vector<theorems::Statement> limit_polynomial_claims();
+
+}  // namespace veritrack::regulator

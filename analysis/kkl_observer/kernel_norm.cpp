@@ -12,7 +12,8 @@ namespace {
 using rigor::Interval;
 
 /// Where the cells end: dense at first, where fast filters still move, and wider later.
-std::vector<double> cell_ends(const KernelNorm::Coefficients& lambda, std::size_t cells) {
+template <typename Rates>
+std::vector<double> cell_ends(const Rates& lambda, std::size_t cells) {
   double slowest = lambda[0].lower();
   double fastest = lambda[0].upper();
   for (const Interval& rate : lambda) {
@@ -34,7 +35,8 @@ std::vector<double> cell_ends(const KernelNorm::Coefficients& lambda, std::size_
 
 }  // namespace
 
-KernelNorm::KernelNorm(const Coefficients& lambda, std::size_t cells) {
+template <int M>
+KernelNorm<M>::KernelNorm(const Coefficients& lambda, std::size_t cells) {
   const std::vector<double> ends = cell_ends(lambda, cells);
   const auto decay = [&](std::size_t i, double time) { return exp(-(lambda[i] * Interval(time))); };
   cells_.reserve(cells);
@@ -59,7 +61,8 @@ KernelNorm::KernelNorm(const Coefficients& lambda, std::size_t cells) {
   }
 }
 
-Interval KernelNorm::upper_bound(const Coefficients& coefficients) const {
+template <int M>
+Interval KernelNorm<M>::upper_bound(const Coefficients& coefficients) const {
   Interval sum(0.0);
   for (const Cell& cell : cells_) {
     Interval middle(0.0);
@@ -84,5 +87,11 @@ Interval KernelNorm::upper_bound(const Coefficients& coefficients) const {
   }
   return Interval(sum.upper());
 }
+
+template class KernelNorm<4>;
+template class KernelNorm<5>;
+template class KernelNorm<6>;
+template class KernelNorm<7>;
+template class KernelNorm<8>;
 
 }  // namespace veritrack::kkl_observer

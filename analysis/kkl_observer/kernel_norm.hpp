@@ -14,10 +14,11 @@ namespace veritrack::kkl_observer {
 ///
 /// The time axis is cut into cells. Where k certainly has one sign on a cell the integral of |k| is |sum_i
 /// c_i (integral of exp(-lambda_i t))|; elsewhere it is at most the cell's width times the largest |k| there,
-/// by the mean-value form; behind the last cell the terms are bounded one by one.
+/// by the mean-value form; behind the last cell the terms are bounded one by one. For four to eight filters.
+template <int M = 4>
 class KernelNorm {
  public:
-  static constexpr std::size_t kFilters = 4;
+  static constexpr std::size_t kFilters = M;
   using Coefficients = std::array<rigor::Interval, kFilters>;
 
   /// `lambda`: filter rates, certainly positive. `cells`: how many; more are tighter. Needs the upward mode.

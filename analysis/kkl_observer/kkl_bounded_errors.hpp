@@ -1,4 +1,5 @@
-// What a disturbance of which only a bound is known does to the estimates of a KKL observer.
+// What a disturbance of which only a bound is known does to the estimates of a KKL observer with four
+// filters.
 #pragma once
 
 #include <array>
@@ -110,7 +111,7 @@ class BoundedErrors {
   [[nodiscard]] double amplitude_error(const KklSearchBox& box) const;
 
   Map map_;
-  KernelNorm norm_;
+  KernelNorm<> norm_;
   Interval lowest_amplitude_;
   Interval highest_amplitude_;
   Interval relative_;  ///< disturbance over lowest amplitude

@@ -1,5 +1,5 @@
 // How the estimates of the KKL observer (trackers/kkl_observer/kkl_observer.hpp) move when its filters do,
-// for four filters and as long as mu of (9) vanishes.
+// for any number of filters and as long as mu of (9) vanishes.
 //
 // Let the filters be at xi = A (T(x) + u), T at amplitude 1, s = x3 = w^2. With mu = 0, gamma is the
 // least-squares solution of x1 lambda + x2 1 - x3 xi = F^2 xi, which scales with A in x1 and x2 and not at
@@ -25,17 +25,21 @@
 
 namespace veritrack::kkl_observer {
 
-/// The errors of four filters with distinct positive rates. Over intervals it needs the upward mode, and
+/// The errors of M >= 4 filters with distinct positive rates. Over intervals it needs the upward mode, and
 /// encloses.
-template <typename Scalar>
+template <typename Scalar, int M = 4>
 class KklErrorMap {
  public:
-  static constexpr std::size_t kFilters = 4;
+  static constexpr std::size_t kFilters = M;
+  /// The dimension of the complement of span(lambda, 1).
+  static constexpr std::size_t kAcross = kFilters - 2;
   template <typename Number>
   using Filters = std::array<Number, kFilters>;
+  template <typename Number>
+  using Across = std::array<Number, kAcross>;
 
   /// `lambda`: filter rates, 1/s.
-  explicit KklErrorMap(const Eigen::Matrix<Scalar, 4, 1>& lambda) {
+  explicit KklErrorMap(const Eigen::Matrix<Scalar, M, 1>& lambda) {
     using std::sqrt;
     using trackers::detail::square;
     Scalar sum(0.0);
@@ -54,41 +58,15 @@ class KklErrorMap {
       }
     }
     for (std::size_t i = 0; i < kFilters; ++i) {
-      pseudoinverse_1_[i] = (Scalar(4.0) * lambda_[i] - sum) / gram_;
+      pseudoinverse_1_[i] = (Scalar(static_cast<double>(M)) * lambda_[i] - sum) / gram_;
       pseudoinverse_2_[i] = (squares - sum * lambda_[i]) / gram_;
     }
-    // The determinants of (xi, lambda, 1) for the first and the last three filters are orthogonal to lambda
-    // and 1.
-    const Filters<Scalar> first{lambda_[1] - lambda_[2], lambda_[2] - lambda_[0], lambda_[0] - lambda_[1],
-                                Scalar(0.0)};
-    const Filters<Scalar> last{Scalar(0.0), lambda_[2] - lambda_[3], lambda_[3] - lambda_[1],
-                               lambda_[1] - lambda_[2]};
-    triples_ = {triple(0, 1, 2), triple(1, 2, 3)};
-    Scalar first_first(0.0);
-    Scalar first_last(0.0);
-    for (std::size_t i = 0; i < kFilters; ++i) {
-      first_first += square(first[i]);
-      first_last += first[i] * last[i];
-    }
-    const Scalar share = first_last / first_first;
-    Filters<Scalar> rest;
-    Scalar rest_rest(0.0);
-    for (std::size_t i = 0; i < kFilters; ++i) {
-      rest[i] = last[i] - share * first[i];
-      rest_rest += square(rest[i]);
-    }
-    const Scalar first_norm = sqrt(first_first);
-    const Scalar rest_norm = sqrt(rest_rest);
-    for (std::size_t i = 0; i < kFilters; ++i) {
-      basis_[0][i] = first[i] / first_norm;
-      basis_[1][i] = rest[i] / rest_norm;
-    }
-    normal_ = {Scalar(1.0) / first_norm, -(share / rest_norm), Scalar(1.0) / rest_norm};
+    find_basis();
   }
 
   [[nodiscard]] const Filters<Scalar>& lambda() const { return lambda_; }
   /// N, by columns.
-  [[nodiscard]] const std::array<Filters<Scalar>, 2>& basis() const { return basis_; }
+  [[nodiscard]] const Across<Filters<Scalar>>& basis() const { return basis_; }
   /// |lambda|^2 |1|^2 - (lambda'1)^2, so that |M xi|^2 is this times |N'xi|^2.
   [[nodiscard]] const Scalar& gram_determinant() const { return gram_; }
 
@@ -97,10 +75,10 @@ class KklErrorMap {
   struct Signal {
     Number frequency;  ///< w, rad/s
     Number sine, cosine;
-    Number s;                         ///< w^2
-    Filters<Number> denominators;     ///< lambda_i^2 + s
-    Filters<Number> transformed;      ///< T
-    std::array<Number, 2> projected;  ///< N'T
+    Number s;                      ///< w^2
+    Filters<Number> denominators;  ///< lambda_i^2 + s
+    Filters<Number> transformed;   ///< T
+    Across<Number> projected;      ///< N'T
   };
 
   /// The signal sin(w t + p) at the phase w t + p = `phase`, rad.
@@ -124,9 +102,7 @@ class KklErrorMap {
       return numerator * t.vandermonde /
              (at.denominators[t.at[0]] * at.denominators[t.at[1]] * at.denominators[t.at[2]]);
     };
-    const Number first = determinant(triples_[0]);
-    const Number last = determinant(triples_[1]);
-    at.projected = {first * normal_[0], first * normal_[1] + last * normal_[2]};
+    at.projected = along_basis<Number>(determinant);
     return at;
   }
 
@@ -134,9 +110,9 @@ class KklErrorMap {
   /// `phase` (rad); `period` = 1 / W in s, which may be 0.
   template <typename Number>
   struct Response {
-    Filters<Number> filters;          ///< T_W
-    std::array<Number, 2> projected;  ///< z = N'T_W
-    std::array<Number, 2> pull;       ///< (W^2 - s) z
+    Filters<Number> filters;   ///< T_W
+    Across<Number> projected;  ///< z = N'T_W
+    Across<Number> pull;       ///< (W^2 - s) z
   };
   template <typename Number>
   [[nodiscard]] Response<Number> response(const Signal<Number>& at, const Number& period,
@@ -158,49 +134,80 @@ class KklErrorMap {
       return numerator * t.vandermonde /
              (denominators[t.at[0]] * denominators[t.at[1]] * denominators[t.at[2]]);
     };
-    const Number first = determinant(triples_[0]);
-    const Number last = determinant(triples_[1]);
+    const Across<Number> of_basis = along_basis<Number>(determinant);
     const Number cube = squared_period * period;
     const Number pulling = period * (Scalar(1.0) - at.s * squared_period);
-    const std::array<Number, 2> along_basis{first * normal_[0], first * normal_[1] + last * normal_[2]};
-    for (std::size_t j = 0; j < 2; ++j) {
-      result.projected[j] = along_basis[j] * cube;
-      result.pull[j] = along_basis[j] * pulling;
+    for (std::size_t j = 0; j < kAcross; ++j) {
+      result.projected[j] = of_basis[j] * cube;
+      result.pull[j] = of_basis[j] * pulling;
     }
     return result;
   }
 
   /// y = N'(T + u).
   template <typename Number>
-  [[nodiscard]] std::array<Number, 2> perturbed(const Signal<Number>& at, const Filters<Number>& u) const {
-    return {at.projected[0] + along(u, basis_[0]), at.projected[1] + along(u, basis_[1])};
+  [[nodiscard]] Across<Number> perturbed(const Signal<Number>& at, const Filters<Number>& u) const {
+    Across<Number> y;
+    for (std::size_t j = 0; j < kAcross; ++j) {
+      y[j] = at.projected[j] + along(u, basis_[j]);
+    }
+    return y;
   }
 
   /// |y|^2.
   template <typename Number>
-  [[nodiscard]] static Number squared_norm(const std::array<Number, 2>& y) {
+  [[nodiscard]] static Number squared_norm(const Across<Number>& y) {
     using trackers::detail::square;
-    return square(y[0]) + square(y[1]);
+    Number sum = square(y[0]);
+    for (std::size_t j = 1; j < kAcross; ++j) {
+      sum = Number(sum + square(y[j]));
+    }
+    return sum;
+  }
+
+  /// The sum of x_j y_j.
+  template <typename Number>
+  [[nodiscard]] static Number product(const Across<Number>& x, const Across<Number>& y) {
+    Number sum = x[0] * y[0];
+    for (std::size_t j = 1; j < kAcross; ++j) {
+      sum = Number(sum + x[j] * y[j]);
+    }
+    return sum;
   }
 
   /// x3_hat - s.
   template <typename Number>
   [[nodiscard]] Number squared_frequency_error(const Signal<Number>& at, const Filters<Number>& u,
-                                               const std::array<Number, 2>& y) const {
-    const std::array<Number, 2> pull = pulled_by(at, u);
-    return (y[0] * pull[0] + y[1] * pull[1]) / squared_norm(y);
+                                               const Across<Number>& y) const {
+    return product(y, pulled_by(at, u)) / squared_norm(y);
   }
 
   /// -N'(F^2 + s) u: x3_hat - s is its product with y over |y|^2.
   template <typename Number>
-  [[nodiscard]] std::array<Number, 2> pulled_by(const Signal<Number>& at, const Filters<Number>& u) const {
-    std::array<Number, 2> pull{Number(0.0), Number(0.0)};
+  [[nodiscard]] Across<Number> pulled_by(const Signal<Number>& at, const Filters<Number>& u) const {
+    Across<Number> pull;
+    pull.fill(Number(0.0));
     for (std::size_t i = 0; i < kFilters; ++i) {
       const Number driven = at.denominators[i] * u[i];
-      pull[0] -= driven * basis_[0][i];
-      pull[1] -= driven * basis_[1][i];
+      for (std::size_t j = 0; j < kAcross; ++j) {
+        pull[j] -= driven * basis_[j][i];
+      }
     }
     return pull;
+  }
+
+  /// The coefficients of y'N'(F^2 + s) u at y = N'T: -|y|^2 times the error of x3 to first order.
+  template <typename Number>
+  [[nodiscard]] Filters<Number> pulling(const Signal<Number>& at) const {
+    Filters<Number> result;
+    for (std::size_t i = 0; i < kFilters; ++i) {
+      Number sum = at.projected[0] * basis_[0][i];
+      for (std::size_t j = 1; j < kAcross; ++j) {
+        sum = Number(sum + at.projected[j] * basis_[j][i]);
+      }
+      result[i] = at.denominators[i] * sum;
+    }
+    return result;
   }
 
   /// w_hat - w, from x3_hat - s; -w where x3_hat, which has to be positive, is not.
@@ -231,7 +238,7 @@ class KklErrorMap {
   /// |M xi|^2 / |xi|^2 at xi = T + u.
   template <typename Number>
   [[nodiscard]] Number excitation_ratio(const Signal<Number>& at, const Filters<Number>& u,
-                                        const std::array<Number, 2>& y) const {
+                                        const Across<Number>& y) const {
     using trackers::detail::square;
     Number norm(0.0);
     for (std::size_t i = 0; i < kFilters; ++i) {
@@ -261,21 +268,78 @@ class KklErrorMap {
     Scalar e1, e2, e3, vandermonde;
   };
 
-  [[nodiscard]] Triple triple(std::size_t i, std::size_t j, std::size_t k) const {
+  /// Three filters in a row, from this one on.
+  [[nodiscard]] Triple triple(std::size_t i) const {
     const Scalar& a = lambda_[i];
-    const Scalar& b = lambda_[j];
-    const Scalar& c = lambda_[k];
+    const Scalar& b = lambda_[i + 1];
+    const Scalar& c = lambda_[i + 2];
     // The determinant of (f, lambda, 1) is (a - b)(b - c)(a - c) f[a, b, c].
-    // order.
-    return {{i, j, k}, a + b + c, a * b + b * c + c * a, a * b * c, (a - b) * (b - c) * (a - c)};
+    return {{i, i + 1, i + 2}, a + b + c, a * b + b * c + c * a, a * b * c, (a - b) * (b - c) * (a - c)};
+  }
+
+  /// The determinants of (xi, lambda, 1) of three filters in a row are orthogonal to lambda and 1: Gram and
+  /// Schmidt.
+  void find_basis() {
+    using std::sqrt;
+    using trackers::detail::square;
+    Across<Filters<Scalar>> rest;  // orthogonal, not yet of length 1
+    Across<Scalar> squares;
+    for (std::size_t k = 0; k < kAcross; ++k) {
+      triples_[k] = triple(k);
+      Filters<Scalar> row;
+      row.fill(Scalar(0.0));
+      row[k] = lambda_[k + 1] - lambda_[k + 2];
+      row[k + 1] = lambda_[k + 2] - lambda_[k];
+      row[k + 2] = lambda_[k] - lambda_[k + 1];
+      rest[k] = row;
+      normal_[k].fill(Scalar(0.0));
+      normal_[k][k] = Scalar(1.0);
+      for (std::size_t j = 0; j < k; ++j) {
+        const Scalar share = along(row, rest[j]) / squares[j];
+        for (std::size_t i = 0; i < kFilters; ++i) {
+          rest[k][i] -= share * rest[j][i];
+        }
+        for (std::size_t i = 0; i <= j; ++i) {
+          normal_[k][i] -= share * normal_[j][i];
+        }
+      }
+      squares[k] = Scalar(0.0);
+      for (std::size_t i = 0; i < kFilters; ++i) {
+        squares[k] += square(rest[k][i]);
+      }
+    }
+    for (std::size_t k = 0; k < kAcross; ++k) {
+      const Scalar norm = sqrt(squares[k]);
+      for (std::size_t i = 0; i < kFilters; ++i) {
+        basis_[k][i] = rest[k][i] / norm;
+      }
+      for (std::size_t i = 0; i <= k; ++i) {
+        normal_[k][i] = normal_[k][i] / norm;
+      }
+    }
+  }
+
+  /// N'v from the determinants of v with lambda and 1.
+  template <typename Number, typename Determinant>
+  [[nodiscard]] Across<Number> along_basis(const Determinant& determinant) const {
+    Across<Number> result;
+    Across<Number> of_triples;
+    for (std::size_t k = 0; k < kAcross; ++k) {
+      of_triples[k] = determinant(triples_[k]);
+      result[k] = of_triples[0] * normal_[k][0];
+      for (std::size_t i = 1; i <= k; ++i) {
+        result[k] = Number(result[k] + of_triples[i] * normal_[k][i]);
+      }
+    }
+    return result;
   }
 
   Filters<Scalar> lambda_, squared_;
   Scalar gram_;
   Filters<Scalar> pseudoinverse_1_, pseudoinverse_2_;
-  std::array<Triple, 2> triples_;
-  std::array<Filters<Scalar>, 2> basis_;
-  std::array<Scalar, 3> normal_;  ///< from the two determinants to the orthonormal basis
+  Across<Triple> triples_;
+  Across<Filters<Scalar>> basis_;
+  Across<Across<Scalar>> normal_;  ///< from the determinants to the orthonormal basis: lower triangular
 };
 
 }  // namespace veritrack::kkl_observer

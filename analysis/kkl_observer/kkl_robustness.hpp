@@ -26,9 +26,14 @@ struct SinusoidalDisturbance {
 };
 using Disturbance = std::variant<NoDisturbance, BoundedDisturbance, SinusoidalDisturbance>;
 
-/// What is asked.
-struct KklRobustnessQuestion {
-  KklRange range;
+/// A number for each of M filters.
+template <int M>
+using KklFilters = std::array<rigor::Interval, static_cast<std::size_t>(M)>;
+
+/// What is asked of M filters.
+template <int M>
+struct KklRobustnessQuestionOf {
+  KklRangeOf<M> range;
   rigor::Interval amplitude;  ///< of the signal, certainly positive, signal units
   rigor::Interval ell;        ///< in use in (9)
   Disturbance disturbance;
@@ -38,6 +43,8 @@ struct KklRobustnessQuestion {
   double relative_tolerance = 0.05;  ///< of the bounds; a wish, not a condition
   std::int64_t cells = 120'000;      ///< at most, for each bound
 };
+/// Of the paper's four filters.
+using KklRobustnessQuestion = KklRobustnessQuestionOf<4>;
 
 /// Bounds that hold from the settling time on, for every signal of the range and filters that start at rest.
 /// They are about estimates that are computed in double precision.
@@ -56,18 +63,26 @@ struct KklRobustness {
   rigor::Interval smallest_relative_square;
   /// A disturbed signal near the worst one for the frequency: frequency (rad/s), phase (rad), amplitude, and
   /// for a sinusoidal disturbance its phase (rad) and frequency (rad/s; infinite when the search ended
-  /// there).
+  /// there). With more than four filters the first two only.
   std::array<double, 5> worst{};
   std::int64_t cells = 0;  ///< looked at
 };
 
-/// Bounds the errors by branch and bound over signal and disturbance, in parallel; the result does not depend
-/// on the number of threads. Opens its own rounding scopes. Never throws for odd numbers.
-[[nodiscard]] KklRobustness bound_kkl_errors(const KklRobustnessQuestion& question);
+/// Bounds the errors of four to eight filters by branch and bound, in parallel: with four over signal and
+/// disturbance, with more over the signal (kkl_split_errors.hpp). The result does not depend on the number of
+/// threads. Opens its own rounding scopes. Never throws for odd numbers.
+template <int M>
+[[nodiscard]] KklRobustness bound_kkl_errors(const KklRobustnessQuestionOf<M>& question);
+
+/// The same over the signal alone, for four filters, too.
+template <int M>
+[[nodiscard]] KklRobustness bound_kkl_errors_over_signals(const KklRobustnessQuestionOf<M>& question);
 
 /// The derivation "kkl-robustness": quantities frequency_error_bound, amplitude_error_bound, settling_time,
 /// largest_ell, and what simulation finds, frequency_error_simulated and amplitude_error_simulated (not
-/// proved); conditions regular (mu vanishes, so that the bounds apply to the ell in use) and bounded.
-[[nodiscard]] theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question);
+/// proved); conditions regular (mu vanishes, so that the bounds apply to the ell in use), frequency-exists
+/// and bounded. For four to eight filters.
+template <int M>
+[[nodiscard]] theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestionOf<M>& question);
 
 }  // namespace veritrack::kkl_observer

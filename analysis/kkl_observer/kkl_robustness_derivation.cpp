@@ -74,7 +74,7 @@ theorems::Condition frequency_condition(const KklRobustness& found, bool regular
   return condition;
 }
 
-theorems::Condition bounded_condition(const KklRobustness& found, bool regular) {
+theorems::Condition bounded_condition(const KklRobustness& found, bool regular, const std::string& over) {
   theorems::Condition condition{
       "bounded",          "|\\hat\\omega - \\omega| \\le b_\\omega,\\ |\\hat A - A| \\le b_A",
       Verdict::undecided, regular ? found.frequency_error_bound : Interval(),
@@ -83,7 +83,7 @@ theorems::Condition bounded_condition(const KklRobustness& found, bool regular) 
     condition.reason = kOtherObserver;
   } else if (rigor::is_finite(found.frequency_error_bound) && rigor::is_finite(found.amplitude_error_bound)) {
     condition.verdict = Verdict::proved;
-    condition.reason = "branch and bound over signal and disturbance, " + std::to_string(found.cells) +
+    condition.reason = "branch and bound over " + over + ", " + std::to_string(found.cells) +
                        " cells; rounding of the estimates adds at most " +
                        rigor::upper_decimal(found.rounding, 3) + " rad/s.";
   } else {
@@ -95,7 +95,8 @@ theorems::Condition bounded_condition(const KklRobustness& found, bool regular) 
 
 }  // namespace
 
-theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question) {
+template <int M>
+theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestionOf<M>& question) {
   const KklRobustness found = bound_kkl_errors(question);
   const SampledErrors sampled = sample_errors(question);
   const rigor::UpwardRounding upward;
@@ -121,7 +122,8 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question
                Sense::sampled, "largest frequency error seen in simulation, rad/s"),
       quantity("amplitude_error_simulated", "", "\\max |\\hat A - A|", Interval(sampled.amplitude),
                Sense::sampled, "largest amplitude error seen in simulation, signal units")};
-  derivation.conditions = {regular, exists, bounded_condition(found, is_regular)};
+  derivation.conditions = {
+      regular, exists, bounded_condition(found, is_regular, M > 4 ? "signals" : "signal and disturbance")};
   derivation.verdict = rigor::conjunction(
       {derivation.conditions[0].verdict, derivation.conditions[1].verdict, derivation.conditions[2].verdict});
   derivation.notes = {
@@ -132,7 +134,19 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestion& question
       "above the assumed one.",
       "The simulated errors are the largest over a grid of signals. They prove nothing, but show how tight "
       "the bounds are."};
+  if (M > 4) {
+    derivation.notes.emplace_back(
+        "With more than four filters the bounds take the error of the squared frequency as linear in what "
+        "the "
+        "disturbance does to the filters, plus a bound on the rest (docs/kkl-observer.md).");
+  }
   return derivation;
 }
+
+template theorems::Derivation derive_kkl_robustness<4>(const KklRobustnessQuestionOf<4>&);
+template theorems::Derivation derive_kkl_robustness<5>(const KklRobustnessQuestionOf<5>&);
+template theorems::Derivation derive_kkl_robustness<6>(const KklRobustnessQuestionOf<6>&);
+template theorems::Derivation derive_kkl_robustness<7>(const KklRobustnessQuestionOf<7>&);
+template theorems::Derivation derive_kkl_robustness<8>(const KklRobustnessQuestionOf<8>&);
 
 }  // namespace veritrack::kkl_observer

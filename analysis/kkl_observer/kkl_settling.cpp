@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "analysis/kkl_observer/kkl_error_map.hpp"
 #include "analysis/rigor/elementary.hpp"
 
 namespace veritrack::kkl_observer {
@@ -13,11 +14,10 @@ namespace veritrack::kkl_observer {
 namespace {
 
 using rigor::Interval;
-using Map = KklErrorMap<double>;
 
 /// The largest |c'e| over what a disturbance can do to the filters, roughly.
-double largest_response(const Map::Filters<double>& c, const Map::Filters<double>& lambda,
-                        const Disturbance& disturbance) {
+template <typename Filters>
+double largest_response(const Filters& c, const Filters& lambda, const Disturbance& disturbance) {
   if (const auto* sinusoidal = std::get_if<SinusoidalDisturbance>(&disturbance)) {
     std::complex<double> sum = 0.0;
     for (std::size_t i = 0; i < c.size(); ++i) {
@@ -45,8 +45,9 @@ double largest_response(const Map::Filters<double>& c, const Map::Filters<double
 
 }  // namespace
 
-Map::Filters<Interval> transient_at(const KklRobustnessQuestion& question, const Interval& time) {
-  Map::Filters<Interval> transient;
+template <int M>
+KklFilters<M> transient_at(const KklRobustnessQuestionOf<M>& question, const Interval& time) {
+  KklFilters<M> transient;
   const auto gain = [](const Interval& rate, const Interval& frequency) {
     return Interval(1.0) / sqrt(square(rate) + square(frequency));
   };
@@ -61,11 +62,13 @@ Map::Filters<Interval> transient_at(const KklRobustnessQuestion& question, const
   return transient;
 }
 
-double propose_settling_time(const KklRobustnessQuestion& question) {
+template <int M>
+double propose_settling_time(const KklRobustnessQuestionOf<M>& question) {
+  using Map = KklErrorMap<double, M>;
   const rigor::NearestRounding nearest;
   constexpr double kShare = 0.003;      // of the disturbance's effect
   constexpr double kWithoutOne = 1e-3;  // of the lowest frequency
-  const Eigen::Vector4d rates = rigor::midpoint(question.range.lambda);
+  const Eigen::Matrix<double, M, 1> rates = rigor::midpoint(question.range.lambda);
   const Map map(rates);
   const double low = question.range.frequency.lower();
   const double high = question.range.frequency.upper();
@@ -73,7 +76,7 @@ double propose_settling_time(const KklRobustnessQuestion& question) {
   constexpr int kFrequencies = 9;
   constexpr int kPhases = 24;
   struct Direction {
-    Map::Filters<double> coefficients;
+    typename Map::template Filters<double> coefficients;
     double frequency;
   };
   std::vector<Direction> directions;
@@ -83,11 +86,9 @@ double propose_settling_time(const KklRobustnessQuestion& question) {
     const double frequency = low * std::pow(high / low, k / (kFrequencies - 1.0));
     for (int j = 0; j < kPhases; ++j) {
       const auto at = map.signal(frequency, std::numbers::pi * j / kPhases);
-      Direction direction{{}, frequency};
-      for (std::size_t i = 0; i < direction.coefficients.size(); ++i) {
-        direction.coefficients[i] =
-            at.denominators[i] * (at.projected[0] * map.basis()[0][i] + at.projected[1] * map.basis()[1][i]) /
-            Map::squared_norm(at.projected) / (2.0 * frequency);
+      Direction direction{map.pulling(at), frequency};
+      for (double& coefficient : direction.coefficients) {
+        coefficient = coefficient / Map::squared_norm(at.projected) / (2.0 * frequency);
       }
       effect = std::max(
           effect, largest_response(direction.coefficients, map.lambda(), question.disturbance) / amplitude);
@@ -115,5 +116,16 @@ double propose_settling_time(const KklRobustnessQuestion& question) {
   }
   return late;
 }
+
+template KklFilters<4> transient_at<4>(const KklRobustnessQuestionOf<4>&, const Interval&);
+template KklFilters<5> transient_at<5>(const KklRobustnessQuestionOf<5>&, const Interval&);
+template KklFilters<6> transient_at<6>(const KklRobustnessQuestionOf<6>&, const Interval&);
+template KklFilters<7> transient_at<7>(const KklRobustnessQuestionOf<7>&, const Interval&);
+template KklFilters<8> transient_at<8>(const KklRobustnessQuestionOf<8>&, const Interval&);
+template double propose_settling_time<4>(const KklRobustnessQuestionOf<4>&);
+template double propose_settling_time<5>(const KklRobustnessQuestionOf<5>&);
+template double propose_settling_time<6>(const KklRobustnessQuestionOf<6>&);
+template double propose_settling_time<7>(const KklRobustnessQuestionOf<7>&);
+template double propose_settling_time<8>(const KklRobustnessQuestionOf<8>&);
 
 }  // namespace veritrack::kkl_observer

@@ -1,4 +1,4 @@
-// What a sinusoidal disturbance, or none, does to the estimates of a KKL observer.
+// What a sinusoidal disturbance, or none, does to the estimates of a KKL observer with four filters.
 #pragma once
 
 #include <array>
@@ -74,9 +74,7 @@ class SinusoidalErrors {
     std::array<Number, 2> y, pull;
 
     /// x3_hat - s.
-    [[nodiscard]] Number squared_error() const {
-      return (y[0] * pull[0] + y[1] * pull[1]) / Map::squared_norm(y);
-    }
+    [[nodiscard]] Number squared_error() const { return Map::product(y, pull) / Map::squared_norm(y); }
   };
 
   template <typename Number>

@@ -12,25 +12,22 @@ namespace veritrack::kkl_observer {
 
 namespace {
 
-using Map = KklErrorMap<double>;
 using trackers::oscillator_state;
 
 /// Where the filters are when the disturbance has been bound * sign(kernel) for ever, the kernel being that
 /// of the first-order frequency error.
-Eigen::Vector4d bang_bang(const Map& map, double frequency, double phase, double bound) {
-  const auto at = map.signal(frequency, phase);
-  Map::Filters<double> c{};
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    c[i] = at.denominators[i] * (at.projected[0] * map.basis()[0][i] + at.projected[1] * map.basis()[1][i]);
-  }
+template <int M>
+Eigen::Matrix<double, M, 1> bang_bang(const KklErrorMap<double, M>& map, double frequency, double phase,
+                                      double bound) {
+  const auto c = map.pulling(map.signal(frequency, phase));
   const double slowest = *std::min_element(map.lambda().begin(), map.lambda().end());
   constexpr int kSteps = 1500;
   const double step = 15.0 / slowest / kSteps;
-  Eigen::Vector4d moved = Eigen::Vector4d::Zero();
+  Eigen::Matrix<double, M, 1> moved = Eigen::Matrix<double, M, 1>::Zero();
   for (int k = 0; k < kSteps; ++k) {
-    Eigen::Vector4d decay;
+    Eigen::Matrix<double, M, 1> decay;
     double kernel = 0.0;
-    for (Eigen::Index i = 0; i < 4; ++i) {
+    for (Eigen::Index i = 0; i < M; ++i) {
       decay(i) = std::exp(-map.lambda()[static_cast<std::size_t>(i)] * (k + 0.5) * step);
       kernel += c[static_cast<std::size_t>(i)] * decay(i);
     }
@@ -41,14 +38,16 @@ Eigen::Vector4d bang_bang(const Map& map, double frequency, double phase, double
 
 }  // namespace
 
-SampledErrors sample_errors(const KklRobustnessQuestion& question, int phases) {
+template <int M>
+SampledErrors sample_errors(const KklRobustnessQuestionOf<M>& question, int phases) {
+  using Rates = Eigen::Matrix<double, M, 1>;
   const rigor::NearestRounding nearest;
-  const Eigen::Vector4d lambda = rigor::midpoint(question.range.lambda);
-  const trackers::KklObserverDesign<double, 4> design{lambda, rigor::midpoint(question.ell)};
-  const Map map(lambda);
+  const Rates lambda = rigor::midpoint(question.range.lambda);
+  const trackers::KklObserverDesign<double, M> design{lambda, rigor::midpoint(question.ell)};
+  const KklErrorMap<double, M> map(lambda);
   SampledErrors largest;
-  const auto look = [&](const Eigen::Vector4d& xi, double amplitude, double frequency) {
-    const auto x = trackers::kkl_inverse<double, 4>(xi, design);
+  const auto look = [&](const Rates& xi, double amplitude, double frequency) {
+    const auto x = trackers::kkl_inverse<double, M>(xi, design);
     if (!(x(2) > 0.0)) {
       largest.frequency = largest.amplitude = std::numeric_limits<double>::infinity();
       return;
@@ -66,17 +65,17 @@ SampledErrors sample_errors(const KklRobustnessQuestion& question, int phases) {
     for (int j = 0; j < phases; ++j) {
       const double phase = std::numbers::pi * j / phases;
       for (const double amplitude : {question.amplitude.lower(), question.amplitude.upper()}) {
-        const Eigen::Vector4d clean =
-            trackers::kkl_transform<double, 4>(oscillator_state(amplitude, phase, frequency), lambda);
+        const Rates clean =
+            trackers::kkl_transform<double, M>(oscillator_state(amplitude, phase, frequency), lambda);
         if (const auto* sinusoidal = std::get_if<SinusoidalDisturbance>(&question.disturbance)) {
           for (int l = 0; l < 2 * phases; ++l) {
             const double other_phase = std::numbers::pi * l / phases;
             const auto other = oscillator_state(rigor::midpoint(sinusoidal->amplitude), other_phase,
                                                 rigor::midpoint(sinusoidal->frequency));
-            look(clean + trackers::kkl_transform<double, 4>(other, lambda), amplitude, frequency);
+            look(clean + trackers::kkl_transform<double, M>(other, lambda), amplitude, frequency);
           }
         } else if (const auto* bounded = std::get_if<BoundedDisturbance>(&question.disturbance)) {
-          const Eigen::Vector4d moved = bang_bang(map, frequency, phase, rigor::midpoint(bounded->bound));
+          const Rates moved = bang_bang<M>(map, frequency, phase, rigor::midpoint(bounded->bound));
           look(clean + moved, amplitude, frequency);
           look(clean - moved, amplitude, frequency);
         } else {
@@ -87,5 +86,11 @@ SampledErrors sample_errors(const KklRobustnessQuestion& question, int phases) {
   }
   return largest;
 }
+
+template SampledErrors sample_errors<4>(const KklRobustnessQuestionOf<4>&, int);
+template SampledErrors sample_errors<5>(const KklRobustnessQuestionOf<5>&, int);
+template SampledErrors sample_errors<6>(const KklRobustnessQuestionOf<6>&, int);
+template SampledErrors sample_errors<7>(const KklRobustnessQuestionOf<7>&, int);
+template SampledErrors sample_errors<8>(const KklRobustnessQuestionOf<8>&, int);
 
 }  // namespace veritrack::kkl_observer

@@ -98,11 +98,6 @@ Claim bound_claim(const Certificate& certificate, const std::string& id, const s
   if (!bound) {
     claim.statement += ".";
     claim.reason = "No bound is certified for the assumed range and disturbance";
-    if (kkl_observer_tables(certificate.design).design.lambda.size() != kFilters) {
-      claim.reason +=
-          ": with more than four filters ell and the inverse are decided here, the errors under a "
-          "disturbance are not";
-    }
     if (const theorems::Derivation* derivation = find_derivation(certificate, kRobustness)) {
       for (const theorems::Condition& condition : derivation->conditions) {
         if (condition.verdict != Verdict::proved) {
@@ -153,10 +148,11 @@ void add_required_claims(Certificate& certificate, const KklRequirements& requir
 
 }  // namespace
 
-kkl_observer::KklRobustnessQuestion kkl_robustness_question(const KklObserverTables& tables,
-                                                            const Interval& ell) {
-  kkl_observer::KklRobustnessQuestion question;
-  question.range = kkl_range(tables);
+template <int M>
+kkl_observer::KklRobustnessQuestionOf<M> kkl_robustness_question(const KklObserverTables& tables,
+                                                                 const Interval& ell) {
+  kkl_observer::KklRobustnessQuestionOf<M> question;
+  question.range = kkl_range<M>(tables);
   question.amplitude = hull_of(tables.assume.amplitude);
   question.ell = ell;
   question.disturbance = disturbance_of(tables.assume);
@@ -165,6 +161,9 @@ kkl_observer::KklRobustnessQuestion kkl_robustness_question(const KklObserverTab
   }
   return question;
 }
+
+template kkl_observer::KklRobustnessQuestionOf<4> kkl_robustness_question(const KklObserverTables&,
+                                                                          const Interval&);
 
 std::optional<Interval> proved_kkl_bound(const Certificate& certificate, const std::string& name) {
   const theorems::Derivation* derivation = find_derivation(certificate, kRobustness);
@@ -221,13 +220,13 @@ void kkl_observer_published_results(Certificate& certificate) {
 void certify_kkl_observer(Certificate& certificate, const CertifyProgress& /*progress*/) {
   const KklObserverTables& tables = kkl_observer_tables(certificate.design);
   kkl_observer_published_results(certificate);
-  if (tables.design.lambda.size() == kFilters) {
+  kkl_observer::with_number_of_filters(tables.design.lambda.size(), [&](auto filters) {
+    const auto question =
+        kkl_robustness_question<decltype(filters)::value>(tables, kkl_ell_in_use(certificate).value);
     // Its place is between the two.
-    const kkl_observer::KklRobustnessQuestion question =
-        kkl_robustness_question(tables, kkl_ell_in_use(certificate).value);
     certificate.derivations.insert(certificate.derivations.end() - 1,
                                    kkl_observer::derive_kkl_robustness(question));
-  }
+  });
   if (const auto lambda = section_v_rates(tables)) {
     certificate.derivations.push_back(
         kkl_observer::derive_kkl_section_v(*lambda, kkl_ell_in_use(certificate).nearest));

@@ -10,8 +10,8 @@
 namespace veritrack::certificates {
 
 /// Adds the derivations "kkl-ell", "kkl-paper" and "kkl-robustness" (and "kkl-section-v" for the paper's
-/// rates), the required claims and their verdict to a certificate whose design is one of the KKL observer;
-/// with more than four filters there is no "kkl-robustness". Needs the upward mode.
+/// rates), the required claims and their verdict to a certificate whose design is one of the KKL observer.
+/// Needs the upward mode.
 void certify_kkl_observer(Certificate& certificate, const CertifyProgress& progress);
 
 /// Of these, ell and the claims of the paper alone. Needs the upward mode.
@@ -34,9 +34,11 @@ template <int M = 4>
   return range;
 }
 
-/// What is asked of the observer's robustness, for four filters and an ell in use. Needs the upward mode.
-[[nodiscard]] kkl_observer::KklRobustnessQuestion kkl_robustness_question(const KklObserverTables& tables,
-                                                                          const rigor::Interval& ell);
+/// What is asked of the robustness of an observer with M filters, four to eight, and an ell in use. Needs the
+/// upward mode.
+template <int M = 4>
+[[nodiscard]] kkl_observer::KklRobustnessQuestionOf<M> kkl_robustness_question(
+    const KklObserverTables& tables, const rigor::Interval& ell);
 
 /// The rates of a design that has those of the paper's section V, (1, 2, 3, 4) 1/s.
 [[nodiscard]] std::optional<Eigen::Vector4d> section_v_rates(const KklObserverTables& tables);

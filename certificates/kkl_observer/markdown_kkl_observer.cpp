@@ -84,15 +84,6 @@ std::string figures_section(const MarkdownOptions& options) {
 }
 
 std::string coverage_section(const KklObserverTables& tables) {
-  if (tables.design.lambda.size() > 4) {
-    return "## What this certificate covers, and what it does not\n\n"
-           "- Covered, in exact arithmetic: the constant of (10), and the inverse map on signals within the "
-           "assumed range.\n"
-           "- Not covered: the errors of the estimates, under a disturbance or without one. They are bounded "
-           "for four filters only.\n"
-           "- Every enclosure was computed with outward-rounded interval arithmetic. Results of solvers are "
-           "marked as not proved, and no verdict depends on them.\n\n";
-  }
   const char* filters =
       tables.design.sampling_interval
           ? "- Covered: the program, `KklObserver` of `trackers/kkl_observer/kkl_observer.hpp` for double, "

@@ -1,5 +1,7 @@
 #include "checker/kkl_observer/filter_deviation.hpp"
 
+#include <algorithm>
+
 #include "checker/numbers/rounded_value.hpp"
 
 namespace veritrack::checker {
@@ -34,14 +36,14 @@ Filters filter_deviation(const KklDesign& design) {
   static const Ball kAllowed(0x1p-29);
   static const Ball kSmallest(0x1p-240);
   static const Ball kLargest(0x1p240);
-  Filters result;
-  for (std::size_t i = 0; i < kFilters; ++i) {
+  Filters result(design.lambda.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
     result[i] = kAllowed / design.lambda[i];
   }
   if (!design.sampling_interval) {
     return result;
   }
-  result.fill(Ball::everything());
+  std::fill(result.begin(), result.end(), Ball::everything());
   const Ball& interval = *design.sampling_interval;
   const Ball largest = (design.amplitude_high + design.bound.value_or(zero)).upper();
   const bool in_range = certainly_at_most(kSmallest, largest) && certainly_at_most(largest, kLargest);
@@ -51,7 +53,7 @@ Filters filter_deviation(const KklDesign& design) {
   const Ball relative = largest / design.amplitude_low;
   // sin(w t) is off its chord by (w h)^2 / 8 at most, and a sample by half a unit in the last place.
   const Ball input = square(design.frequency_high * interval) / Ball(8.0) + Ball(0x1p-53) * relative;
-  for (std::size_t i = 0; i < kFilters; ++i) {
+  for (std::size_t i = 0; i < result.size(); ++i) {
     result[i] = ((input + neighbourhood) / design.lambda[i] +
                  relative * rounding_of_steps(design.lambda[i], interval))
                     .upper();

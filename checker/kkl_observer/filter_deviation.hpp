@@ -13,7 +13,7 @@ inline const Ball neighbourhood(0x1p-31);
 /// Over the signal's amplitude, filter by filter (s), with the neighbourhood. Without a sampling interval:
 /// more than the 1e-9 over the rates of the sentence. With one: of the program that takes its input to be
 /// straight between samples; balls of everything for a sinusoidal disturbance, which, of any frequency, may
-/// have any samples. Needs four filters.
+/// have any samples.
 Filters filter_deviation(const KklDesign& design);
 
 }  // namespace veritrack::checker

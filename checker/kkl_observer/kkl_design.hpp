@@ -18,9 +18,6 @@ struct KklDesign {
   // The disturbance, none of these when there is none: |d| <= bound, or amplitude sin(W t + p) for any p and
   // any W from the frequency up.
   std::optional<Ball> bound, disturbance_amplitude, disturbance_frequency;
-
-  /// The checks of the bounds under a disturbance are for four filters.
-  [[nodiscard]] bool has_four_filters() const { return lambda.size() == 4; }
 };
 
 /// Objects to numbers that [lo, hi] does not contain, and to what no such design can be.

@@ -30,9 +30,9 @@ Ball length(const std::array<Ball, 2>& x) {
 }
 
 /// The sum of q_i x_i.
-Ball dot(const Filters& q, const Filters& x) {
+Ball dot(std::span<const Ball> q, const Filters& x) {
   Ball sum(0.0);
-  for (std::size_t i = 0; i < kFilters; ++i) {
+  for (std::size_t i = 0; i < q.size(); ++i) {
     sum += q[i] * x[i];
   }
   return sum;
@@ -40,8 +40,8 @@ Ball dot(const Filters& q, const Filters& x) {
 
 }  // namespace
 
-Moves::Moves(const KklDesign& design, const Ball& settling_time) {
-  std::copy_n(design.lambda.begin(), kFilters, lambda_.begin());
+Moves::Moves(const KklDesign& design, const Ball& settling_time)
+    : lambda_(design.lambda), left_(lambda_.size()), tail_(lambda_.size()) {
   sinusoid_ = design.disturbance_amplitude.value_or(zero) / design.amplitude_low;
   bound_ = design.bound.value_or(zero) / design.amplitude_low;
   if (design.disturbance_frequency) {
@@ -53,7 +53,7 @@ Moves::Moves(const KklDesign& design, const Ball& settling_time) {
   const auto gain = [](const Ball& rate, const Ball& frequency) {
     return one / sqrt(square(rate) + square(frequency));
   };
-  for (std::size_t i = 0; i < kFilters; ++i) {
+  for (std::size_t i = 0; i < lambda_.size(); ++i) {
     Ball start = gain(lambda_[i], design.frequency_low);
     if (design.disturbance_frequency) {
       start += sinusoid_ * gain(lambda_[i], *design.disturbance_frequency);
@@ -73,8 +73,9 @@ void Moves::cut_periods(const KklDesign& design) {
   for (int k = 0; k < periods; ++k) {
     const Ball end = k + 1 == periods ? longest : Ball(bend * std::expm1(growth * (k + 1) / periods));
     const Ball middle = half * (begin + end);
-    Cell cell{end, end - middle, {}, {}, {}};
-    for (std::size_t i = 0; i < kFilters; ++i) {
+    const Filters none(lambda_.size());
+    Cell cell{end, end - middle, {none, none}, {none, none}, {}};
+    for (std::size_t i = 0; i < lambda_.size(); ++i) {
       const auto at_middle = response(lambda_[i], middle);
       const auto over = response(lambda_[i], Slope::variable(Ball::hull(begin, end), 0));
       for (std::size_t part = 0; part < 2; ++part) {
@@ -97,8 +98,9 @@ void Moves::cut_time() {
   for (int k = 0; k < kTimes; ++k) {
     const Ball end(bend * std::expm1(growth * (k + 1) / kTimes));
     const Ball middle = half * (begin + end);
-    Cell cell{end - begin, end - middle, {}, {}, {}};
-    for (std::size_t i = 0; i < kFilters; ++i) {
+    const Filters none(lambda_.size());
+    Cell cell{end - begin, end - middle, {none, {}}, {none, {}}, none};
+    for (std::size_t i = 0; i < lambda_.size(); ++i) {
       const Ball before = decay(i, begin);
       const Ball after = decay(i, end);
       cell.middle[0][i] = decay(i, middle);
@@ -108,12 +110,12 @@ void Moves::cut_time() {
     cells_.push_back(std::move(cell));
     begin = end;
   }
-  for (std::size_t i = 0; i < kFilters; ++i) {
+  for (std::size_t i = 0; i < lambda_.size(); ++i) {
     tail_[i] = decay(i, begin) / lambda_[i];
   }
 }
 
-Ball Moves::largest_response(const Filters& q) const {
+Ball Moves::largest_response(std::span<const Ball> q) const {
   Ball largest(0.0);
   for (const Cell& cell : cells_) {
     const Ball middle = length({dot(q, cell.middle[0]), dot(q, cell.middle[1])});
@@ -123,14 +125,14 @@ Ball Moves::largest_response(const Filters& q) const {
   return largest;
 }
 
-Ball Moves::kernel_integral(const Filters& q) const {
+Ball Moves::kernel_integral(std::span<const Ball> q) const {
   Ball sum(0.0);
   for (const Cell& cell : cells_) {
     const Ball kernel = dot(q, cell.middle[0]) + Ball::within(cell.half_width * dot(q, cell.slope[0]));
     const bool one_sign = certainly_positive(kernel) || certainly_positive(-kernel);
     sum += one_sign ? abs(dot(q, cell.integral)) : cell.weight * abs(kernel).upper();
   }
-  for (std::size_t i = 0; i < kFilters; ++i) {
+  for (std::size_t i = 0; i < lambda_.size(); ++i) {
     sum += abs(q[i]) * tail_[i];
   }
   return sum;
@@ -140,7 +142,7 @@ Ball Moves::reach(std::size_t filter, const Ball& gain) const {
   return (gain + (sinusoid_ + bound_) / lambda_[filter] + left_[filter]).upper();
 }
 
-Size Moves::size(const Filters& q) const {
+Size Moves::size(std::span<const Ball> q) const {
   Size size{zero, zero};
   // cannot bind (sinusoid_, bound_): the disturbance that there is not has amplitude 0.
   const bool is_sinusoid = certainly_positive(sinusoid_);
@@ -151,7 +153,7 @@ Size Moves::size(const Filters& q) const {
   } else if (is_bounded) {
     size.driven = (bound_ * kernel_integral(q)).upper();
   }
-  for (std::size_t i = 0; i < kFilters; ++i) {
+  for (std::size_t i = 0; i < lambda_.size(); ++i) {
     size.left += abs(q[i]) * left_[i];
   }
   size.left = size.left.upper();

@@ -1,15 +1,16 @@
-// What a disturbance, and the start at rest, do to the four filters of a KKL observer.
+// What a disturbance, and the start at rest, do to the filters of a KKL observer.
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "checker/kkl_observer/kkl_design.hpp"
 
 namespace veritrack::checker {
 
-constexpr std::size_t kFilters = 4;
 /// A number for each filter.
-using Filters = std::array<Ball, kFilters>;
+using Filters = std::vector<Ball>;
 
 /// How large a linear function of the filters' moves can get, relative to the amplitude of the signal: by the
 /// disturbance (at the lowest amplitude), and by the remaining effect of the start.
@@ -25,11 +26,10 @@ struct Size {
 /// such u together are a convex set that is symmetric about 0.
 class Moves {
  public:
-  /// Needs four filters.
   Moves(const KklDesign& design, const Ball& settling_time);
 
   /// At least sup |q'u|, for every q of the balls.
-  [[nodiscard]] Size size(const Filters& q) const;
+  [[nodiscard]] Size size(std::span<const Ball> q) const;
   /// At least |xi_i| / A of one filter, with `gain` at least that of the signal's response: for how large the
   /// program's numbers get.
   [[nodiscard]] Ball reach(std::size_t filter, const Ball& gain) const;
@@ -44,8 +44,8 @@ class Moves {
   };
   void cut_periods(const KklDesign& design);
   void cut_time();
-  [[nodiscard]] Ball largest_response(const Filters& q) const;
-  [[nodiscard]] Ball kernel_integral(const Filters& q) const;
+  [[nodiscard]] Ball largest_response(std::span<const Ball> q) const;
+  [[nodiscard]] Ball kernel_integral(std::span<const Ball> q) const;
 
   Filters lambda_, left_;
   Ball sinusoid_, bound_;  ///< over the lowest amplitude; 0 when the disturbance is not of that kind

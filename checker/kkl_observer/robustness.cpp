@@ -1,9 +1,10 @@
 #include "checker/kkl_observer/robustness.hpp"
 
-#include <algorithm>
+#include <functional>
 
 #include "checker/document/evidence.hpp"
 #include "checker/kkl_observer/filter_deviation.hpp"
+#include "checker/kkl_observer/projected_cells.hpp"
 #include "checker/kkl_observer/rounded_map.hpp"
 #include "checker/kkl_observer/signal_cells.hpp"
 
@@ -36,12 +37,11 @@ MapRounding rounding_of(const KklDesign& design, const Ball& settling_time, cons
   static const Ball kSmallest(0x1p-240);
   static const Ball kLargest(0x1p240);
   const Moves moves(design, settling_time);
-  FilterStates states{{}, ell, exact.largest_ell, {}, {}, {}};
-  std::copy_n(design.lambda.begin(), kFilters, states.lambda.begin());
+  FilterStates states{design.lambda, ell, exact.largest_ell, {}, {}, {}};
   // |xi| / A, and its smallest value: some filter is outside of the neighbourhood of zero.
   Ball squares(0.0);
   Ball fastest(0.0);
-  for (std::size_t i = 0; i < kFilters; ++i) {
+  for (std::size_t i = 0; i < states.lambda.size(); ++i) {
     const Ball gain = one / sqrt(square(states.lambda[i]) + square(design.frequency_low));
     squares += square(moves.reach(i, gain));
     fastest = max(fastest, states.lambda[i]);
@@ -59,27 +59,58 @@ MapRounding rounding_of(const KklDesign& design, const Ball& settling_time, cons
   return {rounding.frequency, rounding.amplitude * design.amplitude_high * longest};
 }
 
+/// Is a number a bound of all signals? In exact arithmetic; the last one given a bound on the frequency
+/// error.
+struct Statements {
+  std::function<bool(const Ball&bound)> ratio_at_least, relative_square_at_least, frequency_error_at_most;
+  std::function<bool(const Ball& bound, const Ball& frequency_error)> amplitude_error_at_most;
+};
+
+Statements of_four_filters(const KklDesign& design, const Ball& settling_time) {
+  const SignalCells cells(design, settling_time);
+  const auto of_all = [cells](auto statement) {
+    return [cells, statement](const Ball& bound) {
+      return cells.always([&](const KklCell& cell) { return (cells.*statement)(cell, bound); });
+    };
+  };
+  const auto amplitude = of_all(&SignalCells::amplitude_error_at_most);
+  return {of_all(&SignalCells::ratio_at_least), of_all(&SignalCells::relative_square_at_least),
+          of_all(&SignalCells::frequency_error_at_most),
+          [amplitude](const Ball& bound, const Ball& /*frequency_error*/) { return amplitude(bound); }};
+}
+
+Statements of_more_filters(const KklDesign& design, const Ball& settling_time) {
+  const ProjectedCells cells(design, settling_time);
+  const auto of_all = [cells](auto statement) {
+    return [cells, statement](const Ball& bound) {
+      return cells.always([&](const ProjectedCell& cell) { return (cells.*statement)(cell, bound); });
+    };
+  };
+  return {of_all(&ProjectedCells::ratio_at_least), of_all(&ProjectedCells::relative_square_at_least),
+          of_all(&ProjectedCells::frequency_error_at_most),
+          [cells](const Ball& bound, const Ball& frequency_error) {
+            return cells.always([&](const ProjectedCell& cell) {
+              return cells.amplitude_error_at_most(cell, bound, frequency_error);
+            });
+          }};
+}
+
 }  // namespace
 
 void check_kkl_robustness(const Tree& claimed, const KklDesign& design, const Ball& ell,
                           Objections& objections) {
-  if (!design.has_four_filters()) {
-    objections.emplace_back("the bounds are defined for four filters");
-    return;
-  }
+  constexpr std::size_t kFour = 4;
   const Tree& quantities = claimed.at("quantities");
   const Ball settling_time = end_of(quantities.find("settling_time"), "hi");
-  const SignalCells cells(design, settling_time);
-  // A bound that all cells have, or nothing.
-  const auto established = [&](const Ball& bound, auto statement) {
-    const bool is_proved =
-        bound.finite() && cells.always([&](const KklCell& cell) { return (cells.*statement)(cell, bound); });
-    return is_proved ? bound : Ball::everything();
+  const Statements are = design.lambda.size() == kFour ? of_four_filters(design, settling_time)
+                                                       : of_more_filters(design, settling_time);
+  // A bound that all signals have, or nothing.
+  const auto established = [](const Ball& bound, const std::function<bool(const Ball&)>& statement) {
+    return bound.finite() && statement(bound) ? bound : Ball::everything();
   };
-  const Ball largest_ell =
-      established(end_of(quantities.find("largest_ell"), "lo"), &SignalCells::ratio_at_least);
-  const Ball relative_square = established(end_of(left_side(claimed, "frequency-exists"), "lo"),
-                                           &SignalCells::relative_square_at_least);
+  const Ball largest_ell = established(end_of(quantities.find("largest_ell"), "lo"), are.ratio_at_least);
+  const Ball relative_square =
+      established(end_of(left_side(claimed, "frequency-exists"), "lo"), are.relative_square_at_least);
   // Where mu of (9) may not vanish the estimates are others.
   const Verdict regular = proved_if(certainly_at_most(ell, largest_ell));
   const Verdict exists = all_of({regular, proved_if(certainly_positive(relative_square))});
@@ -92,12 +123,15 @@ void check_kkl_robustness(const Tree& claimed, const KklDesign& design, const Ba
   Ball amplitude = Ball::everything();
   if (exists == Verdict::proved) {
     const MapRounding rounding = rounding_of(design, settling_time, ell, claim);
-    const auto computed = [&](const Ball& bound, const Ball& added, auto statement) {
-      return established((bound - added).lower(), statement).finite() ? bound : Ball::everything();
-    };
-    frequency = computed(claim.frequency_error, rounding.frequency, &SignalCells::frequency_error_at_most);
-    if (frequency.finite()) {
-      amplitude = computed(claim.amplitude_error, rounding.amplitude, &SignalCells::amplitude_error_at_most);
+    const Ball exact_frequency = (claim.frequency_error - rounding.frequency).lower();
+    const Ball exact_amplitude = (claim.amplitude_error - rounding.amplitude).lower();
+    if (established(exact_frequency, are.frequency_error_at_most).finite()) {
+      frequency = claim.frequency_error;
+      const auto with_frequency = [&](const Ball& bound) {
+        return are.amplitude_error_at_most(bound, exact_frequency);
+      };
+      amplitude =
+          established(exact_amplitude, with_frequency).finite() ? claim.amplitude_error : Ball::everything();
     }
   }
   const bool bounded = frequency.finite() && amplitude.finite();

@@ -11,7 +11,7 @@ using Value = RoundedValue;
 /// Sums over the rates.
 struct Rates {
   Ball sum, squares;  ///< lambda'1, |lambda|^2
-  Ball gram;          ///< 4 |lambda|^2 - (lambda'1)^2
+  Ball gram;          ///< |1|^2 |lambda|^2 - (lambda'1)^2
   Ball largest_square;
 };
 
@@ -41,10 +41,11 @@ Ball length(const Filters& c) {
 bool finds_mu_zero(const FilterStates& states, const Rates& rates) {
   Value excitation = held(zero);
   Value norm = held(zero);
-  for (std::size_t i = 0; i < kFilters; ++i) {
+  const std::size_t filters = states.lambda.size();
+  for (std::size_t i = 0; i < filters; ++i) {
     norm = norm + held(one) * held(one);
-    for (std::size_t j = i + 1; j < kFilters; ++j) {
-      for (std::size_t k = j + 1; k < kFilters; ++k) {
+    for (std::size_t j = i + 1; j < filters; ++j) {
+      for (std::size_t k = j + 1; k < filters; ++k) {
         const auto difference = [&](std::size_t a, std::size_t b) {
           return rounded(abs(states.lambda[a] - states.lambda[b]), zero);
         };
@@ -74,10 +75,11 @@ State state(const FilterStates& states, const Rates& rates) {
   Value right1 = held(zero);
   Value right2 = held(zero);
   Value right3 = held(zero);
-  Filters squared;
-  Filters cubed;
-  Filters reduced;
-  for (std::size_t i = 0; i < kFilters; ++i) {
+  const std::size_t filters = states.lambda.size();
+  Filters squared(filters);
+  Filters cubed(filters);
+  Filters reduced(filters);
+  for (std::size_t i = 0; i < filters; ++i) {
     const Ball& rate = states.lambda[i];
     squared[i] = square(rate);
     cubed[i] = rate * squared[i];
@@ -97,7 +99,7 @@ State state(const FilterStates& states, const Rates& rates) {
     right3 = right3 + xi * driven;
   }
   p13 = p13.within(length(states.lambda));
-  p23 = p23.within(two);
+  p23 = p23.within(sqrt(Ball(static_cast<double>(filters))).upper());
   p33 = p33.within(one);
   right1 = right1.within(length(cubed));
   right2 = right2.within(length(squared));

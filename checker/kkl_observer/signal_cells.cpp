@@ -9,7 +9,7 @@ namespace {
 constexpr int kDepth = 60;
 constexpr int kCells = 40'000;
 
-Ball dot(const Filters& x, const Filters& y) {
+Ball dot(const std::array<Ball, kFilters>& x, const std::array<Ball, kFilters>& y) {
   Ball sum(0.0);
   for (std::size_t i = 0; i < kFilters; ++i) {
     sum += x[i] * y[i];
@@ -37,7 +37,7 @@ SignalCells::SignalCells(const KklDesign& design, const Ball& settling_time)
   std::copy_n(design.lambda.begin(), kFilters, lambda_.begin());
   find_rows();
   for (std::size_t j = 0; j < kRows; ++j) {
-    Filters of_f2;
+    FourFilters of_f2;
     for (std::size_t i = 0; i < kFilters; ++i) {
       of_f2[i] = rows_[j][i] * square(lambda_[i]);
     }
@@ -50,7 +50,7 @@ SignalCells::SignalCells(const KklDesign& design, const Ball& settling_time)
   }
   Ball sum(0.0);
   for (std::size_t i = 0; i < kFilters; ++i) {
-    Filters unit{zero, zero, zero, zero};
+    FourFilters unit{zero, zero, zero, zero};
     unit[i] = one;
     sum += square(moves_.size(unit).sum());
   }
@@ -72,11 +72,11 @@ void SignalCells::find_rows() {
     rows_[kSecond][i] = (squares - sum * lambda_[i]) / gram_;
   }
   // det(xi, lambda, 1) of the first and of the last three filters, then Gram and Schmidt.
-  const Filters first{b - c, c - a, a - b, zero};
-  const Filters last{zero, c - d, d - b, b - c};
+  const FourFilters first{b - c, c - a, a - b, zero};
+  const FourFilters last{zero, c - d, d - b, b - c};
   const Ball first_norm = sqrt(dot(first, first));
   const Ball share = dot(first, last) / square(first_norm);
-  Filters rest;
+  FourFilters rest;
   for (std::size_t i = 0; i < kFilters; ++i) {
     rest[i] = last[i] - share * first[i];
   }
@@ -168,7 +168,7 @@ template <typename Function>
 Size SignalCells::largest(const KklCell& cell, const Function& weights) const {
   const Weights<Ball> at_middle = weights(cell.middle);
   const Weights<Slope> over = weights(cell.over);
-  Filters q{zero, zero, zero, zero};
+  FourFilters q{zero, zero, zero, zero};
   Size change{zero, zero};
   for (std::size_t j = 0; j < kRows; ++j) {
     // Of row'F^2 u and of row'u.

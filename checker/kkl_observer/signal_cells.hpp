@@ -1,4 +1,5 @@
-// Signals in the filters of a KKL observer, cut into cells on which the errors of the estimates are bounded.
+// Signals in the four filters of a KKL observer, cut into cells on which the errors of the estimates are
+// bounded.
 //
 // The filters are at xi = A (T + u), T at amplitude 1, and N is an orthonormal basis of what is orthogonal to
 // lambda and 1. With y = N'(T + u), as long as mu of (9) vanishes (docs/kkl-observer.md, Robustness),
@@ -15,6 +16,8 @@
 #include "checker/numbers/slope.hpp"
 
 namespace veritrack::checker {
+
+constexpr std::size_t kFilters = 4;
 
 /// A signal of amplitude 1 in the filters.
 template <typename S>
@@ -75,10 +78,11 @@ class SignalCells {
   /// At least |e| / w over the cell.
   [[nodiscard]] Ball squared_error(const KklCell& cell) const;
 
-  Filters lambda_;
+  using FourFilters = std::array<Ball, kFilters>;
+  FourFilters lambda_;
   Moves moves_;
   Ball amplitude_low_, amplitude_high_;
-  std::array<Filters, kRows> rows_;
+  std::array<FourFilters, kRows> rows_;
   std::array<Triple, 2> triples_;
   std::array<Ball, 3> normal_;               ///< from the two determinants to the orthonormal basis
   Ball gram_;                                ///< |lambda|^2 |1|^2 - (lambda'1)^2

@@ -23,8 +23,9 @@ Interval largest_disturbance(const Disturbance& disturbance) {
 
 }  // namespace
 
-void add_rounding(const KklRobustnessQuestion& question,
-                  const KklErrorMap<Interval>::Filters<Interval>& transient, KklRobustness& result) {
+template <int M>
+void add_rounding(const KklRobustnessQuestionOf<M>& question, const KklFilters<M>& transient,
+                  KklRobustness& result) {
   constexpr double kRoom = 16.0;  // for a bound by another program
   const Interval exact_frequency = result.frequency_error_bound;
   const Interval exact_amplitude = result.amplitude_error_bound;
@@ -52,7 +53,7 @@ void add_rounding(const KklRobustnessQuestion& question,
   if (!in_range) {
     return;
   }
-  FilterStates states{question.range.lambda, question.ell, result.largest_ell, {}, {}};
+  FilterStatesOf<M> states{question.range.lambda, question.ell, result.largest_ell, {}, {}};
   const Interval least = Interval(result.smallest_relative_square.lower()) * square(slowest);
   const Interval most =
       square(Interval(question.range.frequency.upper()) + Interval(exact_frequency.upper()));
@@ -73,5 +74,11 @@ void add_rounding(const KklRobustnessQuestion& question,
     result.amplitude_error_bound = Interval((exact_amplitude + amplitude).upper());
   }
 }
+
+template void add_rounding<4>(const KklRobustnessQuestionOf<4>&, const KklFilters<4>&, KklRobustness&);
+template void add_rounding<5>(const KklRobustnessQuestionOf<5>&, const KklFilters<5>&, KklRobustness&);
+template void add_rounding<6>(const KklRobustnessQuestionOf<6>&, const KklFilters<6>&, KklRobustness&);
+template void add_rounding<7>(const KklRobustnessQuestionOf<7>&, const KklFilters<7>&, KklRobustness&);
+template void add_rounding<8>(const KklRobustnessQuestionOf<8>&, const KklFilters<8>&, KklRobustness&);
 
 }  // namespace veritrack::kkl_observer

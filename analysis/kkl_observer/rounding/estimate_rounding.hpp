@@ -1,7 +1,6 @@
 // Rounding in the bounds on the errors of the KKL observer's estimates: docs/rounding.md, The KKL observer.
 #pragma once
 
-#include "analysis/kkl_observer/kkl_error_map.hpp"
 #include "analysis/kkl_observer/kkl_robustness.hpp"
 
 namespace veritrack::kkl_observer {
@@ -9,9 +8,9 @@ namespace veritrack::kkl_observer {
 /// Adds what rounding of the static map does to estimates whose exact errors are within the bounds of
 /// `result`, with room for an independent bound that is cruder. `transient`: how far the filters are from the
 /// response to signal and disturbance, over the amplitude. Where rounding has no bound the errors have none.
-/// Needs the upward mode.
-void add_rounding(const KklRobustnessQuestion& question,
-                  const KklErrorMap<rigor::Interval>::Filters<rigor::Interval>& transient,
+/// For four to eight filters. Needs the upward mode.
+template <int M>
+void add_rounding(const KklRobustnessQuestionOf<M>& question, const KklFilters<M>& transient,
                   KklRobustness& result);
 
 }  // namespace veritrack::kkl_observer

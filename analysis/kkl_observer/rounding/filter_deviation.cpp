@@ -14,23 +14,22 @@ namespace {
 using rigor::Interval;
 using rigor::Rounded;
 
-constexpr Eigen::Index kRates = 4;
-
 /// What the rounding of all steps adds to each filter, for samples of at most 1 before they are rounded. The
 /// steps contract; the states that the bound on one step is about are twice as large as the exact ones get.
-std::array<Interval, 4> rounding_of_steps(const rigor::IntervalVector<4>& lambda, const Interval& interval) {
-  Eigen::Matrix<Rounded, kRates, 1> rates;
-  Eigen::Matrix<Rounded, kRates, 1> xi;
-  for (Eigen::Index i = 0; i < kRates; ++i) {
+template <int M>
+KklFilters<M> rounding_of_steps(const rigor::IntervalVector<M>& lambda, const Interval& interval) {
+  Eigen::Matrix<Rounded, M, 1> rates;
+  Eigen::Matrix<Rounded, M, 1> xi;
+  for (Eigen::Index i = 0; i < M; ++i) {
     rates(i) = Rounded(lambda(i));
     xi(i) = Rounded(rigor::symmetric((Interval(2.0) / lambda(i)).upper()));
   }
-  const trackers::KklDiscretization<Rounded, kRates> program(rates, Rounded(interval));
+  const trackers::KklDiscretization<Rounded, M> program(rates, Rounded(interval));
   constexpr double kSample = 1.0 + 0x1p-50;
   const Rounded sample(Interval::from_bounds(-kSample, kSample));
   const auto next = program.interpolated(xi, sample, sample);
-  std::array<Interval, 4> result;
-  for (Eigen::Index i = 0; i < kRates; ++i) {
+  KklFilters<M> result;
+  for (Eigen::Index i = 0; i < M; ++i) {
     const Interval forgotten = Interval(1.0) - exp(-(lambda(i) * interval));
     const Interval sum = Interval(next(i).error()) / forgotten;
     // Where the interval is too short to forget anything, the sum is not finite.
@@ -40,7 +39,8 @@ std::array<Interval, 4> rounding_of_steps(const rigor::IntervalVector<4>& lambda
   return result;
 }
 
-std::array<Interval, 4> sampled_deviation(const KklRobustnessQuestion& question, const Interval& interval) {
+template <int M>
+KklFilters<M> sampled_deviation(const KklRobustnessQuestionOf<M>& question, const Interval& interval) {
   constexpr double kRoom = 16.0;  // for a bound by another program
   const auto* bounded = std::get_if<BoundedDisturbance>(&question.disturbance);
   const Interval disturbance = bounded != nullptr ? bounded->bound : Interval(0.0);
@@ -51,7 +51,7 @@ std::array<Interval, 4> sampled_deviation(const KklRobustnessQuestion& question,
   // A straight line between samples of sin(w t) is off by (w h)^2 / 8 at most, a sample by half a unit.
   const Interval bend = square(Interval(question.range.frequency.upper()) * interval) / Interval(8.0);
   const Interval sample = Interval(Rounded::kUnitRoundoff) * relative;
-  std::array<Interval, 4> result = rounding_of_steps(question.range.lambda, interval);
+  KklFilters<M> result = rounding_of_steps<M>(question.range.lambda, interval);
   for (std::size_t i = 0; i < result.size(); ++i) {
     const Interval input = bend + sample + Interval(kNeighbourhood);
     const Interval sum =
@@ -63,9 +63,10 @@ std::array<Interval, 4> sampled_deviation(const KklRobustnessQuestion& question,
 
 }  // namespace
 
-std::array<Interval, 4> filter_deviation(const KklRobustnessQuestion& question) {
+template <int M>
+KklFilters<M> filter_deviation(const KklRobustnessQuestionOf<M>& question) {
   rigor::require_upward_rounding();
-  std::array<Interval, 4> result;
+  KklFilters<M> result;
   result.fill(Interval::entire());
   if (!question.interval) {
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -73,9 +74,15 @@ std::array<Interval, 4> filter_deviation(const KklRobustnessQuestion& question) 
       result[i] = Interval((Interval(kAllowedDeviation) / rate).upper());
     }
   } else if (!std::holds_alternative<SinusoidalDisturbance>(question.disturbance)) {
-    result = sampled_deviation(question, *question.interval);
+    result = sampled_deviation<M>(question, *question.interval);
   }
   return result;
 }
+
+template KklFilters<4> filter_deviation<4>(const KklRobustnessQuestionOf<4>&);
+template KklFilters<5> filter_deviation<5>(const KklRobustnessQuestionOf<5>&);
+template KklFilters<6> filter_deviation<6>(const KklRobustnessQuestionOf<6>&);
+template KklFilters<7> filter_deviation<7>(const KklRobustnessQuestionOf<7>&);
+template KklFilters<8> filter_deviation<8>(const KklRobustnessQuestionOf<8>&);
 
 }  // namespace veritrack::kkl_observer

@@ -2,8 +2,6 @@
 // The KKL observer.
 #pragma once
 
-#include <array>
-
 #include "analysis/kkl_observer/kkl_robustness.hpp"
 
 namespace veritrack::kkl_observer {
@@ -20,7 +18,9 @@ inline constexpr double kNeighbourhood = 0x1p-31;
 /// the neighbourhood and, with a sampling interval, for an independent bound that is cruder. Without one:
 /// kAllowedDeviation. With one: of trackers::KklObserver, stepped along straight lines between samples, from
 /// filters that the signal and a disturbance, straight between samples, drive. Infinite when nothing is
-/// known, and for a sinusoidal disturbance: of any frequency, it has any samples. Needs the upward mode.
-[[nodiscard]] std::array<rigor::Interval, 4> filter_deviation(const KklRobustnessQuestion& question);
+/// known, and for a sinusoidal disturbance: of any frequency, it has any samples. For four to eight filters.
+/// Needs the upward mode.
+template <int M>
+[[nodiscard]] KklFilters<M> filter_deviation(const KklRobustnessQuestionOf<M>& question);
 
 }  // namespace veritrack::kkl_observer

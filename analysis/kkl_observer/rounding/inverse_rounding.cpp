@@ -17,7 +17,6 @@ using rigor::Rounded;
 using trackers::KklResult;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Eigen::Index kFilters = 4;
 constexpr double kGrowth = 1.25;  ///< of the pieces into which a range is cut
 
 /// Exact values as real arithmetic knows them.
@@ -34,7 +33,8 @@ class Known {
 };
 
 /// All c'xi with |xi| = 1.
-Interval linear(const rigor::IntervalVector<kFilters>& c) {
+template <int M>
+Interval linear(const rigor::IntervalVector<M>& c) {
   Interval sum(0.0);
   for (const Interval& x : c) {
     sum += square(x);
@@ -43,7 +43,8 @@ Interval linear(const rigor::IntervalVector<kFilters>& c) {
 }
 
 /// The largest lambda^2.
-Interval largest_square(const FilterStates& states) {
+template <int M>
+Interval largest_square(const FilterStatesOf<M>& states) {
   Interval largest(0.0);
   for (const Interval& rate : states.lambda) {
     largest = max(largest, square(rate));
@@ -53,25 +54,26 @@ Interval largest_square(const FilterStates& states) {
 
 /// What is known whatever the angle between xi and span(lambda, 1); sets `gram` = |lambda|^2 |1|^2 -
 /// (lambda'1)^2.
-Known known_of(const FilterStates& states, Interval& gram) {
+template <int M>
+Known known_of(const FilterStatesOf<M>& states, Interval& gram) {
   const auto& lambda = states.lambda;
   const Interval one(1.0);
   Interval sum(0.0);
   Interval squares(0.0);
   gram = Interval(0.0);
-  rigor::IntervalVector<kFilters> squared;
-  rigor::IntervalVector<kFilters> cubed;
-  for (Eigen::Index i = 0; i < kFilters; ++i) {
+  rigor::IntervalVector<M> squared;
+  rigor::IntervalVector<M> cubed;
+  for (Eigen::Index i = 0; i < M; ++i) {
     squared(i) = square(lambda(i));
     cubed(i) = lambda(i) * squared(i);
     sum += lambda(i);
     squares += squared(i);
-    for (Eigen::Index j = i + 1; j < kFilters; ++j) {
+    for (Eigen::Index j = i + 1; j < M; ++j) {
       gram += square(lambda(i) - lambda(j));
     }
   }
-  rigor::IntervalVector<kFilters> reduced;
-  for (Eigen::Index i = 0; i < kFilters; ++i) {
+  rigor::IntervalVector<M> reduced;
+  for (Eigen::Index i = 0; i < M; ++i) {
     reduced(i) = squared(i) - sum / squares * cubed(i);
   }
   Known known;
@@ -79,22 +81,23 @@ Known known_of(const FilterStates& states, Interval& gram) {
   known.set(KklResult::excess,
             Interval::from_bounds(
                 -kInfinity, (Interval(states.ell.upper()) - Interval(states.largest_ell.lower())).upper()));
-  known.set(KklResult::entry_13, linear(lambda));
-  known.set(KklResult::entry_23, Interval::from_bounds(-2.0, 2.0));
+  known.set(KklResult::entry_13, linear<M>(lambda));
+  known.set(KklResult::entry_23, rigor::symmetric(sqrt(Interval(static_cast<double>(M))).upper()));
   known.set(KklResult::entry_33, one);
-  known.set(KklResult::right_1, linear(cubed));
-  known.set(KklResult::right_2, linear(squared));
+  known.set(KklResult::right_1, linear<M>(cubed));
+  known.set(KklResult::right_2, linear<M>(squared));
   known.set(KklResult::right_3, rigor::symmetric(largest_square(states).upper()));
   // -xi times what lambda leaves of 1, whose square is gram / |lambda|^2.
   known.set(KklResult::reduced_23, rigor::symmetric(sqrt(gram / squares).upper()));
-  known.set(KklResult::reduced_2, linear(reduced));
+  known.set(KklResult::reduced_2, linear<M>(reduced));
   known.set(KklResult::x3, states.squared_frequency);
   return known;
 }
 
 /// Enlarges `worst` by the errors of the estimate from a computed state. With the exact amplitude cut into
 /// pieces [a, b], the exact |x1| <= b, |x2| <= b w.
-void look(const trackers::OscillatorState<Rounded>& x, const FilterStates& states, Known& known,
+template <int M>
+void look(const trackers::OscillatorState<Rounded>& x, const FilterStatesOf<M>& states, Known& known,
           InverseRounding& worst) {
   const Interval most = sqrt(square(x(0).exact()) + square(x(1).exact()) / states.squared_frequency);
   const double top = most.upper();
@@ -121,20 +124,21 @@ void look(const trackers::OscillatorState<Rounded>& x, const FilterStates& state
 
 }  // namespace
 
-InverseRounding inverse_rounding(const FilterStates& states) {
+template <int M>
+InverseRounding inverse_rounding(const FilterStatesOf<M>& states) {
   rigor::require_upward_rounding();
   const InverseRounding none{kInfinity, kInfinity};
   Interval gram;
   Known known = known_of(states, gram);
-  trackers::KklObserverDesign<Rounded, kFilters> design;
-  Eigen::Matrix<Rounded, kFilters, 1> xi;
-  for (Eigen::Index i = 0; i < kFilters; ++i) {
+  trackers::KklObserverDesign<Rounded, M> design;
+  Eigen::Matrix<Rounded, M, 1> xi;
+  for (Eigen::Index i = 0; i < M; ++i) {
     design.lambda(i) = Rounded(states.lambda(i));
     xi(i) = Rounded(Interval::from_bounds(-1.0, 1.0));
   }
   design.ell = Rounded(states.ell);
   // With a mu that is only nearly zero, (L'L + mu I) does not scale with xi.
-  const Rounded mu = trackers::kkl_regularization<Rounded, kFilters>(xi, design, known);
+  const Rounded mu = trackers::kkl_regularization<Rounded, M>(xi, design, known);
   if (!(mu.error() == 0.0 && rigor::identical(mu.exact(), Interval(0.0)))) {
     return none;
   }
@@ -152,11 +156,17 @@ InverseRounding inverse_rounding(const FilterStates& states) {
     const Interval piece = Interval::from_bounds(low, high);
     known.set(KklResult::reduced_33, piece);
     known.set(KklResult::reduced_3, piece * states.squared_frequency);
-    const auto x = trackers::kkl_inverse<Rounded, kFilters>(xi, design, known);
+    const auto x = trackers::kkl_inverse<Rounded, M>(xi, design, known);
     look(x, states, known, worst);
     low = high;
   }
   return worst;
 }
+
+template InverseRounding inverse_rounding<4>(const FilterStatesOf<4>&);
+template InverseRounding inverse_rounding<5>(const FilterStatesOf<5>&);
+template InverseRounding inverse_rounding<6>(const FilterStatesOf<6>&);
+template InverseRounding inverse_rounding<7>(const FilterStatesOf<7>&);
+template InverseRounding inverse_rounding<8>(const FilterStatesOf<8>&);
 
 }  // namespace veritrack::kkl_observer

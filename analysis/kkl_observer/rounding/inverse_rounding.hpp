@@ -7,13 +7,15 @@ namespace veritrack::kkl_observer {
 
 /// Filter states xi of which a certificate knows that |M xi|^2 >= largest_ell / 2 |xi|^2 and that the exact
 /// map gives an estimate in these ranges. All scales of xi between kSmallestFilters and kLargestFilters.
-struct FilterStates {
-  rigor::IntervalVector<4> lambda;    ///< filter rates, 1/s; the program holds a double in each
+template <int M>
+struct FilterStatesOf {
+  rigor::IntervalVector<M> lambda;    ///< filter rates, 1/s; the program holds a double in each
   rigor::Interval ell;                ///< in use in (9)
   rigor::Interval largest_ell;        ///< its lower end counts
   rigor::Interval squared_frequency;  ///< the exact estimate of w^2, (rad/s)^2; certainly positive
   rigor::Interval least_amplitude;    ///< of the exact estimate, over |xi|, 1/s; not negative
 };
+using FilterStates = FilterStatesOf<4>;
 
 /// No result below 2^-480 times a power of |xi| up to the second, so that underflow stays below what
 /// rigor::Rounded allows for, and none above 2^540 times one overflows.
@@ -27,8 +29,9 @@ struct InverseRounding {
 };
 
 /// By running error analysis of trackers::kkl_inverse and in_engineering_units as they are, over all such
-/// states at |xi| = 1. Finite only when the program computes that mu of (9) is exactly zero. Needs the
-/// upward mode.
-[[nodiscard]] InverseRounding inverse_rounding(const FilterStates& states);
+/// states at |xi| = 1. Finite only when the program computes that mu of (9) is exactly zero. For four to
+/// eight filters. Needs the upward mode.
+template <int M>
+[[nodiscard]] InverseRounding inverse_rounding(const FilterStatesOf<M>& states);
 
 }  // namespace veritrack::kkl_observer

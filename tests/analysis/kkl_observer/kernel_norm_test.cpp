@@ -34,8 +34,8 @@ TEST_CASE("the norm is bounded from above, and not by much") {
     CAPTURE(trial);
     std::array<double, 4> lambda{};
     std::array<double, 4> c{};
-    KernelNorm::Coefficients rates;
-    KernelNorm::Coefficients coefficients;
+    KernelNorm<>::Coefficients rates;
+    KernelNorm<>::Coefficients coefficients;
     double rate = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
       rate += random.uniform(0.3, 2.0);
@@ -46,7 +46,7 @@ TEST_CASE("the norm is bounded from above, and not by much") {
     }
     const double expected = integral(lambda, c);
     const rigor::UpwardRounding upward;
-    const Interval bound = KernelNorm(rates, 120).upper_bound(coefficients);
+    const Interval bound = KernelNorm<>(rates, 120).upper_bound(coefficients);
     CHECK(bound.upper() >= expected * (1.0 - 1e-6));
     CHECK(bound.upper() <= expected * 1.1 + 1e-3);
   }
@@ -54,7 +54,7 @@ TEST_CASE("the norm is bounded from above, and not by much") {
 
 TEST_CASE("one filter alone: 1 / lambda; and nothing finite from an unknown coefficient") {
   const rigor::UpwardRounding upward;
-  const KernelNorm norm({Interval(0.5), Interval(1.0), Interval(2.0), Interval(4.0)}, 60);
+  const KernelNorm<> norm({Interval(0.5), Interval(1.0), Interval(2.0), Interval(4.0)}, 60);
   const Interval zero(0.0);
   CHECK(norm.upper_bound({Interval(1.0), zero, zero, zero}).upper() == doctest::Approx(2.0).epsilon(1e-6));
   CHECK_FALSE(rigor::is_finite(norm.upper_bound({Interval::entire(), zero, zero, zero})));

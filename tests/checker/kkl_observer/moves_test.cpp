@@ -32,7 +32,7 @@ TEST_CASE("a kernel that changes its sign is integrated on both sides") {
       const double at = std::fmax(0.0, std::log(c));
       const auto primitive = [&](double t) { return -std::exp(-t) + 0.5 * c * std::exp(-2.0 * t); };
       const double exact = std::fabs(primitive(at) - primitive(0.0)) + std::fabs(primitive(at));
-      const double found = moves.size({Ball(sign), Ball(-sign * c), zero, zero}).driven.near();
+      const double found = moves.size(Filters{Ball(sign), Ball(-sign * c), zero, zero}).driven.near();
       CHECK(found >= exact * (1.0 - 1e-12));
       CHECK(found <= exact * (1.0 + 1e-2));
     }
@@ -40,5 +40,5 @@ TEST_CASE("a kernel that changes its sign is integrated on both sides") {
 }
 
 TEST_CASE("without a disturbance nothing is driven") {
-  CHECK(Moves(design_with(0.0), one).size({one, one, one, one}).driven.near() == 0.0);
+  CHECK(Moves(design_with(0.0), one).size(Filters{one, one, one, one}).driven.near() == 0.0);
 }

@@ -25,8 +25,8 @@ constexpr double kLeastAmplitude = 0.3;
 FilterStates states_of(double low, double high) {
   FilterStates states{
       {}, Ball(kEll), Ball(kLargestEll), Ball(low * low), Ball(high * high), Ball(kLeastAmplitude)};
-  for (std::size_t i = 0; i < checker::kFilters; ++i) {
-    states.lambda[i] = Ball(kRates(static_cast<Eigen::Index>(i)));
+  for (const double rate : kRates) {
+    states.lambda.emplace_back(rate);
   }
   return states;
 }

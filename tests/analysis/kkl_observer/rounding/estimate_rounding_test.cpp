@@ -30,7 +30,7 @@ KklRobustness exact_bounds(double amplitude) {
 
 KklRobustness with_rounding(const KklRobustnessQuestion& question, KklRobustness bounds) {
   const rigor::UpwardRounding upward;
-  KklErrorMap<Interval>::Filters<Interval> transient;
+  KklFilters<4> transient;
   transient.fill(rigor::symmetric(1e-6));
   add_rounding(question, transient, bounds);
   return bounds;

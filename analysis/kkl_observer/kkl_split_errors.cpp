@@ -1,0 +1,306 @@
+#include "analysis/kkl_observer/kkl_split_errors.hpp"
+
+#include <algorithm>
+
+#include "analysis/kkl_observer/kkl_search_box.hpp"
+#include "analysis/rigor/derivatives.hpp"
+
+namespace veritrack::kkl_observer {
+
+using rigor::Interval;
+
+namespace {
+
+constexpr std::size_t kTimes = 160;  // cells of the kernels
+
+Interval upper_end(const Interval& x) {
+  return Interval(x.upper());
+}
+
+/// What is at least both.
+Reach larger_of(const Reach& x, const Reach& y) {
+  return {max(x.driven, y.driven), max(x.left, y.left)};
+}
+
+}  // namespace
+
+template <int M>
+SplitErrors<M>::SplitErrors(const KklRobustnessQuestionOf<M>& question, const Filters& transient)
+    : map_(question.range.lambda),
+      relative_(0.0),
+      lowest_amplitude_(question.amplitude.lower()),
+      highest_amplitude_(question.amplitude.upper()),
+      transient_(transient) {
+  if (const auto* bounded = std::get_if<BoundedDisturbance>(&question.disturbance)) {
+    norm_.template emplace<KernelNorm<M>>(map_.lambda(), kTimes);
+    relative_ = bounded->bound / lowest_amplitude_;
+  } else if (const auto* sinusoidal = std::get_if<SinusoidalDisturbance>(&question.disturbance)) {
+    norm_.template emplace<ResponseNorm<M>>(map_.lambda(), sinusoidal->frequency);
+    relative_ = sinusoidal->amplitude / lowest_amplitude_;
+  }
+  rows_[0] = map_.pseudoinverse_1();
+  rows_[1] = map_.pseudoinverse_2();
+  std::copy(map_.basis().begin(), map_.basis().end(), rows_.begin() + kFirstAcross);
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    Filters of_f2;
+    for (std::size_t i = 0; i < of_f2.size(); ++i) {
+      of_f2[i] = rows_[j][i] * square(map_.lambda()[i]);
+    }
+    row_norms_[j] = norm_of(rows_[j]);
+    norms_of_f2_[j] = norm_of(of_f2);
+  }
+  for (std::size_t i = 0; i < moves_.size(); ++i) {
+    Filters unit;
+    unit.fill(Interval(0.0));
+    unit[i] = Interval(1.0);
+    moves_[i] = relative_ * norm_of(unit) + abs(transient_[i]);
+  }
+  box_(0) = question.range.frequency;
+  box_(1) = turns(0.5);  // signal and moves may change sign together
+}
+
+template <int M>
+Interval SplitErrors<M>::norm_of(const Filters& coefficients) const {
+  if (const auto* kernels = std::get_if<KernelNorm<M>>(&norm_)) {
+    return kernels->upper_bound(coefficients);
+  }
+  const auto* responses = std::get_if<ResponseNorm<M>>(&norm_);
+  return responses != nullptr ? responses->upper_bound(coefficients) : Interval(0.0);
+}
+
+template <int M>
+Reach SplitErrors<M>::moved(const Weights& weights) const {
+  Filters middle;
+  middle.fill(Interval(0.0));
+  Interval change(0.0);
+  Interval left(0.0);
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    change += Interval(rigor::radius(weights[j])) * row_norms_[j];
+  }
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    Interval coefficient(0.0);
+    for (std::size_t j = 0; j < rows_.size(); ++j) {
+      middle[i] += Interval(rigor::midpoint(weights[j])) * rows_[j][i];
+      coefficient += weights[j] * rows_[j][i];
+    }
+    left += abs(coefficient * transient_[i]);
+  }
+  return {upper_end(relative_ * (norm_of(middle) + change)), upper_end(left)};
+}
+
+template <int M>
+Reach SplitErrors<M>::driven(const Weights& weights, const State& at, const Interval& shift) const {
+  const Interval s = at.signal.s + shift;
+  const Interval middle_s(rigor::midpoint(s));
+  const Interval radius_s(rigor::radius(s));
+  const Interval largest_s = upper_end(abs(s));
+  Filters middle;
+  middle.fill(Interval(0.0));
+  Interval change(0.0);
+  Interval left(0.0);
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    const Interval near(rigor::midpoint(weights[j]));
+    change += Interval(rigor::radius(weights[j])) * (norms_of_f2_[j] + largest_s * row_norms_[j]) +
+              radius_s * abs(near) * row_norms_[j];
+  }
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    Interval coefficient(0.0);
+    for (std::size_t j = 0; j < rows_.size(); ++j) {
+      middle[i] += Interval(rigor::midpoint(weights[j])) * rows_[j][i];
+      coefficient += weights[j] * rows_[j][i];
+    }
+    middle[i] *= square(map_.lambda()[i]) + middle_s;
+    left += abs(coefficient * (square(map_.lambda()[i]) + s) * transient_[i]);
+  }
+  return {upper_end(relative_ * (norm_of(middle) + change)), upper_end(left)};
+}
+
+template <int M>
+void SplitErrors<M>::find_direction(const Box& box, State& at) const {
+  at.signal = map_.signal(box(0), box(1));
+  at.squared_norm = Map::squared_norm(at.signal.projected);
+  const auto direction = [&](const auto& frequency, const auto& phase) {
+    auto q = map_.signal(frequency, phase).projected;
+    const auto norm = Map::squared_norm(q);
+    for (auto& x : q) {
+      x = x / norm;
+    }
+    return q;
+  };
+  const auto over = rigor::variables(box);
+  const auto slopes = direction(over(0), over(1));
+  const Box point = rigor::to_interval(rigor::midpoint(box));
+  const auto middle = direction(point(0), point(1));
+  at.direction.fill(Interval(0.0));
+  for (std::size_t j = 0; j < Map::kAcross; ++j) {
+    Interval linear = middle[j];
+    for (int v = 0; v < kVariables; ++v) {
+      linear += slopes[j].derivative(v) * (box(v) - point(v));
+    }
+    at.direction[kFirstAcross + j] = intersection(slopes[j].value(), linear);
+  }
+}
+
+template <int M>
+std::array<typename SplitErrors<M>::Weights, SplitErrors<M>::Map::kAcross> SplitErrors<M>::frame(
+    const State& at) const {
+  constexpr std::size_t kAcross = Map::kAcross;
+  std::array<Weights, kAcross> result;
+  Interval squares(0.0);
+  typename Map::template Across<Interval> unit;
+  for (std::size_t j = 0; j < kAcross; ++j) {
+    unit[j] = Interval(rigor::midpoint(at.direction[kFirstAcross + j]));
+    squares += square(unit[j]);
+  }
+  for (Interval& x : unit) {
+    x = x / sqrt(squares);
+  }
+  // Householder: e_k - a_k (a + sign e_0) / (1 + |a_0|) for k > 0 are orthogonal to a and to one another.
+  const Interval sign(rigor::midpoint(unit[0]) < 0.0 ? -1.0 : 1.0);
+  for (std::size_t k = 0; k < kAcross; ++k) {
+    result[k].fill(Interval(0.0));
+    for (std::size_t j = 0; j < kAcross; ++j) {
+      const Interval reflected = unit[j] + (j == 0 ? sign : Interval(0.0));
+      result[k][kFirstAcross + j] =
+          k == 0 ? unit[j]
+                 : Interval(j == k ? 1.0 : 0.0) - unit[k] * reflected / (Interval(1.0) + sign * unit[0]);
+    }
+  }
+  return result;
+}
+
+template <int M>
+typename SplitErrors<M>::State SplitErrors<M>::state(const Box& box) const {
+  State at;
+  find_direction(box, at);
+  const Interval none(0.0);
+  at.along = Interval(1.0) - upper_end(moved(at.direction).sum());
+  if (!certainly_positive(at.along)) {
+    at.error = at.second = {Interval(), Interval()};
+    return at;
+  }
+  // How far the direction of y0 is from that of the frame, at most.
+  const auto basis = frame(at);
+  const Interval norm = sqrt(at.squared_norm);
+  Interval squares(0.0);
+  for (std::size_t j = kFirstAcross; j < basis[0].size(); ++j) {
+    squares += square(at.direction[j] * norm - basis[0][j]);
+  }
+  const Interval tilt = upper_end(sqrt(squares));
+  // |Pz| and |P N'(F^2 + s) u|.
+  Reach across{none, none};
+  Reach pulled{none, none};
+  for (std::size_t k = 1; k < basis.size(); ++k) {
+    const Reach z = moved(basis[k]);
+    const Reach g = driven(basis[k], at, none);
+    across = across + Reach{square(z.driven), square(z.left)};
+    pulled = pulled + Reach{square(g.driven), square(g.left)};
+  }
+  across = Reach{sqrt(across.driven), sqrt(across.left)} + moved(basis[0]) * tilt;
+  pulled = Reach{sqrt(pulled.driven), sqrt(pulled.left)} + driven(basis[0], at, none) * tilt;
+  const Reach first = driven(at.direction, at, none);
+  const Interval over = Interval(1.0) / (at.along * at.squared_norm);
+  // From -y'N'(F^2 + s) u / |y|^2, then by the equation above, in which |e| is bounded already.
+  at.error = first * (Interval(1.0) / at.along) + across * (pulled.sum() * over / at.along);
+  const auto second = [&] { return across * ((pulled.sum() + at.error.sum() * across.sum()) * over); };
+  constexpr int kTimesBetter = 2;
+  for (int k = 0; k < kTimesBetter; ++k) {
+    const Interval shift = upper_end(at.error.sum());
+    const Reach better =
+        larger_of(driven(at.direction, at, -shift), driven(at.direction, at, shift)) + second();
+    if (rigor::certainly_less(better.sum(), at.error.sum())) {
+      at.error = better;
+    }
+  }
+  at.error = {upper_end(at.error.driven), upper_end(at.error.left)};
+  at.second = second();
+  return at;
+}
+
+template <int M>
+Interval SplitErrors<M>::frequency_error(const Box& box) const {
+  const State at = state(box);
+  // Largest in size when x3_hat is below s.
+  return Interval(rigor::magnitude(Map::frequency_error(at.signal, Interval(-at.error.sum()))));
+}
+
+template <int M>
+Interval SplitErrors<M>::least_relative_square(const Box& box) const {
+  const State at = state(box);
+  return Interval(1.0) - at.error.sum() / at.signal.s;
+}
+
+template <int M>
+Interval SplitErrors<M>::least_ratio(const Box& box) const {
+  const State at = state(box);
+  if (!certainly_positive(at.along)) {
+    return Interval::entire();
+  }
+  Interval norm(0.0);
+  for (std::size_t i = 0; i < moves_.size(); ++i) {
+    norm += square(abs(at.signal.transformed[i]) + moves_[i]);
+  }
+  return map_.gram_determinant() * square(at.along) * at.squared_norm / upper_end(norm);
+}
+
+// With k1, k2 the errors of x1 and x2, t = (A_hat / A)^2 - 1 = k1 (2 sin p + k1) + (k2 (2 x2 + k2) - e
+// cos(p)^2) / (s + e), and k1 = row_1'(F^2 + s + e) u + e row_1'T, likewise k2. At any given e in [-E, E] and
+// without the squares (s + e) t is a function P(e) of u, quadratic in e: |P(e)| / (s + e) is at most the
+// larger of its values at -E and E, plus E^2 / (s - E) times the coefficient of e^2. The squares only add to
+// t.
+template <int M>
+Interval SplitErrors<M>::amplitude_error(const Box& box) const {
+  const State at = state(box);
+  const Interval zero(0.0);
+  const Interval one(1.0);
+  const Interval& s = at.signal.s;
+  const Interval error = at.error.sum();
+  const Interval least_square = s - error;
+  if (!certainly_positive(at.along) || !certainly_positive(least_square)) {
+    return Interval::entire();
+  }
+  const Interval pulled_1 = Map::along(at.signal.transformed, map_.pseudoinverse_1());
+  const Interval pulled_2 = Map::along(at.signal.transformed, map_.pseudoinverse_2());
+  // Of first row_1 + second row_2 - third q'N'.
+  const auto weights = [&](const Interval& first, const Interval& second, const Interval& third) {
+    Weights result;
+    for (std::size_t j = 0; j < result.size(); ++j) {
+      result[j] = -(third * at.direction[j]);
+    }
+    result[0] = first;
+    result[1] = second;
+    return result;
+  };
+  const Interval shift = upper_end(error);
+  const auto larger = [&](const Weights& q) {
+    return larger_of(driven(q, at, -shift), driven(q, at, shift));
+  };
+  const Reach k1 = larger(weights(one, zero, pulled_1)) + at.second * abs(pulled_1);
+  const Reach k2 = larger(weights(zero, one, pulled_2)) + at.second * abs(pulled_2);
+  const Interval twice_sine = at.signal.sine + at.signal.sine;
+  const Interval twice_x2 = -(at.signal.frequency * (at.signal.cosine + at.signal.cosine));
+  const Interval fixed = twice_x2 * pulled_2 - square(at.signal.cosine);
+  const auto linear = [&](const Interval& e) {
+    const Interval to_e = twice_sine * pulled_1 * (s + e) + fixed;
+    return driven(weights(twice_sine * (s + e), twice_x2, to_e), at, e) * (one / (s + e));
+  };
+  const Interval to_second = abs(twice_sine * pulled_1 + fixed / (s + rigor::symmetric(shift.upper())));
+  const Reach curved = moved(weights(twice_sine, zero, twice_sine * pulled_1));
+  const Reach lowered = larger_of(linear(-shift), linear(shift)) + at.second * to_second +
+                        curved * (square(error) / least_square);
+  const Reach raised = lowered + k1 * k1.sum() + k2 * (k2.sum() / least_square);
+  const auto of_amplitude = [&](const Reach& x) {
+    return x.driven * lowest_amplitude_ + x.left * highest_amplitude_;
+  };
+  // sqrt(1 + t) - 1 is t / 2 at most, and largest in size below at the lowest t.
+  const Interval below = of_amplitude(lowered) / (one + sqrt(one - upper_end(lowered.sum())));
+  return upper_end(max(below, Interval(0.5) * of_amplitude(raised)));
+}
+
+template class SplitErrors<4>;
+template class SplitErrors<5>;
+template class SplitErrors<6>;
+template class SplitErrors<7>;
+template class SplitErrors<8>;
+
+}  // namespace veritrack::kkl_observer

@@ -134,6 +134,8 @@ def replaced_text(document: Mapping[str, Any], values: Mapping[str, Any]) -> str
         table = changed
         for name in tables:
             table = table.setdefault(name, {})
+            if not isinstance(table, dict):
+                raise ValueError(f"{path}: {name} is no table of the design, but {table}; allowed: keys of tables")
         if value is None:
             table.pop(key, None)
         else:

@@ -19,7 +19,7 @@ import veritrack
 from veritrack import _engine, sweep
 from veritrack.sweep import run as runs
 from veritrack.sweep import store as stores
-from veritrack.sweep.report import bound_of, pareto_front
+from veritrack.sweep.shown import pareto_front
 from conftest import TEXT
 
 SPEC = """\

@@ -9,7 +9,8 @@ import sys
 import time
 
 from ..errors import InputError, VeritrackError
-from .spec import Spec, read_spec
+from .reading import read_spec
+from .spec import Spec
 from .store import Store
 
 _ALL_DONE, _NOT_ALL, _BAD_INPUT = 0, 1, 2
@@ -135,8 +136,11 @@ def _run(spec: Spec, store: Store, options: argparse.Namespace) -> None:
 
 def _report(spec: Spec, store: Store, folder: pathlib.Path) -> int:
     from .report import write_report
+    from .shown import missing_bounds
 
     document = write_report(spec, store, folder)
+    for sentence in missing_bounds(spec, store, _program()):
+        print(f"veritrack sweep: {sentence}", file=sys.stderr)
     print(f"{document}: {document.read_text().splitlines()[0].lstrip('# ')}")
     sweep = spec.identity(_program())
     with_verdict = store.count(sweep) - store.count(sweep, "error")

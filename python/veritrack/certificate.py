@@ -136,7 +136,8 @@ def bounds_of(claims: tuple[Claim, ...]) -> dict[str, Bound]:
         column, _, kind = claim.id.partition("/")
         if claim.verdict != "proved" or times[claim.id] > 1 or column not in _OF_TRACKERS:
             continue
-        by_name = claim.required or kind in _OF_THE_DESIGN
+        # What is proved for a part of the assumed band only has its claim in front.
+        by_name = claim.required or (kind in _OF_THE_DESIGN and "from" not in claim.quantities)
         for name, bound in claim.quantities.items():
             if bound.sense != "sampled":
                 bounds.setdefault(name if by_name else f"{claim.id}/{name}", bound)

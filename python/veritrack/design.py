@@ -17,7 +17,7 @@ class Design:
     Parameters
     ----------
     tracker : str
-        "quadrature-ekf", "single-channel-ekf", "kkl-observer" or "model".
+        "quadrature-ekf", "single-channel-ekf", "kkl-observer", "dft-block-ekf", "vibration-regulator" or "model".
     name : str
         One line.
     source : str, optional

@@ -91,8 +91,9 @@ class Spec:
         return hashlib.sha256(parts.encode()).hexdigest()
 
     def key(self, text: str, program: str) -> str:
-        """The SHA-256 by which the result of a design is known: of its text, the extent, and the program."""
-        return hashlib.sha256("\n".join([program, self.extent, text]).encode()).hexdigest()
+        """The SHA-256 by which the result of a design is known: of its text, of what is asked and recorded of it,
+        and of the program."""
+        return hashlib.sha256("\n".join([program, self.extent, *self.record, text]).encode()).hexdigest()
 
     def points(self, first: int, last: int) -> Iterator[Point]:
         """The points from number `first` to before `last`."""

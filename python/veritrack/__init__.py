@@ -12,6 +12,7 @@ docs/python.md goes through it, docs/sweeps.md through sweeps.
 
 from . import sweep, trackers
 from ._engine import identity, version
+from .blocks import DftBlockEkf
 from .certificate import Certificate, Claim, Figure, certify
 from .checking import Checked, check
 from .design import Design
@@ -23,8 +24,8 @@ from .trackers import (KklObserver, QuadratureBatch, QuadratureEkf, QuadratureNo
 from .verification import Verification, verify
 
 __all__ = [
-    "ArithmeticNotTrusted", "Bound", "Certificate", "Checked", "Claim", "Design", "EngineError", "Figure",
-    "InputError", "Interval", "KklObserver", "MalformedCertificate", "QuadratureBatch", "QuadratureEkf",
+    "ArithmeticNotTrusted", "Bound", "Certificate", "Checked", "Claim", "Design", "DftBlockEkf", "EngineError",
+    "Figure", "InputError", "Interval", "KklObserver", "MalformedCertificate", "QuadratureBatch", "QuadratureEkf",
     "QuadratureNotch",
     "RealNotch", "SingleChannelEkf", "TimeLimit", "Verification", "VeritrackError", "certify", "check",
     "identity", "sweep", "trackers", "verify", "version",

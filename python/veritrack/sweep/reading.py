@@ -132,7 +132,7 @@ def _are_strings(value: Any) -> bool:
 def _is_number(value: Any) -> bool:
     """Whether it is a number that a double has room for."""
     return (isinstance(value, (int, decimal.Decimal)) and not isinstance(value, bool)
-            and decimal.Decimal(value).is_finite() and abs(value) < decimal.Decimal("1e300"))
+            and decimal.Decimal(value).is_finite() and abs(decimal.Decimal(value)) < decimal.Decimal("1e300"))
 
 
 def _is_whole(value: Any, least: int, most: float = math.inf) -> bool:

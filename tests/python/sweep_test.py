@@ -23,7 +23,7 @@ from veritrack.sweep import figures
 from veritrack.sweep import run as runs
 from veritrack.sweep import work
 from veritrack.sweep.shown import pareto_front
-from conftest import TEXT
+from conftest import ROOT, TEXT
 
 SPEC = """\
 name = "a sweep"
@@ -330,6 +330,12 @@ def test_nothing_is_not_verified(folder, stand_in):
 
 
 # ---- what is told of a specification before the first design
+
+def test_the_examples_of_the_documentation_are_specifications(folder):
+    sizes = {path.name: sweep.read_spec(path).size for path in (ROOT / "docs/example/sweep").glob("*.toml")
+             if "base = " in path.read_text()}
+    assert sizes == {"17-db.toml": 144, "lowest-snr.toml": 5, "many.toml": 10000, "slew.toml": 130}
+
 
 REPORT = SPEC + '\n[report]\nbound = "frequency_error_bound"\n'
 

@@ -8,6 +8,8 @@ import json
 import math
 import os
 import pathlib
+import re
+import resource
 import signal
 import sqlite3
 import subprocess
@@ -237,6 +239,44 @@ def test_a_full_disk_ends_the_run_and_harms_nothing(folder, stand_in):
     assert_is_complete(folder, spec)
 
 
+def test_a_file_that_the_system_lets_grow_no_more_ends_the_run_and_harms_nothing(folder, stand_in):
+    # The kernel refuses the write here (EFBIG), and not SQLite its own limit: what a full disk does in a program.
+    spec = read(folder, SPEC.replace("points = 9", "points = 100"))
+    most = 80_000
+    full = subprocess.run([*command(folder, "run"), "--jobs", "1"], capture_output=True, text=True, check=False,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
+    assert full.returncode == 2
+    assert re.match(rf"veritrack sweep: {folder}/results.sqlite: (disk I/O error|database or disk is full)",
+                    full.stderr.splitlines()[0])
+    before = results(folder)
+    assert 0 < len(before) < spec.size
+    assert run(folder, spec) == spec.size - len(before)
+    assert_is_complete(folder, spec)
+    assert set(before) <= set(results(folder))
+
+
+def test_a_full_file_system_ends_the_run_and_harms_nothing(folder, stand_in):
+    spec = read(folder, SPEC.replace("points = 9", "points = 100"))
+    # A file system of 160 KiB of its own (ENOSPC), which sees the package and the specification from outside.
+    small = folder / "small"
+    small.mkdir()
+    mount = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c",
+             'mount -t tmpfs -o size=160k tmpfs "$0" && shift 0 && "$@"; status=$?; cp "$0"/results.sqlite* "$OUTSIDE"; exit $status',
+             str(small)]
+    environment = {**os.environ, "OUTSIDE": str(folder)}
+    if subprocess.run([*mount[:-2], 'mount -t tmpfs -o size=160k tmpfs "$0"', str(small)], capture_output=True,
+                      check=False).returncode != 0:
+        pytest.skip("this system lets nobody mount a file system of his own")
+    full = subprocess.run([*mount, sys.executable, "-m", "veritrack.sweep", "run", str(folder / "sweep.toml"), "--out",
+                           str(small), "--jobs", "1"], capture_output=True, text=True, check=False, env=environment)
+    assert full.returncode == 2, full.stderr
+    assert f"veritrack sweep: {small}/results.sqlite: database or disk is full" in full.stderr
+    before = results(folder)
+    assert 0 < len(before) < spec.size
+    assert run(folder, spec) == spec.size - len(before)
+    assert_is_complete(folder, spec)
+
+
 def test_a_batch_is_stored_as_a_whole_or_not_at_all(folder):
     with contextlib.closing(sweep.Store(folder / "results.sqlite")) as store:
         good = sweep.Result("a", "proved", {})
@@ -334,7 +374,7 @@ def test_nothing_is_not_verified(folder, stand_in):
 def test_the_examples_of_the_documentation_are_specifications(folder):
     sizes = {path.name: sweep.read_spec(path).size for path in (ROOT / "docs/example/sweep").glob("*.toml")
              if "base = " in path.read_text()}
-    assert sizes == {"17-db.toml": 144, "lowest-snr.toml": 5, "many.toml": 10000, "slew.toml": 130}
+    assert sizes == {"17-db.toml": 88, "lowest-snr.toml": 5, "many.toml": 10000, "slew.toml": 130}
 
 
 REPORT = SPEC + '\n[report]\nbound = "frequency_error_bound"\n'

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "analysis/rigor/self_test.hpp"
 #include "certificates/design/design_reader.hpp"
@@ -20,6 +19,7 @@
 #include "certificates/document/markdown.hpp"
 #include "certificates/document/report_json.hpp"
 #include "certificates/document/sha256.hpp"
+#include "python/engine/claims_json.hpp"
 #include "reports/check/check_cache.hpp"
 #include "reports/figures.hpp"
 #include "reports/gnuplot.hpp"
@@ -31,54 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using certificates::Certificate;
-
-const char* name_of(theorems::Sense sense) {
-  switch (sense) {
-    case theorems::Sense::equal:
-      return "equal";
-    case theorems::Sense::at_most:
-      return "at most";
-    case theorems::Sense::at_least:
-      return "at least";
-    case theorems::Sense::sampled:
-      return "sampled";
-    case theorems::Sense::enclosure:
-      break;
-  }
-  return "enclosure";
-}
-
-/// All but those that do not exist for this design.
-Json quantities_json(const std::vector<theorems::Quantity>& quantities) {
-  Json json = Json::object();
-  for (const theorems::Quantity& quantity : quantities) {
-    if (!quantity.applies() || rigor::is_empty(quantity.value)) {
-      continue;
-    }
-    json[quantity.name] = {{"lo", rigor::to_hexadecimal(quantity.value.lower())},
-                           {"hi", rigor::to_hexadecimal(quantity.value.upper())},
-                           {"sense", name_of(quantity.sense)},
-                           {"words", quantity.words},
-                           {"symbol", quantity.symbol}};
-  }
-  return json;
-}
-
-Json claims_json(const Certificate& certificate) {
-  Json claims = Json::array();
-  for (const certificates::Claim& claim : certificate.claims) {
-    claims.push_back({{"id", claim.id},
-                      {"statement", claim.statement},
-                      {"requirement", claim.requirement},
-                      {"verdict", std::string(rigor::to_string(claim.verdict))},
-                      {"required", claim.required},
-                      {"reason", claim.reason},
-                      {"line", claim.position.line},
-                      {"column", claim.position.column},
-                      {"quantities", quantities_json(claim.evidence)}});
-  }
-  return claims;
-}
 
 /// The text and the name of the file, read.
 struct AskedDesign {
@@ -130,7 +82,7 @@ Json verdicts_json(const Certificate& certificate, const std::string& document) 
   return {{"verdict", certificates::verdict_text(certificate)},
           {"headline", certificates::headline(certificate)},
           {"certificate_sha256", certificates::sha256(document)},
-          {"claims", claims_json(certificate)}};
+          {"claims", claims_json(certificate.claims)}};
 }
 
 Json read(const Json& request) {

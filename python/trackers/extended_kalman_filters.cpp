@@ -145,10 +145,15 @@ class PackedQuadratureBatch {
     {
       const py::gil_scoped_release free;
       constexpr std::size_t kGroup = trackers::QuadratureBatch::kGroup;
-      in_threads((size() + kGroup - 1) / kGroup, threads, [&](std::size_t first, std::size_t last) {
-        const TrackerArithmetic arithmetic;
-        moved.run({input, stride, length}, targets, first * kGroup, std::min(last * kGroup, size()), set);
-      });
+      in_threads((size() + kGroup - 1) / kGroup, threads,
+                 [&](std::size_t first, std::size_t last, Interruption& interruption) {
+                   const TrackerArithmetic arithmetic;
+                   for (std::size_t group = first; group < last; ++group) {
+                     interruption.look();
+                     moved.run({input, stride, length}, targets, group * kGroup,
+                               std::min((group + 1) * kGroup, size()), set);
+                   }
+                 });
     }
     batch_ = std::move(moved);
     return py::make_tuple(state, deviation, innovation, nis);

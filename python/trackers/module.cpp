@@ -3,6 +3,7 @@
 
 PYBIND11_MODULE(_trackers, module) {  // NOLINT: pybind11's macro
   module.doc() = "Batches of trackers on arrays of doubles; see veritrack.trackers.";
+  veritrack::python::bind_block_trackers(module);
   veritrack::python::bind_extended_kalman_filters(module);
   veritrack::python::bind_kkl_observers(module);
   veritrack::python::bind_notches(module);

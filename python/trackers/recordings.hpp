@@ -6,10 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <cstddef>
 #include <exception>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -55,24 +59,87 @@ inline void require_samples(const Array& samples, std::size_t channels, std::siz
   }
 }
 
-/// Parts of the batch, a thread each; what the first part that failed has thrown is thrown.
+/// Thrown in a part of the work when it is to end because another part has failed.
+struct Stopped {};
+
+/// Lets Ctrl-C end long work: whoever has called looks for it now and then, and all parts end when it is
+/// there. The interpreter is free meanwhile.
+class Interruption {
+ public:
+  /// Throws py::error_already_set in the thread that has called, when a handler of a signal has thrown, and
+  /// Stopped in the others then.
+  void look() {
+    if (stopped_.load(std::memory_order_relaxed)) {
+      throw Stopped();
+    }
+    if (std::this_thread::get_id() != caller_) {
+      return;
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < kBetweenLooks) {
+      return;
+    }
+    last_ = now;
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) {
+      throw py::error_already_set();
+    }
+  }
+  void stop() { stopped_.store(true, std::memory_order_relaxed); }
+
+  static constexpr std::chrono::milliseconds kBetweenLooks{20};
+
+ private:
+  std::thread::id caller_ = std::this_thread::get_id();
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::atomic<bool> stopped_ = false;
+};
+
+/// So many samples of a tracker take a fraction of a millisecond.
+inline constexpr std::size_t kSamplesBetweenLooks = 1024;
+
+/// Parts of the batch, a thread each; what the first part that failed has thrown is thrown. `work` takes the
+/// first tracker, the one after the last, and the Interruption, which it asks to look() now and then.
 template <typename Work>
 void in_threads(std::size_t size, std::size_t threads, const Work& work) {
   const std::size_t parts = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(size, 1));
   std::vector<std::exception_ptr> failures(parts);
+  Interruption interruption;
+  std::mutex mutex;
+  std::condition_variable one_is_done;
+  std::size_t running = parts - 1;
   const auto part = [&](std::size_t number) {
     try {
-      work(size * number / parts, size * (number + 1) / parts);
+      work(size * number / parts, size * (number + 1) / parts, interruption);
+    } catch (const Stopped&) {
     } catch (...) {
       failures[number] = std::current_exception();
+      interruption.stop();
     }
   };
   std::vector<std::thread> others;
   others.reserve(parts - 1);
   for (std::size_t number = 1; number < parts; ++number) {
-    others.emplace_back(part, number);
+    others.emplace_back([&, number] {
+      part(number);
+      const std::lock_guard lock(mutex);
+      --running;
+      one_is_done.notify_one();
+    });
   }
   part(0);
+  for (std::unique_lock lock(mutex); running > 0;) {
+    one_is_done.wait_for(lock, Interruption::kBetweenLooks);
+    lock.unlock();
+    try {
+      interruption.look();
+    } catch (const Stopped&) {
+    } catch (...) {
+      failures[0] = std::current_exception();
+      interruption.stop();
+    }
+    lock.lock();
+  }
   for (std::thread& other : others) {
     other.join();
   }
@@ -116,10 +183,10 @@ class Batch {
     std::vector<Tracker> moved = trackers_;
     {
       const py::gil_scoped_release free;
-      in_threads(moved.size(), threads, [&](std::size_t first, std::size_t last) {
+      in_threads(moved.size(), threads, [&](std::size_t first, std::size_t last, Interruption& interruption) {
         const TrackerArithmetic arithmetic;
         for (std::size_t i = first; i < last; ++i) {
-          run_one(moved[i], input + i * stride, length, i * length, targets);
+          run_one(moved[i], input + i * stride, length, i * length, targets, interruption);
         }
       });
     }
@@ -136,8 +203,11 @@ class Batch {
   };
 
   static void run_one(Tracker& tracker, const double* samples, std::size_t length, std::size_t offset,
-                      const Targets& targets) {
+                      const Targets& targets, Interruption& interruption) {
     for (std::size_t k = 0; k < length; ++k) {
+      if (k % kSamplesBetweenLooks == 0) {
+        interruption.look();
+      }
       const Saying said = tracker.step(samples + k * kChannels);
       const std::size_t row = offset + k;
       std::copy(said.state.begin(), said.state.end(), targets.state + row * kValues);
@@ -177,6 +247,7 @@ py::class_<Batch<Tracker>> bind_batch(py::module_& module, const char* name,
 }
 
 /// Each adds its classes to the module.
+void bind_block_trackers(py::module_& module);
 void bind_extended_kalman_filters(py::module_& module);
 void bind_kkl_observers(py::module_& module);
 void bind_notches(py::module_& module);

@@ -5,12 +5,14 @@
     certificate.verdict, certificate.bounds["frequency_error_bound"]
     certificate.verify()                                     # by an independent program
     veritrack.trackers.QuadratureEkf.from_design(design, frequency=0.5).run(samples)
+    veritrack.sweep(design, {"design.q1": [0.001, 0.002]}).counts      # many designs
 
-docs/python.md goes through it. veritrack.sweep certifies many designs.
+docs/python.md goes through it, docs/sweeps.md through sweeps.
 """
 
-from . import trackers
+from . import sweep, trackers
 from ._engine import identity, version
+from .blocks import DftBlockEkf
 from .certificate import Certificate, Claim, Figure, certify
 from .checking import Checked, check
 from .design import Design
@@ -22,9 +24,9 @@ from .trackers import (KklObserver, QuadratureBatch, QuadratureEkf, QuadratureNo
 from .verification import Verification, verify
 
 __all__ = [
-    "ArithmeticNotTrusted", "Bound", "Certificate", "Checked", "Claim", "Design", "EngineError", "Figure",
-    "InputError", "Interval", "KklObserver", "MalformedCertificate", "QuadratureBatch", "QuadratureEkf",
+    "ArithmeticNotTrusted", "Bound", "Certificate", "Checked", "Claim", "Design", "DftBlockEkf", "EngineError",
+    "Figure", "InputError", "Interval", "KklObserver", "MalformedCertificate", "QuadratureBatch", "QuadratureEkf",
     "QuadratureNotch",
     "RealNotch", "SingleChannelEkf", "TimeLimit", "Verification", "VeritrackError", "certify", "check",
-    "identity", "trackers", "verify", "version",
+    "identity", "sweep", "trackers", "verify", "version",
 ]

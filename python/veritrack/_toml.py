@@ -28,6 +28,37 @@ def dump(document: Mapping[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def key_at(text: str, line: int) -> str:
+    """Which key stands on a line of a text that `dump` has written.
+
+    Parameters
+    ----------
+    text : str
+    line : int
+        From 1.
+
+    Returns
+    -------
+    str
+        Such as "design.q1", or "design" on the line of the table; empty where no key is.
+    """
+    table, key, is_inside = "", "", False
+    for number, words in enumerate(text.splitlines(), 1):
+        if is_inside:
+            is_inside = not words.endswith("'''")
+        elif heading := re.match(r"\[(.+)\]\Z", words):
+            table = key = heading[1].strip('"')
+        elif found := re.match(r'(".*?"|[A-Za-z0-9_-]+) = ', words):
+            name = found[1].strip('"')
+            key = f"{table}.{name}" if table else name
+            is_inside = words.endswith("= '''")
+        else:
+            key = ""
+        if number == line:
+            return key
+    return ""
+
+
 def _key(key: str) -> str:
     return key if _BARE.match(key) else _string(key)
 

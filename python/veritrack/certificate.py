@@ -19,11 +19,18 @@ import numpy as np
 from . import _engine
 from .design import Design, as_design
 from .interval import Bound
+from .sets import sets_of
 from .verification import Verification, verify
 
 
-_OF_TRACKERS = ("ekf", "kkl", "model")
+EXTENTS = ("everything", "requirements", "verdicts", "quick")
+"""How much may be looked for; see certify."""
+
+_OF_TRACKERS = ("dft-block", "ekf", "kkl", "model", "recursion", "regulator")
 """How the ids of claims begin that are about a tracker, and not about a publication."""
+
+_OF_THE_DESIGN = ("guarantee", "invariant-set", "limits", "losing-lock")
+"""How they end when they are under the assumptions of the design and nothing asks for them."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -129,7 +136,8 @@ def bounds_of(claims: tuple[Claim, ...]) -> dict[str, Bound]:
         column, _, kind = claim.id.partition("/")
         if claim.verdict != "proved" or times[claim.id] > 1 or column not in _OF_TRACKERS:
             continue
-        by_name = claim.required or kind in ("guarantee", "invariant-set", "limits")
+        # What is proved for a part of the assumed band only has its claim in front.
+        by_name = claim.required or (kind in _OF_THE_DESIGN and "from" not in claim.quantities)
         for name, bound in claim.quantities.items():
             if bound.sense != "sampled":
                 bounds.setdefault(name if by_name else f"{claim.id}/{name}", bound)
@@ -187,16 +195,19 @@ class Certificate:
 
     @property
     def sets(self) -> list[dict[str, Any]]:
-        """The certified sets of the extended Kalman filters.
+        """The certified sets, which errors do not leave.
 
         Returns
         -------
         list of dict
-            Each with `purpose`, `metric` T and `radius` (the set is |T e| <= radius; e in units of the
-            amplitude, rad and rad/sample), `rate`, and what else certificate.json has of it
-            (docs/certificate-format.md), as doubles and arrays of doubles, which are exact.
+            Each has `kind` and `purpose`, what it is and what the search made it for, and beside them what
+            certificate.json has of it (docs/certificate-format.md), as doubles and arrays of doubles, which are
+            exact. `kind` is "contraction" (`metric` T and `radius`: the set is |T e| <= radius, e in units of the
+            amplitude, rad and rad/sample; `rate`), "lock" (with Gaussian noise), "tubes" (of a recursion:
+            `cells`), or the id of the derivation that has the set as its evidence. Sets of a certificate inside
+            this one have its member in front: "frequency_tracker/contraction".
         """
-        return [_numbers(each) for each in self.json.get("certified_sets", [])]
+        return sets_of(self.json)
 
     def figures(self) -> tuple[Figure, ...]:
         """The figures, as SVG with their numbers; none without gnuplot."""
@@ -248,19 +259,6 @@ class Certificate:
                 + "".join(bound_row(*each) for each in self.bounds.items()) + "</tbody></table>")
 
 
-def _numbers(value: Any) -> Any:
-    """Hexadecimal floats as doubles, lists of numbers as arrays."""
-    if isinstance(value, dict):
-        return {key: _numbers(each) for key, each in value.items()}
-    if isinstance(value, list):
-        numbers = [_numbers(each) for each in value]
-        flat = all(isinstance(each, (float, np.ndarray)) for each in numbers)
-        return np.array(numbers) if numbers and flat else numbers
-    if isinstance(value, str) and value.lstrip("-").startswith("0x"):
-        return float.fromhex(value)
-    return value
-
-
 def write_file(path: pathlib.Path, text: str) -> None:
     """Beside the target first, so that the file appears whole or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -308,8 +306,8 @@ def certify(design: Design | str | os.PathLike[str], *, extent: str = "everythin
     ------
     InputError, ArithmeticNotTrusted, TimeLimit, EngineError
     """
-    if extent not in ("everything", "requirements", "verdicts", "quick"):
-        raise ValueError(f"extent {extent!r}; allowed: 'everything', 'requirements', 'verdicts' or 'quick'")
+    if extent not in EXTENTS:
+        raise ValueError(f"extent {extent!r}; allowed: {', '.join(map(repr, EXTENTS))}")
     design = as_design(design)
     answer = _engine.ask({"do": "certify", "text": design.text, "file": design.file, "extent": extent,
                           "figures": figures, "threads": threads}, timeout)

@@ -8,8 +8,8 @@ import os
 from typing import Iterable
 
 from . import _engine
-from .certificate import Claim, bounds_of, claims_of
-from .design import Design
+from .certificate import EXTENTS, Claim, bounds_of, claims_of
+from .design import Design, as_design
 from .errors import VeritrackError
 from .interval import Bound
 
@@ -42,20 +42,20 @@ class Checked:
     error: Exception | None = None
 
 
-def _check_one(design: Design | str | os.PathLike[str], timeout: float | None, threads: int,
+def _check_one(design: Design | str | os.PathLike[str], extent: str, timeout: float | None, threads: int,
                crew: _engine.Crew) -> Checked:
     try:
-        read = design if isinstance(design, Design) else Design.from_file(design)
-        answer = _engine.ask({"do": "check", "text": read.text, "file": read.file, "threads": threads}, timeout,
-                             crew)
+        read = as_design(design)
+        answer = _engine.ask({"do": "check", "text": read.text, "file": read.file, "extent": extent,
+                              "threads": threads}, timeout, crew)
     except (VeritrackError, OSError) as error:
         return Checked(design, "error", error=error)
     claims = claims_of(answer)
     return Checked(design, answer["verdict"], claims, bounds_of(claims), answer["certificate_sha256"])
 
 
-def check(designs: Iterable[Design | str | os.PathLike[str]], *, jobs: int | None = None,
-          timeout: float | None = None) -> list[Checked]:
+def check(designs: Iterable[Design | str | os.PathLike[str]], *, extent: str = "requirements",
+          jobs: int | None = None, timeout: float | None = None) -> list[Checked]:
     """The verdicts of designs, in their order.
 
     A design that cannot be used or whose process fails does not harm the others: its result has the error.
@@ -64,11 +64,20 @@ def check(designs: Iterable[Design | str | os.PathLike[str]], *, jobs: int | Non
     Parameters
     ----------
     designs : iterable of Design or path
+    extent : {"requirements", "verdicts", "quick", "everything"}
+        As for `certify`. "verdicts" is what the command `veritrack check` asks for: the same verdicts, sooner, with
+        bounds no better than they need.
     jobs : int, optional
         Designs at a time, each in a process of its own; default: one for each core.
     timeout : float, optional
         Seconds after which a design is stopped.
+
+    Returns
+    -------
+    list of Checked
     """
+    if extent not in EXTENTS:
+        raise ValueError(f"extent {extent!r}; allowed: {', '.join(map(repr, EXTENTS))}")
     cores = len(os.sched_getaffinity(0))
     at_once = cores if jobs is None else jobs
     if at_once < 1:
@@ -77,7 +86,7 @@ def check(designs: Iterable[Design | str | os.PathLike[str]], *, jobs: int | Non
     crew = _engine.Crew()
     workers = concurrent.futures.ThreadPoolExecutor(at_once)
     try:
-        return list(workers.map(lambda design: _check_one(design, timeout, threads, crew), designs))
+        return list(workers.map(lambda design: _check_one(design, extent, timeout, threads, crew), designs))
     except BaseException:
         workers.shutdown(wait=False, cancel_futures=True)
         crew.stop()

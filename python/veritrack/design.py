@@ -17,7 +17,7 @@ class Design:
     Parameters
     ----------
     tracker : str
-        "quadrature-ekf", "single-channel-ekf", "kkl-observer" or "model".
+        "quadrature-ekf", "single-channel-ekf", "kkl-observer", "dft-block-ekf", "vibration-regulator" or "model".
     name : str
         One line.
     source : str, optional
@@ -134,6 +134,8 @@ def replaced_text(document: Mapping[str, Any], values: Mapping[str, Any]) -> str
         table = changed
         for name in tables:
             table = table.setdefault(name, {})
+            if not isinstance(table, dict):
+                raise ValueError(f"{path}: {name} is no table of the design, but {table}; allowed: keys of tables")
         if value is None:
             table.pop(key, None)
         else:

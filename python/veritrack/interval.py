@@ -11,7 +11,9 @@ def _rounded(value: float, digits: int, rounding: str) -> str:
     exact = decimal.Decimal(value)
     if not exact.is_finite():
         return str(value)
-    return f"{decimal.Context(prec=digits, rounding=rounding).create_decimal(exact).normalize():g}"
+    number = decimal.Context(prec=digits, rounding=rounding).create_decimal(exact).normalize()
+    # "20", and not "2e+1".
+    return f"{number:f}" if 0 <= number.adjusted() < 16 else f"{number:g}"
 
 
 @dataclasses.dataclass(frozen=True)

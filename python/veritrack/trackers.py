@@ -183,13 +183,17 @@ class _ToneFilter(_Trackers):
 def _start(shape: tuple[int, ...], phasor: ArrayLike, frequency: ArrayLike,
            covariance: ArrayLike) -> tuple[Array, Array]:
     phasor = np.asarray(phasor, complex)
+    return _columns(shape, phasor.real, phasor.imag, frequency), _symmetric(covariance, shape)
+
+
+def _symmetric(covariance: ArrayLike, shape: tuple[int, ...]) -> Array:
+    """Covariances of (3, 3), a row of nine numbers for each tracker."""
     matrix = np.asarray(covariance, float)
     if matrix.shape[-2:] != (3, 3):
         raise ValueError(f"a covariance of shape {matrix.shape}; allowed: (3, 3), or that with a batch in front")
     _require(np.isfinite(matrix) & (matrix == np.swapaxes(matrix, -1, -2)),
              "a covariance that is not finite and symmetric")
-    return (_columns(shape, phasor.real, phasor.imag, frequency),
-            np.broadcast_to(matrix, (*shape, 3, 3)).reshape(-1, 9))
+    return np.broadcast_to(matrix, (*shape, 3, 3)).reshape(-1, 9)
 
 
 class QuadratureEkf(_ToneFilter):

@@ -2,11 +2,14 @@
 
 import contextlib
 import csv
+import dataclasses
 import itertools
 import json
 import math
 import os
 import pathlib
+import re
+import resource
 import signal
 import sqlite3
 import subprocess
@@ -17,10 +20,12 @@ import pytest
 
 import veritrack
 from veritrack import _engine, sweep
+from veritrack.sweep import __main__ as main
+from veritrack.sweep import figures
 from veritrack.sweep import run as runs
-from veritrack.sweep import store as stores
-from veritrack.sweep.report import bound_of, pareto_front
-from conftest import TEXT
+from veritrack.sweep import work
+from veritrack.sweep.shown import pareto_front
+from conftest import ROOT, TEXT
 
 SPEC = """\
 name = "a sweep"
@@ -234,6 +239,44 @@ def test_a_full_disk_ends_the_run_and_harms_nothing(folder, stand_in):
     assert_is_complete(folder, spec)
 
 
+def test_a_file_that_the_system_lets_grow_no_more_ends_the_run_and_harms_nothing(folder, stand_in):
+    # The kernel refuses the write here (EFBIG), and not SQLite its own limit: what a full disk does in a program.
+    spec = read(folder, SPEC.replace("points = 9", "points = 100"))
+    most = 80_000
+    full = subprocess.run([*command(folder, "run"), "--jobs", "1"], capture_output=True, text=True, check=False,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
+    assert full.returncode == 2
+    assert re.match(rf"veritrack sweep: {folder}/results.sqlite: (disk I/O error|database or disk is full)",
+                    full.stderr.splitlines()[0])
+    before = results(folder)
+    assert 0 < len(before) < spec.size
+    assert run(folder, spec) == spec.size - len(before)
+    assert_is_complete(folder, spec)
+    assert set(before) <= set(results(folder))
+
+
+def test_a_full_file_system_ends_the_run_and_harms_nothing(folder, stand_in):
+    spec = read(folder, SPEC.replace("points = 9", "points = 100"))
+    # A file system of 160 KiB of its own (ENOSPC), which sees the package and the specification from outside.
+    small = folder / "small"
+    small.mkdir()
+    mount = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c",
+             'mount -t tmpfs -o size=160k tmpfs "$0" && shift 0 && "$@"; status=$?; cp "$0"/results.sqlite* "$OUTSIDE"; exit $status',
+             str(small)]
+    environment = {**os.environ, "OUTSIDE": str(folder)}
+    if subprocess.run([*mount[:-2], 'mount -t tmpfs -o size=160k tmpfs "$0"', str(small)], capture_output=True,
+                      check=False).returncode != 0:
+        pytest.skip("this system lets nobody mount a file system of his own")
+    full = subprocess.run([*mount, sys.executable, "-m", "veritrack.sweep", "run", str(folder / "sweep.toml"), "--out",
+                           str(small), "--jobs", "1"], capture_output=True, text=True, check=False, env=environment)
+    assert full.returncode == 2, full.stderr
+    assert f"veritrack sweep: {small}/results.sqlite: database or disk is full" in full.stderr
+    before = results(folder)
+    assert 0 < len(before) < spec.size
+    assert run(folder, spec) == spec.size - len(before)
+    assert_is_complete(folder, spec)
+
+
 def test_a_batch_is_stored_as_a_whole_or_not_at_all(folder):
     with contextlib.closing(sweep.Store(folder / "results.sqlite")) as store:
         good = sweep.Result("a", "proved", {})
@@ -324,3 +367,151 @@ def test_nothing_is_not_verified(folder, stand_in):
     read(folder)
     checked = subprocess.run(command(folder, "verify"), capture_output=True, text=True, check=False)
     assert (checked.returncode, checked.stdout) == (1, "NOT VERIFIED: no row with a verdict\n")
+
+
+# ---- what is told of a specification before the first design
+
+def test_the_examples_of_the_documentation_are_specifications(folder):
+    sizes = {path.name: sweep.read_spec(path).size for path in (ROOT / "docs/example/sweep").glob("*.toml")
+             if "base = " in path.read_text()}
+    assert sizes == {"17-db.toml": 88, "lowest-snr.toml": 5, "many.toml": 10000, "slew.toml": 130}
+
+
+REPORT = SPEC + '\n[report]\nbound = "frequency_error_bound"\n'
+
+
+@pytest.mark.parametrize("text, words, line", [
+    (REPORT + 'level = "x"\n', "level = 'x'; allowed: a number", 15),
+    (REPORT + 'pareto = ["a"]\n', "pareto; allowed: the names of two bounds", 15),
+    (REPORT + 'pareto = ["a", "a"]\n', "pareto; allowed: the names of two bounds", 15),
+    (REPORT.replace('"frequency_error_bound"', "3"), "bound = 3; allowed: the name of a bound", 14),
+    ('record = ["frequency_error_bounds"]\n' + REPORT, "'frequency_error_bound' is not recorded", 15),
+    (SPEC + "\n[[axis]]\nkeys = ['assume.noise.snr_db']\nvalues = [17]\n", "noise is no table of the design, but 0.001", 14),
+    (SPEC + "\n[[axis]]\nkeys = ['design.q1.x']\nvalues = [17]\n", "is a part of design.q1, which has an axis", 14),
+    (SPEC.replace("[0.1, 1, 10]", "[2020-01-01]"), "cannot stand in a design", 11),
+    (SPEC.replace("[0.1, 1, 10]", "[nan]"), "finite", 11),
+    (SPEC.replace("[1e-4, 1]", "[1e-4, nan]"), "two numbers above 0", 6),
+    (SPEC.replace("points = 9", "points = true"), "a whole number from 2", 7),
+    ("axis = [1]\nname = 'x'\nbase = 'base.toml'\n", "axis is no table", 0),
+    ("require = 1\n" + SPEC, "require is no table", 1),
+    ("report = 1\n" + SPEC, "report is no table", 0),
+])
+def test_a_slip_in_a_specification_is_told_before_the_first_design(folder, stand_in, text, words, line):
+    with pytest.raises(veritrack.InputError, match="^" + str(folder)) as error:
+        read(folder, text)
+    assert words in error.value.message and (error.value.line == line or line == 0)
+
+
+@pytest.mark.parametrize("base, spec, place, words", [
+    # The base design has comments, which the designs of the sweep have not: its own lines count.
+    ("# a comment\n\n" + TEXT.replace("slew = 0.0", "slew = -1.0"), SPEC, ("base.toml", 16, 8), "slew"),
+    ("# a comment\n\n" + TEXT, SPEC.replace("[0.1, 1, 10]", "[-1, 1]"), ("sweep.toml", 10, 1), "design.r"),
+    (TEXT, SPEC + "\n[require]\nfrequency_error_belo = 1\n", ("sweep.toml", 14, 1), "frequency_error_below"),
+], ids=["base", "axis", "require"])
+def test_an_error_in_the_designs_names_the_file_that_it_is_in(folder, base, spec, place, words):
+    (folder / "base.toml").write_text(base)
+    with pytest.raises(veritrack.InputError, match=words) as error:
+        read(folder, spec)
+    assert (pathlib.Path(error.value.file).name, error.value.line, error.value.column) == place
+
+
+def test_a_row_without_a_design_has_the_key_and_no_line_that_nobody_has_seen(folder):
+    spec = read(folder, SPEC.replace("[0.1, 1, 10]", "[1, -1]").replace("points = 9", "points = 2"))
+    program = _engine.identity()
+    point = next(spec.points(1, 2))
+    result, = work.certified([("key", point.text)], "base.toml", "quick", (), program, None)
+    assert result.verdict == "error" and result.error.endswith(" (at design.r: r = -1)")
+    assert "base.toml" not in result.error
+
+
+def test_a_name_that_no_design_has_is_told(folder, stand_in):
+    spec = read(folder, 'record = ["frequency_eror_bound"]\n' + SPEC)
+    run(folder, spec)
+    told = subprocess.run(command(folder, "report"), capture_output=True, text=True, check=False)
+    assert told.returncode == 0
+    assert "veritrack sweep: no design has a bound called frequency_eror_bound; some bounds need" in told.stderr
+    assert "No design has a bound called frequency\\_eror\\_bound" in (folder / "report.md").read_text()
+    spec = read(folder, SPEC + '\n[report]\nbound = "frequency_eror_bound"\n')
+    assert run(folder, spec) == 27  # what was recorded without the bound is no result of this sweep
+    told = subprocess.run(command(folder, "report"), capture_output=True, text=True, check=False)
+    assert "is it frequency_error_bound?" in told.stderr
+
+
+def test_a_worker_with_another_program_is_refused(folder, stand_in):
+    with pytest.raises(work.OtherProgram, match="another program than the client"):
+        work.certified([("key", TEXT)], "base.toml", "quick", (), "another", None)
+    spec = read(folder)
+    with contextlib.closing(sweep.Store(folder / "results.sqlite")) as store:
+        started = runs._Run(spec, store, sweep.Options(jobs=1), None)
+        started._program = "another"  # as of a client that was installed anew meanwhile
+        with pytest.raises(work.OtherProgram):
+            started.run()
+        assert store.count(spec.identity("another")) == 0
+
+
+# ---- in one call
+
+def test_a_sweep_in_one_call(folder, stand_in, monkeypatch):
+    monkeypatch.chdir(folder)
+    swept = veritrack.sweep("base.toml", {("design.q1", "design.q2"): np.array([0.1, 0.3]), "design.r": [1, 3]},
+                            jobs=1, record=["frequency_error_bound"])
+    assert (swept.counts, swept.certified, swept.is_complete) == ({"proved": 3, "undecided": 1}, 4, True)
+    assert swept.folder == pathlib.Path("sweeps-out/sweep") and (swept.folder / "report.md").is_file()
+    columns = swept.columns()
+    assert columns["design.q2"].tolist() == [0.1, 0.1, 0.3, 0.3] and columns["design.r"].tolist() == [1, 3, 1, 3]
+    assert columns["verdict"].tolist() == ["proved", "proved", "proved", "undecided"]
+    np.testing.assert_array_equal(columns["frequency_error_bound"],
+                                  [0.1, 0.1 * 3, 0.3, 0.3 * 3])
+    assert not swept.verify(sample=1, jobs=1).verified  # what the stand-in writes is no certificate
+    again = veritrack.sweep.sweep(swept.spec, report=False, folder=swept.folder)
+    assert again.certified == 0 and again.counts == swept.counts
+    with pytest.raises(TypeError, match="with axes"):
+        veritrack.sweep(veritrack.Design.from_toml(TEXT))
+
+
+# ---- figures
+
+def test_the_figure_shows_verdicts_and_its_line_goes_around_what_is_proved(folder, stand_in):
+    axes = [sweep.Axis(("a.x",), "x", (1, 2, 3)), sweep.Axis(("a.y",), "y", (1, 2))]
+    values = figures.Values(np.array([1.0, 2, 3, 1, 2, 3]), np.array([1.0, 1, 1, 2, 2, 2]),
+                            np.array([0.1, 0.2, np.nan, 0.3, np.nan, np.nan]),
+                            np.array(["proved", "undecided", "undecided", "proved", "refuted", "error"]), "a bound",
+                            True)
+    assert figures.is_met(values, None).tolist() == [True, False, False, True, False, False]
+    assert figures.is_met(values, 0.2).tolist() == [True, True, False, False, False, False]
+    drawn = figures.region_figure(values, *axes, None)
+    assert drawn.count('id="patch_') > 0 and drawn.count("<pattern") == 3  # a hatching for each verdict without a bound
+    assert "<pattern" not in figures.region_figure(
+        dataclasses.replace(values, bound=np.arange(1.0, 7), verdict=np.full(6, "proved")), *axes, None)
+
+
+# ---- progress
+
+def test_progress_on_a_terminal_and_in_a_log(monkeypatch, capsys):
+    now = [100.0]
+    monkeypatch.setattr(main.time, "monotonic", lambda: now[0])
+    line = main._ProgressLine(quiet=False)
+    for seconds, done in ((1, 1), (29, 2), (30, 3), (31, 4), (59, 5), (61, 10), (400, 20)):
+        now[0] = 100.0 + seconds
+        line(done, 1000, done / seconds)
+    line.clear()
+    told = capsys.readouterr().err.splitlines()
+    assert told == ["3 of 1000 designs, 0.1 a second, 2.8 h left", "10 of 1000 designs, 0.164 a second, 101 min left",
+                    "20 of 1000 designs, 0.05 a second, 5.4 h left"]
+    monkeypatch.setattr(main.sys.stderr, "isatty", lambda: True)
+    line = main._ProgressLine(quiet=False)
+    line(1, 10, 0.25)
+    assert capsys.readouterr().err == "\r\x1b[K1 of 10 designs, 0.25 a second, 36 s left"
+    main._ProgressLine(quiet=True)(1, 10, 0.25)
+    assert capsys.readouterr().err == ""
+
+
+def test_the_rate_is_that_of_this_run(folder, stand_in):
+    spec = read(folder)
+    told = []
+    run(folder, spec, lambda done, size, rate: told.append((done, size, rate)))
+    assert told[0][:2] == (0, 27) and told[0][2] == 0 and told[-1][:2] == (27, 27) and told[-1][2] > 0
+    told.clear()
+    run(folder, read(folder, SPEC.replace("[0.1, 1, 10]", "[0.1, 1, 10, 20]")),
+        lambda done, size, rate: told.append((done, size, rate)))
+    assert told[-1][:2] == (36, 36)

@@ -2,6 +2,7 @@
 
 import ctypes
 import math
+import signal
 import threading
 
 import numpy as np
@@ -260,3 +261,27 @@ def test_threads_that_call_one_tracker_do_no_harm():
     for thread in threads:
         thread.join()
     assert any(np.array_equal(tracker.state, state) for state in states)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_an_interrupt_ends_a_long_call_and_no_tracker_has_moved(threads):
+    class Interrupted(Exception):
+        pass
+
+    def interrupt(number, frame):
+        raise Interrupted
+
+    tracker = veritrack.QuadratureEkf(0.001, np.full(threads, 0.001), 0.01, frequency=0.4)
+    before = tracker.state
+    samples = np.ones(2_000_000, complex)  # a sixth of a second
+    old = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with pytest.raises(Interrupted):
+            tracker.run(samples, threads=threads)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, old)
+    # Had it been looked for only after the call, all trackers would have moved.
+    assert np.array_equal(tracker.state, before)
+    assert tracker.run(samples[:10]).frequency.shape == (threads, 10)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import pathlib
 import sys
 import time
 
 from ..errors import InputError, VeritrackError
-from .spec import Spec, read_spec
+from .reading import read_spec
+from .spec import Spec
 from .store import Store
 
 _ALL_DONE, _NOT_ALL, _BAD_INPUT = 0, 1, 2
@@ -17,22 +19,30 @@ _INTERRUPTED = 130
 
 
 class _ProgressLine:
-    """Progress on standard error, if that is a terminal and it is not to be quiet."""
+    """Progress on standard error: a line that changes on a terminal, a line now and then in a log."""
+
+    _ON_A_TERMINAL = 0.5
+    _IN_A_LOG = 30.0
+    """Seconds between two. The first one in a log comes after that long, too: short sweeps need none."""
 
     def __init__(self, quiet: bool) -> None:
-        self._shown = not quiet and sys.stderr.isatty()
-        self._last = 0.0
+        self._shown = not quiet
+        self._is_terminal = sys.stderr.isatty()
+        self._wait = self._ON_A_TERMINAL if self._is_terminal else self._IN_A_LOG
+        self._last = -math.inf if self._is_terminal else time.monotonic()
 
     def __call__(self, done: int, size: int, rate: float) -> None:
         now = time.monotonic()
-        if not self._shown or now - self._last < 0.5:
+        if not self._shown or now - self._last < self._wait:
             return
         self._last = now
         left = f", {_duration((size - done) / rate)} left" if rate > 0 else ""
-        print(f"\r\x1b[K{done} of {size} designs, {rate:.3g} a second{left}", end="", file=sys.stderr, flush=True)
+        line = f"{done} of {size} designs, {rate:.3g} a second{left}"
+        print(f"\r\x1b[K{line}" if self._is_terminal else line, end="" if self._is_terminal else "\n", file=sys.stderr,
+              flush=True)
 
     def clear(self) -> None:
-        if self._shown:
+        if self._shown and self._is_terminal:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
@@ -135,8 +145,11 @@ def _run(spec: Spec, store: Store, options: argparse.Namespace) -> None:
 
 def _report(spec: Spec, store: Store, folder: pathlib.Path) -> int:
     from .report import write_report
+    from .shown import missing_bounds
 
     document = write_report(spec, store, folder)
+    for sentence in missing_bounds(spec, store, _program()):
+        print(f"veritrack sweep: {sentence}", file=sys.stderr)
     print(f"{document}: {document.read_text().splitlines()[0].lstrip('# ')}")
     sweep = spec.identity(_program())
     with_verdict = store.count(sweep) - store.count(sweep, "error")

@@ -8,6 +8,7 @@ from typing import Sequence
 
 import matplotlib
 import matplotlib.figure
+import matplotlib.patches
 import matplotlib.ticker
 import numpy as np
 
@@ -24,11 +25,12 @@ _LEAST_COLOUR, _MOST_COLOUR, _COLOURS = 0.25, 0.95, 48
 
 @dataclasses.dataclass(frozen=True)
 class Values:
-    """What a figure shows of each point: where it is, and a bound, NaN where none is proved."""
+    """What a figure shows of each point: where it is, a bound, NaN where none is proved, and the verdict."""
 
     x: np.ndarray
     y: np.ndarray
     bound: np.ndarray
+    verdict: np.ndarray
     words: str
     is_at_most: bool
 
@@ -55,9 +57,23 @@ def _edges(centres: np.ndarray, is_logarithmic: bool) -> np.ndarray:
     return np.exp(edges) if is_logarithmic else edges
 
 
+def is_met(values: Values, level: float | None) -> np.ndarray:
+    """What the thick line goes around: the bound meets the level; without a level, the design is PROVED."""
+    if level is None:
+        return values.verdict == "proved"
+    # Where nothing is proved the bound is beyond every level.
+    return values.bound <= level if values.is_at_most else values.bound >= level
+
+
+_WITHOUT_BOUND = {
+    "undecided": ("UNDECIDED", "////"), "refuted": ("REFUTED", "xxxx"), "error": ("no verdict", ".."),
+}
+"""Verdicts of cells that show no bound, in words, with their hatching. All other verdicts are left white."""
+
+
 def region_figure(values: Values, x: Axis, y: Axis, level: float | None) -> str:
-    """The bound over the plane of two axes: cells in grey, hatched where nothing is proved; the contour of the
-    level that is asked for, drawn between the points on one and on the other side."""
+    """The bound over the plane of two axes: cells in grey, hatched by their verdict where no bound is proved; a
+    thick line, drawn between the points on one and on the other side, around those that `is_met` names."""
     with matplotlib.rc_context(_STYLE):
         figure = matplotlib.figure.Figure(figsize=(7.2, 5.0), layout="constrained")
         axes = figure.add_subplot()
@@ -74,8 +90,9 @@ def region_figure(values: Values, x: Axis, y: Axis, level: float | None) -> str:
         else:
             drawn = axes.scatter(values.x, values.y, c=values.bound, norm=norm, cmap=colours, s=28,
                                  edgecolors="0.2", linewidths=0.5)
-            missing = np.isnan(values.bound)
-            axes.scatter(values.x[missing], values.y[missing], marker="x", c="0.2", s=22, linewidths=0.9)
+            met = is_met(values, level)
+            axes.scatter(values.x[met], values.y[met], s=80, facecolors="none", edgecolors="black", linewidths=1.4)
+            _draw_markers(axes, values)
         _decorate(axes, x, y)
         if proved.size:
             bar = figure.colorbar(drawn, ax=axes)
@@ -88,45 +105,67 @@ def region_figure(values: Values, x: Axis, y: Axis, level: float | None) -> str:
 def _draw_cells(axes, values: Values, x: Axis, y: Axis, xs: np.ndarray, ys: np.ndarray, norm, colours,
                 level: float | None):
     grid = np.full((ys.size, xs.size), np.nan)
-    grid[np.searchsorted(ys, values.y), np.searchsorted(xs, values.x)] = values.bound
+    met = np.zeros(grid.shape, bool)
+    place = np.searchsorted(ys, values.y), np.searchsorted(xs, values.x)
+    grid[place] = values.bound
+    met[place] = is_met(values, level)
     x_edges, y_edges = _edges(xs, x.is_logarithmic), _edges(ys, y.is_logarithmic)
-    # Hatched below; cells with a bound cover it.
-    axes.fill_between([x_edges[0], x_edges[-1]], y_edges[0], y_edges[-1], facecolor="white", edgecolor="0.6",
-                      hatch="////", linewidth=0.0)
+    patches = []
+    for verdict, (words, hatch) in _WITHOUT_BOUND.items():
+        cells = np.isnan(values.bound) & (values.verdict == verdict)
+        for row, column in zip(place[0][cells], place[1][cells]):
+            axes.fill_between(x_edges[column:column + 2], y_edges[row], y_edges[row + 1], facecolor="white",
+                              edgecolor="0.6", hatch=hatch, linewidth=0.0)
+        if cells.any():
+            patches.append(matplotlib.patches.Patch(facecolor="white", edgecolor="0.6", hatch=hatch, label=words))
     drawn = axes.pcolormesh(x_edges, y_edges, np.ma.masked_invalid(grid), norm=norm, cmap=colours, shading="flat",
                             edgecolors="face", linewidth=0.1)
-    if level is not None:
-        # Where nothing is proved the bound is beyond every level.
-        is_met = grid <= level if values.is_at_most else grid >= level
-        if is_met.any() and not is_met.all():
-            _draw_border(axes, is_met, x_edges, y_edges)
+    if met.any() and not met.all():
+        _draw_border(axes, met, x_edges, y_edges)
+    if patches:
+        axes.legend(handles=patches, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, frameon=False,
+                    handlelength=2.4, handleheight=1.4)
     axes.set_xlim(x_edges[0], x_edges[-1])
     axes.set_ylim(y_edges[0], y_edges[-1])
     return drawn
 
 
-def _draw_border(axes, is_met: np.ndarray, x_edges: np.ndarray, y_edges: np.ndarray) -> None:
+def _draw_markers(axes, values: Values, transform=None) -> None:
+    """Where no bound is proved: crosses, upright ones for what is REFUTED, points without a verdict."""
+    missing = np.isnan(values.bound)
+    for verdict, marker in (("undecided", "x"), ("refuted", "+"), ("error", "."), ("proved", "x"),
+                            ("nothing-required", "x")):
+        here = missing & (values.verdict == verdict)
+        axes.plot(values.x[here], np.zeros(here.sum()) if transform else values.y[here], marker=marker,
+                  linestyle="none", color="0.3", markersize=6, clip_on=False,
+                  **({"transform": transform} if transform else {}))
+
+
+def _draw_border(axes, met: np.ndarray, x_edges: np.ndarray, y_edges: np.ndarray) -> None:
     """Along the sides of the cells: between points nothing is known, and no line suggests that it is."""
-    for row in range(is_met.shape[0]):
-        for column in range(is_met.shape[1]):
-            if column + 1 < is_met.shape[1] and is_met[row, column] != is_met[row, column + 1]:
+    for row in range(met.shape[0]):
+        for column in range(met.shape[1]):
+            if column + 1 < met.shape[1] and met[row, column] != met[row, column + 1]:
                 axes.plot([x_edges[column + 1]] * 2, y_edges[row:row + 2], color="black", linewidth=2.2,
                           solid_capstyle="projecting")
-            if row + 1 < is_met.shape[0] and is_met[row, column] != is_met[row + 1, column]:
+            if row + 1 < met.shape[0] and met[row, column] != met[row + 1, column]:
                 axes.plot(x_edges[column:column + 2], [y_edges[row + 1]] * 2, color="black", linewidth=2.2,
                           solid_capstyle="projecting")
 
 
 def line_figure(values: Values, x: Axis, level: float | None) -> str:
-    """The bound over one axis; crosses at the bottom where nothing is proved."""
+    """The bound over one axis; crosses at the bottom where none is proved, rings around those of designs that are
+    PROVED."""
     with matplotlib.rc_context(_STYLE):
         figure = matplotlib.figure.Figure(figsize=(7.2, 4.0), layout="constrained")
         axes = figure.add_subplot()
         order = np.argsort(values.x)
         axes.plot(values.x[order], values.bound[order], marker="o", color="black", linewidth=1.2, markersize=4)
-        missing = values.x[np.isnan(values.bound)]
-        axes.plot(missing, np.zeros(missing.size), marker="x", linestyle="none", color="0.3", clip_on=False,
-                  transform=axes.get_xaxis_transform())
+        proved = np.isfinite(values.bound) & (values.verdict == "proved")
+        if not (values.verdict == "nothing-required").any():
+            axes.plot(values.x[proved], values.bound[proved], marker="o", linestyle="none", color="black",
+                      markerfacecolor="none", markersize=9)
+        _draw_markers(axes, values, axes.get_xaxis_transform())
         if level is not None:
             axes.axhline(level, color="0.4", linestyle="--", linewidth=1.2)
         axes.set_xlabel(x.label)

@@ -4,45 +4,20 @@ from __future__ import annotations
 
 import collections
 import csv
-import dataclasses
 import io
-import math
 import os
 import pathlib
-from typing import Any, Mapping, Sequence
-
-import numpy as np
+from typing import Mapping, Sequence
 
 from .. import _engine, _toml
 from ..certificate import write_file
-from ..interval import Bound
-from . import figures
+from .shown import (WORDS_OF_VERDICTS, ReportFigure, bound_names, figures_of, first_upper, level_of, missing_bounds,
+                    pareto_front, report_bound)
 from .spec import Axis, Spec
-from .store import Row, Store
+from .store import Row, Store, bound_of
 
-_WORDS_OF_VERDICTS = {
-    "proved": "PROVED", "refuted": "REFUTED", "undecided": "UNDECIDED", "nothing-required": "nothing required",
-    "error": "no verdict",
-}
 _SHOWN_ERRORS = 5
 _SHOWN_DESIGNS = 12
-
-
-@dataclasses.dataclass(frozen=True)
-class _Figure:
-    file: str
-    title: str
-    caption: str
-    svg: str
-
-
-def bound_of(row: Row, name: str) -> Bound | None:
-    """A bound of a row; none where it is not proved."""
-    found = row.result.bounds.get(name)
-    if found is None:
-        return None
-    lo, hi, sense, words, claim = found
-    return Bound(float.fromhex(lo), float.fromhex(hi), name, sense, words, claim=claim)
 
 
 def write_report(spec: Spec, store: Store, folder: str | os.PathLike[str]) -> pathlib.Path:
@@ -57,8 +32,8 @@ def write_report(spec: Spec, store: Store, folder: str | os.PathLike[str]) -> pa
     """
     program = _engine.identity()
     rows = list(store.rows(spec.identity(program)))
-    drawn = _figures(spec, rows)
-    text = _markdown(spec, rows, drawn)
+    drawn = figures_of(spec, rows)
+    text = _markdown(spec, rows, drawn, missing_bounds(spec, store, program))
     target = pathlib.Path(folder)
     for figure in drawn:
         write_file(target / "figures" / figure.file, figure.svg)
@@ -70,17 +45,8 @@ def write_report(spec: Spec, store: Store, folder: str | os.PathLike[str]) -> pa
     return target / "report.md"
 
 
-def _names(rows: Sequence[Row]) -> dict[str, str]:
-    """The bounds that occur, with their words."""
-    names: dict[str, str] = {}
-    for row in rows:
-        for name, found in row.result.bounds.items():
-            names.setdefault(name, found[3] or name.replace("_", " "))
-    return names
-
-
 def _csv(spec: Spec, rows: Sequence[Row]) -> str:
-    names = list(_names(rows))
+    names = list(bound_names(rows))
     out = io.StringIO()
     writer = csv.writer(out)
     writer.writerow(["point", *(key for axis in spec.axes for key in axis.keys), "verdict",
@@ -95,131 +61,8 @@ def _csv(spec: Spec, rows: Sequence[Row]) -> str:
     return out.getvalue()
 
 
-# ---- what is shown
-
-
-def _report_bound(spec: Spec, rows: Sequence[Row]) -> str | None:
-    """The bound of the regions: as asked for, or the first that occurs."""
-    return spec.report.get("bound") or next(iter(_names(rows)), None)
-
-
-def _number_axes(spec: Spec) -> list[Axis]:
-    def is_number(value: Any) -> bool:
-        try:
-            return math.isfinite(float(value))
-        except (TypeError, ValueError):
-            return False
-
-    return [axis for axis in spec.axes if axis.is_sampled or all(map(is_number, axis.values))]
-
-
-def _plane(spec: Spec) -> list[Axis]:
-    """One or two axes of figures: those that are asked for, or the first ones."""
-    numbers = _number_axes(spec)
-    asked = [axis for name in ("x", "y") for axis in numbers if spec.report.get(name) in axis.keys]
-    return (asked + [axis for axis in numbers if axis not in asked])[:2]
-
-
-def _values(spec: Spec, rows: Sequence[Row], name: str, plane: Sequence[Axis]) -> figures.Values:
-    """The bound in the plane; where further axes leave several designs at a place, the best of them."""
-    places = [spec.axes.index(axis) for axis in plane]
-    sense, words = "at most", name.replace("_", " ")
-    best: dict[tuple[float, ...], float] = {}
-    for row in rows:
-        place = tuple(float(row.values[index]) for index in places)
-        best.setdefault(place, math.nan)
-        bound = bound_of(row, name)
-        if bound is not None:
-            sense, words = bound.sense, bound.words or words
-            is_better = bound.value > best[place] if sense == "at least" else bound.value < best[place]
-            if math.isnan(best[place]) or is_better:
-                best[place] = bound.value
-    table = np.array([[*place, value] for place, value in best.items()])
-    return figures.Values(table[:, 0], table[:, min(1, len(plane) - 1)], table[:, -1], words, sense != "at least")
-
-
-def _level(spec: Spec) -> float | None:
-    level = spec.report.get("level")
-    return None if level is None else float(level)
-
-
-def _figures(spec: Spec, rows: Sequence[Row]) -> list[_Figure]:
-    drawn = []
-    name = _report_bound(spec, rows)
-    plane = _plane(spec)
-    if name is not None and plane and rows:
-        values = _values(spec, rows, name, plane)
-        level = _level(spec)
-        others = " Of designs that differ along other axes only, the best one is shown." if len(spec.axes) > len(
-            plane) else ""
-        if len(plane) == 2:
-            best = "smallest" if values.is_at_most else "largest"
-            caption = (f"{_first_upper(values.words)}, as certified for each design: dark where it is {best}, hatched or crossed where "
-                       f"nothing is proved.")
-            if level is not None:
-                caption += (f" The thick line goes around the designs for which it is "
-                            f"{'at most' if values.is_at_most else 'at least'} {spec.report['level']}.")
-            svg = figures.region_figure(values, plane[0], plane[1], level)
-        else:
-            caption = (f"{_first_upper(values.words)}, as certified for each design; a cross where nothing is proved."
-                       + (f" Dashed: {spec.report['level']}." if level is not None else ""))
-            svg = figures.line_figure(values, plane[0], level)
-        drawn.append(_Figure("regions.svg", "Certified bound over the designs", caption + others, svg))
-    front = pareto_front(spec, rows)
-    if front.rows:
-        drawn.append(_Figure(
-            "pareto.svg", "Designs by two bounds",
-            f"Each dot is a design by two certified bounds. No design is better in both than one of the "
-            f"{len(front.front)} that are joined.",
-            figures.pareto_figure(front.first, front.second, [row in front.front for row in front.rows],
-                                  front.words)))
-    return drawn
-
-
-def _first_upper(words: str) -> str:
-    return words[:1].upper() + words[1:]
-
-
-@dataclasses.dataclass(frozen=True)
-class Front:
-    """Designs with both bounds of [report] pareto, and those of them that none beats in both."""
-
-    rows: list[Row]
-    first: list[float]
-    second: list[float]
-    front: list[Row]
-    words: tuple[str, str]
-
-
-def pareto_front(spec: Spec, rows: Sequence[Row]) -> Front:
-    """The designs that no other design beats in both bounds that [report] names."""
-    asked = spec.report.get("pareto")
-    if not asked:
-        return Front([], [], [], [], ("", ""))
-    found: list[tuple[Row, Bound, Bound]] = []
-    for row in rows:
-        first, second = bound_of(row, asked[0]), bound_of(row, asked[1])
-        if first is not None and second is not None:
-            found.append((row, first, second))
-    words = (found[0][1].words or asked[0], found[0][2].words or asked[1]) if found else ("", "")
-
-    def cost(bound: Bound) -> float:
-        return -bound.value if bound.sense == "at least" else bound.value
-
-    costs = sorted((cost(a), cost(b), row.number) for row, a, b in found)
-    best, on_front = math.inf, set()
-    for _, least, number in costs:  # by the first bound, so only a better second one counts
-        if least < best:
-            best = least
-            on_front.add(number)
-    return Front([row for row, _, _ in found], [a.value for _, a, _ in found], [b.value for _, _, b in found],
-                 [row for row, _, _ in found if row.number in on_front], words)
-
-
-# ---- the document
-
-
-def _markdown(spec: Spec, rows: Sequence[Row], drawn: Sequence[_Figure]) -> str:
+def _markdown(spec: Spec, rows: Sequence[Row], drawn: Sequence[ReportFigure],
+              not_found: Sequence[str]) -> str:
     counts = collections.Counter(row.result.verdict for row in rows)
     missing = spec.size - len(rows)
     lines = [f"# {_headline(spec, rows, counts)}", ""]
@@ -229,10 +72,12 @@ def _markdown(spec: Spec, rows: Sequence[Row], drawn: Sequence[_Figure]) -> str:
     if missing:
         lines += [f"**{missing} of {spec.size} designs have no result yet.**", ""]
     lines += ["| verdict | designs |", "|---|--:|"]
-    lines += [f"| {_WORDS_OF_VERDICTS[verdict]} | {counts[verdict]} |" for verdict in _WORDS_OF_VERDICTS
+    lines += [f"| {WORDS_OF_VERDICTS[verdict]} | {counts[verdict]} |" for verdict in WORDS_OF_VERDICTS
               if counts[verdict]]
     lines += [""]
     lines += _level_sentence(spec, rows)
+    for sentence in not_found:
+        lines += [f"**{_md(first_upper(sentence))}.**", ""]
     for figure in drawn:
         lines += [f"![{figure.title}](figures/{figure.file})", "", f"*{_md(figure.caption)}*", ""]
     lines += _front_table(spec, rows)
@@ -269,7 +114,7 @@ def _axis_words(axis: Axis, spec: Spec) -> str:
 
 
 def _level_sentence(spec: Spec, rows: Sequence[Row]) -> list[str]:
-    name, level = _report_bound(spec, rows), _level(spec)
+    name, level = report_bound(spec, rows), level_of(spec)
     if name is None or level is None:
         return []
     bounds = [bound for row in rows if (bound := bound_of(row, name)) is not None]
@@ -295,7 +140,7 @@ def _front_table(spec: Spec, rows: Sequence[Row]) -> list[str]:
                                                         for i in range(_SHOWN_DESIGNS)]
     for row in shown:
         lines.append("| " + " | ".join(map(_md, row.values)) + f" | {bound_of(row, asked[0])} | "
-                     f"{bound_of(row, asked[1])} | {_WORDS_OF_VERDICTS[row.result.verdict]} |")
+                     f"{bound_of(row, asked[1])} | {WORDS_OF_VERDICTS[row.result.verdict]} |")
     if len(shown) < len(order):
         lines += ["", f"{len(shown)} of {len(order)} are shown."]
     return lines + [""]

@@ -10,6 +10,7 @@ import sqlite3
 from typing import Any, Iterable, Iterator, Sequence
 
 from ..errors import VeritrackError
+from ..interval import Bound
 
 _SCHEMA = """
 CREATE TABLE IF NOT EXISTS sweeps (
@@ -66,6 +67,15 @@ class Row:
     number: int
     values: tuple[str, ...]
     result: Result
+
+
+def bound_of(row: Row, name: str) -> Bound | None:
+    """A bound of a row; none where it is not proved."""
+    found = row.result.bounds.get(name)
+    if found is None:
+        return None
+    lo, hi, sense, words, claim = found
+    return Bound(float.fromhex(lo), float.fromhex(hi), name, sense, words, claim=claim)
 
 
 class Store:
@@ -145,6 +155,13 @@ class Store:
         with self._errors():
             return self._file.execute("SELECT COALESCE(SUM(seconds), 0) FROM points JOIN results USING (key) "
                                       "WHERE sweep = ?", (sweep,)).fetchone()[0]
+
+    def bound_names(self, sweep: str) -> list[str]:
+        """Of all bounds that its results have."""
+        with self._errors():
+            return [name for name, in self._file.execute(
+                "SELECT DISTINCT each.key FROM points JOIN results USING (key), json_each(results.bounds) AS each "
+                "WHERE sweep = ?", (sweep,))]
 
     def rows(self, sweep: str) -> Iterator[Row]:
         """All points with their results, by number, one after the other."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any, Mapping
 
-from .. import _engine
+from .. import _engine, _toml
 from ..certificate import bounds_of, claims_of
 from ..errors import EngineError, InputError, TimeLimit, VeritrackError
 from .store import Result
@@ -37,12 +37,19 @@ def _result(key: str, text: str, file: str, extent: str, record: tuple[str, ...]
     try:
         answer = _answer({"do": "check", "text": text, "file": file, "extent": extent, "threads": 1}, limit)
     except InputError as error:
-        return Result(key, "error", {}, error=str(error))
+        return Result(key, "error", {}, error=_placed(error, text))
     except (TimeLimit, EngineError) as error:
         return Result(key, "error", {}, error=str(error), may_be_tried_again=True,
                       seconds=time.monotonic() - start)
     return Result(key, answer["verdict"], recorded_bounds(answer, record), answer["certificate_sha256"],
                   seconds=time.monotonic() - start)
+
+
+def _placed(error: InputError, text: str) -> str:
+    """The message, with the key that it is about: nobody has seen the lines of a design of a sweep."""
+    key = _toml.key_at(text, error.line)
+    line = text.splitlines()[error.line - 1] if "." in key else ""
+    return error.message + (f" (at {key}: {line})" if line else "")
 
 
 def recorded_bounds(answer: Mapping[str, Any], record: tuple[str, ...]) -> dict[str, list[str]]:

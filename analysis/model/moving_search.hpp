@@ -84,6 +84,26 @@ class MovingSearch {
                        [&](double factor) { return slew > 0.0 && proves(radius, factor * slew); });
   }
 
+  /// After `find_slew`: what each cell tolerates on its own, with the radius of the set.
+  void find_own_slews() {
+    for (ProvedTube& proved : set_->tubes) {
+      const double radius = proved.levels.front();
+      double tried = set_->slew;
+      for (double step = 1.6; step > 1.02; step = std::sqrt(step)) {
+        while (may_hold(proved, radius, tried * step)) {
+          tried *= step;
+        }
+      }
+      proved.own_slew = set_->slew;
+      for (const double factor : kFactors) {
+        if (factor * tried <= set_->slew || shrinks(proved, radius, 1.0, slow_, factor * tried)) {
+          proved.own_slew = std::max(set_->slew, factor * tried);
+          break;
+        }
+      }
+    }
+  }
+
   /// The cells in which the search failed, by their numbers.
   [[nodiscard]] const std::vector<std::size_t>& failed() const { return failed_; }
 

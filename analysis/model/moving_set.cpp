@@ -75,6 +75,9 @@ TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, dou
     MovingSearch search(model, std::span(band.cells).subspan(run.first, run.end - run.first), task.deadline,
                         set);
     is_found = task.largest_slew ? search.find_slew() : search.find_levels();
+    if (is_found && task.largest_slew && task.of_each_cell) {
+      search.find_own_slews();
+    }
     if (is_found || task.largest_slew || task.deadline.is_over()) {
       break;
     }

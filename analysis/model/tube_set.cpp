@@ -38,9 +38,10 @@ TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low
       LevelSearch search(model, cell, task);
       std::optional<ProvedTube> proved;
       if (task.largest_noise) {
-        if (auto found = search.with_largest_noise(noise)) {
-          noise = found->second;
+        if (auto found = search.with_largest_noise(task.of_each_cell ? INFINITY : noise)) {
+          noise = std::min(noise, found->second);
           proved = std::move(found->first);
+          proved->own_noise = found->second;
         }
       } else {
         proved = search.with_noise(noise);

@@ -24,6 +24,9 @@ struct ProvedTube {
   VerificationBudget grid;          ///< from which the verification began
   std::size_t cells = 0;            ///< that it needed
   ShapeParameters parameters = {};  ///< of the proposal; not evidence
+  /// Of sets for the largest disturbance, where it was looked for: what this tube alone tolerates, proved
+  /// like the set, of the slew as long as the frequency stays in its cell; otherwise 0. Not evidence.
+  double own_noise = 0.0, own_slew = 0.0;
   /// Of a filter's tube in the long run: how it is entered.
   std::optional<LongRunEntry> entry = {};
 };
@@ -36,6 +39,7 @@ struct SetTask {
   double slew = 0.0;           ///< W, rad/sample per sample
   bool largest_noise = false;  ///< search for the largest V, at a constant frequency
   bool largest_slew = false;   ///< search for the largest W, with the V that is given
+  bool of_each_cell = false;   ///< and for the largest that each cell alone tolerates, which takes longer
   bool with_curve = false;     ///< levels down to what the curve is known to, for the bias
   Eigen::VectorXd deviations;  ///< of starts, one for each state; or empty
   /// The frequency error that is asked for, rad/sample, or 0: of a filter whose covariance is bounded, tubes

@@ -190,6 +190,31 @@ std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker,
       attack.frequency_error / set.frequency_error, attack.level_share);
 }
 
+/// How the proved bound compares with what errors come to in the linear approximation.
+std::string linear_comparison(const ModelSets& sets, const FrequencyUnits& units) {
+  if (!sets.linear || !sets.assumed || !(sets.linear->disturbed > 0.0)) {
+    return "";
+  }
+  const model::LinearWorstCase& linear = *sets.linear;
+  const auto number = [&](double radians) {
+    return fmt::format("{:.4g} rad/sample{}", radians,
+                       units.has_hertz() ? fmt::format(" ({:.4g} Hz)", units.drawn(radians)) : "");
+  };
+  const double bound = settled_error_of(sets);
+  std::string text = fmt::format(
+      "*Computed, not proved:* to first order in the errors, the assumed disturbances bring the frequency "
+      "error in the long run to about {} at worst, of which {} are there without them. This is the sum of "
+      "what "
+      "each earlier disturbance adds to the estimate, |h Phi B|, along the curve of the steady state, at the "
+      "worst of 5 frequencies and 48 phases; it is exact for small disturbances.",
+      number(linear.disturbed), number(linear.undisturbed));
+  if (std::isfinite(bound)) {
+    text += fmt::format(" The certified bound in the long run is {:.2f} times as large.",
+                        bound / linear.disturbed);
+  }
+  return text + "\n\n";
+}
+
 }  // namespace
 
 std::string model_picture(const MarkdownOptions& options, std::string_view file) {
@@ -267,7 +292,9 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
   if (attacked != nullptr) {
     text += attack_on(*attacked, proved_model(model, assume), units);
   }
-  return text + model_picture(options, "reach.svg") + model_picture(options, "tube.svg");
+  text += linear_comparison(sets, units);
+  return text + model_picture(options, "reach.svg") + model_picture(options, "tolerance.svg") +
+         model_picture(options, "tube.svg");
 }
 
 }  // namespace veritrack::certificates

@@ -1,5 +1,6 @@
 #include "certificates/model/model_json.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "analysis/rigor/decimal.hpp"
@@ -179,6 +180,23 @@ Json model_evidence_json(const Certificate& certificate) {
     }
   }
   return {{"tubes", list}};
+}
+
+Json model_report_json(const Certificate& certificate) {
+  const ModelSets& sets = model_sets(certificate);
+  Json json = Json::object();
+  if (!sets.linear) {
+    return json;
+  }
+  json["linear_worst_case"] = {{"proved", false},
+                               {"frequency", sets.linear->frequency},
+                               {"undisturbed", sets.linear->undisturbed},
+                               {"disturbed", sets.linear->disturbed}};
+  const double bound = settled_error_of(sets);
+  if (std::isfinite(bound) && sets.linear->disturbed > 0.0) {
+    json["linear_worst_case"]["bound_over_it"] = bound / sets.linear->disturbed;
+  }
+  return json;
 }
 
 }  // namespace veritrack::certificates

@@ -16,4 +16,8 @@ namespace veritrack::certificates {
 /// The member "tubes": the sets that cover the band (docs/certificate-format.md).
 [[nodiscard]] Json model_evidence_json(const Certificate& certificate);
 
+/// For report.json: "linear_worst_case", the estimate to first order beside the proved bound, where it was
+/// made.
+[[nodiscard]] Json model_report_json(const Certificate& certificate);
+
 }  // namespace veritrack::certificates

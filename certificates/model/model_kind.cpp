@@ -51,6 +51,7 @@ const TrackerKind& model_kind() {
                                 .sections = model_sections,
                                 .limited_in_time = true,
                                 .evidence_json = model_evidence_json,
+                                .report_json = model_report_json,
                                 .show = show,
                                 .track = model_on_samples,
                                 .frequency_promise = model_frequency_promise};

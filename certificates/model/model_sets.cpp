@@ -162,6 +162,22 @@ ModelSet meeting(const model::TrackerModel& tracker, ModelSet set, const std::ve
   return set;
 }
 
+/// To first order, at the worst of some frequencies of a set; nothing where one has no steady state.
+std::optional<model::LinearWorstCase> linear_over(const model::TrackedTone& tone, const TubeSet& set) {
+  constexpr int kFrequencies = 5;
+  std::optional<model::LinearWorstCase> worst;
+  for (int i = 0; i < kFrequencies; ++i) {
+    const double share = static_cast<double>(i) / (kFrequencies - 1);
+    const double frequency = set.part.low + share * (set.part.high - set.part.low);
+    const auto here = linear_worst_case(tone, frequency, set.noise, set.slew);
+    if (!here) {
+      return std::nullopt;
+    }
+    worst = !worst || here->disturbed > worst->disturbed ? here : worst;
+  }
+  return worst;
+}
+
 }  // namespace
 
 model::TrackerModel proved_model(const Model& model, const ModelAssumptions& assume) {
@@ -246,6 +262,10 @@ Interval slew_of(const ModelAssumptions& assume) {
   return Interval(2.0) * rigor::pi() * assume.slew.value / (rate * rate);
 }
 
+double settled_error_of(const ModelSets& sets) {
+  return sets.long_run ? sets.long_run->settled_error : sets.assumed ? sets.assumed->settled_error : INFINITY;
+}
+
 const ModelSets& model_sets(const Certificate& certificate) {
   return std::any_cast<const ModelSets&>(certificate.particulars);
 }
@@ -328,6 +348,7 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   }
   for (model::SetTask& task : tasks) {
     task.deadline = deadline;
+    task.of_each_cell = is_everything;
     const bool moves = task.slew > 0.0 || task.largest_slew;
     TubeSet tubes = moves ? model::prove_moving_set(tone, tracker, searched.low, searched.high, task, tell)
                           : model::prove_set(tone, tracker, searched.low, searched.high, task, tell);
@@ -355,6 +376,9 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   if (const auto& required = require.frequency_error_below) {
     ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
     deciding = meeting(tracker, std::move(deciding), deviations, *required);
+  }
+  if (is_everything && sets.assumed && !sets.assumed->tubes.tubes.empty()) {
+    sets.linear = linear_over(tone, sets.assumed->tubes);
   }
   return sets;
 }

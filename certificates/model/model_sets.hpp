@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/model/linear_worst_case.hpp"
 #include "analysis/model/tube_set.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/model/model.hpp"
@@ -46,8 +47,10 @@ struct ModelSets {
   std::optional<ModelLock> gaussian;    ///< for the assumed Gaussian noise
   std::optional<ModelLock> lowest_snr;  ///< for as much Gaussian noise as can be proved
   std::vector<ModelCell> cells;         ///< of `starts`
-  bool bounds_covariance = false;       ///< the tubes do, of a filter
-  std::string objection;                ///< why nothing is certified of the assumptions; or empty
+  /// The frequency error in the long run of `assumed` to first order, not proved; none where it is unknown.
+  std::optional<model::LinearWorstCase> linear;
+  bool bounds_covariance = false;  ///< the tubes do, of a filter
+  std::string objection;           ///< why nothing is certified of the assumptions; or empty
 };
 
 /// The tracker of a model on its signal: for proofs, and for proposals. The members refer to the model.
@@ -72,6 +75,10 @@ struct SearchedBand {
 
 /// The assumed slew, rad/sample per sample. Needs the upward rounding mode.
 [[nodiscard]] rigor::Interval slew_of(const ModelAssumptions& assume);
+
+/// The proved bound of the frequency error in the long run of `assumed`, rad/sample; infinity where nothing
+/// is known.
+[[nodiscard]] double settled_error_of(const ModelSets& sets);
 
 /// Of the certificate of a design of this kind. Throws std::bad_any_cast for another.
 [[nodiscard]] const ModelSets& model_sets(const Certificate& certificate);

@@ -159,6 +159,70 @@ Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& 
           {std::move(table)}};
 }
 
+/// What each tube of a set tolerates on its own: a row for each end of its cell.
+FigureTable table_of_own(const char* name, const char* quantity, const model::TubeSet& set,
+                         double model::ProvedTube::*own, const FrequencyUnits& units) {
+  FigureTable table(name, {in_unit("frequency of the signal", units), quantity});
+  for (const ProvedTube& proved : set.tubes) {
+    for (const double z : {-1.0, 1.0}) {
+      table.add({units.drawn(proved.tube.frequency + z * proved.tube.half_width), proved.*own});
+    }
+  }
+  return table;
+}
+
+/// Whether it was looked for, cell by cell.
+bool has_own(const std::optional<ModelSet>& set, double model::ProvedTube::*own) {
+  return set && (set->is_proved() || set->has_part()) &&
+         std::all_of(set->tubes.tubes.begin(), set->tubes.tubes.end(),
+                     [own](const ProvedTube& proved) { return proved.*own > 0.0; });
+}
+
+Figure tolerance_figure(const certificates::ModelSets& sets, const FrequencyUnits& units) {
+  std::vector<FigureTable> data;
+  std::vector<std::string> labels;
+  if (has_own(sets.noise, &ProvedTube::own_noise)) {
+    data.push_back(table_of_own("noise", "noise tolerated, proved [signal units]", sets.noise->tubes,
+                                &ProvedTube::own_noise, units));
+    labels.emplace_back("noise, signal units");
+  }
+  if (has_own(sets.slew, &ProvedTube::own_slew)) {
+    data.push_back(table_of_own("slew", "slew tolerated in the cell, proved [rad/sample per sample]",
+                                sets.slew->tubes, &ProvedTube::own_slew, units));
+    labels.emplace_back("slew, rad/sample per sample");
+  }
+  std::string script = gnuplot_style(data.size() > 1 ? 520 : 320);
+  for (const FigureTable& table : data) {
+    script += table.block();
+  }
+  script += fmt::format(
+      "set lmargin 13\nset rmargin 3\nset format y '%.3g'\nset yrange [0:*]\nset offsets 0, 0, graph "
+      "0.1, 0\nset multiplot layout {},1\n",
+      data.size());
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    script += i + 1 == data.size()
+                  ? fmt::format("set xlabel 'frequency of the signal, {}'\n", units.drawn_unit())
+                  : std::string();
+    script += fmt::format(
+        "set ylabel '{}' offset -1.5\nplot ${} using 1:2 with lines lw 2 lc rgb '#000000' notitle\n",
+        labels[i], data[i].name());
+  }
+  script += "unset multiplot\n";
+  const std::string slew =
+      "the slew that the tracker tolerates without noise as long as the frequency stays in one cell of "
+      "frequencies";
+  const std::string noise = "the noise that the tracker tolerates at a constant frequency";
+  const std::string words = data.size() > 1                  ? "Above, " + noise + "; below, " + slew
+                            : labels[0].starts_with("noise") ? "Noise: " + noise
+                                                             : "Slew: " + slew;
+  return {"tolerance.svg",
+          words +
+              ", against the frequency of the signal. Proved for each cell of frequencies by itself; what is "
+              "said of the whole band is the least of them, or less.",
+          std::move(script), "Noise and slew that are tolerated, over the frequency of the signal",
+          std::move(data)};
+}
+
 }  // namespace
 
 std::vector<Figure> draw_model_figures(const certificates::Certificate& certificate) {
@@ -190,6 +254,9 @@ std::vector<Figure> draw_model_figures(const certificates::Certificate& certific
   std::vector<Figure> figures;
   if (!proved.empty()) {
     figures.push_back(reach_figure(proved, tracker, units));
+    if (has_own(sets.noise, &ProvedTube::own_noise) || has_own(sets.slew, &ProvedTube::own_slew)) {
+      figures.push_back(tolerance_figure(sets, units));
+    }
     const bool has_assumed = sets.assumed && (sets.assumed->is_proved() || sets.assumed->has_part());
     if (has_assumed || sets.starts.is_proved() || sets.starts.has_part()) {
       figures.push_back(draw_tube(tracker, (has_assumed ? *sets.assumed : sets.starts).tubes, units));

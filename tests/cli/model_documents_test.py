@@ -26,7 +26,8 @@ class ModelDocuments(CliTestCase):
         result, document = self.certify(self.text + require)
         self.assertEqual(result.returncode, 0, result.stdout)
         self.assertEqual(self.files(), ["out/certificate.json", "out/certificate.md", "out/figures/bias.svg",
-                                        "out/figures/reach.svg", "out/figures/tube.svg", "out/report.json"])
+                                        "out/figures/reach.svg", "out/figures/tolerance.svg",
+                                        "out/figures/tube.svg", "out/report.json"])
         self.assertTrue(document.startswith("# PROVED: the frequency error stays below 0.05 rad/sample for ever; "
                                             "PROVED: the frequency error varies by at most 0.001 rad/sample\n"))
         sections = re.findall(r"^## (.*)$", document, re.MULTILINE)
@@ -36,8 +37,13 @@ class ModelDocuments(CliTestCase):
                                     "What the checker verifies", "How to reproduce it"])
         for figure in re.findall(r"\]\((figures/[^)]*)\)", document):
             self.assertIn("</svg>", (self.folder / "out" / figure).read_text())
-        self.assertEqual(document.count("](figures/"), 3)
-        certificate, _ = read_documents(self.folder / "out")
+        self.assertEqual(document.count("](figures/"), 4)
+        certificate, report = read_documents(self.folder / "out")
+        linear = report["linear_worst_case"]
+        self.assertIs(linear["proved"], False)
+        self.assertLess(linear["undisturbed"], linear["disturbed"])
+        self.assertGreater(linear["bound_over_it"], 1.0)
+        self.assertIn(f"The certified bound in the long run is {linear['bound_over_it']:.2f} times as large.", document)
         self.assertEqual([tubes["name"] for tubes in certificate["tubes"]][:2], ["starts", "assumed"])
         # Simulations come close to what is proved, and never reach it.
         shares = re.search(r": ([0-9.]+) of the certified bound\. After the first sample it reached at most ([0-9.]+)",

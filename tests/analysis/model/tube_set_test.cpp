@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -103,6 +104,45 @@ TEST_CASE("sets for a frequency that moves have equal levels, and their borders 
   }
   task.slew = 1e-3;
   CHECK_FALSE(prove_moving_set(tone, loop.model, 0.2, 0.4, task).is_complete);
+}
+
+TEST_CASE("what each cell tolerates on its own: at least what the set does, and that is proved") {
+  const test::Example loop(test::phase_locked_loop());
+  const TrackedTone tone = test::tone_of(loop.tracker);
+  SetTask task{.name = "noise",
+               .objective = ShapeObjective::largest_noise,
+               .largest_noise = true,
+               .of_each_cell = true,
+               .deviations = {}};
+  const TubeSet noise = prove_set(tone, loop.model, 0.2, 0.4, task);
+  REQUIRE(noise.is_complete);
+  REQUIRE(noise.tubes.size() > 1);
+  check_levels(loop.model, noise);
+  double least = INFINITY;
+  double most = 0.0;
+  for (const ProvedTube& proved : noise.tubes) {
+    const LevelQuestion question{proved.levels.front(), proved.own_noise, 1.0, proved.shrinking.front()};
+    CHECK(verify_level(loop.model, proved.tube, question, proved.grid).verdict == Verdict::proved);
+    least = std::min(least, proved.own_noise);
+    most = std::max(most, proved.own_noise);
+  }
+  CHECK(least == noise.noise);
+  CHECK(most > least);
+  task = {.name = "slew",
+          .objective = ShapeObjective::largest_slew,
+          .largest_slew = true,
+          .of_each_cell = true,
+          .deviations = {}};
+  const TubeSet slew = prove_moving_set(tone, loop.model, 0.2, 0.4, task);
+  REQUIRE(slew.is_complete);
+  for (const ProvedTube& proved : slew.tubes) {
+    CHECK(proved.own_slew >= slew.slew);
+    const LevelQuestion question{proved.levels.front(), 0.0, 1.0, proved.shrinking.front(), proved.own_slew};
+    CHECK(verify_level(loop.model, proved.tube, question, proved.grid).verdict == Verdict::proved);
+  }
+  // Without being asked, nothing is said of single cells.
+  task.of_each_cell = false;
+  CHECK(prove_moving_set(tone, loop.model, 0.3, 0.31, task).tubes.front().own_slew == 0.0);
 }
 
 TEST_CASE("how long levels take") {

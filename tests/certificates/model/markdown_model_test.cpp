@@ -8,6 +8,7 @@
 
 #include "analysis/model/set_parts.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/model/model_json.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/frequency_units.hpp"
 #include "tests/certificates/model/model_certificates.hpp"
@@ -102,6 +103,59 @@ TEST_CASE("bias and ripple have at most 16 rows, each with the worst of its cell
   CHECK(model_sections(with_sets(sets), kFigures).find("| unknown | unknown |") != std::string::npos);
   sets.starts.tubes.tubes.front().levels.pop_back();
   CHECK(model_sections(with_sets(sets), kFigures).find("Nothing is known of them") != std::string::npos);
+}
+
+TEST_CASE("the bound in the long run stands beside what errors come to in the linear approximation") {
+  ModelSets sets = unproved_sets();
+  sets.linear = model::LinearWorstCase{0.31, 0.125, 0.5};
+  sets.assumed->settled_error = 0.75;
+  std::string text = model_sections(with_sets(sets), kFigures);
+  CHECK(
+      text.find("to about 0.5 rad/sample (79.58 Hz) at worst, of which 0.125 rad/sample (19.89 Hz) are there "
+                "without them") != std::string::npos);
+  CHECK(text.find("The certified bound in the long run is 1.50 times as large.") != std::string::npos);
+  const Json report = model_report_json(with_sets(sets)).at("linear_worst_case");
+  CHECK(report.at("bound_over_it") == 1.5);
+  CHECK(report.at("proved") == false);
+  // The long run of a second set counts where there is one; without a bound there is nothing to compare.
+  sets.long_run.emplace().settled_error = 0.625;
+  CHECK(model_sections(with_sets(sets), kFigures).find("is 1.25 times as large") != std::string::npos);
+  sets.long_run->settled_error = INFINITY;
+  text = model_sections(with_sets(sets), kFigures);
+  CHECK(text.find("Computed, not proved") != std::string::npos);
+  CHECK(text.find("times as large") == std::string::npos);
+  CHECK_FALSE(model_report_json(with_sets(sets)).at("linear_worst_case").contains("bound_over_it"));
+  sets.linear.reset();
+  CHECK(model_report_json(with_sets(sets)).empty());
+}
+
+TEST_CASE("of a loop of the second order on two channels: the sum of its impulse response") {
+  // The exact phase error e = sin(phi - theta - w) drives two numbers; in lock all is linear in noise, to
+  // first order: h_0 = ki, h_1 = ki (1 - ki - kp), h_(k + 2) = (2 - ki - kp) h_(k + 1) - (1 - kp) h_k.
+  const std::string text =
+      "name = 'two channels'\ntracker = 'model'\n[model]\nsamples = ['y1', 'y2']\n"
+      "parameters = { ki = 0.0004, kp = 0.03 }\nstates = ['theta', 'w']\nangles = ['theta']\n"
+      "step = '''\ne = y2*cos(theta + w) - y1*sin(theta + w)\nw' = w + ki*e\ntheta' = theta + w + kp*e\n"
+      "'''\nfrequency = 'w'\nstart = { theta = 0, w = 'omega' }\n[assume]\nfrequency = [0.2, 0.4]\n"
+      "noise = 0.01\n";
+  const Design design = test::loop_design(text);
+  const ModelTables& tables = model_tables(design);
+  const Model loop = make_model(tables.model, tables.assume.signal);
+  const auto worst = linear_worst_case(proposed_tone(loop, tables.assume), 0.3, 0.01, 0.0);
+  const double ki = 0.0004;
+  const double kp = 0.03;
+  double before = ki;
+  double here = ki * (1.0 - ki - kp);
+  double sum = before;
+  for (int k = 0; k < 4000; ++k) {
+    sum += std::fabs(here);
+    const double next = (2.0 - ki - kp) * here - (1.0 - kp) * before;
+    before = here;
+    here = next;
+  }
+  REQUIRE(worst);
+  CHECK(worst->undisturbed < 1e-9);
+  CHECK(worst->disturbed == doctest::Approx(0.01 * sum).epsilon(1e-4));
 }
 
 TEST_CASE("a set that simulations leave is an alarm") {

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,33 @@ using test::effort;
 const std::vector<std::string> kNames{"x", "y", "P.x.w", "a_2"};
 const std::vector<double> kValues{0.7, -1.25, 2.5, 0.125};
 
+const std::vector<std::string> kFunctions{"sqrt", "exp",  "log",  "sin",   "cos",         "tan",
+                                          "asin", "acos", "atan", "atan2", "stays_within"};
+
+/// A call, mostly with an argument for which it is defined.
+std::string random_call(test::Random& random, const std::string& argument) {
+  const bool as_it_comes = random.below(4) == 0;
+  const std::string& name = kFunctions[random.below(kFunctions.size())];
+  if (name == "atan2") {
+    return "atan2(" + argument + ", # why\n" + (as_it_comes ? "x*y" : "1 + x^2") + ")";
+  }
+  if (name == "stays_within") {
+    return "stays_within(" + argument + ", -1000, 1000)";
+  }
+  if (as_it_comes) {
+    return name + "( " + argument + " )";
+  }
+  if (name == "sqrt" || name == "log") {
+    return name + "(0.5 + (" + argument + ")^2)";
+  }
+  return name + (name == "asin" || name == "acos" || name == "exp" ? "(0.9*sin(" + argument + "))"
+                                                                   : "(" + argument + ")");
+}
+
 /// A formula of random shape; blanks, comments and line ends only where the grammar allows them.
 std::string random_formula(test::Random& random, int depth) {
   const auto part = [&] { return random_formula(random, depth - 1); };
-  switch (depth <= 0 ? random.below(3) : random.below(12)) {
+  switch (depth <= 0 ? random.below(3) : random.below(13)) {
     case 0:
       return kNames[random.below(kNames.size())];
     case 1:
@@ -45,9 +69,9 @@ std::string random_formula(test::Random& random, int depth) {
     case 8:
       return "(" + part() + "\n )^" + std::to_string(random.below(5));
     case 9:
-      return "sin(" + part() + ")";
     case 10:
-      return "atan2( " + part() + ", # why\n" + part() + ")";
+    case 11:
+      return random_call(random, part());
     default:
       return "(" + part() + ")";
   }
@@ -89,6 +113,7 @@ Ball checker_value(const std::string& text) {
 TEST_CASE("both readers give random formulas the same value") {
   test::Random random(41);
   int finite = 0;
+  std::map<std::string, int> compared;  // calls of each function
   for (std::int64_t round = effort(3000); round > 0; --round) {
     const std::string text = random_formula(random, 4);
     const rigor::Interval program = program_value(text);
@@ -102,8 +127,15 @@ TEST_CASE("both readers give random formulas the same value") {
     const bool apart = certainly_less(checker, low) || certainly_less(high, checker);
     // Wide intervals say little: most are as narrow as rounding.
     CHECK_MESSAGE(!apart, text);
+    for (const std::string& name : kFunctions) {
+      compared[name] += text.find(name + "(") != std::string::npos ? 1 : 0;
+    }
   }
   CHECK(finite > effort(3000) / 2);
+  for (const std::string& name : kFunctions) {
+    CAPTURE(name);
+    CHECK(compared[name] > finite / 40);
+  }
 }
 
 TEST_CASE("both readers accept and refuse the same texts") {

@@ -30,6 +30,42 @@ TEST_CASE("a proved loop has three figures, with captions that carry units and s
   CHECK(draw_figures(certificate)[1].svg == figures[1].svg);
 }
 
+TEST_CASE("what each cell tolerates is a figure of its own, where it was looked for") {
+  certificates::Certificate certificate = test::loop_certificate();
+  certificates::ModelSets sets = model_sets(certificate);
+  sets.noise = sets.assumed;
+  double own = 0.0625;
+  for (model::ProvedTube& proved : sets.noise->tubes.tubes) {
+    proved.own_noise = own;
+    own *= 2.0;
+  }
+  certificate.particulars = sets;
+  std::vector<Figure> figures = with_pictures(draw_model_figures(certificate));
+  REQUIRE(figures.size() == 4);
+  CHECK(figures[1].file == "tolerance.svg");
+  CHECK(figures[1].caption.starts_with("Noise: the noise that the tracker tolerates"));
+  CHECK(figures[1].svg.find("noise, signal units") != std::string::npos);
+  REQUIRE(figures[1].data.size() == 1);
+  CHECK(figures[1].data[0].size() == 2 * sets.noise->tubes.tubes.size());
+  CHECK(figures[1].data[0].csv().find(",0.0625\r\n") != std::string::npos);
+  sets.slew = sets.noise;
+  certificate.particulars = sets;
+  CHECK(draw_model_figures(certificate)[1].caption.starts_with("Noise: "));  // no slew of a cell is known
+  for (model::ProvedTube& proved : sets.slew->tubes.tubes) {
+    proved.own_slew = 0x1p-16;
+  }
+  certificate.particulars = sets;
+  figures = with_pictures(draw_model_figures(certificate));
+  CHECK(figures[1].caption.starts_with("Above, the noise that the tracker tolerates"));
+  CHECK(figures[1].svg.find("slew, rad/sample per sample") != std::string::npos);
+  CHECK(figures[1].data.size() == 2);
+  // One cell without a number: there is no line to draw.
+  sets.noise->tubes.tubes.front().own_noise = 0.0;
+  sets.slew.reset();
+  certificate.particulars = sets;
+  CHECK(draw_model_figures(certificate).size() == 3);
+}
+
 TEST_CASE("only what is proved is drawn") {
   certificates::Certificate certificate = test::loop_certificate();
   certificates::ModelSets sets = model_sets(certificate);

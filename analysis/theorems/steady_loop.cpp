@@ -159,6 +159,7 @@ std::optional<SteadyLoop> steady_loop(const Design& design) {
   const Interval& a = (*image)(0);
   const Interval& b = (*image)(1);
   const Interval& c = (*image)(2);
+  // cannot bind (a, c): the iteration keeps its covariance positive definite, and the box about it is narrow.
   const bool is_positive = rigor::certainly_positive(a) && rigor::certainly_positive(a * c - square(b));
   return is_positive ? std::optional<SteadyLoop>({a, b, design.r, design.epsilon}) : std::nullopt;
 }

@@ -73,7 +73,7 @@ TEST_CASE("what chapter 4 says beside its transform is decided as expected") {
                                       "chapter-4/observability/zero-state",
                                       "chapter-4/ambiguity/printed",
                                       "chapter-4/square-root/root",
-                                      "chapter-4/gramian/printed",
+                                      "chapter-4/gramian/as-printed",
                                       "chapter-4/gramian/from-zeros",
                                       "chapter-4/controllability/printed",
                                       "chapter-4/table-4.1/snr",

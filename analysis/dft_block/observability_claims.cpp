@@ -143,7 +143,7 @@ std::vector<Statement> gramian_statements() {
   const std::string blocks = "x1(k) = 1, x1(k-1) = 1/2, L = 2, R = I, no leak";
   return {
       make_statement(
-          "chapter-4/gramian/printed", "At an integer offset (4.26) is the observability Gramian (4.25).",
+          "chapter-4/gramian/as-printed", "At an integer offset (4.26) is the observability Gramian (4.25).",
           decide(largest_entry(GramMatrix(actual - printed)), nine_digits(), Strictness::weak),
           blocks + ", offset 0: its entry (2, 3) is " + enclosed(actual(1, 2)) + ", that of (4.26) is " +
               enclosed(printed(1, 2)) +

@@ -106,7 +106,7 @@ const std::vector<PaperFinding>& paper_findings() {
        "thesis, sections 4.2.2 and 4.3, numbers of bins for numbers of rows"},
       {"chapter-4/square-root/root", slip_without_consequence,
        "thesis, section 4.2.1, when read of x1; of the amplitude it is right"},
-      {"chapter-4/gramian/printed", slip_without_consequence, "thesis, (4.26); its rank is as said"},
+      {"chapter-4/gramian/as-printed", slip_without_consequence, "thesis, (4.26); its rank is as said"},
       {"chapter-4/gramian/from-zeros", slip_without_consequence,
        "thesis, (4.26), two powers of pi; its rank is as said"},
       {"chapter-4/observability/zero-state", needs_unstated_assumption,

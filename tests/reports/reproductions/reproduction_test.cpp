@@ -45,7 +45,7 @@ TEST_CASE("few runs: every entry has a row, and the same comes with one thread")
   const Findings table_3_2 = reproduce_table_3_2(kRuns, {});
   check_findings(table_3_2, 8);
   const Findings tables_4 = reproduce_tables_4(kRuns, {});
-  check_findings(tables_4, 12);
+  check_findings(tables_4, 15);
   const Findings tables_5 = reproduce_tables_5(kRuns, {});
   check_findings(tables_5, 31);
   const Findings zarchan = reproduce_zarchan(kRuns, {});

@@ -11,7 +11,7 @@ using rigor::Interval;
 
 namespace {
 
-constexpr std::size_t kTimes = 160;  // cells of the kernels
+constexpr std::size_t kTimes = 240;  // cells of the kernels
 
 Interval upper_end(const Interval& x) {
   return Interval(x.upper());
@@ -243,57 +243,61 @@ Interval SplitErrors<M>::least_ratio(const Box& box) const {
   return map_.gram_determinant() * square(at.along) * at.squared_norm / upper_end(norm);
 }
 
-// With k1, k2 the errors of x1 and x2, t = (A_hat / A)^2 - 1 = k1 (2 sin p + k1) + (k2 (2 x2 + k2) - e
-// cos(p)^2) / (s + e), and k1 = row_1'(F^2 + s + e) u + e row_1'T, likewise k2. At any given e in [-E, E] and
-// without the squares (s + e) t is a function P(e) of u, quadratic in e: |P(e)| / (s + e) is at most the
-// larger of its values at -E and E, plus E^2 / (s - E) times the coefficient of e^2. The squares only add to
-// t.
+// With f = w_hat - w, e = f (2 w + f), k1 and k2 the errors of x1 and x2 and d = x2_hat / w_hat + cos p = (k2
+// + f cos p) / (w + f), (A_hat / A)^2 - 1 = k1 (2 sin p + k1) + d (d - 2 cos p): linear in k1 and d, and
+// squares that only add. k1 = row_1'(F^2 + s + e) u + e row_1'T, likewise k2, and (2 w + f) f is the e of the
+// class's equation. For f in a piece of its range these are linear functions of u; their largest values are
+// convex in the e of F^2 + s + e.
 template <int M>
 Interval SplitErrors<M>::amplitude_error(const Box& box) const {
+  constexpr int kPieces = 4;
   const State at = state(box);
   const Interval zero(0.0);
   const Interval one(1.0);
-  const Interval& s = at.signal.s;
-  const Interval error = at.error.sum();
-  const Interval least_square = s - error;
-  if (!certainly_positive(at.along) || !certainly_positive(least_square)) {
+  const Interval& frequency = at.signal.frequency;
+  const Interval reach(rigor::magnitude(Map::frequency_error(at.signal, Interval(-at.error.sum()))));
+  const Interval twice = frequency + frequency;
+  // cannot bind (at.along): without it no error is finite.
+  if (!certainly_positive(at.along) || !certainly_positive(frequency - reach)) {
     return Interval::entire();
   }
   const Interval pulled_1 = Map::along(at.signal.transformed, map_.pseudoinverse_1());
   const Interval pulled_2 = Map::along(at.signal.transformed, map_.pseudoinverse_2());
-  // Of first row_1 + second row_2 - third q'N'.
-  const auto weights = [&](const Interval& first, const Interval& second, const Interval& third) {
-    Weights result;
-    for (std::size_t j = 0; j < result.size(); ++j) {
-      result[j] = -(third * at.direction[j]);
-    }
-    result[0] = first;
-    result[1] = second;
-    return result;
-  };
-  const Interval shift = upper_end(error);
-  const auto larger = [&](const Weights& q) {
-    return larger_of(driven(q, at, -shift), driven(q, at, shift));
-  };
-  const Reach k1 = larger(weights(one, zero, pulled_1)) + at.second * abs(pulled_1);
-  const Reach k2 = larger(weights(zero, one, pulled_2)) + at.second * abs(pulled_2);
   const Interval twice_sine = at.signal.sine + at.signal.sine;
-  const Interval twice_x2 = -(at.signal.frequency * (at.signal.cosine + at.signal.cosine));
-  const Interval fixed = twice_x2 * pulled_2 - square(at.signal.cosine);
-  const auto linear = [&](const Interval& e) {
-    const Interval to_e = twice_sine * pulled_1 * (s + e) + fixed;
-    return driven(weights(twice_sine * (s + e), twice_x2, to_e), at, e) * (one / (s + e));
+  const Interval twice_cosine = at.signal.cosine + at.signal.cosine;
+  // first row_1 + second row_2 - third q'N' for the f from `low` to `high`
+  const auto over_piece = [&](const Interval& first, const Interval& second, const Interval& third,
+                              const Interval& low, const Interval& high) {
+    Weights weights;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      weights[j] = -(third * at.direction[j]);
+    }
+    weights[0] = first;
+    weights[1] = second;
+    const auto at_end = [&](const Interval& f) { return driven(weights, at, f * (twice + f)); };
+    return larger_of(at_end(low), at_end(high)) + at.second * abs(third);
   };
-  const Interval to_second = abs(twice_sine * pulled_1 + fixed / (s + rigor::symmetric(shift.upper())));
-  const Reach curved = moved(weights(twice_sine, zero, twice_sine * pulled_1));
-  const Reach lowered = larger_of(linear(-shift), linear(shift)) + at.second * to_second +
-                        curved * (square(error) / least_square);
-  const Reach raised = lowered + k1 * k1.sum() + k2 * (k2.sum() / least_square);
+  // What d gets of e.
+  const auto of_e = [&](const Interval& f) {
+    return (pulled_2 + at.signal.cosine / (twice + f)) / (frequency + f);
+  };
+  const Interval all = rigor::symmetric(reach.upper());
+  const Reach k1 = over_piece(one, zero, pulled_1, -reach, reach);
+  const Reach d = over_piece(zero, one / (frequency + all), of_e(all), -reach, reach);
+  Reach linear{zero, zero};
+  for (int k = 0; k < kPieces; ++k) {
+    const auto end = [&](int index) { return (Interval(2.0 * index / kPieces) - one) * reach; };
+    const Interval f = hull(end(k), end(k + 1));
+    linear =
+        larger_of(linear, over_piece(twice_sine, -(twice_cosine / (frequency + f)),
+                                     twice_sine * pulled_1 - twice_cosine * of_e(f), end(k), end(k + 1)));
+  }
+  const Reach raised = linear + k1 * k1.sum() + d * d.sum();
   const auto of_amplitude = [&](const Reach& x) {
     return x.driven * lowest_amplitude_ + x.left * highest_amplitude_;
   };
   // sqrt(1 + t) - 1 is t / 2 at most, and largest in size below at the lowest t.
-  const Interval below = of_amplitude(lowered) / (one + sqrt(one - upper_end(lowered.sum())));
+  const Interval below = of_amplitude(linear) / (one + sqrt(one - upper_end(linear.sum())));
   return upper_end(max(below, Interval(0.5) * of_amplitude(raised)));
 }
 

@@ -31,15 +31,16 @@ ResponseNorm<M>::ResponseNorm(const Coefficients& lambda, const Interval& freque
     const Interval period = Interval::from_bounds(begin, end);
     const Interval middle(rigor::midpoint(period));
     Cell cell;
-    cell.half_width = rigor::symmetric(rigor::magnitude(period - middle));
+    cell.half_width = Interval(rigor::magnitude(period - middle));
     for (std::size_t i = 0; i < kFilters; ++i) {
-      const auto denominator = [&](const Interval& r) { return square(lambda[i] * r) + Interval(1.0); };
-      const Interval there = denominator(middle);
-      const Interval squared = square(denominator(period));
-      cell.at_middle.real[i] = lambda[i] * square(middle) / there;
-      cell.at_middle.imaginary[i] = middle / there;
-      cell.slope.real[i] = Interval(2.0) * lambda[i] * period / squared;
-      cell.slope.imaginary[i] = (Interval(1.0) - square(lambda[i] * period)) / squared;
+      const Interval x = lambda[i] * middle;
+      const Interval squared = square(x) + Interval(1.0);  // |lambda r + j|^2
+      cell.value.real[i] = x * middle / squared;
+      cell.value.imaginary[i] = -(middle / squared);
+      cell.slope.real[i] = (x + x) / square(squared);
+      cell.slope.imaginary[i] = (square(x) - Interval(1.0)) / square(squared);
+      const Interval least = square(lambda[i] * Interval(begin)) + Interval(1.0);
+      cell.bending[i] = lambda[i] / (least * sqrt(least)) * square(cell.half_width);
     }
     cells_.push_back(cell);
     begin = end;
@@ -57,11 +58,19 @@ Interval ResponseNorm<M>::upper_bound(const Coefficients& coefficients) const {
   };
   Interval largest(0.0);
   for (const Cell& cell : cells_) {
-    const Interval real = sum(cell.at_middle.real) + sum(cell.slope.real) * cell.half_width;
-    const Interval imaginary = sum(cell.at_middle.imaginary) + sum(cell.slope.imaginary) * cell.half_width;
-    largest = max(largest, square(real) + square(imaginary));
+    const Interval real = sum(cell.value.real);
+    const Interval imaginary = sum(cell.value.imaginary);
+    const Interval real_change = sum(cell.slope.real) * cell.half_width;
+    const Interval imaginary_change = sum(cell.slope.imaginary) * cell.half_width;
+    Interval rest(0.0);
+    for (std::size_t i = 0; i < kFilters; ++i) {
+      rest += abs(coefficients[i]) * cell.bending[i];
+    }
+    const Interval squared = max(square(real + real_change) + square(imaginary + imaginary_change),
+                                 square(real - real_change) + square(imaginary - imaginary_change));
+    largest = max(largest, sqrt(Interval(squared.upper())) + rest);
   }
-  return Interval(sqrt(Interval(largest.upper())).upper());
+  return Interval(largest.upper());
 }
 
 template class ResponseNorm<4>;

@@ -12,8 +12,9 @@ namespace veritrack::kkl_observer {
 /// Upper bounds on sup |sum_i c_i e_i| over the steady states of the filters e_i' = -lambda_i e_i + sin(W t +
 /// p) for all phases p and all W from the lowest frequency up: the largest |sum_i c_i / (lambda_i + jW)|.
 ///
-/// The periods r = 1 / W are cut into cells, from 0 on; on each the real and the imaginary part are enclosed
-/// by the mean-value form. For four to eight filters.
+/// The periods r = 1 / W are cut into cells, from 0 on. With a and b the sum and its derivative in the middle
+/// of a cell, |a + b t| is largest at an end; of the second derivatives a bound is known. For four to eight
+/// filters.
 template <int M>
 class ResponseNorm {
  public:
@@ -28,14 +29,15 @@ class ResponseNorm {
   [[nodiscard]] rigor::Interval upper_bound(const Coefficients& coefficients) const;
 
  private:
-  /// 1 / (lambda + j / r) = lambda r^2 / (1 + lambda^2 r^2) - j r / (1 + lambda^2 r^2): minus the imaginary
-  /// part.
+  /// R = 1 / (lambda + j / r) = r / (lambda r + j) has R' = j / (lambda r + j)^2, |R''| = 2 lambda / |lambda
+  /// r + j|^3.
   struct Parts {
     Coefficients real, imaginary;
   };
   struct Cell {
-    rigor::Interval half_width;  ///< symmetric
-    Parts at_middle, slope;
+    rigor::Interval half_width;
+    Parts value, slope;    ///< in the middle
+    Coefficients bending;  ///< the largest |R''|, times half of the squared half width
   };
   std::vector<Cell> cells_;
 };

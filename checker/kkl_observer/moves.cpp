@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "checker/kkl_observer/filter_deviation.hpp"
-#include "checker/numbers/slope.hpp"
 
 namespace veritrack::checker {
 
 namespace {
 
-constexpr int kPeriods = 8;
+constexpr int kPeriods = 16;
 constexpr double kMostPeriods = 1000.0;
 constexpr int kTimes = 120;
 
@@ -18,15 +17,8 @@ bool nearer(const Ball& x, const Ball& y) {
   return x.near() < y.near();
 }
 
-/// 1 / (lambda r + j) for the period r = 1/W: the response 1 / (lambda + j W) is r times this.
-template <typename S>
-std::array<S, 2> response(const Ball& lambda, const S& period) {
-  const S over = reciprocal(square(lambda * period) + S(one));
-  return {lambda * period * over, -over};
-}
-
-Ball length(const std::array<Ball, 2>& x) {
-  return root_of_non_negative(square(x[0]) + square(x[1]));
+Ball squared_length(const Ball& x, const Ball& y) {
+  return square(x) + square(y);
 }
 
 /// The sum of q_i x_i.
@@ -74,14 +66,18 @@ void Moves::cut_periods(const KklDesign& design) {
     const Ball end = k + 1 == periods ? longest : Ball(bend * std::expm1(growth * (k + 1) / periods));
     const Ball middle = half * (begin + end);
     const Filters none(lambda_.size());
-    Cell cell{end, end - middle, {none, none}, {none, none}, {}};
+    Cell cell{end - begin, end - middle, {none, none}, {none, none}, none, {}};
     for (std::size_t i = 0; i < lambda_.size(); ++i) {
-      const auto at_middle = response(lambda_[i], middle);
-      const auto over = response(lambda_[i], Slope::variable(Ball::hull(begin, end), 0));
-      for (std::size_t part = 0; part < 2; ++part) {
-        cell.middle[part][i] = at_middle[part];
-        cell.slope[part][i] = over[part].along[0];
-      }
+      // With h = 1 / (lambda r + j): r h, its derivative j h^2, and the next one, 2 lambda |h|^3 in size.
+      const Ball& rate = lambda_[i];
+      const Ball over = reciprocal(square(rate * middle) + one);
+      const Ball real = rate * middle * over;
+      cell.middle[0][i] = middle * real;
+      cell.middle[1][i] = -(middle * over);
+      cell.slope[0][i] = two * real * over;
+      cell.slope[1][i] = square(real) - square(over);
+      const Ball largest = reciprocal(sqrt(square(rate * begin) + one));
+      cell.bending[i] = rate * square(largest) * largest;
     }
     cells_.push_back(std::move(cell));
     begin = end;
@@ -99,12 +95,13 @@ void Moves::cut_time() {
     const Ball end(bend * std::expm1(growth * (k + 1) / kTimes));
     const Ball middle = half * (begin + end);
     const Filters none(lambda_.size());
-    Cell cell{end - begin, end - middle, {none, {}}, {none, {}}, none};
+    Cell cell{end - begin, end - middle, {none, {}}, {none, {}}, none, none};
     for (std::size_t i = 0; i < lambda_.size(); ++i) {
       const Ball before = decay(i, begin);
       const Ball after = decay(i, end);
       cell.middle[0][i] = decay(i, middle);
-      cell.slope[0][i] = -(lambda_[i] * Ball::hull(before, after));
+      cell.slope[0][i] = -(lambda_[i] * cell.middle[0][i]);
+      cell.bending[i] = half * square(lambda_[i]) * before;
       cell.integral[i] = (before - after) / lambda_[i];
     }
     cells_.push_back(std::move(cell));
@@ -118,19 +115,33 @@ void Moves::cut_time() {
 Ball Moves::largest_response(std::span<const Ball> q) const {
   Ball largest(0.0);
   for (const Cell& cell : cells_) {
-    const Ball middle = length({dot(q, cell.middle[0]), dot(q, cell.middle[1])});
-    const Ball slope = length({dot(q, cell.slope[0]), dot(q, cell.slope[1])});
-    largest = max(largest, cell.weight * (middle + cell.half_width * slope)).upper();
+    const Ball real = dot(q, cell.middle[0]);
+    const Ball imaginary = dot(q, cell.middle[1]);
+    const Ball real_change = cell.half_width * dot(q, cell.slope[0]);
+    const Ball imaginary_change = cell.half_width * dot(q, cell.slope[1]);
+    // |a + b t| is largest at an end.
+    const Ball squared = max(squared_length(real + real_change, imaginary + imaginary_change),
+                             squared_length(real - real_change, imaginary - imaginary_change));
+    largest = max(largest, root_of_non_negative(squared) + bending(q, cell)).upper();
   }
   return largest;
+}
+
+Ball Moves::bending(std::span<const Ball> q, const Cell& cell) {
+  Ball sum(0.0);
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    sum += abs(q[i]) * cell.bending[i];
+  }
+  return square(cell.half_width) * sum;
 }
 
 Ball Moves::kernel_integral(std::span<const Ball> q) const {
   Ball sum(0.0);
   for (const Cell& cell : cells_) {
-    const Ball kernel = dot(q, cell.middle[0]) + Ball::within(cell.half_width * dot(q, cell.slope[0]));
+    const Ball kernel = dot(q, cell.middle[0]) + Ball::within(cell.half_width * dot(q, cell.slope[0])) +
+                        Ball::within(bending(q, cell));
     const bool one_sign = certainly_positive(kernel) || certainly_positive(-kernel);
-    sum += one_sign ? abs(dot(q, cell.integral)) : cell.weight * abs(kernel).upper();
+    sum += one_sign ? abs(dot(q, cell.integral)) : cell.width * abs(kernel).upper();
   }
   for (std::size_t i = 0; i < lambda_.size(); ++i) {
     sum += abs(q[i]) * tail_[i];

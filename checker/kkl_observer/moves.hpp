@@ -35,16 +35,19 @@ class Moves {
   [[nodiscard]] Ball reach(std::size_t filter, const Ball& gain) const;
 
  private:
-  /// A cell of periods 1/W (s), on which the filters' responses to exp(jWt) are `weight` (at most) times h,
-  /// real and imaginary part; or a cell of the time t (s) for the filters' kernels exp(-lambda_i t).
+  /// A cell of periods r = 1/W (s), for the filters' responses 1 / (lambda + j/r) to exp(jWt), real and
+  /// imaginary part; or a cell of the time t (s) for their kernels exp(-lambda_i t), which are real.
   struct Cell {
-    Ball weight, half_width;
-    std::array<Filters, 2> middle, slope;  ///< h and h' over the cell; of a kernel only the real part
+    Ball width, half_width;
+    std::array<Filters, 2> middle, slope;  ///< values and derivatives in the middle
+    Filters bending;                       ///< at least half of each second derivative's size over the cell
     Filters integral;                      ///< of the kernels
   };
   void cut_periods(const KklDesign& design);
   void cut_time();
   [[nodiscard]] Ball largest_response(std::span<const Ball> q) const;
+  /// What the second derivatives add, at most.
+  static Ball bending(std::span<const Ball> q, const Cell& cell);
   [[nodiscard]] Ball kernel_integral(std::span<const Ball> q) const;
 
   Filters lambda_, left_;

@@ -49,10 +49,19 @@ def recheck(spec: Spec, store: Store, *, sample: int | None = None, seed: int = 
 
     Parameters
     ----------
+    spec : Spec
+    store : Store
     sample : int, optional
         So many rows, drawn with `seed`; all when it is left out.
+    seed : int
     jobs : int, optional
         Rows at a time; default: one for each core.
+    progress : callable, optional
+        Told rows that are done, and all rows.
+
+    Returns
+    -------
+    Recheck
     """
     program = _engine.identity()
     sweep = spec.identity(program)

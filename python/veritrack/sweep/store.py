@@ -62,7 +62,15 @@ class Result:
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """A point with its result; `values` as they stand in the design."""
+    """A point with its result.
+
+    Attributes
+    ----------
+    number : int
+    values : tuple of str
+        As they stand in the design.
+    result : Result
+    """
 
     number: int
     values: tuple[str, ...]
@@ -79,10 +87,16 @@ def bound_of(row: Row, name: str) -> Bound | None:
 
 
 class Store:
-    """The file. Results are appended a batch at a time; a batch is there as a whole or not at all."""
+    """The file. Results are appended a batch at a time; a batch is there as a whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+    most_pages : int
+        Of 4 KiB: a limit on the file, 0 for none; beyond it the file is as if the disk were full.
+    """
 
     def __init__(self, path: str | os.PathLike[str], most_pages: int = 0) -> None:
-        """`most_pages` of 4 KiB: a limit on the file, 0 for none; beyond it the file is as if the disk were full."""
         self._path = os.fspath(path)
         with self._errors():
             self._file = sqlite3.connect(self._path, timeout=60, isolation_level=None)

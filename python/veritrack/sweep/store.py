@@ -177,15 +177,23 @@ class Store:
                 "SELECT DISTINCT each.key FROM points JOIN results USING (key), json_each(results.bounds) AS each "
                 "WHERE sweep = ?", (sweep,))]
 
-    def rows(self, sweep: str) -> Iterator[Row]:
-        """All points with their results, by number, one after the other."""
+    def numbers_with_verdict(self, sweep: str) -> list[int]:
+        """Of the points that have a verdict, in their order."""
         with self._errors():
-            for number, values, *result in self._file.execute(
+            return [number for number, in self._file.execute(
+                "SELECT point FROM points JOIN results USING (key) WHERE sweep = ? AND verdict != 'error' "
+                "ORDER BY point", (sweep,))]
+
+    def rows(self, sweep: str, number: int | None = None) -> Iterator[Row]:
+        """All points with their results, by number, one after the other; or the one of that number."""
+        with self._errors():
+            for point, values, *result in self._file.execute(
                     "SELECT point, axis_values, key, verdict, bounds, certificate_sha256, error, "
                     "may_be_tried_again, seconds FROM points JOIN results USING (key) WHERE sweep = ? "
-                    "ORDER BY point", (sweep,)):
+                    + ("" if number is None else "AND point = ? ") + "ORDER BY point",
+                    (sweep,) if number is None else (sweep, number)):
                 key, verdict, bounds, sha256, error, again, seconds = result
-                yield Row(number, tuple(json.loads(values)),
+                yield Row(point, tuple(json.loads(values)),
                           Result(key, verdict, json.loads(bounds), sha256, error, bool(again), seconds))
 
     @contextlib.contextmanager

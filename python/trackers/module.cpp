@@ -7,4 +7,5 @@ PYBIND11_MODULE(_trackers, module) {  // NOLINT: pybind11's macro
   veritrack::python::bind_extended_kalman_filters(module);
   veritrack::python::bind_kkl_observers(module);
   veritrack::python::bind_notches(module);
+  veritrack::python::bind_zarchan_filters(module);
 }

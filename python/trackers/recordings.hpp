@@ -251,5 +251,6 @@ void bind_block_trackers(py::module_& module);
 void bind_extended_kalman_filters(py::module_& module);
 void bind_kkl_observers(py::module_& module);
 void bind_notches(py::module_& module);
+void bind_zarchan_filters(py::module_& module);
 
 }  // namespace veritrack::python

@@ -19,14 +19,15 @@ from .design import Design
 from .errors import (ArithmeticNotTrusted, EngineError, InputError, MalformedCertificate, TimeLimit,
                      VeritrackError)
 from .interval import Bound, Interval
+from .sine_filters import MedianFilter, SineEkf
 from .trackers import (KklObserver, QuadratureBatch, QuadratureEkf, QuadratureNotch, RealNotch,
                        SingleChannelEkf)
 from .verification import Verification, verify
 
 __all__ = [
     "ArithmeticNotTrusted", "Bound", "Certificate", "Checked", "Claim", "Design", "DftBlockEkf", "EngineError",
-    "Figure", "InputError", "Interval", "KklObserver", "MalformedCertificate", "QuadratureBatch", "QuadratureEkf",
-    "QuadratureNotch",
-    "RealNotch", "SingleChannelEkf", "TimeLimit", "Verification", "VeritrackError", "certify", "check",
-    "identity", "sweep", "trackers", "verify", "version",
+    "Figure", "InputError", "Interval", "KklObserver", "MalformedCertificate", "MedianFilter",
+    "QuadratureBatch", "QuadratureEkf", "QuadratureNotch", "RealNotch", "SineEkf", "SingleChannelEkf",
+    "TimeLimit", "Verification", "VeritrackError", "certify", "check", "identity", "sweep", "trackers",
+    "verify", "version",
 ]

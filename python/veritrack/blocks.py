@@ -158,7 +158,11 @@ class DftBlockEkf(_Trackers):
         samples : array_like
             Real, (n,) or (..., n), signal units, none missing.
         threads : int, optional
-            Among which a batch is divided; default: one for each core.
+            Among which a batch is divided; default: one for each core. No result depends on it.
+
+        Returns
+        -------
+        BlockTrack
         """
         found = self._batch.run(self._rows(_one_channel(samples), 1), _threads(threads))
         state, covariance, lock = (each.reshape(self._shape + each.shape[1:]) for each in found)

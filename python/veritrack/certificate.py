@@ -95,6 +95,10 @@ class Figure:
         ----------
         table : str, optional
             The first one when it is left out. A column with words is an array of strings.
+
+        Returns
+        -------
+        dict of str to ndarray
         """
         text = self.tables[table] if table is not None else next(iter(self.tables.values()))
         heading, *rows = csv.reader(io.StringIO(text, newline=""))
@@ -145,7 +149,7 @@ def bounds_of(claims: tuple[Claim, ...]) -> dict[str, Bound]:
 
 
 class Certificate:
-    """What is proved, refuted and undecided of a design.
+    """What is proved, refuted and undecided of a design; `certify` makes it.
 
     Attributes
     ----------
@@ -162,6 +166,14 @@ class Certificate:
         where there is one.
     missing_figures : str
         Why there are no figures; empty when nothing is missing.
+    sha256 : str
+        Of certificate.json, 64 hexadecimal digits.
+
+    Parameters
+    ----------
+    design : Design
+    answer : mapping
+        Of the process that certifies.
     """
 
     def __init__(self, design: Design, answer: Mapping[str, Any]) -> None:
@@ -216,6 +228,10 @@ class Certificate:
     def save(self, folder: str | os.PathLike[str]) -> pathlib.Path:
         """Writes the documents and the figures into a folder, which is made; each file appears whole.
 
+        Parameters
+        ----------
+        folder : path
+
         Returns
         -------
         pathlib.Path
@@ -229,7 +245,17 @@ class Certificate:
         return target / "certificate.md"
 
     def verify(self, *, full: bool = False) -> Verification:
-        """Has the checker prove the certificate again, and compare it with the design and its documents."""
+        """Has the checker prove the certificate again, and compare it with the design and its documents.
+
+        Parameters
+        ----------
+        full : bool
+            Follow all boxes of starts; see veritrack.verify.
+
+        Returns
+        -------
+        Verification
+        """
         with tempfile.TemporaryDirectory() as folder:
             self.save(folder)
             design = pathlib.Path(folder, "design.toml")
@@ -301,6 +327,10 @@ def certify(design: Design | str | os.PathLike[str], *, extent: str = "everythin
         Seconds after which the work is stopped.
     threads : int
         At most so many for the searches; 0: as many as there are cores. No result depends on it.
+
+    Returns
+    -------
+    Certificate
 
     Raises
     ------

@@ -57,14 +57,46 @@ class Design:
 
     @classmethod
     def from_toml(cls, text: str, file: str = "design.toml") -> Design:
-        """The design of a TOML text; `file` is its name in messages and documents."""
+        """The design of a TOML text.
+
+        Parameters
+        ----------
+        text : str
+        file : str
+            Its name in messages and documents.
+
+        Returns
+        -------
+        Design
+
+        Raises
+        ------
+        InputError
+            With line and column, when it is no design.
+        """
         design = cls.__new__(cls)
         design._read(text, file)
         return design
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Design:
-        """The design of a file. Raises OSError when it cannot be read."""
+        """The design of a file.
+
+        Parameters
+        ----------
+        path : path
+
+        Returns
+        -------
+        Design
+
+        Raises
+        ------
+        OSError
+            When it cannot be read.
+        InputError
+            With line and column, when it is no design.
+        """
         return cls.from_toml(pathlib.Path(path).read_bytes().decode("utf-8", "surrogateescape"), os.fspath(path))
 
     @property
@@ -79,10 +111,12 @@ class Design:
 
     @property
     def name(self) -> str:
+        """The line that names it."""
         return self._name
 
     @property
     def tracker(self) -> str:
+        """Its kind of tracker, such as "quadrature-ekf"."""
         return self._tracker
 
     @property
@@ -107,6 +141,17 @@ class Design:
         ----------
         values : mapping
             From keys such as "design.q1" to their values; None takes a key away.
+
+        Returns
+        -------
+        Design
+
+        Raises
+        ------
+        ValueError
+            For a key in what is no table of the design, or a number that is not finite.
+        InputError
+            When it is no design then.
         """
         return Design.from_toml(replaced_text(self.values, values), self._file)
 

@@ -45,11 +45,31 @@ class Interval:
         return lo <= Fraction(number) <= hi
 
     def lower(self, digits: int = 4) -> str:
-        """The lower end as a decimal, rounded down: what the number is at least."""
+        """The lower end as a decimal, rounded down: what the number is at least.
+
+        Parameters
+        ----------
+        digits : int
+            That are significant.
+
+        Returns
+        -------
+        str
+        """
         return _rounded(self.lo, digits, decimal.ROUND_FLOOR)
 
     def upper(self, digits: int = 4) -> str:
-        """The upper end as a decimal, rounded up: what the number is at most."""
+        """The upper end as a decimal, rounded up: what the number is at most.
+
+        Parameters
+        ----------
+        digits : int
+            That are significant.
+
+        Returns
+        -------
+        str
+        """
         return _rounded(self.hi, digits, decimal.ROUND_CEILING)
 
     def __str__(self) -> str:

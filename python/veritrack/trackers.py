@@ -235,7 +235,15 @@ class QuadratureEkf(_ToneFilter):
     @classmethod
     def from_design(cls, design: Design, *, frequency: ArrayLike, phasor: ArrayLike = 1.0,
                     covariance: ArrayLike | None = None) -> QuadratureEkf:
-        """The filter of a design file, with the doubles nearest to its decimals."""
+        """The filter of a design file, with the doubles nearest to its decimals.
+
+        Parameters
+        ----------
+        design : Design
+            Of the tracker "quadrature-ekf".
+        frequency, phasor, covariance
+            Of the start, as for the class.
+        """
         chosen = _chosen(design, "quadrature-ekf")
         return cls(float(chosen["q1"]), float(chosen["q2"]), float(chosen["r"]), float(chosen["epsilon"]),
                    frequency=frequency, phasor=phasor, covariance=covariance)
@@ -251,6 +259,10 @@ class QuadratureEkf(_ToneFilter):
             filter predicts.
         threads : int, optional
             Among which a batch is divided; default: one for each core. No result depends on it.
+
+        Returns
+        -------
+        ToneTrack
         """
         return self._track(_two_channels(samples), threads)
 
@@ -300,7 +312,19 @@ class SingleChannelEkf(_ToneFilter):
             *_start(self._shape, phasor, frequency, covariance))
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> ToneTrack:
-        """Takes a recording: real samples, (n,) or (..., n), signal units; NaN is a sample that is missing.
+        """Takes a recording.
+
+        Parameters
+        ----------
+        samples : array_like
+            Real, (n,) for all trackers or (..., n) with the shape of the batch in front; signal units. NaN is a
+            sample that is missing: the filter predicts.
+        threads : int, optional
+            Among which a batch is divided; default: one for each core. No result depends on it.
+
+        Returns
+        -------
+        ToneTrack
 
         Raises
         ------
@@ -338,7 +362,19 @@ class KklObserver(_Trackers):
             np.broadcast_to(table, (*self._shape, count)).reshape(-1, count), design)
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> KklTrack:
-        """Takes a recording: real samples, (n,) or (..., n), signal units, none missing."""
+        """Takes a recording.
+
+        Parameters
+        ----------
+        samples : array_like
+            Real, (n,) or (..., n), signal units, none missing.
+        threads : int, optional
+            Among which a batch is divided; default: one for each core. No result depends on it.
+
+        Returns
+        -------
+        KklTrack
+        """
         state = self._run(_one_channel(samples), 1, threads)[0]
         return KklTrack(state[..., 2], state[..., 0], state[..., 1])
 
@@ -373,7 +409,19 @@ class RealNotch(_Notch):
     _kind = _trackers.RealNotchBatch
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> NotchTrack:
-        """Takes a recording: real samples, (n,) or (..., n), signal units, none missing."""
+        """Takes a recording.
+
+        Parameters
+        ----------
+        samples : array_like
+            Real, (n,) or (..., n), signal units, none missing.
+        threads : int, optional
+            Among which a batch is divided; default: one for each core. No result depends on it.
+
+        Returns
+        -------
+        NotchTrack
+        """
         state = self._run(_one_channel(samples), 1, threads)[0]
         return NotchTrack(state[..., 0], state[..., 1])
 
@@ -384,7 +432,19 @@ class QuadratureNotch(_Notch):
     _kind = _trackers.QuadratureNotchBatch
 
     def run(self, samples: ArrayLike, *, threads: int | None = None) -> NotchTrack:
-        """Takes a recording: complex samples, or pairs, as QuadratureEkf.run; none missing."""
+        """Takes a recording.
+
+        Parameters
+        ----------
+        samples : array_like
+            Complex, or pairs, as for QuadratureEkf.run; none missing.
+        threads : int, optional
+            Among which a batch is divided; default: one for each core. No result depends on it.
+
+        Returns
+        -------
+        NotchTrack
+        """
         state = self._run(_two_channels(samples), 2, threads)[0]
         return NotchTrack(state[..., 0], _complex(np.ascontiguousarray(state[..., 1:])))
 

@@ -71,6 +71,10 @@ def verify(certificate: str | os.PathLike[str], *, design: str | os.PathLike[str
     timeout : float, optional
         Seconds after which it is stopped.
 
+    Returns
+    -------
+    Verification
+
     Raises
     ------
     MalformedCertificate, TimeLimit, EngineError

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import dataclasses
+import itertools
 import os
 import pathlib
 import random
@@ -49,34 +50,53 @@ def recheck(spec: Spec, store: Store, *, sample: int | None = None, seed: int = 
 
     Parameters
     ----------
+    spec : Spec
+    store : Store
     sample : int, optional
         So many rows, drawn with `seed`; all when it is left out.
+    seed : int
     jobs : int, optional
         Rows at a time; default: one for each core.
+    progress : callable, optional
+        Told rows that are done, and all rows.
+
+    Returns
+    -------
+    Recheck
     """
     program = _engine.identity()
     sweep = spec.identity(program)
-    rows = [row for row in store.rows(sweep) if row.result.verdict != "error"]
-    if sample is not None and sample < len(rows):
-        rows = sorted(random.Random(seed).sample(rows, sample), key=lambda row: row.number)
+    numbers = store.numbers_with_verdict(sweep)  # and not the rows: there may be millions
+    if sample is not None and sample < len(numbers):
+        numbers = sorted(random.Random(seed).sample(numbers, sample))
     cores = len(os.sched_getaffinity(0))
     crew = _engine.Crew()
     workers = concurrent.futures.ThreadPoolExecutor(jobs or cores)
     objections = []
     try:
-        waiting = {workers.submit(_objection, spec, program, row, crew): row for row in rows}
-        for done, future in enumerate(concurrent.futures.as_completed(waiting), 1):
-            if objection := future.result():
-                objections.append((waiting[future].number, objection))
-            if progress is not None:
-                progress(done, len(rows))
+        left = iter(numbers)
+        waiting: dict[concurrent.futures.Future[str], int] = {}
+        done = 0
+        while True:
+            for number in itertools.islice(left, 2 * (jobs or cores) - len(waiting)):
+                row, = store.rows(sweep, number)
+                waiting[workers.submit(_objection, spec, program, row, crew)] = number
+            if not waiting:
+                break
+            for future in concurrent.futures.wait(waiting, return_when="FIRST_COMPLETED").done:
+                number = waiting.pop(future)
+                if objection := future.result():
+                    objections.append((number, objection))
+                done += 1
+                if progress is not None:
+                    progress(done, len(numbers))
     except BaseException:
         workers.shutdown(wait=False, cancel_futures=True)
         crew.stop()
         raise
     finally:
         workers.shutdown()
-    return Recheck(len(rows), tuple(sorted(objections)))
+    return Recheck(len(numbers), tuple(sorted(objections)))
 
 
 def _objection(spec: Spec, program: str, row: Row, crew: _engine.Crew) -> str:

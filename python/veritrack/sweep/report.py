@@ -25,6 +25,13 @@ def write_report(spec: Spec, store: Store, folder: str | os.PathLike[str]) -> pa
 
     Same specification and results, same bytes: the time that a design took is not in them.
 
+    Parameters
+    ----------
+    spec : Spec
+    store : Store
+    folder : path
+        Is made where it is not there.
+
     Returns
     -------
     pathlib.Path

@@ -265,6 +265,14 @@ def run_sweep(spec: Spec, store: Store, options: Options = Options(), progress: 
     Whatever is killed meanwhile: what was stored stays, the same call again does the rest, and no result is
     there twice.
 
+    Parameters
+    ----------
+    spec : Spec
+    store : Store
+    options : Options
+    progress : callable, optional
+        Told points with a result, all points, and points a second since the start, now and then.
+
     Returns
     -------
     int

@@ -32,6 +32,7 @@ class Axis:
     ends : tuple of float
         Of a range.
     is_logarithmic : bool
+        Whether figures have it on a logarithmic scale.
     """
 
     keys: tuple[str, ...]
@@ -56,7 +57,17 @@ class Axis:
 
 @dataclasses.dataclass(frozen=True)
 class Point:
-    """One design of a sweep: its number, the values along the axes, and its text."""
+    """One design of a sweep.
+
+    Attributes
+    ----------
+    number : int
+        From 0; the last axis goes fastest.
+    values : tuple
+        Along the axes.
+    text : str
+        Of the design.
+    """
 
     number: int
     values: tuple[Any, ...]
@@ -65,7 +76,25 @@ class Point:
 
 @dataclasses.dataclass(frozen=True)
 class Spec:
-    """A sweep, read. Points are numbered from 0, and made when they are needed."""
+    """A sweep, read. Points are numbered from 0, and made when they are needed.
+
+    Attributes
+    ----------
+    name, file, text : str
+        One line; the name of its file in messages; the TOML text.
+    base : Design
+    base_values : mapping
+        Its tables, with [require] of the sweep.
+    axes : tuple of Axis
+    count, method, seed
+        Of the samples of axes without points; a count of 1 where there are none.
+    extent : str
+        As for veritrack.certify.
+    record : tuple of str
+        Names of bounds that are stored; all when it is empty.
+    report : mapping
+        The table [report].
+    """
 
     name: str
     file: str

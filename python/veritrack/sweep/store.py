@@ -62,7 +62,15 @@ class Result:
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """A point with its result; `values` as they stand in the design."""
+    """A point with its result.
+
+    Attributes
+    ----------
+    number : int
+    values : tuple of str
+        As they stand in the design.
+    result : Result
+    """
 
     number: int
     values: tuple[str, ...]
@@ -79,10 +87,16 @@ def bound_of(row: Row, name: str) -> Bound | None:
 
 
 class Store:
-    """The file. Results are appended a batch at a time; a batch is there as a whole or not at all."""
+    """The file. Results are appended a batch at a time; a batch is there as a whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+    most_pages : int
+        Of 4 KiB: a limit on the file, 0 for none; beyond it the file is as if the disk were full.
+    """
 
     def __init__(self, path: str | os.PathLike[str], most_pages: int = 0) -> None:
-        """`most_pages` of 4 KiB: a limit on the file, 0 for none; beyond it the file is as if the disk were full."""
         self._path = os.fspath(path)
         with self._errors():
             self._file = sqlite3.connect(self._path, timeout=60, isolation_level=None)
@@ -163,15 +177,23 @@ class Store:
                 "SELECT DISTINCT each.key FROM points JOIN results USING (key), json_each(results.bounds) AS each "
                 "WHERE sweep = ?", (sweep,))]
 
-    def rows(self, sweep: str) -> Iterator[Row]:
-        """All points with their results, by number, one after the other."""
+    def numbers_with_verdict(self, sweep: str) -> list[int]:
+        """Of the points that have a verdict, in their order."""
         with self._errors():
-            for number, values, *result in self._file.execute(
+            return [number for number, in self._file.execute(
+                "SELECT point FROM points JOIN results USING (key) WHERE sweep = ? AND verdict != 'error' "
+                "ORDER BY point", (sweep,))]
+
+    def rows(self, sweep: str, number: int | None = None) -> Iterator[Row]:
+        """All points with their results, by number, one after the other; or the one of that number."""
+        with self._errors():
+            for point, values, *result in self._file.execute(
                     "SELECT point, axis_values, key, verdict, bounds, certificate_sha256, error, "
                     "may_be_tried_again, seconds FROM points JOIN results USING (key) WHERE sweep = ? "
-                    "ORDER BY point", (sweep,)):
+                    + ("" if number is None else "AND point = ? ") + "ORDER BY point",
+                    (sweep,) if number is None else (sweep, number)):
                 key, verdict, bounds, sha256, error, again, seconds = result
-                yield Row(number, tuple(json.loads(values)),
+                yield Row(point, tuple(json.loads(values)),
                           Result(key, verdict, json.loads(bounds), sha256, error, bool(again), seconds))
 
     @contextlib.contextmanager

@@ -70,7 +70,20 @@ class Swept:
         return columns
 
     def verify(self, *, sample: int | None = None, seed: int = 1, jobs: int | None = None) -> Recheck:
-        """Has the checker prove certificates of rows that are made anew; see recheck."""
+        """Has the checker prove certificates of rows that are made anew; see recheck.
+
+        Parameters
+        ----------
+        sample : int, optional
+            So many rows, drawn with `seed`; all when it is left out.
+        seed : int
+        jobs : int, optional
+            Rows at a time; default: one for each core.
+
+        Returns
+        -------
+        Recheck
+        """
         with contextlib.closing(Store(self.folder / "results.sqlite")) as store:
             return recheck(self.spec, store, sample=sample, seed=seed, jobs=jobs)
 

@@ -181,24 +181,34 @@ bool has_own(const std::optional<ModelSet>& set, double model::ProvedTube::*own)
 Figure tolerance_figure(const certificates::ModelSets& sets, const FrequencyUnits& units) {
   std::vector<FigureTable> data;
   std::vector<std::string> labels;
+  double lowest = INFINITY;
+  double highest = 0.0;
+  const auto cover = [&](const model::TubeSet& set) {
+    const model::Tube& first = set.tubes.front().tube;
+    const model::Tube& last = set.tubes.back().tube;
+    lowest = std::min(lowest, first.frequency - first.half_width);
+    highest = std::max(highest, last.frequency + last.half_width);
+  };
   if (has_own(sets.noise, &ProvedTube::own_noise)) {
     data.push_back(table_of_own("noise", "noise tolerated, proved [signal units]", sets.noise->tubes,
                                 &ProvedTube::own_noise, units));
     labels.emplace_back("noise, signal units");
+    cover(sets.noise->tubes);
   }
   if (has_own(sets.slew, &ProvedTube::own_slew)) {
     data.push_back(table_of_own("slew", "slew tolerated in the cell, proved [rad/sample per sample]",
                                 sets.slew->tubes, &ProvedTube::own_slew, units));
     labels.emplace_back("slew, rad/sample per sample");
+    cover(sets.slew->tubes);
   }
   std::string script = gnuplot_style(data.size() > 1 ? 520 : 320);
   for (const FigureTable& table : data) {
     script += table.block();
   }
   script += fmt::format(
-      "set lmargin 13\nset rmargin 3\nset format y '%.3g'\nset yrange [0:*]\nset offsets 0, 0, graph "
-      "0.1, 0\nset multiplot layout {},1\n",
-      data.size());
+      "set xrange [{:.9g}:{:.9g}]\nset lmargin 13\nset rmargin 3\nset format y '%.3g'\nset yrange [0:*]\n"
+      "set offsets 0, 0, graph 0.1, 0\nset multiplot layout {},1\n",
+      units.drawn(lowest), units.drawn(highest), data.size());
   for (std::size_t i = 0; i < data.size(); ++i) {
     script += i + 1 == data.size()
                   ? fmt::format("set xlabel 'frequency of the signal, {}'\n", units.drawn_unit())

@@ -155,7 +155,7 @@ FigureTable table_of_bounds() {
 }
 
 template <typename Panel>
-std::string draw_panels(std::string script, const Panel& panel) {
+std::string draw_panels(const std::string& script, const Panel& panel) {
   const std::string above = panel(Channels::quadrature);
   const std::string below = panel(Channels::single);
   return script + "set multiplot layout 2,1\n" + above + below + "unset multiplot\n";

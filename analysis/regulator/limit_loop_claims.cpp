@@ -37,13 +37,16 @@ Verdict is_unstable(const FrozenLoop& loop, const char* gain) {
 /// Stable with the plant as it is.
 Statement stability(const Case& each) {
   const Verdict verdict = each.rounded.has_poles_within(parse_decimal(each.radius), Interval(1.0));
+  const bool is_printed = each.id.starts_with("chapter-5/limits/");
   return make_statement(each.id + "/stable",
                         "The loop of section 5.4's plant and " + each.name +
                             " is stable: all its poles lie within |z| < " + each.radius +
-                            ", whatever the printed parameters are rounded from.",
+                            (is_printed ? ", whatever the printed parameters are rounded from." : "."),
                         verdict,
-                        "Recursion of Schur and Cohn on A1 D + 3 N/z, the parameters as intervals of half a "
-                        "unit of the last digit to either side.",
+                        std::string("Recursion of Schur and Cohn on A1 D + 3 N/z") +
+                            (is_printed ? ", the parameters as intervals of half a unit of the last digit to "
+                                          "either side."
+                                        : ", 2 cos(omega) as an interval."),
                         {});
 }
 

@@ -66,13 +66,30 @@ std::complex<double> residue(const Eigen::VectorXd& parameters) {
          polynomial_at(quotient, experiments::kVibration);
 }
 
-std::vector<std::complex<double>> poles_of(const Eigen::VectorXd& parameters) {
-  const Eigen::Index order = parameters.size() / 2;
-  const Eigen::VectorXd b = parameters.tail(order);
-  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order - 1, order - 1);
-  companion.row(0) = -b.tail(order - 1).transpose() / b(0);
+namespace {
+
+/// Where b_0 z^n + ... + b_n vanishes.
+Eigen::VectorXcd zeros_of(const Eigen::VectorXd& b) {
+  const Eigen::Index degree = b.size() - 1;
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(degree, degree);
+  companion.row(0) = -b.tail(degree).transpose() / b(0);
   companion.diagonal(-1).setOnes();
-  const Eigen::VectorXcd roots = companion.eigenvalues();
+  return companion.eigenvalues();
+}
+
+}  // namespace
+
+double loop_radius(const Eigen::VectorXd& parameters) {
+  const Eigen::Index order = parameters.size() / 2;
+  // A_1 D + 3 z^-1 N, A_1 = 1 - 0.5 z^-1.
+  Eigen::VectorXd loop = Eigen::VectorXd::Zero(order + 1);
+  loop.head(order) = parameters.tail(order);
+  loop.tail(order) += 3.0 * parameters.head(order) - 0.5 * parameters.tail(order);
+  return zeros_of(loop).cwiseAbs().maxCoeff();
+}
+
+std::vector<std::complex<double>> poles_of(const Eigen::VectorXd& parameters) {
+  const Eigen::VectorXcd roots = zeros_of(parameters.tail(parameters.size() / 2));
   std::vector<Complex> result(roots.data(), roots.data() + roots.size());
   std::sort(result.begin(), result.end(), [](const Complex& x, const Complex& y) {
     const bool x_real = std::fabs(x.imag()) < 1e-9;

@@ -25,4 +25,8 @@ namespace veritrack::reports::vibration {
 /// The poles in z, the real ones first in rising order.
 [[nodiscard]] std::vector<std::complex<double>> poles_of(const Eigen::VectorXd& parameters);
 
+/// The largest |z| of a pole of the loop that the controller, held constant, closes around section 5.4's
+/// plant.
+[[nodiscard]] double loop_radius(const Eigen::VectorXd& parameters);
+
 }  // namespace veritrack::reports::vibration

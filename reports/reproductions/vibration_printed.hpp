@@ -75,6 +75,18 @@ inline constexpr PrintedSentence kOutput52{
 inline constexpr PrintedSentence kSurplus52{
     "la-scala-1994/figure-5.8/surplus", "thesis, section 5.4.2 and Figure 5.8",
     "order 5: the four surplus parameters do not vanish (one is above 0.01 in size)"};
+inline constexpr PrintedSentence kStableLimit{"la-scala-1994/section-5.3.2/stable-limit",
+                                              "thesis, section 5.3.2, Consistency",
+                                              "the regulator converges to a controller that regulates the "
+                                              "plant: the loop with the limit, held constant, "
+                                              "is stable (order 3)"};
+inline constexpr PrintedSentence kStableLimit5{
+    "la-scala-1994/section-5.3.2/stable-limit-5", "thesis, section 5.3.2, Consistency",
+    "the same for the order 5, where the controller has the vibration's pole"};
+inline constexpr PrintedSentence kSameLimit{"la-scala-1994/section-5.4/same-limit", "thesis, section 5.4",
+                                            "EFRA and condition number monitoring lead to the same "
+                                            "controller (to 1 %, where both have the vibration's "
+                                            "pole)"};
 inline constexpr PrintedSentence kPole52{"la-scala-1994/section-5.4.2/vibration-pole", kSection542,
                                          "order 5: the limit has the vibration's pole"};
 

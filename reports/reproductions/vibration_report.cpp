@@ -47,12 +47,13 @@ struct Study {
   std::vector<Eigen::VectorXd> near3, near5;        ///< EFRA, started near the ideal parameters
   std::vector<bool> small_limit_poles;              ///< as monitored_poles, with a smaller Lambda
   std::vector<bool> pole5, output5;
+  std::vector<bool> stable3, stable5, same_limit;  ///< where the controllers have the vibration's pole
 };
 
 Study study_of(int runs, const ReproductionProgress& progress) {
   struct One {
-    double efra_early = 0.0, monitored_early = 0.0, monitored_late = 0.0, small_limit = 0.0;
-    Eigen::VectorXd limit3, limit5, near3, near5;
+    double efra_early = 0.0, monitored_early = 0.0, small_limit = 0.0;
+    Eigen::VectorXd monitored_late, limit3, limit5, near3, near5;
     double output5 = 0.0;
   };
   const auto all = experiments::repeat(runs, [&](std::uint64_t seed) {
@@ -68,7 +69,7 @@ Study study_of(int runs, const ReproductionProgress& progress) {
     One one;
     one.efra_early = experiments::pole_error(limit(kThree, Estimator::efra, kEarly, kNothing));
     one.monitored_early = experiments::pole_error(limit(kThree, Estimator::monitored, kEarly, kNothing));
-    one.monitored_late = experiments::pole_error(limit(kThree, Estimator::monitored, kLate, kNothing));
+    one.monitored_late = limit(kThree, Estimator::monitored, kLate, kNothing);
     one.small_limit = experiments::pole_error(experiments::limiting_parameters(
         kThree, Estimator::monitored, start(kThree, kNothing), kLate, kSmallLimit));
     one.limit3 = limit(kThree, Estimator::efra, kMany, kNothing);
@@ -85,13 +86,26 @@ Study study_of(int runs, const ReproductionProgress& progress) {
     study.efra_early.push_back(one.efra_early);
     study.monitored_early.push_back(one.monitored_early);
     study.efra_poles.push_back(one.efra_early < kFourDigits);
-    study.monitored_poles.push_back(one.monitored_late < kFourDigits);
+    const bool has_monitored_pole = experiments::pole_error(one.monitored_late) < kFourDigits;
+    const bool has_pole3 = experiments::pole_error(one.limit3) < kFourDigits;
+    study.monitored_poles.push_back(has_monitored_pole);
+    if (has_pole3) {
+      study.stable3.push_back(loop_radius(one.limit3) < 1.0);
+    }
+    if (has_pole3 && has_monitored_pole) {
+      study.same_limit.push_back(
+          (one.monitored_late / one.monitored_late(3) - one.limit3 / one.limit3(3)).norm() <=
+          0.01 * (one.limit3 / one.limit3(3)).norm());
+    }
     study.small_limit_poles.push_back(one.small_limit < kFourDigits);
     study.limit3.push_back(one.limit3);
     study.limit5.push_back(one.limit5);
     study.near3.push_back(one.near3);
     study.near5.push_back(one.near5);
     study.pole5.push_back(experiments::pole_error(one.limit5) < kFourDigits);
+    if (study.pole5.back()) {
+      study.stable5.push_back(loop_radius(one.limit5) < 1.0);
+    }
     study.output5.push_back(one.output5 < kSmallOutput);
   }
   if (progress) {
@@ -161,6 +175,10 @@ void add_sampled(std::vector<Entry>& entries, const Study& study) {
              return (scaled - ideal()).head(3).norm() > 0.01 * ideal().head(3).norm();
            }),
       kStartUnpublished);
+  // Said without conditions, so that any start may contradict them.
+  add(printed::kStableLimit, Claimed::always, study.stable3, Conditions{});
+  add(printed::kStableLimit5, Claimed::always, study.stable5, Conditions{});
+  add(printed::kSameLimit, Claimed::always, study.same_limit, Conditions{});
   for (std::size_t i = 0; i < printed::kNumerator51.size(); ++i) {
     const PrintedNumber& number = printed::kNumerator51.at(i);
     entries.push_back(entry_of(number,

@@ -108,10 +108,39 @@ class FilterNumbers {
   [[nodiscard]] SmallVector predicted() const {
     return Eigen::Map<const VectorXd>(results_.data(), states());
   }
+  /// The derivative of f, by which errors change: F itself, unless that is given.
+  [[nodiscard]] Small slope(const SmallVector& estimate) {
+    if (!parts_->has_given_jacobian) {
+      return jacobian(estimate);
+    }
+    constexpr double kPart = 1e-5;
+    const Index n = states();
+    Small f(n, n);
+    for (Index j = 0; j < n; ++j) {
+      const double change = kPart * std::max(1e-3, std::fabs(estimate[j]));
+      SmallVector higher = estimate;
+      SmallVector lower = estimate;
+      higher[j] += change;
+      lower[j] -= change;
+      (void)jacobian(higher);
+      const SmallVector above = predicted();
+      (void)jacobian(lower);
+      f.col(j) = (above - predicted()) / (2.0 * change);
+    }
+    return f;
+  }
   /// The change of F along a direction.
   [[nodiscard]] Small change(const SmallVector& estimate, const SmallVector& direction) {
     constexpr double kPart = 1e-4;
     return (jacobian(estimate + kPart * direction) - jacobian(estimate - kPart * direction)) / (2.0 * kPart);
+  }
+  /// The change of the derivative of f along a direction.
+  [[nodiscard]] Small change_of_slope(const SmallVector& estimate, const SmallVector& direction) {
+    constexpr double kPart = 1e-3;
+    return parts_->has_given_jacobian
+               ? Small((slope(estimate + kPart * direction) - slope(estimate - kPart * direction)) /
+                       (2.0 * kPart))
+               : change(estimate, direction);
   }
   [[nodiscard]] Small updated(const Small& predicted) const {
     const Small cross = measured_ * predicted;
@@ -210,6 +239,7 @@ class FilterOrbit {
     const Index n = numbers_.states();
     const Small f = numbers_.jacobian(estimate_);
     const SmallVector predicted = numbers_.predicted();
+    const Small slope = numbers_.slope(estimate_);
     const Eigen::LLT<Small> root(here_.shape);
     if (root.info() != Eigen::Success || !(here_.shape.maxCoeff() < 1e12)) {
       return false;
@@ -222,8 +252,8 @@ class FilterOrbit {
     const Small wide =
         is_inside ? Small(around_.radius * matrix_at(around_.tube->shape, phase_, around_.z, false)) : u;
     for (Index i = 0; i < n; ++i) {
-      changes_.push_back(numbers_.change(estimate_, u.col(i)));
-      const Small change = is_inside ? numbers_.change(estimate_, wide.col(i)) : changes_.back();
+      changes_.push_back(numbers_.change_of_slope(estimate_, u.col(i)));
+      const Small change = numbers_.change(estimate_, is_inside ? wide.col(i) : u.col(i));
       of_high += change * updated_high_ * change.transpose();
       of_low += change * updated_low_ * change.transpose();
     }
@@ -247,7 +277,7 @@ class FilterOrbit {
     delta_ = 0.5 * (updated_high_ - updated_low_);
     gain_ = middle * numbers_.weighted().transpose();
     contraction_ = (Small::Identity(n, n) - gain_ * numbers_.measured());
-    const Small a = contraction_ * f;
+    const Small a = contraction_ * slope;
     next.shape = a * here_.shape * a.transpose() / parameters_.lambda +
                  parameters_.source * gain_ * gain_.transpose() + parameters_.spread * delta_;
     next.shape.diagonal() += parameters_.process;
@@ -255,7 +285,7 @@ class FilterOrbit {
       move_ = value_at(*slope_, phase_ + curve_->frequency).head(n);
       next.shape += parameters_.moving * move_ * move_.transpose();
     }
-    jacobian_ = f;
+    jacobian_ = slope;
     before_ = u;
     here_ = std::move(next);
     phase_ += curve_->frequency;

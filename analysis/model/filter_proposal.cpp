@@ -168,8 +168,8 @@ double mismatch(const MatrixXd& a, const MatrixXd& b) {
 void fit_tube(const TrackedTone& tone, const CurveFit& curve, const FilterParameters& parameters, double rate,
               const FilterWorth& worth, double unit, const Surroundings& around, TubeProposal& proposal) {
   const Index n = tone.filter->states;
-  proposal.outcome = TubeOutcome::cell_too_wide;
-  proposal.loss = 1.0;
+  proposal.outcome = TubeOutcome::no_common_shape;
+  proposal.loss = INFINITY;
   if (!(worth.growth < 1.3)) {
     return;
   }
@@ -203,6 +203,7 @@ void fit_tube(const TrackedTone& tone, const CurveFit& curve, const FilterParame
     }
     judges.emplace_back(z, *std::move(grid));
   }
+  proposal.outcome = TubeOutcome::cell_too_wide;
   std::optional<std::array<Fit, 3>> found;
   for (int harmonics = 2; harmonics <= most_harmonics && !found; harmonics += 2) {
     std::array<Fit, 3> fit{fit_of(low, harmonics, 1.0), fit_of(high, harmonics, 1.0),
@@ -275,8 +276,7 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
   const std::optional<VectorXd> point =
       keeps ? std::optional(nearby->of_filter) : search.run(nearby ? nearby->of_filter : VectorXd());
   if (!point) {
-    proposal.outcome = TubeOutcome::cell_too_wide;
-    proposal.loss = 1.0;
+    proposal.outcome = TubeOutcome::no_common_shape;
     return;
   }
   proposal.shape.parameters.of_filter = *point;

@@ -157,6 +157,7 @@ class FilterSearch {
                     is_for_slew && !(settings.shape.slew > 0.0),
                     is_gaussian ? settings.shape.exponent + std::log(kProposedConstant) : 0.0};
     largest_reach_ = settings.shape.largest_reach;
+    deadline_ = settings.shape.deadline;
     const int usual = is_gaussian ? 150 : 100;
     evaluations_ = settings.shape.evaluations > 0 ? settings.shape.evaluations / 3 : usual;
   }
@@ -226,6 +227,9 @@ class FilterSearch {
     return low;
   }
   [[nodiscard]] ScoredPoint score(const VectorXd& x) const {
+    if (deadline_.is_over()) {
+      return {};
+    }
     constexpr int kSamples = 20;
     const auto at_middle = [&](const FilterParameters& parameters) {
       return worth_on_orbit(*tone_, nodes_[1], parameters,
@@ -347,6 +351,7 @@ class FilterSearch {
   FilterCoordinates coordinates_;
   double largest_reach_ = 0.0;
   int evaluations_ = 0;  ///< of each round
+  search::Deadline deadline_;
 };
 
 }  // namespace veritrack::model::detail

@@ -154,8 +154,9 @@ class RadiusSearch {
 /// The search over the cells of a band: one noise and one inequality for all of them.
 class BandSearch {
  public:
-  BandSearch(const TrackerModel& model, const BandProposal& band, const GaussianTask& task)
-      : task_(&task), channels_(model.recursion->samples) {
+  BandSearch(const TrackerModel& model, const BandProposal& band, const GaussianTask& task,
+             SetProgress progress)
+      : task_(&task), channels_(model.recursion->samples), progress_(std::move(progress)) {
     double rate = 0.0;
     for (const TubeProposal& cell : band.cells) {
       searches_.emplace_back(model, cell, task);
@@ -196,6 +197,7 @@ class BandSearch {
         return false;
       }
       ++failed_;
+      progress_(static_cast<double>(failed_) / static_cast<double>(searches_.size()));
     }
     return true;
   }
@@ -228,6 +230,9 @@ class BandSearch {
     const double start = 1.01 * search.start_level() / share;
     for (double radius = std::max(start, 0.2 * search.guess()); radius < 1.6 * search.guess();
          radius *= 1.08) {
+      if (task_->deadline.is_over()) {
+        return false;
+      }
       if (search.may_hold(radius, terms_)) {
         return search.proves(1.04 * radius, terms_) || search.proves(1.1 * radius, terms_);
       }
@@ -237,6 +242,7 @@ class BandSearch {
 
   const GaussianTask* task_;
   int channels_;
+  SetProgress progress_;
   bool bounds_covariance_ = false;
   std::vector<RadiusSearch> searches_;
   double factor_ = 0.999;
@@ -255,6 +261,18 @@ TubeSet prove_gaussian_set(const TrackedTone& tone, const TrackerModel& model, d
   shape.deadline = task.deadline;
   BandSettings settings = settings_of(shape, low, high);
   settings.tube.shape.exponent = std::log(task.samples / task.probability);
+  double told = 0.0;
+  const auto tell = [&](double share) {
+    told = std::max(told, share);
+    if (progress) {
+      progress(told);
+    }
+  };
+  constexpr double kOfProposals = 0.5;  // of the time, about
+  settings.decided = [&](const TubeProposal& cell, bool /*may_be_halved*/) {
+    tell(kOfProposals * (cell.frequency + cell.half_width - low) / (high - low));
+    return true;
+  };
   BandProposal band = propose_band(tone, low, high, settings);
   TubeSet set;
   set.name = task.name;
@@ -265,15 +283,14 @@ TubeSet prove_gaussian_set(const TrackedTone& tone, const TrackerModel& model, d
   for (TubeProposal& cell : band.cells) {
     widen(*cell.tube);
   }
-  BandSearch search(model, band, task);
+  BandSearch search(model, band, task, [&](double share) { tell(kOfProposals + 0.5 * share); });
   const bool is_found = task.largest_deviation ? search.with_largest_deviation() > 0.0
                                                : search.with_any_constant(task.deviation);
-  if (progress) {
-    progress(1.0);
-  }
+  tell(1.0);
   if (!is_found) {
     set.reasons.push_back(
-        task.largest_deviation
+        task.deadline.has_struck() ? std::string(kTimeLimit)
+        : task.largest_deviation
             ? "no deviation of the noise was proved"
             : fmt::format("no tube was proved for a deviation of {:.4g} {}", task.deviation,
                           place_of_cell(band.cells[std::min(search.failed(), band.cells.size() - 1)])));

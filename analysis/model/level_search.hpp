@@ -87,6 +87,9 @@ class LevelSearch {
     return std::nullopt;
   }
 
+  /// The radius from which the search begins.
+  [[nodiscard]] double guess() const { return level(); }
+
  private:
   /// What is tried, as shares of what points allow.
   static constexpr std::array<double, 8> kFactors{0.985, 0.96, 0.93, 0.89, 0.84, 0.77, 0.68, 0.55};

@@ -19,12 +19,13 @@ namespace veritrack::model::detail {
 
 using rigor::Verdict;
 
-/// The search for levels that all cells of a band have in common.
+/// The search for levels that all cells of a band have in common. `progress` is told the share of the cells
+/// in which the first level is proved.
 class MovingSearch {
  public:
   MovingSearch(const TrackerModel& model, std::span<const TubeProposal> cells,
-               const search::Deadline& deadline, TubeSet& set)
-      : model_(&model), deadline_(&deadline), set_(&set) {
+               const search::Deadline& deadline, TubeSet& set, SetProgress progress = {})
+      : model_(&model), deadline_(&deadline), set_(&set), progress_(std::move(progress)) {
     double rate = 0.0;
     for (const TubeProposal& cell : cells) {
       ProvedTube proved;
@@ -33,7 +34,10 @@ class MovingSearch {
       widen(proved.tube);
       set.tubes.push_back(std::move(proved));
       rate = std::max(rate, cell.worth.rate);
-      level_ = level_ > 0.0 ? std::min(level_, cell.worth.level) : cell.worth.level;
+      // Errors have to be smaller than the frequency.
+      const double level =
+          cell.worth.level * std::min(1.0, cell.frequency / std::max(cell.worth.reach, cell.frequency));
+      level_ = level_ > 0.0 ? std::min(level_, level) : level;
       most_slew_ = most_slew_ > 0.0 ? std::min(most_slew_, cell.worth.slew) : cell.worth.slew;
     }
     constexpr double kLittleRoom = 0.02;
@@ -208,6 +212,14 @@ class MovingSearch {
     return largest < 1.0 ? with_some_room(largest) : 2.0;
   }
 
+  /// Of the first level that is proved, which takes most of the time.
+  void tell(double share) {
+    told_ = std::max(told_, share);
+    if (progress_) {
+      progress_(told_);
+    }
+  }
+
   /// One level for all tubes; when the time is over, for the first ones, without the others.
   bool proves(double radius, double slew) {
     for (std::size_t i = 0; i < set_->tubes.size(); ++i) {
@@ -232,6 +244,7 @@ class MovingSearch {
         break;
       }
       crossing = larger;
+      tell(static_cast<double>(i + 1) / static_cast<double>(set_->tubes.size()));
     }
     set_->slew = slew;
     set_->crossing = {with_some_room(crossing)};
@@ -288,6 +301,8 @@ class MovingSearch {
   double most_slew_ = 0.0;
   double slow_ = 1.0;
   double fast_ = 1.0;
+  SetProgress progress_;
+  double told_ = 0.0;
 };
 
 }  // namespace veritrack::model::detail

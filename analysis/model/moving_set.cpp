@@ -57,6 +57,18 @@ TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, dou
   const rigor::NearestRounding nearest;
   BandSettings settings = settings_of(task, low, high);
   settings.one_shape = true;
+  double told = 0.0;
+  const auto tell = [&](double share) {
+    told = std::max(told, share);
+    if (progress) {
+      progress(told);
+    }
+  };
+  constexpr double kOfProposals = 0.5;  // of the time, about
+  settings.decided = [&](const TubeProposal& cell, bool /*may_be_halved*/) {
+    tell(kOfProposals * (cell.frequency + cell.half_width - low) / (high - low));
+    return true;
+  };
   const BandProposal band = propose_band(tone, low, high, settings);
   TubeSet set;
   set.name = task.name;
@@ -65,15 +77,12 @@ TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, dou
   set.reasons = reasons_of(band);
   CellRun run = widest_part(band.cells, {0, band.cells.size()},
                             [&](std::size_t i) { return band.cells[i].outcome == TubeOutcome::proposed; });
-  if (task.largest_slew && !band.is_complete) {
-    return set;
-  }
   bool is_found = false;
   constexpr int kMostTries = 4;
   for (int tries = 0; tries < kMostTries && !is_found && run.end > run.first; ++tries) {
     set.tubes.clear();
     MovingSearch search(model, std::span(band.cells).subspan(run.first, run.end - run.first), task.deadline,
-                        set);
+                        set, [&](double share) { tell(kOfProposals + 0.4 * share); });
     is_found = task.largest_slew ? search.find_slew() : search.find_levels();
     if (is_found && task.largest_slew && task.of_each_cell) {
       search.find_own_slews();
@@ -106,9 +115,7 @@ TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, dou
             : fmt::format("no radius was proved for noise {:.4g} and slew {:.4g} rad/sample per sample{}",
                           task.noise, task.slew, place));
   }
-  if (progress) {
-    progress(1.0);
-  }
+  tell(1.0);
   return set;
 }
 

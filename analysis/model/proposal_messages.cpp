@@ -1,6 +1,7 @@
 // The words of proposals that failed.
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -43,6 +44,51 @@ std::string states_in(const SteadyState& steady) {
   return text;
 }
 
+/// What else there is to say of a state that does not stop: that it turns, or how long it would take.
+std::string hint_to_drift(const SteadyState& steady) {
+  const double turned = steady.frequency * steady.period;  // of the phase, rad
+  const double ratio = steady.drift[steady.slowest_state] / turned;
+  const double whole = std::round(ratio);
+  constexpr double kClose = 1e-3;
+  constexpr double kMost = 16.0;
+  if (whole != 0.0 && std::fabs(whole) <= kMost && std::fabs(ratio - whole) < kClose) {
+    return ": it turns " + (whole == 1.0 ? std::string("once") : digits(whole, 3) + " times") +
+           " while the phase turns once; if it is an angle, name it in angles";
+  }
+  if (steady.rate > 0.0 && steady.rate < 1.0) {
+    constexpr double kDecades = 9.0;
+    return ". Near there each sample multiplies errors by " + digits(steady.rate, 7) +
+           ", so that settling may take " +
+           digits(std::ceil(kDecades * std::numbers::ln10 / (1.0 - steady.rate)), 2) +
+           " samples: give a start that is nearer, or write a slow loop at a lower sample rate";
+  }
+  return "";
+}
+
+/// What a tracker that settles on another frequency has locked to.
+std::string lock_of(const SteadyState& steady) {
+  constexpr double kClose = 2e-3;
+  constexpr int kMost = 16;
+  const double ratio = steady.mean_frequency / steady.frequency;
+  for (int k = 2; k <= kMost; ++k) {
+    if (std::fabs(ratio / k - 1.0) < kClose) {
+      return "it has locked to harmonic number " + std::to_string(k);
+    }
+    if (std::fabs(ratio * k - 1.0) < kClose) {
+      return "it has locked to the tone's frequency divided by " + std::to_string(k);
+    }
+  }
+  return std::fabs(ratio + 1.0) < kClose ? "it has locked to the tone with the sign of the frequency reversed"
+                                         : "it has locked to something else";
+}
+
+/// Of errors that do not grow, but do not decay by a factor a sample, either.
+std::string decay_of(const SteadyState& steady) {
+  return steady.rate < 1.0 ? ", which is 1 as far as " + std::to_string(steady.samples) +
+                                 " samples can tell: if errors decay, it is not exponentially"
+                           : std::string();
+}
+
 }  // namespace
 
 std::string reason_of(const SteadyState& steady) {
@@ -51,21 +97,22 @@ std::string reason_of(const SteadyState& steady) {
       return "";
     case SteadyStateOutcome::diverges:
       return "no steady state: the simulation diverges or is undefined within " +
-             std::to_string(steady.samples) + " samples" + at_frequency(steady);
+             std::to_string(steady.samples) + " samples" + at_frequency(steady) +
+             (steady.undefined.empty() ? "" : ": " + steady.undefined);
     case SteadyStateOutcome::still_drifts:
       return "no steady state: after " + std::to_string(steady.samples) + " samples " +
              name_of(steady, steady.slowest_state) + " at phase 0 still moves by " +
              digits(std::fabs(steady.drift[steady.slowest_state]), 3) + " in " +
-             std::to_string(steady.period) + " samples" + at_frequency(steady);
+             std::to_string(steady.period) + " samples" + at_frequency(steady) + hint_to_drift(steady);
     case SteadyStateOutcome::repeats_later:
       return "no steady state: the tracker settles on a curve of period " +
              std::to_string(steady.repetition) + " in the phase" + at_frequency(steady);
     case SteadyStateOutcome::locked_elsewhere:
       return "the tracker settles on " + digits(steady.mean_frequency, 6) + " rad/sample when the tone has " +
-             digits(steady.frequency, 6) + ": it has locked to something else";
+             digits(steady.frequency, 6) + ": " + lock_of(steady);
     case SteadyStateOutcome::not_exponentially_stable:
       return "not exponentially stable: each sample multiplies errors by " + digits(steady.rate, 7) +
-             at_frequency(steady) + ", in the mode " + states_in(steady);
+             at_frequency(steady) + ", in the mode " + states_in(steady) + decay_of(steady);
   }
   return "";
 }
@@ -82,6 +129,10 @@ std::string reason_of(const TubeProposal& proposal) {
              "it";
     case TubeOutcome::no_shape:
       return "no tube found around the steady state, where each sample multiplies errors by " +
+             digits(proposal.steady_state.rate, 7);
+    case TubeOutcome::no_common_shape:
+      return "no tube found that contracts in the whole cell; at its middle each sample multiplies errors "
+             "by " +
              digits(proposal.steady_state.rate, 7);
     case TubeOutcome::time_limit:
       return kTimeLimit;

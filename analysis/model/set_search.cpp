@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/model/undefined_operation.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
@@ -13,6 +14,8 @@ using rigor::Interval;
 BandSettings settings_of(const SetTask& task, double low, double high) {
   BandSettings settings;
   settings.deadline = task.deadline;
+  settings.tube.shape.deadline = task.deadline;
+  settings.tube.steady_state.deadline = task.deadline;
   settings.tube.shape.objective = task.objective;
   settings.tube.shape.start = task.deviations;
   settings.tube.shape.noise = task.noise;
@@ -21,6 +24,23 @@ BandSettings settings_of(const SetTask& task, double low, double high) {
   // A lock on a harmonic is off by half of the frequency or more; a bias may be a tenth.
   settings.tube.steady_state.largest_mean_error = std::max(0.5 * (high - low), 0.25 * low);
   return settings;
+}
+
+std::string words_of_undefined(const TrackedTone& tone, const TrackerModel& model, const TubeProposal& cell,
+                               double radius, double noise) {
+  const auto found = find_undefined(model, *cell.tube, radius, noise);
+  const auto number = static_cast<std::size_t>(found ? found->instruction : 0);
+  if (!found || number >= tone.objections.size()) {
+    return {};
+  }
+  const double reach = cell.worth.reach / cell.worth.level;
+  std::string text = fmt::format(", where {} with frequency errors up to about {:.2g} rad/sample",
+                                 tone.objections[number], reach * radius);
+  if (found->defined_radius > 0.0) {
+    return text + fmt::format(", and not with those up to about {:.2g},", reach * found->defined_radius);
+  }
+  return text +
+         (noise > 0.0 ? ", and by the noise alone with much smaller ones," : ", and with much smaller ones,");
 }
 
 std::string place_of_cell(const TubeProposal& cell) {

@@ -30,6 +30,12 @@ template <typename Test>
 /// sharp.
 [[nodiscard]] double with_room(double shrinking);
 
+/// ", where the denominator x (line 3) may vanish with frequency errors up to about 0.1 rad/sample, and not
+/// with those up to about 0.02", when an operation may be undefined in the tube of the cell; or nothing. A
+/// diagnosis.
+[[nodiscard]] std::string words_of_undefined(const TrackedTone& tone, const TrackerModel& model,
+                                             const TubeProposal& cell, double radius, double noise);
+
 /// "between 0.1 and 0.2 rad/sample".
 [[nodiscard]] std::string place_of_cell(const TubeProposal& cell);
 

@@ -88,7 +88,8 @@ class ShapeSearch {
 
  private:
   [[nodiscard]] double score_at(const Eigen::VectorXd& x) const {
-    const auto worth = worth_at(coordinates_.at(x), most_harmonics());
+    const auto worth =
+        settings_->deadline.is_over() ? std::nullopt : worth_at(coordinates_.at(x), most_harmonics());
     if (!worth) {
       return kWorthless;
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/model/shape_bounds.hpp"
+#include "analysis/search/deadline.hpp"
 
 namespace veritrack::model {
 
@@ -38,6 +39,7 @@ struct ShapeSettings {
   double largest_rate = 0.0;
   /// Of shapes in the search; 0 means 300, and 600 for more than 5 states.
   int evaluations = 0;
+  search::Deadline deadline = {};  ///< after which nothing better is searched for
 };
 
 /// The free parameters. Equal ones at neighbouring frequencies give shapes that fit together.

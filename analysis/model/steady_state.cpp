@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 
 #include "analysis/model/periodic_run.hpp"
+#include "analysis/model/undefined_operation.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
@@ -63,6 +65,39 @@ bool is_small(const Eigen::VectorXd& change, const Eigen::VectorXd& size) {
   return (change.cwiseAbs().array() <= kReturned * size.array()).all();
 }
 
+/// Whether a state that returns is where it stays: what it moves in all periods to come, should it settle by
+/// the rate of the last one, is little for its size now. A covariance that decays like 1/N returns when it is
+/// compared with where it began, but half of it is still to come.
+bool is_at_rest(const SteadyState& result, const Eigen::VectorXd& size_now,
+                const Eigen::VectorXd& first_size) {
+  constexpr double kLittle = 1e-3;
+  constexpr double kRounding = 1e-12;
+  const double left = 1.0 - std::pow(result.rate, result.period);
+  return (result.drift.cwiseAbs().array() <=
+          kLittle * left * size_now.cwiseMax(kRounding * first_size).array())
+      .all();
+}
+
+/// The tone's words for the operation that was the first to be undefined, in the last period; or nothing.
+std::string objection_of(const TrackedTone& tone, const PeriodicRun& run) {
+  const trackers::StraightLineProgram& step = tone.step.recursion().step;
+  for (Eigen::Index k = 0; k < run.samples().cols(); ++k) {
+    if (!run.states().col(k).allFinite() || run.states().col(k + 1).allFinite()) {
+      continue;
+    }
+    std::vector<double> inputs = tone.step.constants();
+    inputs.insert(inputs.end(), run.states().col(k).begin(), run.states().col(k).end());
+    inputs.insert(inputs.end(), run.samples().col(k).begin(), run.samples().col(k).end());
+    std::vector<double> registers;
+    std::vector<double> next(step.results().size());
+    step.run(std::span<const double>(inputs), registers, std::span(next));
+    const int found = first_unknown(step, registers, [](double value) { return std::isfinite(value); });
+    const auto number = static_cast<std::size_t>(found);
+    return found >= 0 && number < tone.objections.size() ? tone.objections[number] : std::string();
+  }
+  return {};
+}
+
 }  // namespace
 
 SteadyState find_steady_state(const TrackedTone& tone, double frequency,
@@ -70,52 +105,64 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
   const rigor::NearestRounding nearest;
   constexpr double kHuge = 1e9;
   constexpr int kLongestRepetition = 8;
+  constexpr double kResolved = 1e-8;  // of a rate
   SteadyState result;
   result.names = tone.names;
   if (!(frequency > 0.0 && frequency < std::numbers::pi)) {
     throw std::invalid_argument("a steady state belongs to a frequency between 0 and pi");
   }
-  const std::vector<double> start = tone.start(frequency);
-  const auto& is_angle = tone.step.recursion().is_angle;
-  if (static_cast<int>(start.size()) != tone.step.states() || is_angle.size() != start.size()) {
-    throw std::invalid_argument("wrong number of states at the start of a simulation");
-  }
   const Fraction fraction = detail::nearby_fraction(frequency);
   result.asked_frequency = frequency;
   result.frequency = 2.0 * std::numbers::pi * fraction.turns / fraction.samples;
   result.period = fraction.samples;
+  // Of the tone that is simulated: a slow loop does not lock to another one in any number of samples.
+  const std::vector<double> start = tone.start(result.frequency);
+  const auto& is_angle = tone.step.recursion().is_angle;
+  if (static_cast<int>(start.size()) != tone.step.states() || is_angle.size() != start.size()) {
+    throw std::invalid_argument("wrong number of states at the start of a simulation");
+  }
   PeriodicRun run(tone, fraction, start);
   History history;
   history.add(run);
   Eigen::VectorXd first_size;
   Eigen::VectorXd size;
-  for (;;) {
+  bool returns = false;
+  bool is_resting = false;
+  for (int next_look = 0;;) {
     run.run();
     history.add(run);
     result.samples += result.period;
     size = size_of(run.states(), is_angle);
+    const Eigen::VectorXd size_now = size;
     first_size = first_size.size() == 0 ? size : first_size;
     if (!run.states().allFinite() || size.maxCoeff() > kHuge * std::max(1.0, first_size.maxCoeff())) {
       result.outcome = SteadyStateOutcome::diverges;
+      result.undefined = objection_of(tone, run);
       return result;
     }
     size = size.cwiseMax(first_size);
     result.drift = history.change(1, is_angle);
     result.drift.cwiseAbs().cwiseQuotient(size.cwiseMax(1e-300)).maxCoeff(&result.slowest_state);
-    if (is_small(result.drift, size) || result.samples + result.period > settings.samples) {
-      break;
+    returns = is_small(result.drift, size);
+    const bool is_last = result.samples + result.period > settings.samples || settings.deadline.is_over();
+    if (is_last || (returns && result.samples >= next_look)) {
+      find_slowest_mode(tone, run, size, result);
+      is_resting = returns && is_at_rest(result, size_now, first_size);
+      if (is_last || is_resting || !(result.rate < 1.0 - kResolved)) {
+        break;
+      }
+      next_look = 2 * result.samples;
     }
   }
   // While it settles, an estimate may be undefined (an arc cosine beyond 1).
   result.mean_frequency = run.mean_frequency();
   if (!std::isfinite(result.mean_frequency)) {
     result.outcome = SteadyStateOutcome::diverges;
+    result.undefined = "the estimated frequency is not finite";
     return result;
   }
   result.mean_error = result.mean_frequency - result.frequency;
-  find_slowest_mode(tone, run, size, result);
-  const bool returns = is_small(result.drift, size);
-  const double resolved = returns ? 1e-8 : 4.0 / static_cast<double>(result.samples);
+  const double resolved = is_resting ? kResolved : 4.0 / static_cast<double>(result.samples);
   const Eigen::VectorXd turns = history.turns(1) / static_cast<double>(fraction.turns);
   const bool are_whole = (turns - turns.array().round().matrix()).cwiseAbs().maxCoeff() < 1e-9;
   for (int m = 2; (!returns || !are_whole) && m <= kLongestRepetition && history.reaches(m); ++m) {
@@ -127,7 +174,9 @@ SteadyState find_steady_state(const TrackedTone& tone, double frequency,
       return result;
     }
   }
-  if (!(result.rate <= 1.0 - resolved) && result.rate > 0.0) {
+  // On the way to a steady state errors may grow, which says nothing of those that are there.
+  const bool is_unstable = !(result.rate <= 1.0 - resolved) && (returns || result.rate <= 1.0 + resolved);
+  if (is_unstable && result.rate > 0.0) {
     result.outcome = SteadyStateOutcome::not_exponentially_stable;
   } else if (std::fabs(result.mean_error) > settings.largest_mean_error) {
     result.outcome = SteadyStateOutcome::locked_elsewhere;

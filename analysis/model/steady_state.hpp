@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/model/step_derivatives.hpp"
+#include "analysis/search/deadline.hpp"
 #include "trackers/model/filter_parts.hpp"
 
 namespace veritrack::model {
@@ -24,6 +25,8 @@ struct TrackedTone {
   std::vector<std::string> names = {};  ///< of the states, for messages; or empty
   /// Of a filter, of which tubes are to bound the covariance; or none.
   const trackers::FilterParts* filter = nullptr;
+  /// What it means that an operation of the step is undefined, one for each: for messages; or empty.
+  std::vector<std::string> objections = {};
 };
 
 enum class SteadyStateOutcome {
@@ -44,6 +47,7 @@ enum class SteadyStateOutcome {
 struct SteadyStateSettings {
   int samples = 400000;                  ///< at most
   double largest_mean_error = INFINITY;  ///< rad/sample: half the band
+  search::Deadline deadline = {};        ///< after which no further period is simulated
 };
 
 /// The simulation uses a frequency 2 pi p/q next to the one asked for, so that phases return exactly.
@@ -66,6 +70,8 @@ struct SteadyState {
   std::vector<int> turns;  ///< of each state while the phase turns once
   /// n x q when settled: the states at phases 2 pi j/q, less turns times the phase.
   Eigen::MatrixXd states;
+  /// When it diverges because an operation of the step is undefined: the tone's words for it; or empty.
+  std::string undefined = {};
 };
 
 /// Simulates until the state returns after every period, up to 1e-9 of its size. Deterministic; holds

@@ -138,9 +138,10 @@ void make_worse(ShapeWorth& worth, const ShapeWorth& other) {
   worth.start_share = std::min(worth.start_share, other.start_share);
 }
 
-/// Compares the tube with the exact shapes of its parameters between the nodes.
-void judge(const TrackedTone& tone, const CurveFit& curve, const ShapeFit& fit, const PhaseGrid& grid,
-           const TubeSettings& settings, TubeProposal& proposal) {
+/// Compares the tube with the exact shapes of its parameters between the nodes. False when it is none at some
+/// frequency of the cell.
+[[nodiscard]] bool judge(const TrackedTone& tone, const CurveFit& curve, const ShapeFit& fit,
+                         const PhaseGrid& grid, const TubeSettings& settings, TubeProposal& proposal) {
   const ShapeParameters& parameters = proposal.shape.parameters;
   const bool is_long_run = settings.shape.objective == ShapeObjective::least_long_run_error;
   bool is_first = true;
@@ -152,10 +153,8 @@ void judge(const TrackedTone& tone, const CurveFit& curve, const ShapeFit& fit, 
     const auto best = exact ? worth_of(dynamics, *exact, parameters.weights, settings.shape) : std::nullopt;
     const auto worth = worth_of(dynamics, shape_at(fit, here, z, grid), parameters.weights, settings.shape);
     if (!best || !worth) {
-      proposal.loss = 1.0;
-      proposal.variation = 1.0;
       proposal.worth = {};
-      return;
+      return false;
     }
     proposal.loss = std::max(proposal.loss, 1.0 - std::exp(worth->score - best->score));
     if (is_first) {
@@ -173,14 +172,11 @@ void judge(const TrackedTone& tone, const CurveFit& curve, const ShapeFit& fit, 
       proposal.worth.level = std::max(proposal.worth.level, worth->level);
     }
   }
+  return true;
 }
 
-}  // namespace
-
-TubeProposal propose_tube(const TrackedTone& tone, double frequency, double half_width,
-                          const TubeSettings& settings, const std::optional<ShapeParameters>& nearby,
-                          bool keep) {
-  const rigor::NearestRounding nearest;
+TubeProposal propose(const TrackedTone& tone, double frequency, double half_width,
+                     const TubeSettings& settings, const std::optional<ShapeParameters>& nearby, bool keep) {
   if (!(half_width > 0.0 && frequency - half_width > 0.0 && frequency + half_width < std::numbers::pi)) {
     throw std::invalid_argument("a cell of frequencies must be within (0, pi)");
   }
@@ -234,10 +230,28 @@ TubeProposal propose_tube(const TrackedTone& tone, double frequency, double half
     proposal.outcome = TubeOutcome::no_shape;
     return proposal;
   }
-  judge(tone, *curve, *fit, grid, settings, proposal);
+  if (!judge(tone, *curve, *fit, grid, settings, proposal)) {
+    proposal.outcome = TubeOutcome::no_common_shape;
+    return proposal;
+  }
   proposal.tube = tube_of(tone, *curve, *fit);
   if (proposal.loss <= settings.largest_loss && proposal.variation <= settings.largest_variation) {
     proposal.outcome = TubeOutcome::proposed;
+  }
+  return proposal;
+}
+
+}  // namespace
+
+TubeProposal propose_tube(const TrackedTone& tone, double frequency, double half_width,
+                          const TubeSettings& settings, const std::optional<ShapeParameters>& nearby,
+                          bool keep) {
+  const rigor::NearestRounding nearest;
+  TubeProposal proposal = propose(tone, frequency, half_width, settings, nearby, keep);
+  // What was not found in the time that there was says nothing of the tracker.
+  if (proposal.outcome != TubeOutcome::proposed &&
+      (settings.shape.deadline.is_over() || settings.steady_state.deadline.is_over())) {
+    proposal.outcome = TubeOutcome::time_limit;
   }
   return proposal;
 }

@@ -26,6 +26,7 @@ enum class TubeOutcome {
   no_steady_state,  ///< see the steady state
   no_curve,         ///< the steady state of the simulation is not one at some frequency of the cell
   no_shape,         ///< no tube around the curve contracts
+  no_common_shape,  ///< none contracts over all of the cell; perhaps in a part of it
   time_limit,       ///< it was not tried
   cell_too_wide     ///< curve or shape are no polynomials in the frequency over this cell: see the numbers
 };

@@ -9,6 +9,7 @@
 #include "analysis/model/level_search.hpp"
 #include "analysis/model/set_parts.hpp"
 #include "analysis/model/set_search.hpp"
+#include "analysis/model/undefined_operation.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
 
@@ -53,11 +54,15 @@ TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low
         return false;
       } else {
         is_good = false;
-        failures.add(task.deadline.is_over() ? std::string(kTimeLimit)
-                     : noise > 0.0 && std::isfinite(noise)
-                         ? fmt::format("no radius was proved for noise {:.4g}", noise)
-                         : std::string("no radius was proved"),
-                     from, to);
+        const double known_noise = std::isfinite(noise) ? noise : 0.0;
+        std::string reason = task.deadline.is_over() ? std::string(kTimeLimit)
+                             : known_noise > 0.0
+                                 ? fmt::format("no radius was proved for noise {:.4g}", known_noise)
+                                 : std::string("no radius was proved");
+        if (!task.deadline.is_over()) {
+          reason += words_of_undefined(tone, model, cell, search.guess(), known_noise);
+        }
+        failures.add(reason, from, to);
       }
       cell.tube.reset();
     }

@@ -17,6 +17,8 @@ struct FilterParts {
   StraightLineProgram program{0};
   int states = 0;
   int samples = 0;
+  /// F is given by the user, and need not be the derivative of f. Proofs take it as a function of x.
+  bool has_given_jacobian = false;
 };
 
 /// The results of the program, in their places.

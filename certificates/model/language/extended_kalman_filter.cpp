@@ -254,9 +254,6 @@ std::optional<trackers::FilterParts> compile_filter_parts(const FilterModel& mod
                                                           const Constants& constants,
                                                           const std::vector<std::string>& samples,
                                                           Position place) {
-  if (!model.jacobian.empty()) {
-    return std::nullopt;
-  }
   const std::size_t states = model.states.size();
   const std::size_t channels = samples.size();
   ProgramBuilder builder(constants, static_cast<int>(states + channels));
@@ -274,8 +271,17 @@ std::optional<trackers::FilterParts> compile_filter_parts(const FilterModel& mod
   for (std::size_t i = 0; i < states; ++i) {
     estimates[i].value = input(i);
   }
-  const std::vector<Differentiated> predicted = builder.run(
+  std::vector<Differentiated> predicted = builder.run(
       compile_step(model.predict, constants, model.states, {}, place), with_derivatives(estimates));
+  // A given F carries the covariance, and nothing is asked of it there.
+  for (std::size_t i = 0; i < model.jacobian.size(); ++i) {
+    for (std::size_t j = 0; j < states; ++j) {
+      predicted[i].derivatives[j] =
+          builder.run(compile_formulas({&model.jacobian[i][j]}, constants, model.states), estimates)
+              .front()
+              .value;
+    }
+  }
   builder.set_position(place);
   std::vector<const Expression*> formulas;
   for (const Expression& formula : model.measure) {
@@ -310,7 +316,8 @@ std::optional<trackers::FilterParts> compile_filter_parts(const FilterModel& mod
       }
     }
   }
-  trackers::FilterParts parts{builder.take().program, static_cast<int>(states), static_cast<int>(channels)};
+  trackers::FilterParts parts{builder.take().program, static_cast<int>(states), static_cast<int>(channels),
+                              !model.jacobian.empty()};
   const std::size_t of_measurement = states + states * states + channels;
   const bool is_linear = !depends_on_inputs(parts.program, static_cast<int>(constants.size()), of_measurement,
                                             parts.program.results().size());

@@ -41,8 +41,8 @@ struct FilterModel {
 [[nodiscard]] bool depends_on_inputs(const trackers::StraightLineProgram& program, int input,
                                      std::size_t first, std::size_t last);
 
-/// The same filter by its parts. Nothing unless the measurement is linear and F the derivative of `predict`:
-/// entries of H that depend on the state would make the updated covariance depend on it in another way.
+/// The same filter by its parts. Nothing unless the measurement is linear: entries of H that depend on the
+/// state would make the updated covariance depend on it in another way. F may be given.
 [[nodiscard]] std::optional<trackers::FilterParts> compile_filter_parts(
     const FilterModel& model, const Constants& constants, const std::vector<std::string>& samples,
     Position place);

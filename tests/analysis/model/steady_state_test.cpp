@@ -116,6 +116,61 @@ TEST_CASE("a phase-locked loop locks: its angle turns once, from any start nearb
   CHECK((other.states - steady.states).cwiseAbs().maxCoeff() < 1e-8);
 }
 
+TEST_CASE("a slow loop begins at the frequency of the tone that is simulated") {
+  // Begun at the one that is asked for, it would be far outside its bandwidth and drift for ever.
+  constexpr double kBandwidth = 3e-5;
+  constexpr double kAsked = 0.31416;
+  ExampleTracker example = test::phase_locked_loop(kBandwidth);
+  example.start = [](double omega) { return std::vector<double>{omega, omega}; };
+  const SteadyState steady = find_steady_state(tone_of(example), kAsked);
+  REQUIRE(std::fabs(steady.frequency - kAsked) > 5.0 * kBandwidth);
+  REQUIRE_MESSAGE(steady.outcome == SteadyStateOutcome::settled, reason_of(steady));
+  CHECK(steady.rate == doctest::Approx(1.0 - 0.7071 * kBandwidth).epsilon(1e-6));
+}
+
+TEST_CASE("a slow loop that begins elsewhere is told how long it takes") {
+  ExampleTracker example = test::phase_locked_loop(1e-4);
+  example.start = [](double omega) { return std::vector<double>{omega + 2e-5, omega}; };
+  const SteadyState steady = find_steady_state(tone_of(example), 0.25, {80000, INFINITY});
+  CHECK(steady.outcome == SteadyStateOutcome::still_drifts);
+  CHECK(reason_of(steady).find("settling may take") != std::string::npos);
+}
+
+TEST_CASE("an angle that is not called one is told from a drift") {
+  ExampleTracker example = test::phase_locked_loop();
+  example.recursion.is_angle = {false, false};
+  const SteadyState steady = find_steady_state(tone_of(example), 0.25, {20000, INFINITY});
+  CHECK(steady.outcome == SteadyStateOutcome::still_drifts);
+  CHECK(
+      reason_of(steady).find("turns once while the phase turns once; if it is an angle, name it in angles") !=
+      std::string::npos);
+}
+
+TEST_CASE("a lock on a harmonic is called so") {
+  ExampleTracker example = test::phase_locked_loop();
+  example.start = [](double omega) { return std::vector<double>{3.0 * omega, 0.0}; };
+  TrackedTone tone = tone_of(example);
+  tone.signal = {{{0.0, 1.0, 0.0, 0.5}}};
+  const SteadyState steady = find_steady_state(tone, 0.25, {100000, 0.1});
+  CHECK(steady.outcome == SteadyStateOutcome::locked_elsewhere);
+  CHECK(reason_of(steady).find("it has locked to harmonic number 3") != std::string::npos);
+  // 2.6 times the frequency is none of them.
+  const SteadyState other = find_steady_state(tone_of(low_pass(0.9)), 0.9 / 2.6, {100000, 0.1});
+  CHECK(reason_of(other).find("something else") != std::string::npos);
+}
+
+TEST_CASE("a covariance that decays like 1/N is not taken for one that has settled") {
+  // It began at 1: what it still moves in a period is soon little beside that, but not beside what is left.
+  ExampleTracker example = test::kalman_filter(1, 0.0, 0.01);
+  example.start = [](double omega) {
+    return std::vector<double>{1.0, 0.0, omega, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
+  };
+  const SteadyState steady = find_steady_state(tone_of(example), 0.5);
+  CHECK(steady.outcome == SteadyStateOutcome::not_exponentially_stable);
+  CHECK(steady.rate < 1.0);
+  CHECK(reason_of(steady).find("it is not exponentially") != std::string::npos);
+}
+
 TEST_CASE("a Kalman filter without process noise is not exponentially stable") {
   ExampleTracker example = test::kalman_filter(2, 0.0023, 0.05);
   example.constants[0] = 0.0;

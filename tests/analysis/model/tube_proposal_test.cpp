@@ -177,6 +177,21 @@ TEST_CASE("a filter with covariances among its states" * doctest::test_suite("ni
   CHECK(largest_step(tone, *proposal.tube, proposal.worth.level, 0.0) < 1.0);
 }
 
+TEST_CASE("when the time is over a search ends, and says nothing of the tracker") {
+  const TrackedTone tone = tone_of(test::phase_locked_loop());
+  TubeSettings settings = settings_for(ShapeObjective::largest_starts);
+  settings.shape.deadline = search::Deadline(0.0);
+  CHECK(propose_tube(tone, 0.3, 0.02, settings).outcome == TubeOutcome::time_limit);
+  settings = settings_for(ShapeObjective::largest_starts);
+  settings.steady_state.deadline = search::Deadline(0.0);
+  test::ExampleTracker slow = test::phase_locked_loop(1e-4);
+  slow.start = [](double omega) { return std::vector<double>{omega + 1e-5, 0.0}; };
+  const TubeProposal proposal = propose_tube(tone_of(slow), 0.3, 0.02, settings);
+  CHECK(proposal.outcome == TubeOutcome::time_limit);
+  CHECK(proposal.steady_state.samples == proposal.steady_state.period);
+  CHECK(reason_of(proposal) == kTimeLimit);
+}
+
 TEST_CASE("bands are covered without gaps") {
   const TrackedTone tone = tone_of(test::phase_locked_loop());
   BandSettings settings;

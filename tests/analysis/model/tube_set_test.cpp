@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "analysis/model/border.hpp"
 #include "analysis/model/set_search.hpp"
@@ -143,6 +145,79 @@ TEST_CASE("what each cell tolerates on its own: at least what the set does, and 
   // Without being asked, nothing is said of single cells.
   task.of_each_cell = false;
   CHECK(prove_moving_set(tone, loop.model, 0.3, 0.31, task).tubes.front().own_slew == 0.0);
+}
+
+TEST_CASE("a moving set tells how far it is") {
+  const test::Example loop(test::phase_locked_loop());
+  const TrackedTone tone = test::tone_of(loop.tracker);
+  const SetTask task{.name = "assumed",
+                     .objective = ShapeObjective::largest_noise,
+                     .noise = 0.01,
+                     .slew = 1e-5,
+                     .deviations = {}};
+  std::vector<double> told;
+  (void)prove_moving_set(tone, loop.model, 0.25, 0.3, task, [&](double share) { told.push_back(share); });
+  REQUIRE(told.size() >= 3);
+  CHECK(std::is_sorted(told.begin(), told.end()));
+  CHECK(told.front() > 0.0);
+  CHECK(told.front() < 1.0);
+  CHECK(told.back() == 1.0);
+}
+
+TEST_CASE("where a tracker locks over a part of the band only, the largest slew is found there") {
+  test::Example loop(test::phase_locked_loop());
+  TrackedTone tone = test::tone_of(loop.tracker);
+  // From 0.39 on it begins too far off to lock.
+  tone.start = [](double omega) { return std::vector<double>{omega < 0.39 ? omega : 1.5, 0.0}; };
+  const SetTask task{
+      .name = "slew", .objective = ShapeObjective::largest_slew, .largest_slew = true, .deviations = {}};
+  const TubeSet set = prove_moving_set(tone, loop.model, 0.3, 0.5, task);
+  CHECK_FALSE(set.is_complete);
+  CHECK_FALSE(set.reasons.empty());
+  REQUIRE_FALSE(set.tubes.empty());
+  CHECK(set.slew > 1e-5);
+  CHECK(set.part.low == 0.3);
+  CHECK(set.part.high < 0.45);
+}
+
+/// The loop with a limit of 0.6 on its detector, whose values reach 0.5 in lock.
+test::ExampleTracker limited_loop() {
+  using trackers::Operation;
+  test::ExampleTracker example = test::phase_locked_loop();
+  example.recursion.constants = 4;  // ki, kp, the limits
+  example.constants = {example.constants[0], example.constants[1], -0.6, 0.6};
+  trackers::StraightLineProgram step(7);
+  const int w = 4, theta = 5, y = 6;
+  const int product = step.append(Operation::multiply, y, step.append(Operation::sin, theta));
+  const int e = step.append(Operation::stays_within, step.append(Operation::negate, product), 2, 3);
+  step.add_result(step.append(Operation::add, w, step.append(Operation::multiply, 0, e)));
+  step.add_result(step.append(Operation::add, step.append(Operation::add, theta, w),
+                              step.append(Operation::multiply, 1, e)));
+  example.recursion.step = step;
+  example.recursion.frequency = test::frequency_of_state(4, 2, 0);
+  return example;
+}
+
+TEST_CASE("the reason names the operation that may be undefined in the tube") {
+  const test::Example loop(limited_loop());
+  TrackedTone tone = test::tone_of(loop.tracker);
+  for (std::size_t i = 0; i < loop.tracker.recursion.step.instructions().size(); ++i) {
+    tone.objections.push_back("operation " + std::to_string(i) + " may fail");
+  }
+  SetTask task{.name = "assumed", .objective = ShapeObjective::largest_noise, .noise = 0.3, .deviations = {}};
+  const TubeSet none = prove_set(tone, loop.model, 0.3, 0.31, task);
+  CHECK(none.tubes.empty());
+  REQUIRE_FALSE(none.reasons.empty());
+  CHECK_MESSAGE(
+      none.reasons.front().find("operation 3 may fail with frequency errors up to") != std::string::npos,
+      none.reasons.front());
+  // Where the limit is far, it is not the reason.
+  const test::Example free_loop(test::phase_locked_loop());
+  TrackedTone free_tone = test::tone_of(free_loop.tracker);
+  free_tone.objections.assign(free_loop.tracker.recursion.step.instructions().size(), "it may fail");
+  const TubeSet noisy = prove_set(free_tone, free_loop.model, 0.3, 0.31, task);
+  REQUIRE_FALSE(noisy.reasons.empty());
+  CHECK(noisy.reasons.front().find("may fail") == std::string::npos);
 }
 
 TEST_CASE("how long levels take") {

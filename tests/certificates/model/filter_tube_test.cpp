@@ -105,8 +105,11 @@ VectorXd random_vector(test::Random& random, double length) {
   return x * (length / x.norm());
 }
 
-TEST_CASE("the parts of a filter are those of its recursion") {
-  const Filter filter(filter_text());
+/// Another F than the derivative of the prediction.
+constexpr const char* kGivenJacobian =
+    "jacobian = [['cos(w)', '-sin(w)', '-0.9*x2'], ['sin(w)', 'cos(w)', '1.1*x1'], [0, 0, 1]]\n";
+
+void check_parts(const Filter& filter) {
   REQUIRE(filter.model.filter);
   test::Random random(71);
   for (int i = 0; i < 200; ++i) {
@@ -128,27 +131,36 @@ TEST_CASE("the parts of a filter are those of its recursion") {
   }
 }
 
+TEST_CASE("the parts of a filter are those of its recursion") {
+  check_parts(Filter(filter_text()));
+}
+
+TEST_CASE("a given Jacobian is part of a filter as the derivative is") {
+  const Filter given(filter_text("'x1'", "0", kGivenJacobian));
+  check_parts(given);
+  CHECK(given.model.filter->has_given_jacobian);
+  CHECK_FALSE(Filter(filter_text()).model.filter->has_given_jacobian);
+}
+
 TEST_CASE("only linear measurements, symmetric noise and an estimated frequency are taken to parts") {
   CHECK(Filter(filter_text("'q*x1 + x2'")).model.filter.has_value());
   CHECK_FALSE(Filter(filter_text("'x1 + 0.1*x1*x2'")).model.filter.has_value());
   // Equal numbers that are written differently.
   CHECK_FALSE(Filter(filter_text("'x1'", "'0*q'")).model.filter.has_value());
   CHECK_FALSE(Filter(filter_text("'x1'", "0", "", "w + P.w.w")).model.filter.has_value());
-  CHECK_FALSE(
-      Filter(filter_text("'x1'", "0",
-                         "jacobian = [['cos(w)', '-sin(w)', 0], ['sin(w)', 'cos(w)', 0], [0, 0, 1]]\n"))
-          .model.filter.has_value());
+}
+
+model::TubeProposal propose_for_noise(const Filter& filter) {
+  model::TubeSettings settings;
+  settings.shape.objective = model::ShapeObjective::largest_noise;
+  settings.shape.noise = 0.003;
+  settings.shape.evaluations = 90;
+  return model::propose_tube(filter.tone, 1.5005, 0.0005, settings);
 }
 
 /// A tube that is proposed once, for noise.
 const model::TubeProposal& proposed(const Filter& filter) {
-  static const model::TubeProposal proposal = [&filter] {
-    model::TubeSettings settings;
-    settings.shape.objective = model::ShapeObjective::largest_noise;
-    settings.shape.noise = 0.003;
-    settings.shape.evaluations = 90;
-    return model::propose_tube(filter.tone, 1.5005, 0.0005, settings);
-  }();
+  static const model::TubeProposal proposal = propose_for_noise(filter);
   return proposal;
 }
 
@@ -157,15 +169,14 @@ const Filter& example() {
   return filter;
 }
 
-TEST_CASE("a proved tube of a filter keeps every estimate and covariance in its bounds") {
-  const Filter& filter = example();
-  const model::TubeProposal& proposal = proposed(filter);
+/// Verifies the tube, and attacks what is proved of it.
+void check_tube(const Filter& filter, const model::TubeProposal& proposal, double least_radius) {
   REQUIRE(proposal.outcome == model::TubeOutcome::proposed);
   const model::Tube& tube = *proposal.tube;
   REQUIRE(tube.bounds_covariance());
   REQUIRE(tube.curve.size() == 3);
   const double radius = 0.7 * proposal.worth.level;
-  CHECK(radius > 0.025);
+  CHECK(radius > least_radius);
   constexpr double kNoise = 0.003;
   constexpr double kShrinking = 0.995;
   constexpr double kLeast = 0.5;
@@ -224,6 +235,15 @@ TEST_CASE("a proved tube of a filter keeps every estimate and covariance in its 
   }
   // Not far from what is proved.
   CHECK(largest > 0.8);
+}
+
+TEST_CASE("a proved tube of a filter keeps every estimate and covariance in its bounds") {
+  check_tube(example(), proposed(example()), 0.025);
+}
+
+TEST_CASE("a proved tube of a filter with a given Jacobian does, too") {
+  const Filter given(filter_text("'x1'", "0", kGivenJacobian));
+  check_tube(given, propose_for_noise(given), 0.02);
 }
 
 TEST_CASE("wrong bounds of a covariance are not proved") {

@@ -13,6 +13,7 @@ using rigor::Interval;
 BandSettings settings_of(const SetTask& task, double low, double high) {
   BandSettings settings;
   settings.deadline = task.deadline;
+  settings.tube.fine_curve = task.with_curve;
   settings.tube.shape.objective = task.objective;
   settings.tube.shape.start = task.deviations;
   settings.tube.shape.noise = task.noise;

@@ -170,17 +170,17 @@ const Eigen::Matrix<double, kNodes, kNodes>& node_weights() {
 
 NodeCurve CurveFit::at(double z) const {
   NodeCurve curve{frequency + z * half_width, turns, coefficients.back(), 0.0};
-  for (int d = kNodes - 2; d >= 0; --d) {
-    curve.harmonics = (curve.harmonics * z + coefficients[static_cast<std::size_t>(d)]).eval();
+  for (std::size_t d = coefficients.size() - 1; d-- > 0;) {
+    curve.harmonics = (curve.harmonics * z + coefficients[d]).eval();
   }
   return curve;
 }
 
 Eigen::MatrixXcd CurveFit::slope_at(double z) const {
   Eigen::MatrixXcd slope = Eigen::MatrixXcd::Zero(coefficients[0].rows(), coefficients[0].cols());
-  for (int d = 1; d < kNodes; ++d) {
-    const double weight = d * std::pow(z, d - 1) / half_width;
-    slope += weight * coefficients[static_cast<std::size_t>(d)];
+  for (std::size_t d = 1; d < coefficients.size(); ++d) {
+    const auto power = static_cast<double>(d);
+    slope += power * std::pow(z, power - 1.0) / half_width * coefficients[d];
   }
   return slope;
 }
@@ -224,18 +224,24 @@ double frequency_error_at(const TrackedTone& tone, const CurveFit& fit, double z
 }  // namespace
 
 std::optional<CurveFit> fit_curve(const TrackedTone& tone, double frequency, double half_width,
-                                  const SteadyState& settled, double negligible) {
+                                  const SteadyState& settled, double negligible, int nodes) {
   const rigor::NearestRounding nearest;
-  if (!(half_width > 0.0)) {
-    throw std::invalid_argument("a cell of frequencies needs a width");
+  if (!(half_width > 0.0) || nodes < 1 || nodes % 2 == 0) {
+    throw std::invalid_argument("a cell of frequencies needs a width, and an odd number of nodes");
   }
   CurveFit fit;
   fit.frequency = frequency;
   fit.half_width = half_width;
   fit.turns = settled.turns;
-  fit.nodes.reserve(kNodes);
+  fit.nodes.reserve(static_cast<std::size_t>(nodes));
+  Eigen::MatrixXd powers(nodes, nodes);
   Eigen::Index columns = 0;
-  for (const double z : node_places()) {
+  for (int j = 0; j < nodes; ++j) {
+    const double z =
+        2 * j + 1 == nodes ? 0.0 : -std::cos(std::numbers::pi * (static_cast<double>(j) + 0.5) / nodes);
+    for (int d = 0; d < nodes; ++d) {
+      powers(j, d) = std::pow(z, d);
+    }
     std::optional<NodeCurve> node = fit_curve_at(tone, frequency + z * half_width, settled);
     if (!node) {
       return std::nullopt;
@@ -243,14 +249,15 @@ std::optional<CurveFit> fit_curve(const TrackedTone& tone, double frequency, dou
     columns = std::max(columns, node->harmonics.cols());
     fit.nodes.push_back(std::move(*node));
   }
-  for (int d = 0; d < kNodes; ++d) {
+  const Eigen::MatrixXd weights = powers.inverse();
+  for (int d = 0; d < nodes; ++d) {
     Eigen::MatrixXcd sum = Eigen::MatrixXcd::Zero(tone.step.states(), columns);
-    for (int j = 0; j < kNodes; ++j) {
-      sum += node_weights()(d, j) * resized(fit.nodes[static_cast<std::size_t>(j)].harmonics, columns);
+    for (int j = 0; j < nodes; ++j) {
+      sum += weights(d, j) * resized(fit.nodes[static_cast<std::size_t>(j)].harmonics, columns);
     }
-    fit.coefficients[static_cast<std::size_t>(d)] = sum;
+    fit.coefficients.push_back(std::move(sum));
   }
-  drop_small_harmonics(fit, sizes_on(tone, fit.nodes[kNodes / 2]), negligible);
+  drop_small_harmonics(fit, sizes_on(tone, fit.nodes[static_cast<std::size_t>(nodes / 2)]), negligible);
   for (const double z : {-1.0, -0.8, -0.3, 0.0, 0.3, 0.8, 1.0}) {
     fit.frequency_error = std::max(fit.frequency_error, frequency_error_at(tone, fit, z));
   }

@@ -38,6 +38,8 @@ struct NodeCurve {
                                                     const SteadyState& settled, int most_harmonics = 128);
 
 inline constexpr int kNodes = 5;
+/// Of a curve that is to be known further.
+inline constexpr int kFineNodes = 9;
 
 /// z of the nodes: Chebyshev's points in (-1, 1), the middle one 0.
 [[nodiscard]] const std::array<double, kNodes>& node_places();
@@ -49,7 +51,7 @@ struct CurveFit {
   double frequency = 0.0;   ///< rad/sample
   double half_width = 0.0;  ///< rad/sample
   std::vector<int> turns;
-  std::array<Eigen::MatrixXcd, kNodes> coefficients;  ///< of z^d: n x (H + 1) each
+  std::vector<Eigen::MatrixXcd> coefficients;  ///< of z^d, from d = 0: n x (H + 1) each
   std::vector<NodeCurve> nodes;
   /// An estimate of how far estimated frequencies on the curve are from those on the true one, rad/sample, at
   /// worst over z in [-1, 1].
@@ -61,9 +63,11 @@ struct CurveFit {
 };
 
 /// Fits the cell from a settled simulation at its middle. Coefficients below `negligible` of the size of
-/// their state are left out. Nothing when some node has no curve. Throws std::invalid_argument for a half
-/// width <= 0.
+/// their state are left out. `nodes`: an odd number of frequencies, one more than the degree in z. Nothing
+/// when some node has no curve. Throws std::invalid_argument for a half width <= 0 and for another number of
+/// nodes.
 [[nodiscard]] std::optional<CurveFit> fit_curve(const TrackedTone& tone, double frequency, double half_width,
-                                                const SteadyState& settled, double negligible = 1e-13);
+                                                const SteadyState& settled, double negligible = 1e-13,
+                                                int nodes = kNodes);
 
 }  // namespace veritrack::model

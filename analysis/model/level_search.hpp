@@ -132,7 +132,7 @@ class LevelSearch {
 
   /// Adds lower levels, while they are proved.
   void descend(double noise) {
-    const double least = task_->with_curve ? 1e-6 * proved_.levels.front() : 0.02 * proved_.levels.front();
+    const double least = task_->with_curve ? 1e-7 * proved_.levels.front() : 0.02 * proved_.levels.front();
     constexpr std::size_t kMostLevels = 24;
     // Where cells become many, the curve itself is what the models cannot resolve.
     const std::size_t most_cells = 3 * last_cells_ + 1000;
@@ -149,6 +149,10 @@ class LevelSearch {
     const bool is_first = proved_.levels.size() == 1;
     // Near the largest radius levels hardly shrink.
     const std::array<Step, 5> far{{{0.125, fast_}, {0.25, fast_}, {0.5, fast_}, {0.7, slow_}, {0.9, slow_}}};
+    // Far down the curve is what models cannot resolve, and a step that fails has cost many cells.
+    const std::array<Step, 2> deep{{{0.25, fast_}, {0.5, fast_}}};
+    constexpr double kDeep = 1e-3;
+    const bool is_deep = task_->with_curve && proved_.levels.back() < kDeep * proved_.levels.front();
     const std::array<Step, 3> near{{{0.5, slow_}, {0.7, slow_}, {0.9, slow_}}};
     const auto take = [&](const Step& step) {
       const double radius = proved_.levels.back();
@@ -175,7 +179,9 @@ class LevelSearch {
       proved_.shrinking.push_back(step.shrinking);
       return true;
     };
-    return is_first ? std::any_of(near.begin(), near.end(), take) : std::any_of(far.begin(), far.end(), take);
+    return is_first  ? std::any_of(near.begin(), near.end(), take)
+           : is_deep ? std::any_of(deep.begin(), deep.end(), take)
+                     : std::any_of(far.begin(), far.end(), take);
   }
 
   const TrackerModel* model_;

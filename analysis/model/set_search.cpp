@@ -16,6 +16,7 @@ BandSettings settings_of(const SetTask& task, double low, double high) {
   settings.deadline = task.deadline;
   settings.tube.shape.deadline = task.deadline;
   settings.tube.steady_state.deadline = task.deadline;
+  settings.tube.fine_curve = task.with_curve;
   settings.tube.shape.objective = task.objective;
   settings.tube.shape.start = task.deviations;
   settings.tube.shape.noise = task.noise;

@@ -57,7 +57,7 @@ std::size_t cells_of(const ErrorGrid& grid) {
 /// What is known of h - omega in a cell.
 struct CellErrors {
   Interval error = Interval::empty();
-  Interval mean = Interval::empty();
+  BallModel::MeanInZ mean;
 };
 
 BallModel frequency_error(const TrackerModel& model, const CellFrame& frame,
@@ -73,7 +73,7 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
   std::vector<CellErrors> cells(cells_of(grid));
   for_each_cell(model, tube, grid, [&](std::size_t number, const CellFrame& frame) {
     const BallModel error = frequency_error(model, frame, state_in(frame.here, radius));
-    cells[number] = {error.range(), error.mean_over_s()};
+    cells[number] = {error.range(), error.mean_in_z()};
   });
   TubeErrors nothing_known{
       Interval::empty(), Interval::empty(), std::numeric_limits<double>::quiet_NaN(), {}};
@@ -81,15 +81,22 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
   const auto phases = static_cast<std::size_t>(grid.phases);
   for (std::size_t first = 0; first < cells.size(); first += phases) {
     Interval range = cells[first].error;
-    Interval sum(0.0);
+    // The phases of a row see the same z, so that what a frequency adds at one phase and takes away at
+    // another cancels.
+    BallModel::MeanInZ sum;
+    sum.powers.fill(Interval(0.0));
     for (std::size_t number = first; number < first + phases; ++number) {
-      if (rigor::is_empty(cells[number].error) || rigor::is_empty(cells[number].mean)) {
+      if (rigor::is_empty(cells[number].error)) {
         return nothing_known;
       }
       range = hull(range, cells[number].error);
-      sum = sum + cells[number].mean;
+      sum += cells[number].mean;
     }
-    const Interval mean = sum / Interval(static_cast<double>(grid.phases));
+    const Interval total = sum.range();
+    if (rigor::is_empty(total)) {
+      return nothing_known;
+    }
+    const Interval mean = total / Interval(static_cast<double>(grid.phases));
     result.error = first == 0 ? range : hull(result.error, range);
     result.mean = first == 0 ? mean : hull(result.mean, mean);
     const double ripple = (Interval(range.upper()) - Interval(range.lower())).upper();

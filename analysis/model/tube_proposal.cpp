@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 
 #include "analysis/model/filter_proposal.hpp"
@@ -90,12 +91,12 @@ ShapeOnGrid shape_at(const ShapeFit& fit, const NodeCurve& curve, double z, cons
 }
 
 /// Row `row` of coefficients of z^d.
-PhaseSeries series_of(const std::array<MatrixXcd, kNodes>& coefficients, Index row) {
+PhaseSeries series_of(std::span<const MatrixXcd> coefficients, Index row) {
   PhaseSeries series;
   series.coefficients.resize(static_cast<std::size_t>(coefficients[0].cols()));
   for (std::size_t h = 0; h < series.coefficients.size(); ++h) {
     auto& powers = series.coefficients[h];
-    powers.reserve(kNodes);
+    powers.reserve(coefficients.size());
     for (const MatrixXcd& matrix : coefficients) {
       powers.push_back(matrix(row, static_cast<Index>(h)));
     }
@@ -234,7 +235,15 @@ TubeProposal propose(const TrackedTone& tone, double frequency, double half_widt
     proposal.outcome = TubeOutcome::no_common_shape;
     return proposal;
   }
-  proposal.tube = tube_of(tone, *curve, *fit);
+  constexpr int kFewStates = 4;
+  std::optional<CurveFit> fine;
+  if (settings.fine_curve && tone.step.states() <= kFewStates) {
+    fine = fit_curve(tone, frequency, half_width, proposal.steady_state, 1e-15, kFineNodes);
+    proposal.curve_error =
+        fine ? std::min(fine->frequency_error, curve->frequency_error) : proposal.curve_error;
+  }
+  const bool is_better = fine && fine->frequency_error < curve->frequency_error;
+  proposal.tube = tube_of(tone, is_better ? *fine : *curve, *fit);
   if (proposal.loss <= settings.largest_loss && proposal.variation <= settings.largest_variation) {
     proposal.outcome = TubeOutcome::proposed;
   }

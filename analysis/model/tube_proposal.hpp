@@ -15,6 +15,9 @@ struct TubeSettings {
   /// Of estimated frequencies on the curve against those on the true steady state, rad/sample: what a bias
   /// and a ripple can be known to.
   double largest_curve_error = 1e-8;
+  /// Of trackers with few states the curve is a polynomial of a higher degree in the frequency, so that a
+  /// bias is known to a thousandth of that.
+  bool fine_curve = false;
   /// Of the worth of the shape, by interpolation in the frequency.
   double largest_loss = 0.15;
   /// Of the worth over the cell: 1 less the ratio of its least to its largest value.

@@ -121,22 +121,49 @@ Interval BallModel::range() const {
 }
 
 Interval BallModel::mean_over_s() const {
-  if (!std::isfinite(error_) || !std::isfinite(constant())) {
+  return mean_in_z().range();
+}
+
+BallModel::MeanInZ& BallModel::MeanInZ::operator+=(const MeanInZ& other) {
+  for (std::size_t d = 0; d < powers.size(); ++d) {
+    powers[d] = powers[d] + other.powers[d];
+  }
+  around += other.around;
+  return *this;
+}
+
+Interval BallModel::MeanInZ::range() const {
+  if (!std::isfinite(around)) {
     return Interval::empty();
   }
-  Interval mean(constant());
-  double around = error_;
+  Interval sum = powers[0] + Interval::from_bounds(-around, around);
+  for (std::size_t d = 1; d < powers.size(); ++d) {
+    // z^d is between -1 and 1, of an even power between 0 and 1.
+    sum = sum + hull(d % 2 == 0 ? Interval(0.0) : -powers[d], powers[d]);
+  }
+  return rigor::is_finite(sum) ? sum : Interval::empty();
+}
+
+BallModel::MeanInZ BallModel::mean_in_z() const {
+  MeanInZ mean;
+  mean.powers.fill(Interval(0.0));
+  if (!std::isfinite(error_) || !std::isfinite(constant())) {
+    mean.around = std::numeric_limits<double>::quiet_NaN();
+    return mean;
+  }
+  mean.powers[0] = Interval(constant());
+  mean.around = error_;
   for (std::size_t number = 1; number < norms_.size(); ++number) {
     const BallMonomials::Class& here = monomials_->classes()[number];
     if (here.ball > 0 || here.disturbance > 0) {
-      around += norms_[number];
+      mean.around += norms_[number];
     } else if (here.s % 2 == 0) {
-      // The mean of s^c is 1/(c + 1) for even c, and 0 for odd c; z^d is between -1 and 1.
-      const Interval part = Interval(coefficients_[here.first]) / Interval(here.s + 1.0);
-      mean = here.z == 0 ? mean + part : mean + hull(-part, part);
+      // The mean of s^c is 1/(c + 1) for even c, and 0 for odd c.
+      Interval& power = mean.powers.at(static_cast<std::size_t>(here.z));
+      power = power + Interval(coefficients_[here.first]) / Interval(here.s + 1.0);
     }
   }
-  return std::isfinite(around) ? mean + Interval::from_bounds(-around, around) : Interval::empty();
+  return mean;
 }
 
 BallModel BallModel::without_constant() const {

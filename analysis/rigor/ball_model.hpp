@@ -17,6 +17,7 @@
 // Needs the upward rounding mode.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -74,6 +75,16 @@ class BallModel {
   /// Contains the mean over s of each function, whatever x and v do while s runs, for all z; empty when
   /// nothing is known.
   [[nodiscard]] Interval mean_over_s() const;
+  /// The same as a polynomial in z, which can be added up before its range is taken.
+  struct MeanInZ {
+    std::array<Interval, 5> powers;  ///< coefficients of z^d
+    double around = 0.0;             ///< how far the mean may be off; NaN or infinite when nothing is known
+
+    MeanInZ& operator+=(const MeanInZ& other);
+    /// Contains its values for all |z| <= 1; empty when nothing is known.
+    [[nodiscard]] Interval range() const;
+  };
+  [[nodiscard]] MeanInZ mean_in_z() const;
   /// The same without the constant: f - constant().
   [[nodiscard]] BallModel without_constant() const;
   /// Adds the double `factor` times the other.

@@ -100,8 +100,10 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
     const model::TubeErrors settled =
         model::bound_errors(tracker, proved.tube, proved.levels.back(), cells != nullptr ? kFine : grid);
     const Interval whole = model::bound_errors(tracker, proved.tube, radius, grid).error;
-    const double room =
-        rigor::is_finite(settled.mean) ? 1e-3 * (size_of(settled.mean) + settled.ripple) : INFINITY;
+    // A tenth of what is unknown, and what rounding comes to.
+    const double room = rigor::is_finite(settled.mean)
+                            ? 0.05 * (settled.mean.upper() - settled.mean.lower()) + 1e-12
+                            : INFINITY;
     const Interval mean = rigor::is_finite(settled.mean) ? settled.mean + Interval::from_bounds(-room, room)
                                                          : Interval::empty();
     set.frequency_error = larger(set.frequency_error, with_room(size_of(whole)));

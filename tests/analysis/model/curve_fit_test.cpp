@@ -95,9 +95,27 @@ TEST_CASE("curves are invariant to rounding, and simulations come to them") {
   }
 }
 
+TEST_CASE("more frequencies of a cell, and the curve between them is known further") {
+  const TrackedTone tone = tone_of(test::phase_locked_loop());
+  const SteadyState steady = find_steady_state(tone, 0.3);
+  const auto coarse = fit_curve(tone, 0.3, 0.05, steady, 1e-15);
+  const auto fine = fit_curve(tone, 0.3, 0.05, steady, 1e-15, kFineNodes);
+  REQUIRE(coarse);
+  REQUIRE(fine);
+  CHECK(coarse->coefficients.size() == kNodes);
+  CHECK(fine->coefficients.size() == kFineNodes);
+  CHECK(fine->frequency_error < 0.05 * coarse->frequency_error);
+  for (const double z : {-1.0, 0.77, 1.0}) {
+    const NodeCurve curve = fine->at(z);
+    CHECK(std::fabs((state_at(curve, 0.0) - simulated(tone, curve.frequency, 6000))[0]) < 1e-9);
+  }
+}
+
 TEST_CASE("a cell without width is refused") {
   const TrackedTone tone = tone_of(test::phase_locked_loop());
   CHECK_THROWS_AS((void)fit_curve(tone, 0.3, 0.0, find_steady_state(tone, 0.3)), std::invalid_argument);
+  CHECK_THROWS_AS((void)fit_curve(tone, 0.3, 0.01, find_steady_state(tone, 0.3), 1e-13, 4),
+                  std::invalid_argument);
 }
 
 }  // namespace

@@ -98,6 +98,25 @@ TEST_CASE("a frequency that is undefined somewhere in the tube is not known") {
   CHECK(bound_reach(line.model, line.tube, 3.0, {}) == 0.0);
 }
 
+TEST_CASE("a ripple that changes with the frequency does not blur the mean over the phase") {
+  const Line line(state_itself());
+  Tube tube = line.tube;
+  // (0.0625 + 0.25 z) cos(phi): its mean over the phase is 0 for each z.
+  tube.curve[0].coefficients.at(1).assign({0.0625, 0.25});
+  const TubeErrors errors = bound_errors(line.model, tube, 0.015625, {});
+  const double around = 0.0078125;
+  CHECK(errors.mean.lower() <= 0.03125 - around);
+  CHECK(errors.mean.upper() >= 0.03125 + around);
+  CHECK(errors.mean.lower() >= 0.03125 - around - 1e-6);
+  CHECK(errors.mean.upper() <= 0.03125 + around + 1e-6);
+  // A mean that changes with the frequency is still all of it: 0.03125 + 0.125 z - 0.0625 z^2.
+  tube.curve[0].coefficients.at(0).assign({1.03125, 0.25, -0.0625});
+  const TubeErrors moving = bound_errors(line.model, tube, 0.015625, {128, 1});
+  CHECK(moving.mean.lower() <= 0.03125 - 0.125 - 0.0625 - around);
+  CHECK(moving.mean.upper() >= 0.03125 + 0.125 - 0.0625 + around);
+  CHECK(moving.mean.upper() <= 0.03125 + 0.125 + around + 1e-6);
+}
+
 TEST_CASE("random states of a phase-locked loop's tube are within its bounds") {
   const test::Example loop(test::phase_locked_loop());
   TubeSettings settings;

@@ -135,7 +135,7 @@ TEST_CASE("what each cell tolerates on its own: at least what the set does, and 
           .largest_slew = true,
           .of_each_cell = true,
           .deviations = {}};
-  const TubeSet slew = prove_moving_set(tone, loop.model, 0.2, 0.4, task);
+  const TubeSet slew = prove_moving_set(tone, loop.model, 0.28, 0.32, task);
   REQUIRE(slew.is_complete);
   for (const ProvedTube& proved : slew.tubes) {
     CHECK(proved.own_slew >= slew.slew);

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 
@@ -22,10 +23,10 @@ namespace {
 
 using rigor::Interval;
 
-constexpr double kQ = 0.005;
-constexpr double kR = 0.01;
-constexpr double kLow = 1.5;
-constexpr double kHigh = 1.501;
+constexpr double kProcessNoise = 0.005;
+constexpr double kMeasurementNoise = 0.01;
+constexpr double kLowestFrequency = 1.5;
+constexpr double kHighestFrequency = 1.501;
 
 std::string filter_with(const std::string& leak, const std::string& noise) {
   return "name = 'a'\ntracker = 'model'\n[model]\nsamples = 'y'\nparameters = { q = 0.005, r = 0.01, leak "
@@ -60,7 +61,9 @@ trackers::SingleChannelEkf<double> built_in(const Eigen::VectorXd& state, double
   Eigen::Matrix3d covariance;
   covariance << state[3], state[4], state[5], state[4], state[6], state[7], state[5], state[7], state[8];
   return trackers::SingleChannelEkf<double>(
-      {.process_noise = trackers::identity_process_noise(kQ), .r = kR, .epsilon = leak},
+      {.process_noise = trackers::identity_process_noise(kProcessNoise),
+       .r = kMeasurementNoise,
+       .epsilon = leak},
       {.in_phase = state[0],
        .quadrature = state[1],
        .frequency = state[2],
@@ -78,10 +81,11 @@ TEST_CASE("the built-in single-channel filter keeps the bounds that are proved o
   test::Random random(81);
   double largest = 0.0;
   double last = 0.0;
-  for (int run = 0; run < 60; ++run) {
+  for (std::uint64_t run = 0; run < 60; ++run) {
     const model::ProvedTube& proved = set.tubes.tubes[random.below(set.tubes.tubes.size())];
     const double omega =
-        std::clamp(proved.tube.frequency + random.uniform(-1.0, 1.0) * proved.tube.half_width, kLow, kHigh);
+        std::clamp(proved.tube.frequency + random.uniform(-1.0, 1.0) * proved.tube.half_width,
+                   kLowestFrequency, kHighestFrequency);
     double phase = random.uniform(0.0, 2.0 * std::numbers::pi);
     model::PointFrame frame;
     model::PointTube(proved.tube, omega).at(phase, frame);
@@ -114,8 +118,9 @@ TEST_CASE("the bias of the leaking filter: as a model, by its own column, and of
   REQUIRE(rigor::is_finite(as_model));
   const single_channel::SteadyStateBias own = [] {
     const rigor::UpwardRounding upward;
-    return single_channel::steady_state_bias({Interval(kQ), Interval(kQ), Interval(kR), Interval(kLeak)},
-                                             Interval::from_bounds(kLow, kHigh));
+    return single_channel::steady_state_bias(
+        {Interval(kProcessNoise), Interval(kProcessNoise), Interval(kMeasurementNoise), Interval(kLeak)},
+        Interval::from_bounds(kLowestFrequency, kHighestFrequency));
   }();
   REQUIRE(own.verdict == rigor::Verdict::proved);
   CAPTURE(as_model.lower());

@@ -12,7 +12,6 @@ namespace {
 
 using rigor::Interval;
 using rigor::parse_decimal;
-using rigor::Verdict;
 using theorems::enclosed;
 using theorems::make_statement;
 using theorems::Statement;

@@ -105,14 +105,31 @@ std::vector<Turns> still_inputs(int inputs, std::size_t count) {
   return std::vector<Turns>(static_cast<std::size_t>(inputs), std::vector<long>(count, 0));
 }
 
+/// From a register that depends on whole turns back to where it began.
+int origin_of(const StraightLineProgram& program, const std::vector<Turns>& registers, int place) {
+  for (;;) {
+    if (place < program.inputs() || registers[static_cast<std::size_t>(place)]) {
+      return place;
+    }
+    const Instruction& made =
+        program.instructions()[static_cast<std::size_t>(place) - static_cast<std::size_t>(program.inputs())];
+    int earlier = -1;
+    for (const int operand : {made.third, made.second, made.first}) {
+      earlier = operand >= 0 && !registers[static_cast<std::size_t>(operand)] ? operand : earlier;
+    }
+    if (earlier < 0) {
+      return place;
+    }
+    place = earlier;
+  }
+}
+
 }  // namespace
 
-std::string angle_objection(const trackers::Recursion& recursion, const std::vector<Interval>& constants) {
+std::optional<TurnObjection> find_turn_objection(const trackers::Recursion& recursion,
+                                                 const std::vector<Interval>& constants) {
   const auto states = static_cast<std::size_t>(recursion.states);
   const auto first_state = static_cast<std::size_t>(recursion.constants);
-  if (constants.size() != first_state || recursion.is_angle.size() != states) {
-    return "the constants or the list of angles do not fit the recursion";
-  }
   const auto with_angles = [&](const StraightLineProgram& program) {
     std::vector<Turns> inputs = still_inputs(program.inputs(), states);
     for (std::size_t i = 0; i < states; ++i) {
@@ -124,17 +141,36 @@ std::string angle_objection(const trackers::Recursion& recursion, const std::vec
   for (std::size_t i = 0; i < states; ++i) {
     std::vector<long> expected(states, 0);
     expected[i] = recursion.is_angle[i] ? 1 : 0;
-    const Turns& found = of_step[static_cast<std::size_t>(recursion.step.results()[i])];
+    const int place = recursion.step.results()[i];
+    const Turns& found = of_step[static_cast<std::size_t>(place)];
     if (!found || *found != expected) {
-      return "the next value of state number " + std::to_string(i + 1) +
-             (recursion.is_angle[i] ? " does not turn as the angle does"
-                                    : " depends on whole turns of an angle");
+      return TurnObjection{static_cast<int>(i), origin_of(recursion.step, of_step, place)};
     }
   }
   const std::vector<Turns> of_frequency = with_angles(recursion.frequency);
-  return does_not_turn(of_frequency[static_cast<std::size_t>(recursion.frequency.results().front())])
-             ? std::string()
-             : "the frequency depends on whole turns of an angle";
+  const int place = recursion.frequency.results().front();
+  return does_not_turn(of_frequency[static_cast<std::size_t>(place)])
+             ? std::nullopt
+             : std::optional(TurnObjection{-1, origin_of(recursion.frequency, of_frequency, place)});
+}
+
+std::string angle_objection(const trackers::Recursion& recursion, const std::vector<Interval>& constants) {
+  const auto states = static_cast<std::size_t>(recursion.states);
+  if (constants.size() != static_cast<std::size_t>(recursion.constants) ||
+      recursion.is_angle.size() != states) {
+    return "the constants or the list of angles do not fit the recursion";
+  }
+  const std::optional<TurnObjection> objection = find_turn_objection(recursion, constants);
+  if (!objection) {
+    return {};
+  }
+  if (objection->state < 0) {
+    return "the frequency depends on whole turns of an angle";
+  }
+  return "the next value of state number " + std::to_string(objection->state + 1) +
+         (recursion.is_angle[static_cast<std::size_t>(objection->state)]
+              ? " does not turn as the angle does"
+              : " depends on whole turns of an angle");
 }
 
 bool is_periodic(const StraightLineProgram& signal, const std::vector<Interval>& constants) {

@@ -1,6 +1,7 @@
 // Whether a recursion knows its angles modulo 2 pi only.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,15 @@ namespace veritrack::model {
 /// `constants` are the values of the constants, among which whole multiples are found.
 [[nodiscard]] std::string angle_objection(const trackers::Recursion& recursion,
                                           const std::vector<rigor::Interval>& constants);
+
+/// The first value that is not the same after a whole turn, as angle_objection finds it.
+struct TurnObjection {
+  int state = -1;  ///< whose next value it is; -1: the frequency
+  int place = -1;  ///< the register of the program in which it depends on whole turns for the first time
+};
+/// Nothing when everything is the same. The sizes must fit.
+[[nodiscard]] std::optional<TurnObjection> find_turn_objection(const trackers::Recursion& recursion,
+                                                               const std::vector<rigor::Interval>& constants);
 
 /// Whether the results of a program (inputs: constants, amplitude, phase) have the period 2 pi in the phase,
 /// by the same check.

@@ -71,7 +71,11 @@ class MovingSearch {
   [[nodiscard]] bool find_slew() {
     double slew = 0.0;
     double radius = 0.0;
-    for (const double factor : {1.0, 0.75, 0.5}) {
+    constexpr double kHalf = 0.5;
+    for (const double factor : {1.0, 0.75, kHalf, 0.3, 0.15, 0.07}) {
+      if (factor < kHalf && slew > 0.0) {
+        break;  // smaller ones are for where the guess was far too large
+      }
       double tried = std::max(1.02 * slew, 0.02 * most_slew_);
       if (!(tried > 0.0) || !may_hold(factor * level_, tried)) {
         continue;

@@ -40,8 +40,7 @@ std::string words_of_undefined(const TrackedTone& tone, const TrackerModel& mode
   if (found->defined_radius > 0.0) {
     return text + fmt::format(", and not with those up to about {:.2g},", reach * found->defined_radius);
   }
-  return text +
-         (noise > 0.0 ? ", and by the noise alone with much smaller ones," : ", and with much smaller ones,");
+  return text + ", and with much smaller ones, too,";
 }
 
 std::string place_of_cell(const TubeProposal& cell) {

@@ -72,9 +72,11 @@ bool is_at_rest(const SteadyState& result, const Eigen::VectorXd& size_now,
                 const Eigen::VectorXd& first_size) {
   constexpr double kLittle = 1e-3;
   constexpr double kRounding = 1e-12;
+  constexpr double kNothing = 1e-14;  // a state that is 0 but for rounding
   const double left = 1.0 - std::pow(result.rate, result.period);
   return (result.drift.cwiseAbs().array() <=
-          kLittle * left * size_now.cwiseMax(kRounding * first_size).array())
+          kLittle * left *
+              size_now.cwiseMax(kRounding * first_size).array().max(kNothing * size_now.maxCoeff()))
       .all();
 }
 

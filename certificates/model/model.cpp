@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "certificates/design/nearest_key.hpp"
@@ -174,6 +176,39 @@ void require_symmetric(const std::vector<std::vector<SourceText>>& rows,
   }
 }
 
+/// Throws LanguageError for a unit of what is no state, and where a unit contradicts what the value is used
+/// as.
+void require_units(const ModelTable& table, const std::vector<std::string>& states) {
+  const auto is_one_of = [](const std::string& unit, std::initializer_list<std::string_view> units) {
+    return std::find(units.begin(), units.end(), unit) != units.end();
+  };
+  for (const NamedText& unit : table.units) {
+    const std::string& name = unit.name.text;
+    if (std::find(states.begin(), states.end(), name) == states.end()) {
+      refuse_state(unit.name, states);
+    }
+    if (table.frequency.text == name &&
+        is_one_of(unit.formula.text, {"Hz", "kHz", "MHz", "1/s", "rad/s", "deg/s", "deg/sample", "rpm",
+                                      "cycles/sample", "turns/sample"})) {
+      throw LanguageError(unit.formula.position,
+                          fmt::format("{} is in {}, and frequency = '{}' has to be in rad/sample; allowed: a "
+                                      "frequency that converts it, e.g. '{}*T' from rad/s with the sampling "
+                                      "interval T",
+                                      name, unit.formula.text, name, name));
+    }
+    const bool is_angle = std::any_of(table.angles.begin(), table.angles.end(),
+                                      [&](const SourceText& angle) { return angle.text == name; });
+    if (is_angle &&
+        is_one_of(unit.formula.text, {"deg", "degree", "degrees", "turn", "turns", "cycle", "cycles"})) {
+      throw LanguageError(
+          unit.formula.position,
+          fmt::format("the angle {} is in {}; allowed: angles in rad, which are the same after "
+                      "2 pi",
+                      name, unit.formula.text));
+    }
+  }
+}
+
 Recipe recipe_of(const ModelTable& table) {
   if (!table.ekf) {
     return {table.step.position, language::parse_definitions(table.step), std::nullopt, {}};
@@ -307,6 +342,7 @@ Model make_model(const ModelTable& table, const std::vector<SourceText>& signal)
       refuse_state(angle, model.states);
     }
   }
+  require_units(table, model.states);
   for (const std::string& state : model.states) {
     model.recursion.is_angle.push_back(std::find(angles.begin(), angles.end(), state) != angles.end());
   }

@@ -129,21 +129,23 @@ class ModelClaims {
     if (const auto& number = sets.largest_noise_at_least) {
       Claim claim = required("model/largest-noise", *number, words_.constant_tone(),
                              "the tracker tolerates noise up to {}: a certified invariant set exists");
-      decide_size(claim, largest_noise(), *number, "The largest noise that was proved is {}");
+      decide_size(claim, largest_noise(), *number, "The largest noise that was proved is {}",
+                  objection_to_size(sets_->noise, &model::TubeSet::noise, "noise"));
     }
     if (const auto& number = sets.largest_slew_at_least) {
       Claim claim =
           required("model/largest-slew", *number,
                    words_.tone_with("a frequency that stays in " + words_.band()) + ", without noise",
                    "the tracker tolerates a slew up to {}: a certified invariant set exists", slew_words);
-      decide_size(claim, largest_slew(), *number, "The largest slew that was proved is {}");
+      decide_size(claim, largest_slew(), *number, "The largest slew that was proved is {}",
+                  objection_to_size(sets_->slew, &model::TubeSet::slew, "slew"));
     }
     if (const auto& number = sets.frequency_error_radius_at_least) {
       Claim claim = required("model/frequency-error-radius", *number, assumed,
                              "a certified invariant set contains frequency errors up to {} at every phase",
                              frequency_words);
       decide_size(claim, covers_assumptions() ? deciding_->reach : 0.0, *number,
-                  "The certified set reaches {} rad/sample");
+                  "The certified set reaches {} rad/sample", assumption_objection());
     }
     const std::string settled = words_.constant_tone() + ", without noise, " + words_.started_in("starts");
     if (const auto& number = require.bias_below) {
@@ -240,9 +242,10 @@ class ModelClaims {
     }
     add(claim);
   }
-  void decide_size(Claim& claim, double size, const Number& number, std::string_view reason) {
+  void decide_size(Claim& claim, double size, const Number& number, std::string_view reason,
+                   const std::string& objection) {
     if (!(size > 0.0) || !std::isfinite(size)) {
-      claim.reason = assumption_objection();
+      claim.reason = objection;
     } else {
       const bool holds = rigor::certainly_less_equal(number.value, Interval(size));
       claim.verdict = holds ? Verdict::proved : Verdict::undecided;
@@ -368,7 +371,39 @@ class ModelClaims {
     if (!sets_->objection.empty()) {
       return "Nothing is certified: " + sets_->objection + ".";
     }
-    return objection_of(*deciding_, is_met);
+    return objection_of(*deciding_, is_met) + (deciding_->is_proved() ? std::string() : tolerated());
+  }
+  /// Where no set was proved for the assumed noise and slew: for which it was.
+  [[nodiscard]] std::string tolerated() const {
+    std::string text;
+    const auto tell = [&](const std::optional<ModelSet>& set, double model::TubeSet::*size,
+                          std::string_view what, std::string_view unit) {
+      const Scope scope = sets_->assumed && set ? scope_of({&*set}) : Scope{};
+      if (!scope.is_any || !(set->tubes.*size > 0.0)) {
+        return;
+      }
+      text += fmt::format(
+          " The largest {} for which a set was proved{} is {}{}.", what,
+          scope.part ? fmt::format(", over {} to {} {},", scope.part->from, scope.part->to, words_.unit())
+                     : std::string(),
+          below(set->tubes.*size), unit);
+    };
+    if (sets_->assumed && sets_->assumed->tubes.noise > 0.0) {
+      tell(sets_->noise, &model::TubeSet::noise, "noise at a constant frequency", "");
+    }
+    tell(sets_->slew, &model::TubeSet::slew, "slew without noise", " rad/sample per sample");
+    return text;
+  }
+  /// Why the largest noise or slew is not known for the whole band.
+  [[nodiscard]] std::string objection_to_size(const std::optional<ModelSet>& set,
+                                              double model::TubeSet::*size, std::string_view what) const {
+    if (!set || !sets_->objection.empty()) {
+      return assumption_objection();
+    }
+    return objection_of(*set) +
+           (set->has_part() && set->tubes.*size > 0.0
+                ? fmt::format(" The largest {} that was proved there is {}.", what, below(set->tubes.*size))
+                : std::string());
   }
   [[nodiscard]] std::string guarantee_objection(bool is_met = false) const {
     if (covers_assumptions() && std::isfinite(deciding_->start_share)) {

@@ -14,6 +14,7 @@
 #include "certificates/model/model.hpp"
 #include "certificates/model/model_design.hpp"
 #include "certificates/model/model_noise_keys.hpp"
+#include "certificates/model/operation_words.hpp"
 #include "certificates/sets/set_keys.hpp"
 
 namespace veritrack::certificates {
@@ -266,6 +267,7 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
   try {
     const Model made = make_model(model, assume.signal);
     (void)start_deviations(made, model, assume.start_within);
+    require_whole_turns(made, model, signal_of(model, assume.signal));
   } catch (const language::LanguageError& error) {
     return TableObjection{"model", error.what(), error.position()};
   }

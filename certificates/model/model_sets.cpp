@@ -13,6 +13,7 @@
 #include "analysis/model/tube_errors.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/model/operation_words.hpp"
 
 namespace veritrack::certificates {
 
@@ -217,8 +218,13 @@ model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& ass
     program.run(std::span<const double>(inputs), registers, std::span(state));
     return state;
   };
-  return {model::StepMap(model.recursion, constants), spectrum_of(model, amplitude), amplitude, start,
-          model.states};
+  return {model::StepMap(model.recursion, constants),
+          spectrum_of(model, amplitude),
+          amplitude,
+          start,
+          model.states,
+          nullptr,
+          objections_to_operations(model)};
 }
 
 Interval band_of(const ModelAssumptions& assume) {

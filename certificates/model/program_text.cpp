@@ -176,4 +176,16 @@ std::vector<Assignment> assignments(const StraightLineProgram& program,
   return lines;
 }
 
+std::string formula_of(const StraightLineProgram& program, const std::vector<std::string>& inputs,
+                       const std::map<int, std::string>& names, int place) {
+  constexpr FormulaSyntax kSyntax{"^", ""};
+  Writer writer(program, inputs, kSyntax);
+  for (const auto& [named, name] : names) {
+    if (named >= program.inputs()) {
+      writer.set_name(named, name);
+    }
+  }
+  return writer.formula(place).formula;
+}
+
 }  // namespace veritrack::certificates

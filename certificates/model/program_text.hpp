@@ -32,4 +32,9 @@ struct Assignment {
                                                   const std::vector<std::string>& results,
                                                   std::string_view prefix, const FormulaSyntax& syntax);
 
+/// The formula of a register, of inputs and of what has a name.
+[[nodiscard]] std::string formula_of(const trackers::StraightLineProgram& program,
+                                     const std::vector<std::string>& inputs,
+                                     const std::map<int, std::string>& names, int place);
+
 }  // namespace veritrack::certificates

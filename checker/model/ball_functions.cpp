@@ -142,8 +142,20 @@ BallPolynomial arccosine(const BallPolynomial& x) {
   return certainly_less(abs(x.range()), one) ? function_of(arb_poly_acos_series, x)
                                              : BallPolynomial::everything();
 }
+// The fifth derivative of the arc tangent is 4! cos(a)^5 sin(5 (a + pi/2)) at tan(a): at most 4! everywhere,
+// where bounds of the series over a wide range are far larger, or infinite.
 BallPolynomial arctangent(const BallPolynomial& x) {
-  return function_of(arb_poly_atan_series, x);
+  if (!x.known()) {
+    return BallPolynomial::everything();
+  }
+  spend(static_cast<std::int64_t>(kTerms));
+  const Ball middle(x.constant());
+  const Ball all = x.range();
+  const Ball narrow = abs(expansion(arb_poly_atan_series, all)[kTerms]);
+  static const Ball fifth = one / Ball(5.0);
+  const BallPolynomial deviation = x - BallPolynomial(x.constant());
+  return value_of_taylor(expansion(arb_poly_atan_series, middle), deviation, abs(all - middle).upper_double(),
+                         certainly_less(narrow, fifth) ? narrow : fifth);
 }
 
 BallPolynomial arctangent2(const BallPolynomial& y, const BallPolynomial& x) {

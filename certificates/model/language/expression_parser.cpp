@@ -1,6 +1,7 @@
 // The grammar of formulas, by PEGTL.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
@@ -269,14 +270,40 @@ std::string found_at(std::string_view rest) {
   return line.empty() ? "the line ends" : fmt::format("found \"{}\"", printable(line, kShownLimit));
 }
 
+/// Advice where somebody has written a condition: `x > 0 ? a : b`, `if x > 0`.
+std::string_view advice_on_conditions(std::string_view before, std::string_view rest) {
+  constexpr std::string_view kBlank = " \t";
+  constexpr std::string_view kSigns = "?<>!&|";
+  before = before.substr(0, before.find_last_not_of(kBlank) + 1);
+  const bool is_sign =
+      !rest.empty() && (kSigns.find(rest.front()) != std::string_view::npos || rest.starts_with("=="));
+  bool is_word = false;
+  constexpr std::string_view kBetween = " \t\r\n=()";
+  for (const std::string_view word : {"if", "else", "then", "elif", "and", "or", "not"}) {
+    const std::string_view earlier = before.substr(0, before.size() - std::min(word.size(), before.size()));
+    const std::string_view later = rest.substr(std::min(word.size(), rest.size()));
+    is_word =
+        is_word ||
+        (before.ends_with(word) &&
+         (earlier.empty() || kBetween.find(earlier.back()) != std::string_view::npos)) ||
+        (rest.starts_with(word) && (later.empty() || kBetween.find(later.front()) != std::string_view::npos));
+  }
+  return is_sign || is_word
+             ? "; a condition is not smooth: for a limit that never acts in lock write stays_within(x, low, "
+               "high), which is x (it is proved then that low < x < high)"
+             : std::string_view();
+}
+
 /// A rule that must match and does not is the reader's to mend.
 template <typename Rule>
 struct Control : tao::pegtl::normal<Rule> {
   template <typename Input>
   [[noreturn]] static void raise(const Input& input, Building& building) {
+    const std::string_view rest(input.current(), input.size());
+    const std::string_view before(input.begin(), static_cast<std::size_t>(input.current() - input.begin()));
     throw LanguageError(
         building.place_of(input),
-        fmt::format("{}; allowed: {}", found_at({input.current(), input.size()}), kAllowed<Rule>));
+        fmt::format("{}; allowed: {}{}", found_at(rest), kAllowed<Rule>, advice_on_conditions(before, rest)));
   }
 };
 

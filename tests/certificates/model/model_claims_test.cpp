@@ -100,6 +100,27 @@ TEST_CASE("every claim is decided by its set") {
   CHECK(certificate.verdict == Verdict::undecided);
 }
 
+TEST_CASE("where no set was proved for the assumed noise, the reason says for which it was") {
+  ModelSets sets = sets_of();
+  sets.assumed = ModelSet{};
+  sets.assumed->tubes.name = "assumed";
+  sets.assumed->tubes.noise = 0.3;
+  sets.assumed->tubes.reasons = {"no radius was proved for noise 0.3 between 0.3 and 0.32 rad/sample"};
+  sets.slew = ModelSet{};
+  sets.slew->tubes.name = "slew";
+  sets.slew->tubes.reasons = {"no slew was proved"};
+  const Certificate certificate = certificate_of(sets, text_of(kRequired));
+  const Claim* bound = find(certificate, "model/frequency-error-bound");
+  REQUIRE(bound != nullptr);
+  CHECK(bound->reason ==
+        "No set of tubes was proved for the whole band: no radius was proved for noise 0.3 between 0.3 and "
+        "0.32 rad/sample. The largest noise at a constant frequency for which a set was proved is 0.05.");
+  // A slew is told by its own set.
+  const Claim* slew = find(certificate, "model/largest-slew");
+  REQUIRE(slew != nullptr);
+  CHECK(slew->reason == "No set of tubes was proved for the whole band: no slew was proved.");
+}
+
 TEST_CASE("what is not known, or not enough, is not proved") {
   const auto verdict = [](const ModelSets& sets, const char* id) {
     const Certificate certificate = certificate_of(sets, text_of(kRequired));

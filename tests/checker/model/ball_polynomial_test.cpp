@@ -221,6 +221,8 @@ TEST_CASE("the angle of a point") {
   }
   CHECK_FALSE(arctangent2(BallPolynomial::phase(), BallPolynomial(-1.0)).known());
   CHECK(arctangent2(BallPolynomial::phase(), BallPolynomial(1.5)).known());
+  // Of a wide range: x - x^3/3 and at most x^5/5, where the series over the range is far wider.
+  CHECK(certainly_less(arctangent(BallPolynomial(0.9) * BallPolynomial::phase()).range(), Ball(1.3)));
 }
 
 TEST_CASE("random expressions") {

@@ -48,6 +48,21 @@ TEST_CASE("operators bind as in C, a power before a sign") {
   is("1.5e-3", "1.5e-3");
 }
 
+TEST_CASE("a condition is told what to write in its place") {
+  for (const char* text : {"x > 0 ? a : b", "(x < 0)*a", "if x > 0", "a if b else c", "x == 2", "x && y"}) {
+    CAPTURE(text);
+    CHECK(message(parse_expression, text)
+              .find("a condition is not smooth: for a limit that never acts in "
+                    "lock write stays_within(x, low, high)") != std::string::npos);
+  }
+  CHECK(message(parse_definitions, "a = b\nw' = if a > 0 then a else b").find("stays_within") !=
+        std::string::npos);
+  for (const char* text : {"x $ 2", "gif 2", "2 +", "x y"}) {
+    CAPTURE(text);
+    CHECK(message(parse_expression, text).find("stays_within") == std::string::npos);
+  }
+}
+
 TEST_CASE("what is no formula is told with its place") {
   const auto is = [](const std::string& text, const char* expected) {
     CHECK(message(parse_expression, text) == expected);

@@ -1,0 +1,156 @@
+#include "certificates/model/operation_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include "analysis/model/angle_check.hpp"
+#include "certificates/design/input_error.hpp"
+#include "certificates/model/program_text.hpp"
+
+namespace veritrack::certificates {
+
+namespace {
+
+using language::CompiledProgram;
+using language::LanguageError;
+using trackers::Operation;
+
+constexpr std::size_t kShown = 80;  // bytes of a formula
+
+/// The names of the inputs of a program: constants, states, and of a step the samples.
+std::vector<std::string> inputs_of(const Model& model, bool with_samples) {
+  std::vector<std::string> names;
+  for (const language::Constant& constant : model.constants) {
+    names.push_back(constant.name);
+  }
+  names.insert(names.end(), model.states.begin(), model.states.end());
+  if (with_samples) {
+    names.insert(names.end(), model.samples.begin(), model.samples.end());
+  }
+  return names;
+}
+
+/// How many names and operations a register's formula has, written out down to what has a name.
+std::vector<double> lengths_of(const CompiledProgram& compiled) {
+  std::vector<double> lengths(static_cast<std::size_t>(compiled.program.inputs()), 1.0);
+  for (const trackers::Instruction& made : compiled.program.instructions()) {
+    double length = 1.0;
+    for (const int operand : {made.first, made.second, made.third}) {
+      if (operand >= 0) {
+        length += compiled.names.contains(operand) ? 1.0 : lengths[static_cast<std::size_t>(operand)];
+      }
+    }
+    lengths.push_back(length);
+  }
+  return lengths;
+}
+
+/// The formula; a filter that is written out has formulas that nobody could read.
+std::string formula_at(const CompiledProgram& compiled, const std::vector<std::string>& inputs,
+                       const std::vector<double>& lengths, int place) {
+  constexpr double kLongest = 60.0;
+  return lengths[static_cast<std::size_t>(place)] <= kLongest
+             ? printable(formula_of(compiled.program, inputs, compiled.names, place), kShown)
+             : "a long formula";
+}
+
+/// The name, or else the formula.
+std::string shown(const CompiledProgram& compiled, const std::vector<std::string>& inputs,
+                  const std::vector<double>& lengths, int place) {
+  const auto named = compiled.names.find(place);
+  return named != compiled.names.end() && place >= compiled.program.inputs()
+             ? named->second
+             : formula_at(compiled, inputs, lengths, place);
+}
+
+Position position_of(const CompiledProgram& compiled, int place, Position otherwise) {
+  const int number = place - compiled.program.inputs();
+  return number >= 0 && number < static_cast<int>(compiled.positions.size())
+             ? compiled.positions[static_cast<std::size_t>(number)]
+             : otherwise;
+}
+
+}  // namespace
+
+void require_whole_turns(const Model& model, const ModelTable& table, const std::vector<SourceText>& signal) {
+  std::vector<rigor::Interval> constants;
+  for (const language::Constant& constant : model.constants) {
+    constants.push_back(constant.value);
+  }
+  if (const auto objection = model::find_turn_objection(model.recursion, constants)) {
+    const bool is_frequency = objection->state < 0;
+    const CompiledProgram& compiled = is_frequency ? model.frequency : model.step;
+    const auto state = static_cast<std::size_t>(std::max(objection->state, 0));
+    const bool is_angle = !is_frequency && model.recursion.is_angle[state];
+    const bool is_result = objection->place == compiled.program.results()[state];
+    const std::string value =
+        is_frequency ? std::string("the frequency") : fmt::format("{}'", model.states[state]);
+    const std::string formula =
+        formula_at(compiled, inputs_of(model, !is_frequency), lengths_of(compiled), objection->place);
+    throw LanguageError(
+        position_of(compiled, objection->place,
+                    is_frequency ? table.frequency.position : table.step.position),
+        fmt::format("{} {}, in {}; allowed: angles with whole factors, inside of sin, cos and tan, and in "
+                    "sums in the next value of an angle",
+                    value,
+                    !is_result ? "depends on a part of a turn of an angle"
+                    : is_angle ? "does not turn once when the angle turns once"
+                               : "is not the same after a whole turn of an angle",
+                    formula));
+  }
+  if (!model::is_periodic(model.signal, constants)) {
+    throw LanguageError(signal.front().position,
+                        "the signal is not known to have the period 2 pi in phi; allowed: phi with whole "
+                        "factors, inside of sin, cos and tan");
+  }
+}
+
+std::vector<std::string> objections_to_operations(const Model& model) {
+  std::vector<std::string> objections;
+  const std::vector<std::string> inputs = inputs_of(model, true);
+  const std::vector<double> lengths = lengths_of(model.step);
+  int place = model.step.program.inputs();
+  for (const trackers::Instruction& made : model.step.program.instructions()) {
+    const std::string at = fmt::format(" (line {})", position_of(model.step, place, {}).line);
+    const auto operand = [&](int number) { return shown(model.step, inputs, lengths, number); };
+    switch (made.operation) {
+      case Operation::divide:
+        objections.push_back("the denominator " + operand(made.second) + at + " may vanish");
+        break;
+      case Operation::sqrt:
+      case Operation::log:
+        objections.push_back(fmt::format("what {} is taken of, {}{}, may be 0 or less",
+                                         made.operation == Operation::sqrt ? "the root" : "the logarithm",
+                                         operand(made.first), at));
+        break;
+      case Operation::asin:
+      case Operation::acos:
+        objections.push_back(fmt::format("the argument of {}, {}{}, may reach 1 or -1",
+                                         made.operation == Operation::asin ? "asin" : "acos",
+                                         operand(made.first), at));
+        break;
+      case Operation::tan:
+        objections.push_back("tan(" + operand(made.first) + ")" + at + " may become infinite");
+        break;
+      case Operation::atan2:
+        objections.push_back(
+            fmt::format("atan2({}, {}){} may reach its jump, where the second argument is "
+                        "negative or 0 and the first is 0",
+                        operand(made.first), operand(made.second), at));
+        break;
+      case Operation::stays_within:
+        objections.push_back(fmt::format("{}{} may leave the limits of stays_within, {} and {}",
+                                         operand(made.first), at, operand(made.second), operand(made.third)));
+        break;
+      default:
+        objections.push_back("an operation" + at + " may become infinite");
+    }
+    ++place;
+  }
+  return objections;
+}
+
+}  // namespace veritrack::certificates

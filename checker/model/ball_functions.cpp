@@ -145,6 +145,7 @@ BallPolynomial arccosine(const BallPolynomial& x) {
 // The fifth derivative of the arc tangent is 4! cos(a)^5 sin(5 (a + pi/2)) at tan(a): at most 4! everywhere,
 // where bounds of the series over a wide range are far larger, or infinite.
 BallPolynomial arctangent(const BallPolynomial& x) {
+  static_assert(kTerms == 5);
   if (!x.known()) {
     return BallPolynomial::everything();
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analysis/experiments/running_statistics.hpp"
+#include "analysis/kkl_observer/kkl_caption_window.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "trackers/kkl_observer/adaptive_oscillator_observer.hpp"
 #include "trackers/kkl_observer/kkl_observer.hpp"
@@ -18,9 +19,6 @@ namespace {
 
 using rigor::Interval;
 
-constexpr double kAmplitude = 2.0;
-constexpr double kFrequency = 3.0;
-constexpr double kDisturbance = 0.2;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 SteadyStatistics steady(const experiments::RunningStatistics& statistics) {
@@ -38,7 +36,8 @@ SectionVRun run(double disturbance_frequency, long steps_a_period, int periods, 
   constexpr long kSamples = 600;
   const auto signal = [&](long k) {
     const double time = interval * static_cast<double>(k);
-    return kAmplitude * std::sin(kFrequency * time) + kDisturbance * std::sin(disturbance_frequency * time);
+    return kSectionVAmplitude * std::sin(kSectionVFrequency * time) +
+           kSectionVDisturbance * std::sin(disturbance_frequency * time);
   };
   SectionVRun result;
   result.disturbance_frequency = disturbance_frequency;
@@ -67,13 +66,6 @@ SectionVRun run(double disturbance_frequency, long steps_a_period, int periods, 
   result.amplitude = steady(amplitude);
   result.frequency = steady(frequency);
   return result;
-}
-
-/// A multiple of the signal's own period, fine enough for the disturbance.
-long steps_a_period(double disturbance_frequency) {
-  constexpr double kStepsADisturbance = 40.0;
-  constexpr double kFewest = 4000.0;
-  return std::lround(std::max(kFewest, kStepsADisturbance * disturbance_frequency));
 }
 
 /// The captions: mean and deviation, and the number of digits after the decimal point of the mean.
@@ -127,7 +119,7 @@ void add_pair(theorems::Derivation& derivation, const std::string& name, const s
 
 SectionVRun run_kkl_section_v(const Eigen::Vector4d& lambda, double ell, double disturbance_frequency) {
   const rigor::NearestRounding nearest;
-  const long steps = steps_a_period(disturbance_frequency);
+  const long steps = section_v_steps(disturbance_frequency);
   trackers::KklObserver<double> observer({lambda, ell}, 2.0 * std::numbers::pi / static_cast<double>(steps));
   return run(
       disturbance_frequency, steps, 5, 1,
@@ -141,42 +133,13 @@ SectionVRun run_kkl_section_v(const Eigen::Vector4d& lambda, double ell, double 
 }
 
 SectionVRun run_caption_window(const Eigen::Vector4d& lambda, double ell, double disturbance_frequency) {
-  const rigor::NearestRounding nearest;
-  constexpr double kBegin = 5.687;  // s
-  constexpr double kEnd = 25.674;   // s
-  constexpr double kPhase = 6.109;  // of the disturbance, rad
-  struct Sinusoid {
-    double amplitude, frequency, phase;
-  };
-  const std::array<Sinusoid, 2> signal{
-      {{kAmplitude, kFrequency, 0.0}, {kDisturbance, disturbance_frequency, kPhase}}};
-  const trackers::KklObserverDesign<double, 4> design{lambda, ell};
-  const auto steps = static_cast<long>(std::ceil((kEnd - kBegin) / (2.0 * std::numbers::pi) *
-                                                 static_cast<double>(steps_a_period(disturbance_frequency))));
-  experiments::RunningStatistics amplitude;
-  experiments::RunningStatistics frequency;
-  for (long k = 0; k <= steps; ++k) {
-    const double time = kBegin + (kEnd - kBegin) * static_cast<double>(k) / static_cast<double>(steps);
-    Eigen::Vector4d filters = Eigen::Vector4d::Zero();
-    for (const Sinusoid& part : signal) {
-      for (int i = 0; i < 4; ++i) {
-        // The response of xi' = -lambda xi + sin(w t + p).
-        filters(i) += part.amplitude *
-                      std::sin(part.frequency * time + part.phase - std::atan2(part.frequency, lambda(i))) /
-                      std::hypot(lambda(i), part.frequency);
-      }
-    }
-    const auto x = trackers::kkl_inverse<double, 4>(filters, design);
-    const auto estimate = trackers::in_engineering_units(x);
-    amplitude.add(x(2) > 0.0 ? estimate.amplitude : kNone);
-    frequency.add(x(2) > 0.0 ? estimate.frequency : kNone);
-  }
-  return {disturbance_frequency, steady(amplitude), steady(frequency), {}};
+  const CaptionStatistics found = caption_statistics(lambda, ell, disturbance_frequency);
+  return {disturbance_frequency, found.amplitude, found.frequency, {}};
 }
 
 SectionVRun run_adaptive_section_v(double disturbance_frequency) {
   const rigor::NearestRounding nearest;
-  const long steps = steps_a_period(disturbance_frequency);
+  const long steps = section_v_steps(disturbance_frequency);
   trackers::AdaptiveOscillatorObserver observer({5.0, 1.0, Eigen::Vector3d(1.0, 1.0, 1.0)}, 2.0,
                                                 2.0 * std::numbers::pi / static_cast<double>(steps));
   return run(

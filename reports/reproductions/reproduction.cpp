@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "certificates/document/output_files.hpp"
+#include "reports/reproductions/caption_report.hpp"
 #include "reports/reproductions/example_report.hpp"
 #include "reports/reproductions/limit_report.hpp"
 #include "reports/reproductions/observer_report.hpp"
@@ -40,6 +41,8 @@ constexpr std::array kReproductions{
                             1000),
     of<reproduce_tables_4>("la-scala-tables-4", "tables and figures of chapter 4 of La Scala's thesis", 200),
     of<reproduce_tables_5>("la-scala-tables-5", "tables and figures of chapter 5 of La Scala's thesis", 200),
+    of<reproduce_figures_1_6>("praly-figures-1-6", "captions of Figures 1 to 6 of Praly, Marconi and Isidori",
+                              200),
     of<reproduce_figures_7_9>("praly-figures-7-9",
                               "adaptive observer of Figures 7 to 9 of Praly, Marconi and Isidori", 8),
     of<reproduce_zarchan>("zarchan", "experiments of Zarchan's slides", 1000),

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "reports/reproductions/caption_report.hpp"
 #include "reports/reproductions/observer_report.hpp"
 #include "reports/reproductions/sonar_report.hpp"
 #include "reports/reproductions/swept_tone_reports.hpp"
@@ -50,11 +51,14 @@ TEST_CASE("few runs: every entry has a row, and the same comes with one thread")
   check_findings(tables_5, 34);
   const Findings zarchan = reproduce_zarchan(kRuns, {});
   check_findings(zarchan, 40);
+  const Findings captions = reproduce_figures_1_6(kRuns, {});
+  check_findings(captions, 13);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   CHECK(reproduce_table_3_2(kRuns, {}).markdown == table_3_2.markdown);
   CHECK(reproduce_tables_4(kRuns, {}).markdown == tables_4.markdown);
   CHECK(reproduce_tables_5(kRuns, {}).markdown == tables_5.markdown);
   CHECK(reproduce_zarchan(kRuns, {}).markdown == zarchan.markdown);
+  CHECK(reproduce_figures_1_6(kRuns, {}).markdown == captions.markdown);
 }
 
 TEST_CASE("four runs decide little, and the document says so at its top") {
@@ -75,7 +79,7 @@ TEST_CASE("reports are found by name, each name once") {
     CHECK(&find_reproduction(each.name) == &each);
     CHECK(each.runs > 0);
   }
-  CHECK(names.size() == 8);
+  CHECK(names.size() == 9);
   CHECK_THROWS_AS((void)find_reproduction("nothing"), std::out_of_range);
 }
 

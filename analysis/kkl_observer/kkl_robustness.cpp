@@ -110,8 +110,11 @@ KklRobustness search_disturbances(const KklRobustnessQuestion& question, const K
 
 template <int M>
 KklRobustness bound_kkl_errors_over_signals(const KklRobustnessQuestionOf<M>& question) {
+  constexpr double kTolerance = 0.03;  // two variables are soon divided
+  KklRobustnessQuestionOf<M> closer = question;
+  closer.relative_tolerance = std::min(question.relative_tolerance, kTolerance);
   return bound_errors<M>(question, [&](const KklFilters<M>& transient) {
-    return search_errors(SplitErrors<M>(question, transient), question);
+    return search_errors(SplitErrors<M>(question, transient), closer);
   });
 }
 

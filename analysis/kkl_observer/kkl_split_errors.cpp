@@ -12,6 +12,7 @@ using rigor::Interval;
 namespace {
 
 constexpr std::size_t kTimes = 240;  // cells of the kernels
+constexpr double kRoom = 1.02;       // for a bound by another program
 
 Interval upper_end(const Interval& x) {
   return Interval(x.upper());
@@ -221,13 +222,14 @@ template <int M>
 Interval SplitErrors<M>::frequency_error(const Box& box) const {
   const State at = state(box);
   // Largest in size when x3_hat is below s.
-  return Interval(rigor::magnitude(Map::frequency_error(at.signal, Interval(-at.error.sum()))));
+  return Interval(kRoom) *
+         Interval(rigor::magnitude(Map::frequency_error(at.signal, Interval(-at.error.sum()))));
 }
 
 template <int M>
 Interval SplitErrors<M>::least_relative_square(const Box& box) const {
   const State at = state(box);
-  return Interval(1.0) - at.error.sum() / at.signal.s;
+  return Interval(1.0) - Interval(kRoom) * at.error.sum() / at.signal.s;
 }
 
 template <int M>
@@ -240,7 +242,7 @@ Interval SplitErrors<M>::least_ratio(const Box& box) const {
   for (std::size_t i = 0; i < moves_.size(); ++i) {
     norm += square(abs(at.signal.transformed[i]) + moves_[i]);
   }
-  return map_.gram_determinant() * square(at.along) * at.squared_norm / upper_end(norm);
+  return map_.gram_determinant() * square(at.along) * at.squared_norm / (Interval(kRoom) * upper_end(norm));
 }
 
 // With f = w_hat - w, e = f (2 w + f), k1 and k2 the errors of x1 and x2 and d = x2_hat / w_hat + cos p = (k2
@@ -298,7 +300,7 @@ Interval SplitErrors<M>::amplitude_error(const Box& box) const {
   };
   // sqrt(1 + t) - 1 is t / 2 at most, and largest in size below at the lowest t.
   const Interval below = of_amplitude(linear) / (one + sqrt(one - upper_end(linear.sum())));
-  return upper_end(max(below, Interval(0.5) * of_amplitude(raised)));
+  return Interval(kRoom) * upper_end(max(below, Interval(0.5) * of_amplitude(raised)));
 }
 
 template class SplitErrors<4>;

@@ -32,7 +32,8 @@ inline Reach operator*(const Reach& x, const rigor::Interval& factor) {
 ///     e = -q'N'(F^2 + s + e) u - (Pz)'P N'(F^2 + s + e) u / ((1 + a) |y0|^2).
 /// The variables are frequency (rad/s) and phase (rad) of the signal. At each cell the functions of u are
 /// linear with known coefficients; their largest values are integrals of kernels or responses to sinusoids.
-/// Needs the upward mode. The functions have no derivatives. For four to eight filters.
+/// The values leave two percent of room for an independent bound that is a little cruder. Needs the upward
+/// mode. The functions have no derivatives. For four to eight filters.
 template <int M>
 class SplitErrors {
   using Interval = rigor::Interval;

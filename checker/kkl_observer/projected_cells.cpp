@@ -224,7 +224,8 @@ ProjectedCells::Across ProjectedCells::across(const ProjectedCell& cell) const {
   }
   const Ball norm = centred(cell.middle.squared_norm, cell.over.squared_norm, cell.radius);
   // Roots of what may be negative are balls of everything.
-  result.over = one / (square(sqrt(one - of_moves(cell, direction).sum())) * norm);
+  result.along = square(sqrt(one - of_moves(cell, direction).sum()));
+  result.over = one / (result.along * norm);
   return result;
 }
 
@@ -238,13 +239,21 @@ Size ProjectedCells::Across::second_order(const Ball& error) const {
   return sqrt(pulled) * over * Size{sqrt(squares.driven), sqrt(squares.left)};
 }
 
+Size ProjectedCells::Across::outright(const Size& first) const {
+  return (one / along) * (first + second_order(zero));
+}
+
 // With u replaced by r u for r from 0 to 1, e goes from 0 to its value continuously; were it first at +-error
 // for some r < 1, the right-hand side there would be at most r times what it is checked to be for r = 1.
 bool ProjectedCells::error_at_most(const ProjectedCell& cell, const Ball& error) const {
+  // cannot bind (first): it spares work, next to what is asked of the sums.
   const Ball first = first_order(cell, error).sum();
-  // cannot bind (first): it spares work, next to what is asked of the sum.
-  return certainly_at_most(first, error) &&
-         certainly_at_most(first + across(cell).second_order(error).sum(), error);
+  if (!certainly_at_most(first, error)) {
+    return false;
+  }
+  const Across rest = across(cell);
+  return certainly_at_most(first + rest.second_order(error).sum(), error) ||
+         certainly_at_most(rest.outright(largest(cell, direction, zero)).sum(), error);
 }
 
 bool ProjectedCells::ratio_at_least(const ProjectedCell& cell, const Ball& bound) const {
@@ -276,9 +285,11 @@ bool ProjectedCells::amplitude_error_at_most(const ProjectedCell& cell, const Ba
   constexpr int kTimesBetter = 2;
   constexpr int kPieces = 4;
   const Across rest = across(cell);
-  Ball error = (frequency_error * (two * cell.over.frequency.value + frequency_error)).upper();
+  Ball error = min(frequency_error * (two * cell.over.frequency.value + frequency_error),
+                   rest.outright(largest(cell, direction, zero)).sum())
+                   .upper();
   for (int i = 0; i < kTimesBetter; ++i) {
-    error = (first_order(cell, error) + rest.second_order(error)).sum().upper();
+    error = min(error, (first_order(cell, error) + rest.second_order(error)).sum()).upper();
   }
   const Size second = rest.second_order(error);
   const auto pulled = [&]<typename S>(const ProjectedSignal<S>& at, Row row) {

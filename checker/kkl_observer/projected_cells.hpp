@@ -84,9 +84,12 @@ class ProjectedCells {
   struct Across {
     std::vector<Size> move;
     std::vector<Ball> pull;
-    Ball over;
+    Ball over, along;  ///< the latter 1 + q'u, at least
     /// At least that term, for all |e| <= error.
     [[nodiscard]] Size second_order(const Ball& error) const;
+    /// At least |e| = |y'(F^2 + w^2) u| / |y|^2, y = (1 + q'u) v + Q u, from `first`, at least q'(F^2 + w^2)
+    /// u.
+    [[nodiscard]] Size outright(const Size& first) const;
   };
   [[nodiscard]] Across across(const ProjectedCell& cell) const;
   /// Is |e| <= error, exactly so, at all points? By continuity from u = 0 on.

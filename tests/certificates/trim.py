@@ -29,6 +29,9 @@ kkl-wide-rates    rates 0.01, 1, 100, 1e4
 From tests/certificates/kkl-five-filters.toml and kkl-six-filters.toml, observers with more filters than the paper's:
 kkl-five-filters  its ell and the paper's claims, with an ell in use that the design gives
 kkl-six-filters   the same with the proved ell
+From tests/certificates/kkl-five-filters-disturbed.toml and kkl-six-filters-sampled.toml:
+kkl-five-filters-disturbed  its bounds under a sinusoidal disturbance
+kkl-six-filters-sampled     its bounds under a bounded one, as a program that gets samples
 From tests/certificates/steady-state.toml, the single-channel tracker with a leak at one frequency:
 steady-state      its bias and Proposition 1
 frozen-filter     its frozen filter, alone
@@ -422,8 +425,10 @@ KINDS = {
     "kkl-paper": kkl_paper,
     "kkl-close-rates": lambda certificate: None,
     "kkl-wide-rates": lambda certificate: None,
-    "kkl-five-filters": lambda certificate: None,
-    "kkl-six-filters": lambda certificate: None,
+    "kkl-five-filters": lambda certificate: keep(certificate, ["kkl-ell", "kkl-paper"], []),
+    "kkl-six-filters": lambda certificate: keep(certificate, ["kkl-ell", "kkl-paper"], []),
+    "kkl-five-filters-disturbed": kkl_bounds,
+    "kkl-six-filters-sampled": kkl_bounds,
     "lock": lock,
     "mean-square": mean_square(0.045),
     "mean-square-with-leak": mean_square(0.05),

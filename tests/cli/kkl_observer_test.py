@@ -93,18 +93,22 @@ class KklObserver(CliTestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("may have any samples", found["kkl-robustness"]["conditions"][0]["reason"])
 
-    def test_six_filters_are_inverted_and_no_error_is_bounded(self):
+    def test_six_filters_are_inverted_and_their_errors_bounded(self):
         require = "\n[require]\nfrequency_error_below = 0.1\n"
         result, found, report = self.certify(KKL.replace("3, 4]", "3, 4, 5, 6]") + require)
-        self.assertEqual(result.returncode, 1)
-        self.assertEqual(list(found), ["kkl-ell", "kkl-paper"])
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(list(found), ["kkl-ell", "kkl-robustness", "kkl-paper"])
         self.assertEqual(found["kkl-ell"]["verdict"], "proved")
         claims = self.conditions(found["kkl-paper"])
         for name in ("injectivity", "mu-vanishes", "left-inverse", "positive-definite", "continuity"):
             self.assertEqual(claims[name], "proved", name)
-        self.assertEqual(report["claims"][0]["verdict"], "undecided")
-        self.assertIn("with more than four filters ell and the inverse are decided here",
-                      report["claims"][0]["reason"])
+        self.assertEqual(report["claims"][0]["verdict"], "proved")
+        self.assertIn("in double precision", report["claims"][0]["statement"])
+        quantities = found["kkl-robustness"]["quantities"]
+        bound = float.fromhex(quantities["frequency_error_bound"]["hi"])
+        simulated = float.fromhex(quantities["frequency_error_simulated"]["hi"])
+        self.assertGreaterEqual(bound, simulated)
+        self.assertLess(bound, 1.15 * simulated)
 
     def test_many_decades_end_in_verdicts(self):
         for frequency in ("[1e-3, 1e3]", "[1e-9, 1e9]", "[1e-150, 1e150]"):

@@ -127,9 +127,10 @@ TEST_CASE("the bias of the leaking filter: as a model, by its own column, and of
   CAPTURE(as_model.upper());
   CAPTURE(own.mean_bias.lower());
   CAPTURE(own.mean_bias.upper());
-  CHECK(as_model.lower() <= own.mean_bias.upper());
-  CHECK(own.mean_bias.lower() <= as_model.upper());
-  CHECK(as_model.upper() < 0.0);  // the leak pulls to lower frequencies
+  // By structure the leak costs the model's set its lower levels, so that its bias is known roughly only.
+  CHECK(as_model.lower() <= own.mean_bias.lower());
+  CHECK(own.mean_bias.upper() <= as_model.upper());
+  CHECK(own.mean_bias.upper() < 0.0);  // the leak pulls to lower frequencies
   // And in a simulation, at a frequency between.
   const double omega = 1.5005;
   trackers::SingleChannelEkf<double> ekf =

@@ -173,7 +173,7 @@ Figure draw_choices(const CaptionRuns& runs) {
           {runs.period.at(mean)},
           {runs.period.at(mean + 1)},
           "points pt 4 ps 1.2 lw 1.6 lc rgb '#000000'"}},
-        "set bmargin 4\nset xrange [*:*]\nset yrange [*:*]\n"};
+        "set xrange [*:*]\nset yrange [*:*]\n"};
   };
   return draw_line_panels(
       "windows.svg", "Means and deviations at 10 rad/s over windows and phases", "mean",

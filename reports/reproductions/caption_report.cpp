@@ -173,7 +173,7 @@ Figure draw_choices(const CaptionRuns& runs) {
           {runs.period.at(mean)},
           {runs.period.at(mean + 1)},
           "points pt 4 ps 1.2 lw 1.6 lc rgb '#000000'"}},
-        "set bmargin 4\nset key outside right\nset xrange [*:*]\nset yrange [*:*]\n"};
+        "set xrange [*:*]\nset yrange [*:*]\n"};
   };
   return draw_line_panels(
       "windows.svg", "Means and deviations at 10 rad/s over windows and phases", "mean",
@@ -203,13 +203,13 @@ std::string caption_document(const std::vector<Entry>& entries, const CaptionRun
       "observer inverts its filters, {} means and deviations come out to the last printed digit. The paper "
       "names neither window nor phase: a search over these three numbers found them. That shows that the "
       "captions can come out, not that the authors took this window. In {} other choices, drawn, {:.0f} to "
-      "{:.0f} of the twelve come out, all twelve in {}; over a whole period of the disturbed signal {}. Most "
-      "of what depends on the choice are the four numbers at 10 rad/s; the means 2.0 and 3.0 have too few "
+      "{:.0f} of the twelve come out, all twelve in {}; over a whole period of the disturbed signal {}. What "
+      "depends most on the choice are the four numbers at 10 rad/s; the means 2.0 and 3.0 have too few "
       "digits to say much. With the printed ℓ = 5, {} come out in any of these windows: at {:.0f} % of the "
       "moments or more the estimated x3 is not positive, and there is no estimate.\n\n",
       window.begin, window.end, window.phase, of_twelve(how_many_come_out(runs.found.numbers)),
-      runs.drawn.size(), fewest, most, all_twelve, how_many_come_out(runs.period), of_twelve(with_five.most),
-      std::floor(100.0 * with_five.least_without));
+      runs.drawn.size(), fewest, most, all_twelve == 0 ? std::string("none") : fmt::format("{}", all_twelve),
+      how_many_come_out(runs.period), of_twelve(with_five.most), std::floor(100.0 * with_five.least_without));
   text += fmt::format(
       "## Printed and ours\n\nThe observer with λ = 1, 2, 3, 4 sees 2 sin 3t + 0.2 sin(wt + {}); ours are "
       "its means and deviations in steady state, t from {} to {} s, with ℓ = {}. A number agrees when it is "

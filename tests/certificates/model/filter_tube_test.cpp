@@ -107,7 +107,8 @@ VectorXd random_vector(test::Random& random, double length) {
 
 /// Another F than the derivative of the prediction.
 constexpr const char* kGivenJacobian =
-    "jacobian = [['cos(w)', '-sin(w)', '-0.9*x2'], ['sin(w)', 'cos(w)', '1.1*x1'], [0, 0, 1]]\n";
+    "jacobian = [['cos(w)', '-sin(w)', '-0.95*(sin(w)*x1 + cos(w)*x2)'], "
+    "['sin(w)', 'cos(w)', '1.05*(cos(w)*x1 - sin(w)*x2)'], [0, 0, 1]]\n";
 
 void check_parts(const Filter& filter) {
   REQUIRE(filter.model.filter);

@@ -200,7 +200,12 @@ bool bounds_covariance(const Model& model, const ModelTables& tables) {
   const bool names_covariance =
       std::any_of(assume.start_within.begin(), assume.start_within.end(),
                   [](const NamedText& entry) { return entry.name.text.starts_with("P."); });
-  return model.filter && !names_covariance;
+  // With another F than the derivative no tube was found for Zarchan's third filter in this way, and one in
+  // the other; with more states than these the other is out of reach.
+  constexpr int kMostWithCovariance = 3;
+  const bool prefers_states =
+      model.filter && model.filter->has_given_jacobian && model.filter->states <= kMostWithCovariance;
+  return model.filter && !names_covariance && !prefers_states;
 }
 
 model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume) {

@@ -58,7 +58,8 @@ struct ModelSets {
 [[nodiscard]] model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume);
 
 /// Whether the covariance of a filter is bounded by matrices, so that tubes are those of its estimate alone:
-/// at constant frequencies, with bounded noise, where no start names an entry of the covariance.
+/// where no start names an entry of the covariance, and with a given Jacobian only for more than three
+/// states.
 [[nodiscard]] bool bounds_covariance(const Model& model, const ModelTables& tables);
 
 /// The band, rad/sample. Needs the upward rounding mode.

@@ -140,7 +140,11 @@ TEST_CASE("a given Jacobian is part of a filter as the derivative is") {
   const Filter given(filter_text("'x1'", "0", kGivenJacobian));
   check_parts(given);
   CHECK(given.model.filter->has_given_jacobian);
-  CHECK_FALSE(Filter(filter_text()).model.filter->has_given_jacobian);
+  const Filter derived(filter_text());
+  CHECK_FALSE(derived.model.filter->has_given_jacobian);
+  // With three states the covariance is rather one of them.
+  CHECK(bounds_covariance(derived.model, model_tables(derived.design)));
+  CHECK_FALSE(bounds_covariance(given.model, model_tables(given.design)));
 }
 
 TEST_CASE("only linear measurements, symmetric noise and an estimated frequency are taken to parts") {

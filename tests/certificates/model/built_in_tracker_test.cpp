@@ -70,7 +70,8 @@ trackers::SingleChannelEkf<double> built_in(const Eigen::VectorXd& state, double
        .covariance = trackers::FactoredCovariance<double>::from_matrix(covariance)});
 }
 
-TEST_CASE("the built-in single-channel filter keeps the bounds that are proved of it as a model") {
+TEST_CASE("the built-in single-channel filter keeps the bounds that are proved of it as a model" *
+          doctest::test_suite("nightly")) {
   const Certified filter(filter_with("0", "0.003"));
   REQUIRE(filter.sets.bounds_covariance);
   REQUIRE(filter.sets.assumed.value().is_proved());

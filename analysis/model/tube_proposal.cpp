@@ -236,7 +236,7 @@ TubeProposal propose_tube(const TrackedTone& tone, double frequency, double half
     return proposal;
   }
   judge(tone, *curve, *fit, grid, settings, proposal);
-  constexpr int kFewStates = 4;
+  constexpr int kFewStates = 3;
   std::optional<CurveFit> fine;
   if (settings.fine_curve && tone.step.states() <= kFewStates) {
     fine = fit_curve(tone, frequency, half_width, proposal.steady_state, 1e-15, kFineNodes);

@@ -235,7 +235,7 @@ TubeProposal propose(const TrackedTone& tone, double frequency, double half_widt
     proposal.outcome = TubeOutcome::no_common_shape;
     return proposal;
   }
-  constexpr int kFewStates = 4;
+  constexpr int kFewStates = 3;
   std::optional<CurveFit> fine;
   if (settings.fine_curve && tone.step.states() <= kFewStates) {
     fine = fit_curve(tone, frequency, half_width, proposal.steady_state, 1e-15, kFineNodes);

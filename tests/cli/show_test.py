@@ -5,6 +5,7 @@ import pathlib
 import random
 import subprocess
 import tempfile
+import tomllib
 import unittest
 
 from support import ROOT, run
@@ -54,10 +55,13 @@ class Show(unittest.TestCase):
                 python = {}
                 exec(show(design, "python"), python)  # pylint: disable=exec-used
                 in_c = InC(design, folder)
-                omega = 0.4 if "hz" not in design.read_text() else 2 * math.pi * 50 / 10000
+                keys = tomllib.loads(design.read_text())
+                frequency = keys["assume"]["frequency"]
+                omega = 0.4 if not isinstance(frequency, dict) else \
+                    2 * math.pi * sum(frequency["hz"]) / 2 / keys["assume"]["sample_rate"]
                 state = python["tracker_start"](1.0, omega)
                 self.assertEqual(in_c.start(len(state), 1.0, omega), tuple(state))
-                channels = 2 if "['y1', 'y2']" in design.read_text() else 1
+                channels = len(keys["model"]["samples"]) if isinstance(keys["model"]["samples"], list) else 1
                 noise = random.Random(1)
                 for k in range(300):
                     sample = [math.cos(omega * k), math.sin(omega * k)][:channels]

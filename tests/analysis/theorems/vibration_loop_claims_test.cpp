@@ -109,6 +109,6 @@ TEST_CASE("the regulator, written out: steps are summable, M never decreases, P 
       }
     }
     CHECK(sum <= allowed * (1.0 + 1e-9));
-    CHECK(Eigen::SelfAdjointEigenSolver<Matrix>(p).eigenvalues().maxCoeff() < 0.01);
+    CHECK(Eigen::SelfAdjointEigenSolver<Matrix>(p).eigenvalues().maxCoeff() < 0.05);  // from 1
   }
 }

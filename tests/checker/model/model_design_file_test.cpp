@@ -32,7 +32,9 @@ test::Json design_of(const std::string& name) {
   design["require"] = test::Json::object();
   if (const toml::table* require = file.table()["require"].as_table()) {
     for (const auto& [key, value] : *require) {
-      design["require"][std::string(key.str())] = test::decimal(file.text(value), 1.0, 1.0);
+      const toml::node* hertz = value.is_table() ? value.as_table()->get("hz") : nullptr;
+      design["require"][std::string(key.str())] = test::decimal(
+          hertz != nullptr ? file.text(*hertz) + " Hz" : std::string(file.text(value)), 1.0, 1.0);
     }
   }
   return design;

@@ -200,7 +200,7 @@ std::vector<S> along(const ProjectedSignal<S>& at, const S& first, const S& seco
 }
 
 /// q.
-constexpr auto direction = []<typename S>(const ProjectedSignal<S>& at) {
+constexpr auto kDirection = []<typename S>(const ProjectedSignal<S>& at) {
   return along(at, S(zero), S(zero), S(one));
 };
 
@@ -208,7 +208,7 @@ constexpr auto direction = []<typename S>(const ProjectedSignal<S>& at) {
 
 Size ProjectedCells::first_order(const ProjectedCell& cell, const Ball& error) const {
   // A convex function of e.
-  return larger_of(largest(cell, direction, -error), largest(cell, direction, error));
+  return larger_of(largest(cell, kDirection, -error), largest(cell, kDirection, error));
 }
 
 ProjectedCells::Across ProjectedCells::across(const ProjectedCell& cell) const {
@@ -224,7 +224,7 @@ ProjectedCells::Across ProjectedCells::across(const ProjectedCell& cell) const {
   }
   const Ball norm = centred(cell.middle.squared_norm, cell.over.squared_norm, cell.radius);
   // Roots of what may be negative are balls of everything.
-  result.along = square(sqrt(one - of_moves(cell, direction).sum()));
+  result.along = square(sqrt(one - of_moves(cell, kDirection).sum()));
   result.over = one / (result.along * norm);
   return result;
 }
@@ -253,11 +253,11 @@ bool ProjectedCells::error_at_most(const ProjectedCell& cell, const Ball& error)
   }
   const Across rest = across(cell);
   return certainly_at_most(first + rest.second_order(error).sum(), error) ||
-         certainly_at_most(rest.outright(largest(cell, direction, zero)).sum(), error);
+         certainly_at_most(rest.outright(largest(cell, kDirection, zero)).sum(), error);
 }
 
 bool ProjectedCells::ratio_at_least(const ProjectedCell& cell, const Ball& bound) const {
-  const Ball share = of_moves(cell, direction).sum();
+  const Ball share = of_moves(cell, kDirection).sum();
   Ball squares(0.0);
   for (std::size_t i = 0; i < lambda_.size(); ++i) {
     squares +=
@@ -286,7 +286,7 @@ bool ProjectedCells::amplitude_error_at_most(const ProjectedCell& cell, const Ba
   constexpr int kPieces = 4;
   const Across rest = across(cell);
   Ball error = min(frequency_error * (two * cell.over.frequency.value + frequency_error),
-                   rest.outright(largest(cell, direction, zero)).sum())
+                   rest.outright(largest(cell, kDirection, zero)).sum())
                    .upper();
   for (int i = 0; i < kTimesBetter; ++i) {
     error = min(error, (first_order(cell, error) + rest.second_order(error)).sum()).upper();

@@ -74,7 +74,9 @@ constexpr std::array kValues = {
 /// The numbers that a claim has as decimals: those of a recursion. Others ("from", "to": a part of the band)
 /// are enclosed and have no words.
 void add_values(Json& quantities, const certificates::Claim& claim) {
-  for (const auto& [name, text] : claim.values) {
+  for (const auto& claimed : claim.values) {
+    const std::string& name = claimed.first;
+    const std::string& text = claimed.second;
     if (std::isnan(rigor::nearest_double(text))) {
       continue;
     }

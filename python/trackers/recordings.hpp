@@ -128,7 +128,8 @@ void in_threads(std::size_t size, std::size_t threads, const Work& work) {
     });
   }
   part(0);
-  for (std::unique_lock lock(mutex); running > 0;) {
+  std::unique_lock lock(mutex);
+  while (running > 0) {
     one_is_done.wait_for(lock, Interruption::kBetweenLooks);
     lock.unlock();
     try {
@@ -140,6 +141,7 @@ void in_threads(std::size_t size, std::size_t threads, const Work& work) {
     }
     lock.lock();
   }
+  lock.unlock();
   for (std::thread& other : others) {
     other.join();
   }

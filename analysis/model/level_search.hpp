@@ -53,7 +53,8 @@ class LevelSearch {
     return largest;
   }
 
-  /// The largest noise up to `most`, and the noise.
+  /// A tube for the largest noise that is found up to `most`, and a little less than that noise: room for the
+  /// checker's arithmetic. (What is proved for some noise is proved for less.)
   [[nodiscard]] std::optional<std::pair<ProvedTube, double>> with_largest_noise(double most) {
     double best_noise = 0.0;
     double best_radius = 0.0;
@@ -81,7 +82,8 @@ class LevelSearch {
     }
     for (const double factor : kFactors) {
       if (best_noise > 0.0 && proves(best_radius, factor * best_noise)) {
-        return std::pair(proved_, factor * best_noise);
+        constexpr double kRoomOfChecker = 0.98;
+        return std::pair(proved_, kRoomOfChecker * factor * best_noise);
       }
     }
     return std::nullopt;

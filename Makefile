@@ -37,7 +37,7 @@ SANITIZED_EFFORT ?= 0.02
 LINT_SCOPE   ?= --changed
 # One of each kind, and the models that take seconds, because all of them take long; .ci/nightly takes all of both folders.
 # Of those with a leak in Gaussian noise the one that takes half of the time.
-VERIFY_DESIGNS ?= $(subst 3.3-with-leak-at-22,3.4-with-leak-at-22,$(shell scripts/one-of-each-kind)) $(addprefix designs/models/,aranovskiy.toml sogi-fll.toml type-2-pll.toml) designs/regulator/rotor-two-axes.toml designs/block/la-scala-1994-set-3.toml
+VERIFY_DESIGNS ?= $(subst 3.3-with-leak-at-22,3.4-with-leak-at-22,$(shell scripts/one-of-each-kind)) $(addprefix designs/models/,aranovskiy.toml sogi-fll.toml type-2-pll.toml) designs/regulator/rotor-two-axes.toml designs/praly-section-v-proved-ell.toml designs/block/la-scala-1994-set-3.toml
 # One of each kind, and all four of Table 3.2 with a theorem about their recursion.
 PROOF_DESIGNS  ?= designs/praly-section-v-proved-ell.toml designs/la-scala-1994-figure-3.5.toml \
   $(wildcard designs/la-scala-1994-figure-3.?-without-leak.toml) designs/bittanti-savaresi-2000-example-1.toml

@@ -137,8 +137,7 @@ theorems::Derivation derive_kkl_robustness(const KklRobustnessQuestionOf<M>& que
   if (M > 4) {
     derivation.notes.emplace_back(
         "With more than four filters the bounds take the error of the squared frequency as linear in what "
-        "the "
-        "disturbance does to the filters, plus a bound on the rest (docs/kkl-observer.md).");
+        "the disturbance does to the filters, plus a bound on the rest (docs/kkl-observer.md).");
   }
   return derivation;
 }

@@ -219,8 +219,8 @@ std::string caption_document(const std::vector<Entry>& entries, const CaptionRun
       "\n## Under which conditions\n\n*Window and phase.* The drawn windows are 15 to 25 s long and begin "
       "between 5 and 15 s, in any phase. *Over a period* is over 2π s, in which signal and disturbance "
       "repeat, in phase 0, after 8π s from rest. *ℓ.* The numbers are the same for every ℓ up to about "
-      "{:.3g}, where mu of (9) vanishes all along these runs: the captions do not tell such values apart. "
-      "With ℓ = 5 a mean over all moments does not exist; the last column leaves out those without an "
+      "{:.3g}, where mu of (9) vanishes at every moment of these runs: the captions do not tell such values "
+      "apart. With ℓ = 5 a mean over all moments does not exist; the last column leaves out those without an "
       "estimate. That ℓ = 5 does not satisfy (10) is decided by intervals (`kkl-paper/section-v-ell` in the "
       "ledger).\n\n",
       largest_ell);

@@ -68,11 +68,10 @@ std::string ground_cell(const Row& row) {
     const auto found = std::find_if(row.verdicts.begin(), row.verdicts.end(),
                                     [&](const DesignVerdict& each) { return each.verdict == verdict; });
     if (found != row.verdicts.end()) {
-      return (row.is_illegible() ? "As we read the scan it would be false: " : "") +
-             escaped(without_finding(row, found->ground));
+      return escaped(without_finding(row, found->ground));
     }
   }
-  return escaped(row.verdicts.front().ground);
+  return escaped(without_finding(row, row.verdicts.front().ground));
 }
 
 /// Id, place, what it says, consequence: of the rows with that finding.

@@ -72,6 +72,7 @@ dft-block-covariance  the same with more bins, a range of amplitudes and a given
 dft-block-false-locks  of the first: its false locks, alone
 From tests/certificates/dft-block-gaussian.toml:
 dft-block-gaussian   the probability of losing lock in Gaussian noise, from a smaller set: checked fast
+dft-block-lowest-snr  the lowest signal-to-noise ratio, alone
 """
 import fractions
 import json
@@ -372,7 +373,7 @@ def model_filter(certificate):
 def without_false_locks(certificate):
     keep(certificate, ["lock-set", "lock-in-noise"],
          [claim["id"] for claim in certificate["claims"]
-          if not claim["id"].startswith(("dft-block/every-start", "dft-block/false-lock"))])
+          if not claim["id"].startswith(("dft-block/every-start", "dft-block/false-lock", "dft-block/lowest-snr"))])
 
 
 def dft_block_gaussian(certificate):
@@ -380,6 +381,11 @@ def dft_block_gaussian(certificate):
     certificate["derivations"][0]["evidence"][0]["numbers"]["radius"] = "0x1.0000000000000p-2"
     for part in [certificate["derivations"][0]["quantities"], *(claim["evidence"] for claim in certificate["claims"])]:
         part["probability_of_losing_lock"]["hi"] = "0x1.0000000000000p-10"
+
+
+def dft_block_lowest_snr(certificate):
+    drop_requirements(certificate)
+    keep(certificate, ["lowest-snr"], ["dft-block/lowest-snr"])
 
 
 def false_locks(certificate):
@@ -452,6 +458,7 @@ KINDS = {
     "dft-block-covariance": without_false_locks,
     "dft-block-gaussian": dft_block_gaussian,
     "dft-block-false-locks": false_locks,
+    "dft-block-lowest-snr": dft_block_lowest_snr,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

@@ -98,6 +98,7 @@ TEST_CASE("what the scan does not show counts neither as proved nor as refuted")
     CAPTURE(claim);
     const Row& row = row_of(claim);
     CHECK(row.is_illegible());
+    CHECK(row.is_everywhere(Verdict::undecided));
     CHECK_FALSE(row.falls());
     CHECK_FALSE(row.stands());
     const std::size_t at = document.find("| `" + std::string(claim) + "` |");

@@ -155,8 +155,8 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
       "outward rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
       is_gaussian ? "the noise that a statement names" : "every noise within the assumed bound",
       tables.assume.one_amplitude ? "is exactly the assumed one"
-                                  : "of every sample is in the assumed range, where it may be another one at "
-                                    "each sample; bias and ripple are those of all such amplitudes",
+                                  : "of every sample is in the assumed range and may be another one at each "
+                                    "sample",
       is_gaussian ? "be noise of that kind" : "fit into the noise",
       moves
           ? "stays in the band and changes by no more than assumed, or is constant where a statement says so"

@@ -341,8 +341,12 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
                      .deviations = {}});
   }
   if (slew > 0.0 || require.largest_slew_at_least) {
-    tasks.push_back(
-        {.name = "slew", .objective = ShapeObjective::largest_slew, .largest_slew = true, .deviations = {}});
+    // A shape for the slew alone leaves no room for amplitudes; that of a filter is for both.
+    const bool is_alone = assume.one_amplitude || tone.filter != nullptr;
+    tasks.push_back({.name = "slew",
+                     .objective = is_alone ? ShapeObjective::largest_slew : ShapeObjective::largest_noise,
+                     .largest_slew = true,
+                     .deviations = {}});
   }
   if (const auto& required = require.frequency_error_below) {
     tasks[noise > 0.0 || slew > 0.0 ? 1 : 0].largest_error = required->value.lower();

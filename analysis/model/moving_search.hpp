@@ -38,7 +38,10 @@ class MovingSearch {
       const double level =
           cell.worth.level * std::min(1.0, cell.frequency / std::max(cell.worth.reach, cell.frequency));
       level_ = level_ > 0.0 ? std::min(level_, level) : level;
-      most_slew_ = most_slew_ > 0.0 ? std::min(most_slew_, cell.worth.slew) : cell.worth.slew;
+      // Of a shape that was not made for a slew: as much as adds up to the reach.
+      const double slew =
+          cell.worth.slew > 0.0 ? cell.worth.slew : cell.worth.reach * (1.0 - cell.worth.rate);
+      most_slew_ = most_slew_ > 0.0 ? std::min(most_slew_, slew) : slew;
     }
     constexpr double kLittleRoom = 0.02;
     for (ProvedTube& proved : set.tubes) {

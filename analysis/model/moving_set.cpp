@@ -55,7 +55,7 @@ CellRun widest_part(const std::vector<TubeProposal>& cells, CellRun run,
 TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, double low, double high,
                          const SetTask& task, const SetProgress& progress) {
   const rigor::NearestRounding nearest;
-  BandSettings settings = settings_of(task, low, high);
+  BandSettings settings = settings_of(tone, task, low, high);
   settings.one_shape = true;
   double told = 0.0;
   const auto tell = [&](double share) {

@@ -71,7 +71,7 @@ TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low
     }
     return is_good;
   };
-  BandSettings settings = settings_of(task, low, high);
+  BandSettings settings = settings_of(tone, task, low, high);
   settings.decided = prove_cell;
   const BandProposal band = propose_band(tone, low, high, settings);
   set.reasons = reasons_of(band);

@@ -190,7 +190,8 @@ model::TrackerModel proved_model(const Model& model, const ModelAssumptions& ass
   for (const language::Constant& constant : model.constants) {
     tracker.constants.push_back(constant.value);
   }
-  tracker.amplitude = assume.amplitude.value;
+  tracker.amplitude = hull(assume.amplitude[0].value, assume.amplitude[1].value);
+  tracker.amplitude_varies = !assume.one_amplitude;
   tracker.filter = model.filter ? &*model.filter : nullptr;
   return tracker;
 }
@@ -213,7 +214,8 @@ model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& ass
   for (const language::Constant& constant : model.constants) {
     constants.push_back(constant.nearest);
   }
-  const double amplitude = assume.amplitude.nearest;
+  // Curves and shapes are those of the middle.
+  const double amplitude = 0.5 * (assume.amplitude[0].nearest + assume.amplitude[1].nearest);
   const auto start = [program = model.start, constants, amplitude](double omega) {
     std::vector<double> inputs = constants;
     inputs.push_back(amplitude);
@@ -229,7 +231,8 @@ model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& ass
           start,
           model.states,
           nullptr,
-          objections_to_operations(model)};
+          objections_to_operations(model),
+          0.5 * (assume.amplitude[1].nearest - assume.amplitude[0].nearest)};
 }
 
 Interval band_of(const ModelAssumptions& assume) {
@@ -318,7 +321,12 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   const double slew = slew_of(assume).upper();
   const bool is_everything = extent == Extent::everything;
   std::vector<model::SetTask> tasks(1);
-  tasks.front() = {.name = "starts", .with_curve = true, .deviations = sizes};
+  // An amplitude that varies is a disturbance, without noise, too.
+  tasks.front() = {
+      .name = "starts",
+      .objective = assume.one_amplitude ? ShapeObjective::largest_starts : ShapeObjective::largest_noise,
+      .with_curve = true,
+      .deviations = sizes};
   if (noise > 0.0 || slew > 0.0) {
     tasks.push_back({.name = "assumed",
                      .objective = noise > 0.0 ? ShapeObjective::largest_noise : ShapeObjective::largest_slew,
@@ -333,8 +341,12 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
                      .deviations = {}});
   }
   if (slew > 0.0 || require.largest_slew_at_least) {
-    tasks.push_back(
-        {.name = "slew", .objective = ShapeObjective::largest_slew, .largest_slew = true, .deviations = {}});
+    // A shape for the slew alone leaves no room for amplitudes; that of a filter is for both.
+    const bool is_alone = assume.one_amplitude || tone.filter != nullptr;
+    tasks.push_back({.name = "slew",
+                     .objective = is_alone ? ShapeObjective::largest_slew : ShapeObjective::largest_noise,
+                     .largest_slew = true,
+                     .deviations = {}});
   }
   if (const auto& required = require.frequency_error_below) {
     tasks[noise > 0.0 || slew > 0.0 ? 1 : 0].largest_error = required->value.lower();

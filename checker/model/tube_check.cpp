@@ -121,7 +121,7 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
   if (set_->gaussian) {
     objections.emplace_back("in Gaussian noise every set is left some time");
   }
-  const bool is_noisy = !certainly_equal(Ball(set_->noise), zero);
+  const bool is_noisy = model_->is_disturbed(set_->noise);
   const bool moves = !certainly_equal(Ball(set_->slew), zero);
   if (moves) {
     check_common_levels(*set_, objections);

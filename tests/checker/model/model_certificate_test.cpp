@@ -288,6 +288,66 @@ TEST_CASE("designs that are none are refused, and noise needs a set of its own")
   CHECK(refuses([&](Json& json) { json["design"]["require"]["another"] = decimal("1", 1.0, 1.0); }));
 }
 
+/// The tube for noise 0.04, for less noise and amplitudes that differ by a fiftieth.
+Json varying_certificate() {
+  Json json = test::loop_certificate();
+  json["design"]["assume"]["amplitude"] = {decimal("0.984375", 0.984375, 0.984375),
+                                           decimal("1.015625", 1.015625, 1.015625)};
+  const Json cells = json["tubes"][1]["cells"];
+  json["tubes"] = {test::ProposedModel::set("starts", 0.0, cells),
+                   test::ProposedModel::set("noise", 0.02, cells)};
+  json["claims"] = {test::told_claim("model/guarantee", {{"frequency_error", "0.007"}}),
+                    test::told_claim("model/limits", {{"noise", "0.0195"}, {"reach", "0.001"}})};
+  return json;
+}
+
+TEST_CASE("amplitudes that differ from sample to sample: in these words, and for no wider range") {
+  const Verification found = verify_json(varying_certificate());
+  for (const Part& part : found.parts) {
+    CAPTURE(part.name);
+    CHECK(objections_to(found, part.name).empty());
+  }
+  REQUIRE(found.verified());
+  REQUIRE(found.sentences.size() == 2);
+  CHECK(found.sentences[0].text ==
+        "In exact arithmetic, on a tone with an amplitude in [0.984375, 1.015625], which may differ from "
+        "sample to sample, with any constant frequency in [0.28125, 0.3125] rad/sample, without noise, "
+        "started in the set \"starts\" of the certificate, the frequency error stays at or below 0.007 "
+        "rad/sample for ever.");
+  const auto refuses_with = [](const std::function<void(Json&)>& change) {
+    Json certificate = varying_certificate();
+    change(certificate);
+    try {
+      return !verify_json(certificate).verified();
+    } catch (const Malformed&) {
+      return true;
+    }
+  };
+  CHECK_FALSE(refuses_with([](Json&) {}));
+  const auto amplitude = [](Json& json) -> Json& { return json["design"]["assume"]["amplitude"]; };
+  // What is proved for a range is proved for one that is narrower.
+  CHECK_FALSE(refuses_with([&](Json& json) { amplitude(json)[0] = decimal("1", 1.0, 1.0); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[0] = decimal("0.75", 0.75, 0.75); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[1] = decimal("1.25", 1.25, 1.25); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[1] = decimal("1e300", 1e300, 1e300); }));
+  CHECK(refuses_with([&](Json& json) { std::swap(amplitude(json)[0], amplitude(json)[1]); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[1] = amplitude(json)[0]; }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[0] = decimal("0", 0.0, 0.0); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[0] = decimal("-1", -1.0, -1.0); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[1] = decimal("1.25", 1.015625, 1.015625); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[1] = decimal("1.015625", 1.0, 1.0); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json).erase(1); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json).push_back(amplitude(json)[1]); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json) = Json::array(); }));
+  CHECK(refuses_with([&](Json& json) { json["design"]["assume"].erase("amplitude"); }));
+  CHECK(refuses_with([&](Json& json) { json["tubes"][1]["noise"] = hexadecimal(0.04); }));
+  // Nothing is certified of Gaussian noise with a range.
+  CHECK(refuses_with([&](Json& json) {
+    json["design"]["assume"]["noise"] = {{"deviation", decimal("0.0078125", 0.0078125, 0.0078125)}};
+    json["design"]["assume"]["samples"] = decimal("1024", 1024.0, 1024.0);
+  }));
+}
+
 TEST_CASE("starts within given deviations") {
   const auto with_starts = [](const std::string& w, const std::string& theta) {
     Json json = test::loop_certificate();

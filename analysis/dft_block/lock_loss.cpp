@@ -133,8 +133,9 @@ void conclude_loss(Derivation& derivation, const LossQuestion& question,
 Derivation derive_loss(const LossQuestion& question) {
   const LockSearch search(question.problem);
   const rigor::UpwardRounding upward;
+  constexpr double kStep = 1.1;
   std::vector<InNoise> proposed;
-  for (const ProposedDrift& one : propose_drifts(question.problem, search)) {
+  for (const ProposedDrift& one : propose_drifts(question.problem, search, kStep)) {
     const auto frame = LockFrame::make(question.problem, one.set);
     for (const double share : kSlewShares) {
       if (const auto bound = frame ? loss_bound(question, *frame, one.drift, share) : std::nullopt) {

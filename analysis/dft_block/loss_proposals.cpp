@@ -2,10 +2,10 @@
 
 namespace veritrack::dft_block {
 
-std::vector<ProposedDrift> propose_drifts(const LockProblem& problem, const LockSearch& search) {
+std::vector<ProposedDrift> propose_drifts(const LockProblem& problem, const LockSearch& search, double step) {
   std::vector<ProposedDrift> result;
   constexpr double kLargest = 4.0;
-  for (double radius = 0.1; radius < kLargest; radius *= 1.1) {
+  for (double radius = 0.1; radius < kLargest; radius *= step) {
     const auto set = search.set_for(radius);
     if (!set || !LockFrame::make(problem, *set)) {
       break;

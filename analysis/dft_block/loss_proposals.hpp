@@ -20,8 +20,9 @@ struct ProposedDrift {
   LockDrift drift;
 };
 
-/// By radius and tilt. Opens its own rounding scopes.
-[[nodiscard]] std::vector<ProposedDrift> propose_drifts(const LockProblem& problem, const LockSearch& search);
+/// By radius, each larger than the one before by the factor `step`, and tilt. Opens its own rounding scopes.
+[[nodiscard]] std::vector<ProposedDrift> propose_drifts(const LockProblem& problem, const LockSearch& search,
+                                                        double step);
 
 /// A set with the bound that follows for some noise.
 struct InNoise {

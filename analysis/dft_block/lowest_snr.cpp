@@ -57,9 +57,10 @@ class SnrSearch {
 
   /// The lowest first.
   [[nodiscard]] std::vector<AtItsLowest> proposals() const {
+    constexpr double kStep = 1.03;  // of the radius: a quarter of a dB
     const LockSearch search(question_.loss.problem);
     std::vector<AtItsLowest> result;
-    for (const ProposedDrift& one : propose_drifts(question_.loss.problem, search)) {
+    for (const ProposedDrift& one : propose_drifts(question_.loss.problem, search, kStep)) {
       if (const auto frame = LockFrame::make(question_.loss.problem, one.set)) {
         for (const double share : kSlewShares) {
           if (auto found = lowest(*frame, one, share)) {

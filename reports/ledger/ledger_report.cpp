@@ -55,11 +55,16 @@ std::string verdict_cell(const Row& row) {
   return text;
 }
 
-/// The ground without the kind of mistake and the place before it, which have columns of their own.
+/// The ground without the kind of mistake and the place before it, which have columns of their own: a
+/// sentence.
 std::string without_finding(const Row& row, const std::string& ground) {
   const std::string place = row.finding == nullptr ? "" : fmt::format(" ({}): ", row.finding->place);
   const std::size_t at = place.empty() ? std::string::npos : ground.find(place);
-  return at == std::string::npos ? ground : ground.substr(at + place.size());
+  std::string rest = at == std::string::npos ? ground : ground.substr(at + place.size());
+  if (row.is_illegible() && !rest.empty()) {  // "as we read it, ..."
+    rest.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(rest.front())));
+  }
+  return rest;
 }
 
 /// The ground for the strongest verdict: a refutation counts more than a proof, and that more than neither.

@@ -26,7 +26,7 @@ using test::Example;
 using trackers::Operation;
 using trackers::StraightLineProgram;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kWholeTurn = 2.0 * std::numbers::pi;
 
 /// The amplitudes from 1 - deviation to 1 + deviation.
 void spread(TrackerModel& model, double deviation) {
@@ -86,7 +86,7 @@ Shares steps_over_bounds(const Example& example, const Tube& tube, double radius
     const rigor::NearestRounding nearest;
     double worst = 0.0;
     for (int i = 0; i < 400; ++i) {
-      const double phase = kTurn * (cell.turn + cell.half_turn * random.uniform(-1.0, 1.0));
+      const double phase = kWholeTurn * (cell.turn + cell.half_turn * random.uniform(-1.0, 1.0));
       const double z = cell.z + cell.half_z * random.uniform(-1.0, 1.0);
       const double omega = tube.frequency + tube.half_width * z;
       Eigen::VectorXd xi(static_cast<Eigen::Index>(tube.curve.size()));
@@ -148,8 +148,8 @@ TEST_CASE("amplitudes count as the noise that they come to at each phase, and no
   for (int k = 0; k < kCells; ++k) {
     CAPTURE(k);
     const TubeCell cell{(k + 0.5) / kCells, 0.5 / kCells, 0.0, 0.01};
-    const double share = std::fabs(std::cos(kTurn * cell.turn + tube.frequency));
-    const double width = kTurn * cell.half_turn + 0.01 * tube.half_width;
+    const double share = std::fabs(std::cos(kWholeTurn * cell.turn + tube.frequency));
+    const double width = kWholeTurn * cell.half_turn + 0.01 * tube.half_width;
     const double found = bound(varying, cell, kNoise);
     REQUIRE(found >= bound(loop, cell, kNoise + 0.03 * std::max(0.0, share - width)) * (1.0 - 1e-6));
     REQUIRE(found <= bound(loop, cell, kNoise + 0.03 * (share + 2.0 * width)) * (1.0 + 1e-6));

@@ -83,7 +83,7 @@ TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, dou
     set.tubes.clear();
     MovingSearch search(model, std::span(band.cells).subspan(run.first, run.end - run.first), task.deadline,
                         set, [&](double share) { tell(kOfProposals + 0.4 * share); });
-    is_found = task.largest_slew ? search.find_slew() : search.find_levels();
+    is_found = task.largest_slew ? search.find_slew(task.known_slew) : search.find_levels();
     if (is_found && task.largest_slew && task.of_each_cell) {
       search.find_own_slews();
     }

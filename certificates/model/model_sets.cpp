@@ -97,19 +97,23 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
     const std::vector<Interval> of_tube(
         deviations.begin(), deviations.begin() + static_cast<std::ptrdiff_t>(proved.tube.curve.size()));
     const double start = model::bound_start(tracker, proved.tube, of_tube, grid);
-    constexpr model::ErrorGrid kFine{128, 16};  // the bias changes with the frequency
+    constexpr model::ErrorGrid kFine{128, 16, 16};  // the bias changes with the frequency
     const model::TubeErrors settled =
         model::bound_errors(tracker, proved.tube, proved.levels.back(), cells != nullptr ? kFine : grid);
     const Interval whole = model::bound_errors(tracker, proved.tube, radius, grid).error;
-    // A tenth of what is unknown, and what rounding comes to.
-    const double room = rigor::is_finite(settled.mean)
-                            ? 0.05 * (settled.mean.upper() - settled.mean.lower()) + 1e-12
-                            : INFINITY;
+    // A tenth of what is unknown where it is least, and what rounding comes to.
+    double unknown = INFINITY;
+    for (const model::TubeErrors::Slice& slice : settled.slices) {
+      unknown = std::min(unknown, slice.mean.upper() - slice.mean.lower());
+    }
+    const double room = rigor::is_finite(settled.mean) ? 0.05 * unknown + 1e-12 : INFINITY;
     const Interval mean = rigor::is_finite(settled.mean) ? settled.mean + Interval::from_bounds(-room, room)
                                                          : Interval::empty();
     set.frequency_error = larger(set.frequency_error, with_room(size_of(whole)));
     set.settled_error = larger(set.settled_error, with_room(size_of(settled.error)));
-    set.ripple = larger(set.ripple, with_room(1.01 * settled.ripple));
+    constexpr double kOfRipple = 3e-5;
+    set.ripple = larger(set.ripple, settled.ripple + std::min(0.01 * settled.ripple,
+                                                              kOfRipple * settled.ripple + 0.05 * unknown));
     set.reach = reach < set.reach ? reach : set.reach;
     set.start_share = larger(set.start_share, (Interval(with_room(start)) / Interval(radius)).upper());
     // Once nothing is known of one tube, nothing is known.
@@ -374,6 +378,10 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   for (model::SetTask& task : tasks) {
     task.deadline = deadline;
     task.of_each_cell = is_everything;
+    if (sets.assumed && sets.assumed->is_proved()) {
+      task.known_noise = task.largest_noise ? sets.assumed->tubes.noise : 0.0;
+      task.known_slew = task.largest_slew ? sets.assumed->tubes.slew : 0.0;
+    }
     const bool moves = task.slew > 0.0 || task.largest_slew;
     TubeSet tubes = moves ? model::prove_moving_set(tone, tracker, searched.low, searched.high, task, tell)
                           : model::prove_set(tone, tracker, searched.low, searched.high, task, tell);

@@ -328,14 +328,14 @@ def model_moving(certificate):
     """Without what is told of a frequency that does not move."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
     certificate["claims"] = [claim for claim in certificate["claims"]
-                             if claim["id"] not in ("model/limits", "model/steady-state")]
+                             if claim["id"] not in ("model/limits", "model/slew-limit", "model/steady-state")]
 
 
 def model_gaussian(certificate):
     """Without what is told of no noise, and of noise with a bound."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] in ("gaussian", "lowest-snr")]
     certificate["claims"] = [claim for claim in certificate["claims"]
-                             if claim["id"] not in ("model/limits", "model/steady-state")]
+                             if claim["id"] not in ("model/limits", "model/slew-limit", "model/steady-state")]
 
 
 def model_filter_moving(certificate):
@@ -354,14 +354,14 @@ def model_long_run(certificate):
     """Without what is told of no noise, and of more."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] in ("assumed", "long-run")]
     certificate["claims"] = [claim for claim in certificate["claims"]
-                             if claim["id"] not in ("model/limits", "model/steady-state")]
+                             if claim["id"] not in ("model/limits", "model/slew-limit", "model/steady-state")]
 
 
 def model_filter(certificate):
     """Without what is told of no noise; the error in the long run is that of a level between."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
     certificate["claims"] = [claim for claim in certificate["claims"]
-                             if claim["id"] not in ("model/limits", "model/steady-state")]
+                             if claim["id"] not in ("model/limits", "model/slew-limit", "model/steady-state")]
     for cell in certificate["tubes"][0]["cells"]:
         cell["levels"] = cell["levels"][:3]
         cell["shrinking"] = cell["shrinking"][:2]

@@ -5,12 +5,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "tests/analysis/dft_block/loss_question.hpp"
 #include "trackers/dft_block/dft_block_ekf.hpp"
 #include "trackers/signals/random.hpp"
 
@@ -19,40 +19,21 @@ namespace {
 using namespace veritrack;
 using rigor::Interval;
 
-constexpr double kVariance = 12.5 / 4096.0;
+using test::kVarianceOfBins;
+using test::number_of;
 constexpr double kBlocks = 1000.0;
 constexpr double kProbability = 1e-3;
 constexpr double kStart = 1e-3;
 /// Of a part of a bin at 0 dB, for amplitude 1 and 2048 samples.
 const double kUnit = 1.0 / std::sqrt(2.0 * 2.0 * 2048.0);
 
-/// Set 1 of the thesis in a narrow band.
-dft_block::LowestSnrQuestion question(double slew) {
+dft_block::LowestSnrQuestion lowest_question(double slew) {
   dft_block::LowestSnrQuestion result;
-  result.loss.problem = {Interval(5e-5),
-                         Interval(1e-3),
-                         Interval(2.5e-3),
-                         Interval(kVariance),
-                         2,
-                         Interval(1.0),
-                         Interval::from_bounds(0.29, 0.31),
-                         Interval(0.0),
-                         Interval(slew)};
-  result.loss.deviation = Interval(kUnit * std::pow(10.0, -20.0 / 20.0));
-  result.loss.blocks = Interval(kBlocks);
+  result.loss = test::loss_question(kUnit * std::pow(10.0, -20.0 / 20.0), slew, kBlocks);
   result.loss.amplitude_error = result.loss.phase_error = result.loss.offset_error = Interval(kStart);
   result.unit_deviation = Interval(kUnit);
   result.probability = Interval(kProbability);
   return result;
-}
-
-double number_of(const theorems::Derivation& found, const std::string& name) {
-  for (const auto& [key, value] : found.evidence.front().numbers) {
-    if (key == name) {
-      return value;
-    }
-  }
-  return NAN;
 }
 
 double most(const theorems::Derivation& found, const char* name) {
@@ -62,7 +43,7 @@ double most(const theorems::Derivation& found, const char* name) {
 /// The bound of docs/block-tracker.md, section 7, without slew, in doubles.
 double probability_at(const theorems::Derivation& found, double decibels) {
   const double deviation = kUnit * std::pow(10.0, -decibels / 20.0);
-  const double theta = number_of(found, "tilt") * kVariance / (deviation * deviation);
+  const double theta = number_of(found, "tilt") * kVarianceOfBins / (deviation * deviation);
   const double growth = number_of(found, "growth");
   const double radius = number_of(found, "radius");
   const Eigen::Matrix3d inverse = Eigen::Matrix3d(found.evidence.front().matrices[0].second).inverse();
@@ -82,24 +63,16 @@ double probability_at(const theorems::Derivation& found, double decibels) {
 double simulated_rms(double decibels) {
   const double deviation = kUnit * std::pow(10.0, -decibels / 20.0);
   const double root = std::sqrt(1.0 / (4.0 * std::numbers::pi));
-  const std::complex<double> j(0.0, 1.0);
   trackers::RandomStream noise(4601);
   double sum = 0.0;
   int count = 0;
   double phase = 0.4;
   const double offset = 0.3;
   trackers::DftBlockEkf<double> tracker(
-      {5e-5, 1e-3, 2.5e-3, kVariance, 0.0, 0.0},
+      {5e-5, 1e-3, 2.5e-3, kVarianceOfBins, 0.0, 0.0},
       {root, phase, offset, Eigen::Vector3d(1e-4, 1e-3, 1e-3).asDiagonal()});
   for (int k = 0; k < 4000; ++k) {
-    std::vector<trackers::DftBin<double>> bins;
-    for (int m = -2; m <= 2; ++m) {
-      const std::complex<double> bin = std::exp(j * phase) *
-                                       (std::exp(2.0 * std::numbers::pi * j * offset) - 1.0) /
-                                       (4.0 * std::numbers::pi * j * (offset - m));
-      const double real = bin.real() + deviation * noise.normal();
-      bins.push_back({real, bin.imag() + deviation * noise.normal()});
-    }
+    const auto bins = test::noisy_bins(phase, offset, deviation, noise);
     tracker.measurement_update(std::span<const trackers::DftBin<double>>(bins));
     tracker.time_update();
     phase += 2.0 * std::numbers::pi * offset;
@@ -114,7 +87,7 @@ double simulated_rms(double decibels) {
 }  // namespace
 
 TEST_CASE("the lowest ratio is that of its set, to a hundredth of a dB, and no other set has a lower one") {
-  const dft_block::LowestSnrQuestion asked = question(0.0);
+  const dft_block::LowestSnrQuestion asked = lowest_question(0.0);
   const theorems::Derivation found = dft_block::derive_lowest_snr(asked);
   REQUIRE(found.verdict == rigor::Verdict::proved);
   REQUIRE(found.evidence.front().decimals.size() == 1);
@@ -137,7 +110,7 @@ TEST_CASE("the lowest ratio is that of its set, to a hundredth of a dB, and no o
 }
 
 TEST_CASE("the mean square in lock is above what the filter does") {
-  const theorems::Derivation found = dft_block::derive_lowest_snr(question(0.0));
+  const theorems::Derivation found = dft_block::derive_lowest_snr(lowest_question(0.0));
   REQUIRE(found.verdict == rigor::Verdict::proved);
   const double bound = most(found, "rms_offset_error");
   const double seen = simulated_rms(std::stod(found.evidence.front().decimals.front().second));
@@ -147,11 +120,11 @@ TEST_CASE("the mean square in lock is above what the filter does") {
 }
 
 TEST_CASE("a slew needs a higher ratio, and starts that no set holds have none") {
-  const double without = most(dft_block::derive_lowest_snr(question(0.0)), "lowest_snr");
-  const theorems::Derivation moving = dft_block::derive_lowest_snr(question(1e-3));
+  const double without = most(dft_block::derive_lowest_snr(lowest_question(0.0)), "lowest_snr");
+  const theorems::Derivation moving = dft_block::derive_lowest_snr(lowest_question(1e-3));
   REQUIRE(moving.verdict == rigor::Verdict::proved);
   CHECK(most(moving, "lowest_snr") > without);
-  dft_block::LowestSnrQuestion far = question(0.0);
+  dft_block::LowestSnrQuestion far = lowest_question(0.0);
   far.loss.offset_error = Interval(0.5);
   const theorems::Derivation none = dft_block::derive_lowest_snr(far);
   CHECK(none.verdict == rigor::Verdict::undecided);

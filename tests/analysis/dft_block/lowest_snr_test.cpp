@@ -19,7 +19,7 @@ namespace {
 using namespace veritrack;
 using rigor::Interval;
 
-constexpr double kVariance = 12.5 / 4096.0;
+constexpr double kFilterVariance = 12.5 / 4096.0;
 constexpr double kBlocks = 1000.0;
 constexpr double kProbability = 1e-3;
 constexpr double kStart = 1e-3;
@@ -27,12 +27,12 @@ constexpr double kStart = 1e-3;
 const double kUnit = 1.0 / std::sqrt(2.0 * 2.0 * 2048.0);
 
 /// Set 1 of the thesis in a narrow band.
-dft_block::LowestSnrQuestion question(double slew) {
+dft_block::LowestSnrQuestion snr_question(double slew) {
   dft_block::LowestSnrQuestion result;
   result.loss.problem = {Interval(5e-5),
                          Interval(1e-3),
                          Interval(2.5e-3),
-                         Interval(kVariance),
+                         Interval(kFilterVariance),
                          2,
                          Interval(1.0),
                          Interval::from_bounds(0.29, 0.31),
@@ -46,7 +46,7 @@ dft_block::LowestSnrQuestion question(double slew) {
   return result;
 }
 
-double number_of(const theorems::Derivation& found, const std::string& name) {
+double evidence_number(const theorems::Derivation& found, const std::string& name) {
   for (const auto& [key, value] : found.evidence.front().numbers) {
     if (key == name) {
       return value;
@@ -62,9 +62,9 @@ double most(const theorems::Derivation& found, const char* name) {
 /// The bound of docs/block-tracker.md, section 7, without slew, in doubles.
 double probability_at(const theorems::Derivation& found, double decibels) {
   const double deviation = kUnit * std::pow(10.0, -decibels / 20.0);
-  const double theta = number_of(found, "tilt") * kVariance / (deviation * deviation);
-  const double growth = number_of(found, "growth");
-  const double radius = number_of(found, "radius");
+  const double theta = evidence_number(found, "tilt") * kFilterVariance / (deviation * deviation);
+  const double growth = evidence_number(found, "growth");
+  const double radius = evidence_number(found, "radius");
   const Eigen::Matrix3d inverse = Eigen::Matrix3d(found.evidence.front().matrices[0].second).inverse();
   const double factor =
       1.0 / std::sqrt(Eigen::Matrix3d(found.evidence.front().matrices[1].second).determinant());
@@ -89,7 +89,7 @@ double simulated_rms(double decibels) {
   double phase = 0.4;
   const double offset = 0.3;
   trackers::DftBlockEkf<double> tracker(
-      {5e-5, 1e-3, 2.5e-3, kVariance, 0.0, 0.0},
+      {5e-5, 1e-3, 2.5e-3, kFilterVariance, 0.0, 0.0},
       {root, phase, offset, Eigen::Vector3d(1e-4, 1e-3, 1e-3).asDiagonal()});
   for (int k = 0; k < 4000; ++k) {
     std::vector<trackers::DftBin<double>> bins;
@@ -114,7 +114,7 @@ double simulated_rms(double decibels) {
 }  // namespace
 
 TEST_CASE("the lowest ratio is that of its set, to a hundredth of a dB, and no other set has a lower one") {
-  const dft_block::LowestSnrQuestion asked = question(0.0);
+  const dft_block::LowestSnrQuestion asked = snr_question(0.0);
   const theorems::Derivation found = dft_block::derive_lowest_snr(asked);
   REQUIRE(found.verdict == rigor::Verdict::proved);
   REQUIRE(found.evidence.front().decimals.size() == 1);
@@ -137,7 +137,7 @@ TEST_CASE("the lowest ratio is that of its set, to a hundredth of a dB, and no o
 }
 
 TEST_CASE("the mean square in lock is above what the filter does") {
-  const theorems::Derivation found = dft_block::derive_lowest_snr(question(0.0));
+  const theorems::Derivation found = dft_block::derive_lowest_snr(snr_question(0.0));
   REQUIRE(found.verdict == rigor::Verdict::proved);
   const double bound = most(found, "rms_offset_error");
   const double seen = simulated_rms(std::stod(found.evidence.front().decimals.front().second));
@@ -147,11 +147,11 @@ TEST_CASE("the mean square in lock is above what the filter does") {
 }
 
 TEST_CASE("a slew needs a higher ratio, and starts that no set holds have none") {
-  const double without = most(dft_block::derive_lowest_snr(question(0.0)), "lowest_snr");
-  const theorems::Derivation moving = dft_block::derive_lowest_snr(question(1e-3));
+  const double without = most(dft_block::derive_lowest_snr(snr_question(0.0)), "lowest_snr");
+  const theorems::Derivation moving = dft_block::derive_lowest_snr(snr_question(1e-3));
   REQUIRE(moving.verdict == rigor::Verdict::proved);
   CHECK(most(moving, "lowest_snr") > without);
-  dft_block::LowestSnrQuestion far = question(0.0);
+  dft_block::LowestSnrQuestion far = snr_question(0.0);
   far.loss.offset_error = Interval(0.5);
   const theorems::Derivation none = dft_block::derive_lowest_snr(far);
   CHECK(none.verdict == rigor::Verdict::undecided);

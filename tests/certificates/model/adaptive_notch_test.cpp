@@ -18,7 +18,7 @@
 namespace veritrack::certificates {
 namespace {
 
-constexpr int kSamples = 400;
+constexpr int kNotchSamples = 400;
 
 /// A design of designs/models, its step in doubles.
 class DesignedStep {
@@ -47,7 +47,7 @@ TEST_CASE("the quadrature notch as a model takes the step of its code") {
   Eigen::VectorXd state = Eigen::VectorXd::Zero(7);
   state[6] = 0.55;
   test::Random random(4471);
-  for (int k = 0; k < kSamples; ++k) {
+  for (int k = 0; k < kNotchSamples; ++k) {
     const std::complex<double> sample =
         std::polar(1.0, 0.57 * k) +
         std::complex<double>(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2));
@@ -70,7 +70,7 @@ TEST_CASE("the real notch as a model takes the step of its code") {
   Eigen::VectorXd state = Eigen::VectorXd::Zero(7);
   state[6] = -2.0 * std::cos(0.55);
   test::Random random(4472);
-  for (int k = 0; k < kSamples; ++k) {
+  for (int k = 0; k < kNotchSamples; ++k) {
     const double sample = std::cos(0.57 * k) + random.uniform(-0.2, 0.2);
     state = points.next(state, Eigen::Matrix<double, 1, 1>(sample));
     notch.step(sample);

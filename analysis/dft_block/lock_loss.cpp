@@ -118,11 +118,12 @@ void conclude_loss(Derivation& derivation, const LossQuestion& question,
   const Interval radius(found->drift.radius);
   add_loss(derivation, "probability_of_losing_lock", "p", "the probability of leaving the set",
            min(found->bound.probability, Interval(1.0)));
+  // An estimate is the next prediction before the slew.
   add_loss(derivation, "offset_error_bound", "\\sup_{k < \\tau} |\\tilde\\delta_k|",
-           "the offset error until then, bins", radius * frame->reach(2));
+           "the offset error until then, bins", radius * frame->reach(2) + question.problem.slew);
   add_loss(derivation, "rms_offset_error", "\\sup_k E[\\tilde\\delta_k^2;\\, k < \\tau]^{1/2}",
            "the root mean square of the offset error in lock, bins",
-           min(radius, sqrt(found->bound.mean_square)) * frame->reach(2));
+           sqrt(found->bound.mean_square) * frame->reach(2));
   add_loss(derivation, "phase_error_bound", "\\sup_{k < \\tau} |\\tilde\\varphi_k|",
            "the phase error of the prediction at the middle of every block until then, rad",
            radius * frame->reach(1));

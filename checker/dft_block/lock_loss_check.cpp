@@ -102,8 +102,9 @@ Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, co
   };
   const Loss loss = loss_of(problem, noise, lock, drift, slew_share);
   add("probability_of_losing_lock", min(loss.probability, one));
-  add("offset_error_bound", drift.radius * lock.reach(2));
-  add("rms_offset_error", min(drift.radius, sqrt(loss.mean_square)) * lock.reach(2));
+  // An estimate is the next prediction before the slew, of which the mean square is no larger.
+  add("offset_error_bound", drift.radius * lock.reach(2) + problem.slew);
+  add("rms_offset_error", sqrt(loss.mean_square) * lock.reach(2));
   add("phase_error_bound", drift.radius * lock.reach(1));
   add("amplitude_error_bound", drift.radius * lock.reach(0));
   if (is_lowest) {

@@ -124,6 +124,10 @@ TEST_CASE("a slew needs a higher ratio, and starts that no set holds have none")
   const theorems::Derivation moving = dft_block::derive_lowest_snr(lowest_question(1e-3));
   REQUIRE(moving.verdict == rigor::Verdict::proved);
   CHECK(most(moving, "lowest_snr") > without);
+  // An estimate is the next prediction before the slew.
+  const Eigen::Matrix3d frame = moving.evidence.front().matrices[0].second;
+  CHECK(most(moving, "offset_error_bound") ==
+        doctest::Approx(number_of(moving, "radius") * frame.row(2).norm() + 1e-3).epsilon(1e-9));
   dft_block::LowestSnrQuestion far = lowest_question(0.0);
   far.loss.offset_error = Interval(0.5);
   const theorems::Derivation none = dft_block::derive_lowest_snr(far);

@@ -35,12 +35,12 @@ class MovingSearch {
       set.tubes.push_back(std::move(proved));
       rate = std::max(rate, cell.worth.rate);
       // Errors have to be smaller than the frequency.
-      const double level =
-          cell.worth.level * std::min(1.0, cell.frequency / std::max(cell.worth.reach, cell.frequency));
+      const double share = std::min(1.0, cell.frequency / std::max(cell.worth.reach, cell.frequency));
+      const double level = share * cell.worth.level;
       level_ = level_ > 0.0 ? std::min(level_, level) : level;
       // Of a shape that was not made for a slew: as much as adds up to the reach.
       const double slew =
-          cell.worth.slew > 0.0 ? cell.worth.slew : cell.worth.reach * (1.0 - cell.worth.rate);
+          share * (cell.worth.slew > 0.0 ? cell.worth.slew : cell.worth.reach * (1.0 - cell.worth.rate));
       most_slew_ = most_slew_ > 0.0 ? std::min(most_slew_, slew) : slew;
     }
     constexpr double kLittleRoom = 0.02;
@@ -95,9 +95,13 @@ class MovingSearch {
       }
       try_radius(factor * level_, 0.02 * most_slew_);
     }
-    if (!(slew > 0.0) && known_slew > 0.0) {
-      try_radius(largest_radius(level_, [&](double tried) { return may_hold(tried, known_slew); }),
-                 known_slew);
+    if (!(slew > 0.0)) {
+      const double widest = largest_radius(level_, [&](double tried) { return may_hold(tried, known_slew); });
+      try_radius(widest, known_slew);
+      constexpr double kShare = 0.7;
+      for (double least = 0.02; widest > 0.0 && !(slew > 0.0) && least > 1e-4; least *= kHalf) {
+        try_radius(kShare * widest, least * most_slew_);
+      }
     }
     // The first radius that will do need not be the best.
     constexpr double kSmaller = 0.85;

@@ -111,7 +111,7 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
                                                          : Interval::empty();
     set.frequency_error = larger(set.frequency_error, with_room(size_of(whole)));
     set.settled_error = larger(set.settled_error, with_room(size_of(settled.error)));
-    constexpr double kOfRipple = 3e-5;
+    constexpr double kOfRipple = 2e-5;
     set.ripple = larger(set.ripple, settled.ripple + std::min(0.01 * settled.ripple,
                                                               kOfRipple * settled.ripple + 0.05 * unknown));
     set.reach = reach < set.reach ? reach : set.reach;

@@ -109,7 +109,7 @@ fuzz:
 	scripts/fuzz build/sanitizers $(FUZZ_SECONDS) $(FUZZ_SEED)
 
 # Each guard of analysis/ and checker/ made true, to see whether a test of its room notices. Some hours on two cores.
-MUTATION_EFFORT ?= 0.3
+MUTATION_EFFORT ?= 0.4
 MUTATION_ROOMS  ?= analysis checker
 
 mutation:

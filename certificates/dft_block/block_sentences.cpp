@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "analysis/rigor/decimal.hpp"
-#include "analysis/rigor/rounding.hpp"
 #include "certificates/sets/gaussian_noise.hpp"
 
 namespace veritrack::certificates {
@@ -31,15 +30,7 @@ rigor::Interval bin_deviation(const BlockTables& tables) {
 }
 
 BlockTables with_snr(BlockTables tables, const std::string& decibels) {
-  Number number;
-  number.value = rigor::parse_decimal(decibels);
-  number.tight = number.value;
-  number.text = decibels;
-  {
-    const rigor::NearestRounding nearest;
-    number.nearest = midpoint(number.value);
-  }
-  tables.assume.gaussian = GaussianNoise{number, std::nullopt};
+  tables.assume.gaussian = noise_of_snr(decibels);
   return tables;
 }
 

@@ -28,15 +28,7 @@ constexpr const char* kSource = "docs/gaussian.md";
 
 /// The assumptions with this signal-to-noise ratio, in decimals, in place of theirs.
 Assumptions with_snr(Assumptions assume, const std::string& decibels) {
-  Number number;
-  number.value = rigor::parse_decimal(decibels);
-  number.tight = number.value;
-  number.text = decibels;
-  {
-    const rigor::NearestRounding nearest;
-    number.nearest = midpoint(number.value);
-  }
-  assume.gaussian = GaussianNoise{number, std::nullopt};
+  assume.gaussian = noise_of_snr(decibels);
   return assume;
 }
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/rounding.hpp"
 #include "certificates/sets/frequency_units.hpp"
 
 namespace veritrack::certificates {
@@ -31,6 +33,18 @@ Interval deviation_at_unit_amplitude(const GaussianNoise& noise, const Number& a
 
 Interval deviation_at_unit_amplitude(const Assumptions& assume) {
   return deviation_at_unit_amplitude(assume.gaussian.value(), assume.amplitude);
+}
+
+GaussianNoise noise_of_snr(const std::string& decibels) {
+  Number number;
+  number.value = rigor::parse_decimal(decibels);
+  number.tight = number.value;
+  number.text = decibels;
+  {
+    const rigor::NearestRounding nearest;
+    number.nearest = midpoint(number.value);
+  }
+  return {number, std::nullopt};
 }
 
 double nearest_deviation(const GaussianNoise& noise, const Number& amplitude) {

@@ -12,6 +12,9 @@ namespace veritrack::certificates {
 [[nodiscard]] rigor::Interval deviation_at_unit_amplitude(const GaussianNoise& noise,
                                                           const Number& amplitude);
 [[nodiscard]] rigor::Interval deviation_at_unit_amplitude(const Assumptions& assume);
+/// The noise with this signal-to-noise ratio, a decimal in dB, as if a design said so. Throws what
+/// rigor::parse_decimal throws. Needs the upward mode.
+[[nodiscard]] GaussianNoise noise_of_snr(const std::string& decibels);
 /// The double nearest to it: for simulations. Needs round-to-nearest.
 [[nodiscard]] double nearest_deviation(const GaussianNoise& noise, const Number& amplitude);
 [[nodiscard]] double nearest_deviation(const Assumptions& assume);

@@ -11,10 +11,9 @@ struct Loss {
   Ball mean_square = Ball::everything();  ///< E |e_k|^2 until then, at most, in every block
 };
 
-/// With theta = tilt r/deviation^2, W
-/// = exp(theta |e|^2/2): E W+ <= det(floor)^(-1/2) exp(theta m'floor^-1 m ... /2) <= factor W^power, which is
-/// at most W + constant; and E log W+ <= log factor + power log W. Balls of everything where it is not
-/// defined.
+/// With theta = tilt r/deviation^2 and W = exp(theta |e|^2/2): E W+ <= factor W^power, factor at least
+/// det(floor)^(-1/2), which is at most W + constant; and E log W+ <= log factor + power log W. Balls of
+/// everything where it is not defined.
 Loss loss_of(const BlockProblem& problem, const BlockNoise& noise, const BlockLock& lock,
              const BlockDrift& drift, const Ball& slew_share) {
   const Ball theta = drift.tilt * problem.r / square(noise.deviation);

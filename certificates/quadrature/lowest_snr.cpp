@@ -17,6 +17,7 @@
 #include "certificates/quadrature/lock.hpp"
 #include "certificates/quadrature/quadrature_design.hpp"
 #include "certificates/quadrature/quadrature_particulars.hpp"
+#include "certificates/sets/gaussian_noise.hpp"
 
 namespace veritrack::certificates {
 

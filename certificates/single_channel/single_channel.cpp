@@ -253,9 +253,14 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& pro
     at_middle = add_biases(certificate, design, frequencies, band);
   }
   single_channel::PhaseQuestion question{contraction_question(design, tables.assume, tables.require), band};
-  if (only_verdicts) {
+  if (certificate.extent != Extent::everything) {
     question.tracker.with_limits =
         tables.require.largest_noise_at_least || tables.require.largest_slew_at_least;
+  }
+  if (only_verdicts && question.tracker.required.any() && !question.tracker.with_limits &&
+      !tables.require.frequency_error_radius_at_least) {
+    question.tracker.effort = certificate.extent == Extent::quick ? sets::SearchEffort::quick
+                                                                  : sets::SearchEffort::sufficient;
   }
   single_channel::PhaseCertificate contraction = single_channel::certify_over_phases(question);
   certificate.derivations.push_back(std::move(contraction.derivation));

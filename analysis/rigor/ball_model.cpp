@@ -191,6 +191,12 @@ BallModel BallModel::lifted() const {
   return result;
 }
 
+BallModel BallModel::without_error() const {
+  BallModel result = *this;
+  result.error_ = std::isfinite(error_) ? 0.0 : kNothingKnown;
+  return result;
+}
+
 BallModel BallModel::widened(double more) const {
   BallModel result = *this;
   result.error_ = more >= 0.0 ? result.error_ + more : kNothingKnown;

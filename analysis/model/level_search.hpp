@@ -188,7 +188,7 @@ class LevelSearch {
     constexpr int kMostTries = 2;
     for (double next = kLowest; next < 0.5 * radius && tries < kMostTries; next *= 2.0) {
       question.least_scale = next / radius * (1.0 - 1e-12);
-      const double most = next < kAsLowAsWanted ? 2048.0 : std::clamp(32768.0 * share_, 1024.0, 8192.0);
+      const double most = next < kAsLowAsWanted ? 2048.0 : std::clamp(65536.0 * share_, 1024.0, 16384.0);
       const auto grid = task_->deadline.is_over() ? std::nullopt : grid_for(question, static_cast<int>(most));
       if (!grid) {
         continue;

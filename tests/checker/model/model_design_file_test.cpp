@@ -116,7 +116,7 @@ TEST_CASE("a range of amplitudes is the one of the file") {
   CHECK(objections({low, high}) == 0);
   CHECK(objections({high, low}) == 2);
   CHECK(objections({low, test::decimal("1.125", 1.125, 1.125)}) == 1);
-  CHECK(objections({low}) == 1);
+  CHECK(objections(test::Json::array({low})) == 1);
   CHECK(objections({low, high, high}) == 1);
   CHECK(objections(low) == 3);
   CHECK(objections(test::Json::array()) == 2);

@@ -67,6 +67,10 @@ Condition invariant_set(const PhaseQuestion& question, const PhaseCertificate& c
                        rigor::to_decimal(n, 2, Direction::up) + " samples.";
     return condition;
   }
+  if (question.tracker.effort == sets::SearchEffort::quick) {
+    condition.reason = "a quick search found no set that does all that is required.";
+    return condition;
+  }
   const auto& noisy = certificate.noise_set;
   const auto& slewing = certificate.slew_set;
   condition.reason =
@@ -214,6 +218,8 @@ theorems::Evidence evidence_of(const char* name, const PhaseSet& set) {
   return evidence;
 }
 
+/// As far as the question wants. What one set proves of what is required, a search for everything proves,
+/// too.
 void look_for_sets(const PhaseQuestion& question, PhaseCertificate& certificate, double& level_seen) {
   const sets::ContractionQuestion& asked = question.tracker;
   const PhaseSearch search(question);
@@ -228,6 +234,12 @@ void look_for_sets(const PhaseQuestion& question, PhaseCertificate& certificate,
   certificate.set = search.largest_set();
   if (certificate.set && !asked.start_covariance) {
     certificate.bound_set = search.least_bound();
+    if (asked.effort == sets::SearchEffort::everything && asked.required.any() && certificate.bound_set &&
+        !satisfies(question, *certificate.bound_set)) {
+      if (auto sufficient = search.sufficient_set()) {
+        certificate.bound_set = std::move(sufficient);
+      }
+    }
     level_seen = search.start_level_seen(*certificate.set);
   }
   if (asked.with_limits || !certificate.set) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "analysis/rigor/call_site.hpp"
 #include "analysis/rigor/small_definiteness.hpp"
 #include "analysis/rigor/taylor_lanes.hpp"
 #include "analysis/single_channel/window_cells.hpp"
@@ -55,6 +56,7 @@ struct WindowNumbers {
   static Mask both(const Mask& a, const Mask& b) { return R::both(a, b); }
   static bool any(const Mask& mask) { return R::any(mask); }
   static Mask none() { return R::less(R::all(1.0), R::all(0.0)); }
+  static Mask every() { return R::less(R::all(0.0), R::all(1.0)); }
   static void store(bool* to, const Mask& mask) {
     const unsigned bits = R::bits(mask);
     for (int lane = 0; lane < Lanes; ++lane) {
@@ -97,6 +99,7 @@ struct WindowNumbers<1> {
   static bool both(bool a, bool b) { return a && b; }
   static bool any(bool mask) { return mask; }
   static bool none() { return false; }
+  static bool every() { return true; }
   template <typename T>
   static void store(T* to, const T& x) {
     *to = x;
@@ -197,7 +200,8 @@ class WindowCheck {
 
   /// True only where the matrix is positive definite all over the cell: so is C A C', C about the inverse of
   /// the Cholesky factor in its middle.
-  static Mask certainly_positive_matrix(const Bound& a) {
+  static Mask certainly_positive_matrix(const Bound& a VERITRACK_CALL_SITE) {
+    VERITRACK_MUTANT_RETURNS(N::every())
     const Numbers one = N::all(1.0);
     const Numbers l11 = N::sqrt(a.p11.constant());
     const Numbers l21 = a.p12.constant() / l11;

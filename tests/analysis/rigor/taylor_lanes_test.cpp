@@ -44,11 +44,11 @@ void check_same(const Lanes& lanes, const std::array<Model, 2>& models) {
 }
 
 /// Two variables and an uncertain constant, in lanes and alone.
-struct Operands {
+struct SideBySide {
   std::array<Model, 2> x, y, c;
   Lanes x_lanes, y_lanes, c_lanes;
 
-  Operands(test::Random& random, double width) {
+  SideBySide(test::Random& random, double width) {
     std::array<double, 2> low{};
     std::array<double, 2> high{};
     const auto sides = [&] {
@@ -69,7 +69,7 @@ struct Operands {
 };
 
 template <typename Function>
-void check_function(const Operands& all, const Function& function) {
+void check_function(const SideBySide& all, const Function& function) {
   check_same(function(all.x_lanes, all.y_lanes, all.c_lanes),
              {function(all.x[0], all.y[0], all.c[0]), function(all.x[1], all.y[1], all.c[1])});
 }
@@ -78,7 +78,7 @@ TEST_CASE("each lane is the Taylor model, to the bit") {
   const UpwardRounding upward;
   test::Random random(3);
   for (int n = 0; n < 300; ++n) {
-    const Operands all(random, n % 2 == 0 ? 0.05 : 0.4);
+    const SideBySide all(random, n % 2 == 0 ? 0.05 : 0.4);
     check_function(all, [](const auto& x, const auto& y, const auto& c) { return x * y - c * x; });
     check_function(all, [](const auto& x, const auto& y, const auto& c) {
       return sin_cos(x + c * y).first * sin_cos(y).second;
@@ -96,7 +96,7 @@ TEST_CASE("each lane is the Taylor model, to the bit") {
 TEST_CASE("what is not known in a lane is unknown there, and in no other") {
   const UpwardRounding upward;
   test::Random random(4);
-  const Operands all(random, 0.1);
+  const SideBySide all(random, 0.1);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::array<double, 2> low{0.5, -kInfinity};
   const std::array<double, 2> high{0.6, 1.0};

@@ -15,8 +15,6 @@ using rigor::Interval;
 PhaseQuestion question() {
   PhaseQuestion asked;
   asked.tracker.design = {Interval(0.005), Interval(0.005), Interval(0.01), Interval(0.0)};
-  asked.tracker.noise = Interval(0.0005);
-  asked.tracker.slew = Interval(0.00005);
   asked.tracker.initial_amplitude_error = Interval(0.0005);
   asked.tracker.initial_phase_error = Interval(0.0005);
   asked.tracker.initial_frequency_error = Interval(0.0005);
@@ -34,7 +32,7 @@ TEST_CASE("what is required is satisfied up to what the set proves, and no furth
   const double bound = frequency_error_bound(asked, *set, level).upper();
   REQUIRE(bound > 0.0);
   // The recursion of the levels, one after the other.
-  const double settled = 1.5 * ultimate_frequency_error(asked, *set).upper();
+  const double settled = 0.5 * bound;
   const auto levels = errors_of(asked, *set).levels(level, 4000);
   REQUIRE(levels);
   const double scale = std::sqrt(set->claim.assumption.frequency_variance);

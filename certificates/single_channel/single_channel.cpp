@@ -253,7 +253,7 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& pro
     at_middle = add_biases(certificate, design, frequencies, band);
   }
   single_channel::PhaseQuestion question{contraction_question(design, tables.assume, tables.require), band};
-  if (certificate.extent != Extent::everything) {
+  if (only_verdicts) {
     question.tracker.with_limits =
         tables.require.largest_noise_at_least || tables.require.largest_slew_at_least;
   }

@@ -135,8 +135,10 @@ double growth_on_grid(const TrackerModel& model, const Tube& tube, const LevelQu
   std::vector<double> growths(kPhases * kPlaces);
   tbb::parallel_for(std::size_t{0}, growths.size(), [&](std::size_t number) {
     const rigor::UpwardRounding upward;
-    const double share = (static_cast<double>(number / kPlaces) + 0.3) / kPhases;
-    const double row = std::floor(static_cast<double>(number % kPlaces) / kPlaces * frequencies);
+    const std::size_t phase = number / kPlaces;
+    const std::size_t place = number % kPlaces;
+    const double share = (static_cast<double>(phase) + 0.3) / kPhases;
+    const double row = std::floor(static_cast<double>(place) / kPlaces * frequencies);
     const TubeCell cell{(std::floor(share * phases) + 0.5) / phases, 0.5 / phases,
                         (2.0 * row + 1.0) / frequencies - 1.0, 1.0 / frequencies};
     const StepBounds bounds = bounds_of(model, tube, cell, question, {scales.begin(), scales.end()});

@@ -66,7 +66,7 @@ class Explain(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn('"slwe" is no key and no claim; nearest: slew', result.stderr)
         result = run("explain", "SNR")
-        self.assertIn("it is mentioned in assume.noise, model/lowest-snr, ekf/lowest-snr;", result.stderr)
+        self.assertIn("it is mentioned in assume.noise, dft-block/lowest-snr, model/lowest-snr, ekf/lowest-snr;", result.stderr)
 
     def test_lines_are_as_wide_as_the_terminal(self):
         def longest(text):

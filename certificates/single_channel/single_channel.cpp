@@ -259,8 +259,8 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& pro
   }
   if (only_verdicts && question.tracker.required.any() && !question.tracker.with_limits &&
       !tables.require.frequency_error_radius_at_least) {
-    question.tracker.effort = certificate.extent == Extent::quick ? sets::SearchEffort::quick
-                                                                  : sets::SearchEffort::sufficient;
+    question.tracker.effort =
+        certificate.extent == Extent::quick ? sets::SearchEffort::quick : sets::SearchEffort::sufficient;
   }
   single_channel::PhaseCertificate contraction = single_channel::certify_over_phases(question);
   certificate.derivations.push_back(std::move(contraction.derivation));

@@ -25,16 +25,19 @@ std::optional<double> level_of(const DiagonalStart& start, const StartBox& box, 
       .upper();
 }
 
-DiagonalStart propose_diagonal_start(const WindowRequest& request, const WindowClaim& claim,
-                                     const StartBox& box, double margin, double amplitude) {
-  constexpr int kDigits = 5;
-  constexpr double kLargestMultiple = 1.05;
-  // A matrix of the shape of the box; no variance may vanish.
+StartBox shape_of(const StartBox& box) {
+  // No variance may vanish.
   constexpr double kLeastShare = 1e-3;
   const double least = kLeastShare * std::max(box.signal, box.frequency);
-  const StartBox shape = least > 0.0 ? StartBox{std::max(box.signal, least), std::max(box.frequency, least)}
-                                     : StartBox{1.0, 1.0};
-  const StartProposal start = propose_start(request, claim, shape);
+  return least > 0.0 ? StartBox{std::max(box.signal, least), std::max(box.frequency, least)}
+                     : StartBox{1.0, 1.0};
+}
+
+DiagonalStart diagonal_start(const StartProposal& start, const StartBox& box, double margin,
+                             double amplitude) {
+  constexpr int kDigits = 5;
+  constexpr double kLargestMultiple = 1.05;
+  const StartBox shape = shape_of(box);
   const double room = kLargestMultiple * margin * margin * start.level * start.level;
   const auto decimal = [](double x) { return rigor::to_decimal(x, kDigits, rigor::Direction::down); };
   const double signal = shape.signal * amplitude;

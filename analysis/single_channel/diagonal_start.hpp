@@ -22,9 +22,12 @@ struct DiagonalStart {
 [[nodiscard]] std::optional<double> level_of(const DiagonalStart& start, const StartBox& box,
                                              const rigor::Interval& amplitude);
 
-/// One that lies below the covariances of the window on a grid, by that margin, and in which the box has a
-/// small level. Needs the upward mode.
-[[nodiscard]] DiagonalStart propose_diagonal_start(const WindowRequest& request, const WindowClaim& claim,
-                                                   const StartBox& box, double margin, double amplitude);
+/// The box, for which a start is proposed: no side vanishes.
+[[nodiscard]] StartBox shape_of(const StartBox& box);
+
+/// From a proposal for the shape of the box: one that lies below the covariances of the window on a grid, by
+/// that margin, and in which the box has a small level. Needs the upward mode.
+[[nodiscard]] DiagonalStart diagonal_start(const StartProposal& start, const StartBox& box, double margin,
+                                           double amplitude);
 
 }  // namespace veritrack::single_channel

@@ -7,6 +7,7 @@
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/sets/controllability.hpp"
+#include "analysis/single_channel/phase_promises.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 
 namespace veritrack::single_channel {
@@ -64,6 +65,10 @@ Condition invariant_set(const PhaseQuestion& question, const PhaseCertificate& c
     condition.lhs = errors.after_window(condition.rhs);
     condition.reason = "verified over all phases and the band, for windows of " +
                        rigor::to_decimal(n, 2, Direction::up) + " samples.";
+    return condition;
+  }
+  if (question.tracker.effort == sets::SearchEffort::quick) {
+    condition.reason = "a quick search found no set that does all that is required.";
     return condition;
   }
   const auto& noisy = certificate.noise_set;
@@ -124,27 +129,6 @@ Reach reach_of(const PhaseSet& set) {
   const Interval largest_phase = atan(signal / sqrt(one - square(signal)));
   return {hull(level * sqrt(Interval(set.floor.p33)), frequency), hull(least_phase, largest_phase),
           hull(level * sqrt(Interval(set.floor.p11)), signal)};
-}
-
-/// The first sample from which on |nu| is at most `frequency_error`, rad/sample; empty when none is found.
-Interval settling_samples(const PhaseQuestion& question, const PhaseSet& set, double start,
-                          double frequency_error) {
-  const WindowErrors errors = errors_of(question, set);
-  constexpr int kFollowed = 4000;  // samples
-  const double target =
-      (Interval(frequency_error) / sqrt(Interval(set.claim.assumption.frequency_variance))).lower();
-  const auto levels = errors.levels(start, kFollowed);
-  if (!levels || !(target > 0.0) || !errors.keeps(target) || !(errors.ultimate() <= target)) {
-    return Interval::empty();
-  }
-  int below = 0;
-  for (int k = 0; k <= kFollowed; ++k) {
-    below = (*levels)[static_cast<std::size_t>(k)] <= target ? below + 1 : 0;
-    if (below == errors.window()) {
-      return Interval(k + 1 - below);
-    }
-  }
-  return Interval::empty();
 }
 
 void set_size(const PhaseQuestion& question, const std::optional<PhaseSet>& set_found,
@@ -234,6 +218,36 @@ theorems::Evidence evidence_of(const char* name, const PhaseSet& set) {
   return evidence;
 }
 
+/// As far as the question wants. What one set proves of what is required, a search for everything proves,
+/// too.
+void look_for_sets(const PhaseQuestion& question, PhaseCertificate& certificate, double& level_seen) {
+  const sets::ContractionQuestion& asked = question.tracker;
+  const PhaseSearch search(question);
+  if (asked.effort != sets::SearchEffort::everything && !asked.start_covariance) {
+    // One set that does all that is required is the set of the certificate, too.
+    certificate.bound_set = search.sufficient_set();
+    certificate.set = certificate.bound_set;
+    if (certificate.set || asked.effort == sets::SearchEffort::quick) {
+      return;
+    }
+  }
+  certificate.set = search.largest_set();
+  if (certificate.set && !asked.start_covariance) {
+    certificate.bound_set = search.least_bound();
+    if (asked.effort == sets::SearchEffort::everything && asked.required.any() && certificate.bound_set &&
+        !satisfies(question, *certificate.bound_set)) {
+      if (auto sufficient = search.sufficient_set()) {
+        certificate.bound_set = std::move(sufficient);
+      }
+    }
+    level_seen = search.start_level_seen(*certificate.set);
+  }
+  if (asked.with_limits || !certificate.set) {
+    certificate.noise_set = search.largest_noise();
+    certificate.slew_set = search.largest_slew();
+  }
+}
+
 }  // namespace
 
 PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
@@ -254,16 +268,7 @@ PhaseCertificate certify_over_phases(const PhaseQuestion& question) {
                                    [](const Condition& one) { return one.verdict == Verdict::proved; });
   double level_seen = 0.0;
   if (sensible && covered) {
-    const PhaseSearch search(question);
-    certificate.set = search.largest_set();
-    if (certificate.set && !question.tracker.start_covariance) {
-      certificate.bound_set = search.least_bound();
-      level_seen = search.start_level_seen(*certificate.set);
-    }
-    if (question.tracker.with_limits || !certificate.set) {
-      certificate.noise_set = search.largest_noise();
-      certificate.slew_set = search.largest_slew();
-    }
+    look_for_sets(question, certificate, level_seen);
   }
   const std::pair<const char*, const std::optional<PhaseSet>*> sets[] = {
       {"start-error", &certificate.set},

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <utility>
 
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/single_channel/phase_promises.hpp"
 #include "analysis/single_channel/set_rounding.hpp"
 
 namespace veritrack::single_channel {
@@ -77,16 +79,20 @@ PhaseSearch::PhaseSearch(const PhaseQuestion& question) : question_(question) {
               question.band.upper(),
               tracker.slew.upper()};
   proposals_ = propose_windows(request_);
-  still_proposals_ = proposals_;
-  if (!(request_.slew == 0.0)) {
-    WindowRequest still = request_;
-    still.slew = 0.0;
-    still_proposals_ = propose_windows(still);
-  }
 }
 
+const std::vector<WindowClaim>& PhaseSearch::still_proposals() const {
+  if (!still_proposals_) {
+    WindowRequest still = request_;
+    still.slew = 0.0;
+    still_proposals_ = request_.slew == 0.0 ? proposals_ : propose_windows(still);
+  }
+  return *still_proposals_;
+}
+
+template <typename StartsOf>
 std::optional<PhaseSet> PhaseSearch::verified(const WindowClaim& proposal, const Interval& noise,
-                                              const Interval& slew) const {
+                                              const Interval& slew, const StartsOf& starts_of) const {
   for (const double slack : {0.012, kUsualSlack, 0.05, 0.1}) {
     PhaseSet set{with_slack(proposal, slack), {}, noise, slew, 0.0, std::nullopt};
     set.claim.slew = slew.upper();
@@ -99,12 +105,38 @@ std::optional<PhaseSet> PhaseSearch::verified(const WindowClaim& proposal, const
     if (!(set.start_level > 0.0)) {
       return std::nullopt;
     }
-    if (const auto floor = verify_window(question_.tracker.design, question_.band, set.claim)) {
-      set.floor = *floor;
+    const std::optional<std::vector<PhaseSet>> started = starts_of(set);
+    if (started && started->empty()) {
+      return std::nullopt;
+    }
+    std::vector<StartVariances> starts;
+    for (const PhaseSet& one : started.value_or(std::vector<PhaseSet>())) {
+      starts.push_back(one.start->times(one.start->to, question_.tracker.amplitude));
+    }
+    const auto window = verify_window(question_.tracker.design, question_.band, set.claim, starts);
+    if (!window) {
+      continue;
+    }
+    if (!started) {
+      set.floor = window->floor;
       return set;
     }
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      if (window->is_below[i]) {
+        set = (*started)[i];
+        set.floor = window->floor;
+        return set;
+      }
+    }
+    return std::nullopt;
   }
   return std::nullopt;
+}
+
+std::optional<PhaseSet> PhaseSearch::verified(const WindowClaim& proposal, const Interval& noise,
+                                              const Interval& slew) const {
+  return verified(proposal, noise, slew,
+                  [](const PhaseSet& /*set*/) { return std::optional<std::vector<PhaseSet>>(); });
 }
 
 /// The proposals of positive value, with the usual slack, the most valuable ones first, a few of them.
@@ -143,52 +175,67 @@ std::optional<PhaseSet> PhaseSearch::largest_set() const {
   return std::nullopt;
 }
 
-std::optional<PhaseSet> PhaseSearch::least_bound() const {
+template <typename Accept>
+std::optional<PhaseSet> PhaseSearch::set_for_starts(const Accept& accept) const {
   const rigor::UpwardRounding upward;
   const sets::ContractionQuestion& tracker = question_.tracker;
-  // A matrix below all covariances, up to the resolution of the grid, in which the level of the assumed
-  // starts is small; and that level.
-  const auto within = [&](PhaseSet& set, double margin) {
-    set.start = propose_diagonal_start(request_, set.claim, box_, margin, midpoint(tracker.amplitude));
-    set.assumed_level = level_of(*set.start, box_, tracker.amplitude);
-    return set.assumed_level && errors_of(question_, set).levels(*set.assumed_level, kFollowed).has_value();
-  };
-  // Every predicted covariance is above Q, those of a start from any covariance too.
-  const auto from_any = [&](std::vector<WindowClaim> proposals) {
-    for (WindowClaim& claim : proposals) {
-      claim.signal_uncertainty = std::min(claim.signal_uncertainty, tracker.design.q1.lower());
+  // With matrices below all covariances, up to the resolution of the grid, in which the level of the assumed
+  // starts is small, a little smaller than that by each margin; and that level.
+  const auto with_starts = [&](const PhaseSet& set, std::initializer_list<double> margins) {
+    std::vector<PhaseSet> started;
+    const StartProposal seen = propose_start(request_, set.claim, shape_of(box_));
+    for (const double margin : margins) {
+      PhaseSet one = set;
+      one.start = diagonal_start(seen, box_, margin, midpoint(tracker.amplitude));
+      one.assumed_level = level_of(*one.start, box_, tracker.amplitude);
+      if (one.assumed_level && errors_of(question_, one).levels(*one.assumed_level, kFollowed)) {
+        started.push_back(one);
+      }
     }
-    return proposals;
+    return started;
   };
   const auto promise = [&](const WindowClaim& claim) {
-    PhaseSet set{claim, {}, tracker.noise, tracker.slew, 0.0, std::nullopt};
-    if (!errors_of(question_, set).keeps_radius() || !within(set, 1.0)) {
+    const PhaseSet set{claim, {}, tracker.noise, tracker.slew, 0.0, std::nullopt};
+    if (!errors_of(question_, set).keeps_radius()) {
       return 0.0;
     }
-    return 1.0 / frequency_error_bound(question_, set, *set.assumed_level).upper();
+    const std::vector<PhaseSet> started = with_starts(set, {1.0});
+    return started.empty()
+               ? 0.0
+               : 1.0 / frequency_error_bound(question_, started[0], *started[0].assumed_level).upper();
   };
-  const std::vector<WindowClaim> proposals = from_any(proposals_);
+  // Every predicted covariance is above Q, those of a start from any covariance too.
+  std::vector<WindowClaim> proposals = proposals_;
+  for (WindowClaim& claim : proposals) {
+    claim.signal_uncertainty = std::min(claim.signal_uncertainty, tracker.design.q1.lower());
+  }
   std::vector<WindowClaim> candidates = best_first(proposals, promise);
   // Small sets promise more, but large ones are easier to verify.
   std::vector<WindowClaim> large(proposals.rbegin(), proposals.rend());
   large.resize(std::min(large.size(), kTries));
   candidates.insert(candidates.end(), large.begin(), large.end());
   for (const WindowClaim& proposal : candidates) {
-    auto set = verified(proposal, tracker.noise, tracker.slew);
-    if (!set) {
-      continue;
-    }
-    for (const double margin : {1.02, 1.1, 1.3}) {
-      if (within(*set, margin) &&
-          certainly_less_equal(Interval(set->claim.signal_uncertainty), tracker.design.q1) &&
-          covers_start(question_, *set) &&
-          certainly_below_covariances(tracker.design, question_.band, set->claim,
-                                      set->start->times(set->start->to, tracker.amplitude))) {
-        return set;
-      }
+    const auto set = verified(proposal, tracker.noise, tracker.slew, [&](const PhaseSet& one) {
+      std::vector<PhaseSet> started = with_starts(one, {1.02, 1.1, 1.3});
+      std::erase_if(started, [&](const PhaseSet& start) {
+        return !certainly_less_equal(Interval(start.claim.signal_uncertainty), tracker.design.q1) ||
+               !covers_start(question_, start) || !accept(start);
+      });
+      return std::optional(started);
+    });
+    if (set) {
+      return set;
     }
   }
   return std::nullopt;
+}
+
+std::optional<PhaseSet> PhaseSearch::least_bound() const {
+  return set_for_starts([](const PhaseSet& /*set*/) { return true; });
+}
+
+std::optional<PhaseSet> PhaseSearch::sufficient_set() const {
+  return set_for_starts([&](const PhaseSet& set) { return satisfies(question_, set); });
 }
 
 std::optional<PhaseSet> PhaseSearch::largest_noise() const {
@@ -200,7 +247,7 @@ std::optional<PhaseSet> PhaseSearch::largest_noise() const {
     const Interval input = WindowErrors(design, claim, zero, zero).largest_input();
     return kBelow * (input * sqrt(design.r)).lower();
   };
-  for (const WindowClaim& proposal : best_first(still_proposals_, noise_of)) {
+  for (const WindowClaim& proposal : best_first(still_proposals(), noise_of)) {
     for (const double slack : {0.012, kUsualSlack, 0.05}) {
       WindowClaim claim = with_slack(proposal, slack);
       // Rounding takes some of the room; it grows with the noise.
@@ -226,7 +273,7 @@ std::optional<PhaseSet> PhaseSearch::largest_slew() const {
     return (input * sqrt(design.q2)).lower();
   };
   // The slew that the recursion would tolerate if it did not blur the phases in the window, and parts of it.
-  const std::vector<WindowClaim> still = best_first(still_proposals_, room_for);
+  const std::vector<WindowClaim> still = best_first(still_proposals(), room_for);
   if (still.empty()) {
     return std::nullopt;
   }

@@ -51,6 +51,8 @@ class PhaseSearch {
   [[nodiscard]] std::optional<PhaseSet> largest_set() const;
   /// The least bound on the frequency error from the assumed starts on.
   [[nodiscard]] std::optional<PhaseSet> least_bound() const;
+  /// A set that does what question.tracker.required asks of the assumed starts.
+  [[nodiscard]] std::optional<PhaseSet> sufficient_set() const;
   /// The largest noise, without slew.
   [[nodiscard]] std::optional<PhaseSet> largest_noise() const;
   /// The largest slew, without noise.
@@ -59,8 +61,19 @@ class PhaseSearch {
   [[nodiscard]] double start_level_seen(const PhaseSet& set) const;
 
  private:
+  /// The proposal with as little slack as lets it verify. With starts, the set is for the assumed ones:
+  /// nothing unless one of those that `starts_of(set)` gives, at most three, is below all covariances, the
+  /// first such.
+  template <typename StartsOf>
+  [[nodiscard]] std::optional<PhaseSet> verified(const WindowClaim& proposal, const rigor::Interval& noise,
+                                                 const rigor::Interval& slew,
+                                                 const StartsOf& starts_of) const;
   [[nodiscard]] std::optional<PhaseSet> verified(const WindowClaim& proposal, const rigor::Interval& noise,
                                                  const rigor::Interval& slew) const;
+  /// Sets for the assumed starts, each the least bound's first, until `accept(set)`.
+  template <typename Accept>
+  [[nodiscard]] std::optional<PhaseSet> set_for_starts(const Accept& accept) const;
+  [[nodiscard]] const std::vector<WindowClaim>& still_proposals() const;
   template <typename Value>
   [[nodiscard]] static std::vector<WindowClaim> best_first(const std::vector<WindowClaim>& proposals,
                                                            const Value& value);
@@ -68,8 +81,9 @@ class PhaseSearch {
   PhaseQuestion question_;
   WindowRequest request_;
   StartBox box_;
-  std::vector<WindowClaim> proposals_;        ///< under the assumed slew
-  std::vector<WindowClaim> still_proposals_;  ///< without slew
+  std::vector<WindowClaim> proposals_;  ///< under the assumed slew
+  /// Without slew, when they were asked for.
+  mutable std::optional<std::vector<WindowClaim>> still_proposals_;
 };
 
 }  // namespace veritrack::single_channel

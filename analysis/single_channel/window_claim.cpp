@@ -3,40 +3,32 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 
 #include "analysis/rigor/elementary.hpp"
-#include "analysis/rigor/matrix.hpp"
-#include "analysis/rigor/small_definiteness.hpp"
+#include "analysis/single_channel/window_cell_lanes.hpp"
 
 namespace veritrack::single_channel {
 
 namespace {
 
 using rigor::Interval;
+using trackers::InstructionSet;
 using trackers::ToneModel;
-using Model = detail::OverPhaseAndFrequency;
-using Bound = PhaseCovariance<Model>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A cell of phases and frequencies.
-struct Cell {
-  Interval phase;
-  Interval frequency;
-};
-
-/// Cells that cover a period of the phase and the band.
-std::vector<Cell> cells_of(const Interval& band) {
+/// Cells that cover a period of the phase and the band, the ends of the band first: there the bounds are the
+/// least good, so that a claim that says too much is refused at once.
+std::vector<WindowCells> cells_of(const Interval& band) {
   constexpr std::size_t kPhases = 48;
   constexpr double kFrequencyWidth = 0.02;  // rad/sample
-  std::vector<Cell> cells;
+  static_assert(kPhases % WindowCells::kMost == 0);
   const auto count = static_cast<std::size_t>(std::ceil(std::max(1.0, width(band) / kFrequencyWidth)));
   const auto part = [](const Interval& whole, std::size_t k, std::size_t parts) {
     const auto end = [&](std::size_t i) {
@@ -46,87 +38,38 @@ std::vector<Cell> cells_of(const Interval& band) {
     return Interval::from_bounds(end(k), end(k + 1));
   };
   const Interval period = Interval::from_bounds(0.0, rigor::pi().upper());
-  cells.reserve(count * kPhases);
-  for (std::size_t j = 0; j < count; ++j) {
-    for (std::size_t i = 0; i < kPhases; ++i) {
-      cells.push_back({part(period, i, kPhases), part(band, j, count)});
-    }
-  }
-  return cells;
-}
-
-ToneModel<Model> lifted(const ToneModel<Interval>& design) {
-  return {Model(design.q1), Model(design.q2), Model(design.r), Model(design.epsilon)};
-}
-
-/// True only when the matrix is positive definite all over the cell: so is C A C', C the inverse of the
-/// Cholesky factor in its middle.
-bool certainly_positive(const Bound& a VERITRACK_CALL_SITE) {
-  VERITRACK_MUTANT_RETURNS(true)
-  rigor::Matrix<3> middle;
-  middle << a.p11.constant(), a.p12.constant(), a.p13.constant(), a.p12.constant(), a.p22.constant(),
-      a.p23.constant(), a.p13.constant(), a.p23.constant(), a.p33.constant();
-  const Eigen::LLT<rigor::Matrix<3>> factor(middle);
-  if (factor.info() != Eigen::Success) {
-    return false;
-  }
-  const rigor::Matrix<3> c = rigor::Matrix<3>(factor.matrixL()).inverse();
-  if (!c.allFinite()) {
-    return false;
-  }
-  const std::array<std::array<const Model*, 3>, 3> entries = {
-      {{&a.p11, &a.p12, &a.p13}, {&a.p12, &a.p22, &a.p23}, {&a.p13, &a.p23, &a.p33}}};
-  rigor::LowerTriangle<3> changed;
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column <= row; ++column) {
-      Model sum(0.0);
-      for (std::size_t i = 0; i <= row; ++i) {
-        for (std::size_t j = 0; j <= column; ++j) {
-          const Interval factor_ij =
-              Interval(c(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i))) *
-              Interval(c(static_cast<Eigen::Index>(column), static_cast<Eigen::Index>(j)));
-          sum += Model(factor_ij) * *entries[i][j];
-        }
+  std::vector<WindowCells> batches;
+  batches.reserve(count * kPhases / WindowCells::kMost);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t j = k % 2 == 0 ? k / 2 : count - 1 - k / 2;
+    const Interval frequency = part(band, j, count);
+    for (std::size_t first = 0; first < kPhases; first += WindowCells::kMost) {
+      WindowCells& cells = batches.emplace_back();
+      cells.count = WindowCells::kMost;
+      for (std::size_t i = 0; i < WindowCells::kMost; ++i) {
+        const Interval phase = part(period, first + i, kPhases);
+        cells.phase[0][i] = phase.lower();
+        cells.phase[1][i] = phase.upper();
+        cells.frequency[0][i] = frequency.lower();
+        cells.frequency[1][i] = frequency.upper();
       }
-      changed[row][column] = sum.range();
     }
   }
-  return rigor::certainly_positive_definite(changed);
+  return batches;
 }
 
-/// The two variances of the assumption hold again.
-bool keeps_variances(const Bound& upper, const WindowAssumption& assumption) {
-  const Model limit(assumption.signal_variance);
-  const Model room1 = limit - upper.p11;
-  const Model room2 = limit - upper.p22;
-  return rigor::certainly_less(upper.p33.range(), Interval(assumption.frequency_variance)) &&
-         rigor::certainly_positive(room1.range()) &&
-         rigor::certainly_positive((room1 * room2 - square(upper.p12)).range());
-}
-
-/// 2 curvature I - C P C' with rows of C: sqrt(weight) e3, (1, 0, 0) / sqrt(weight), (0, 1, 1/2) /
-/// sqrt(weight).
-Bound curvature_room(const Bound& upper, const WindowClaim& claim) {
-  const Model weight(claim.curvature_weight);
-  const Model inverse = Model(Interval(1.0) / Interval(claim.curvature_weight));
-  const Model limit(2.0 * claim.curvature);
-  const Model half(0.5);
-  return {limit - weight * upper.p33,
-          -upper.p13,
-          -(upper.p23 + half * upper.p33),
-          limit - inverse * upper.p11,
-          -(inverse * (upper.p12 + half * upper.p13)),
-          limit - inverse * (upper.p22 + upper.p23 + Model(0.25) * upper.p33)};
-}
-
-/// Whether `check(cell)` holds for all cells.
-template <typename Check>
-bool holds_for_all(const std::vector<Cell>& cells, const Check& check) {
+/// Looks at all cells, in parallel, until `goes_on(answers)` is false for some; then false.
+template <typename GoesOn>
+bool look_at_all(const WindowTask& task, const std::vector<WindowCells>& batches,
+                 std::vector<WindowAnswers>& answers, const GoesOn& goes_on) {
+  detail::CheckWindow* const check = detail::check_window_of(detail::instructions_for_window());
+  answers.resize(batches.size());
   std::atomic<bool> all = true;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size()), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batches.size()), [&](const auto& range) {
     const rigor::UpwardRounding upward;
     for (std::size_t i = range.begin(); i < range.end() && all; ++i) {
-      if (!check(i)) {
+      check(task, batches[i], answers[i]);
+      if (!goes_on(answers[i])) {
         all = false;
       }
     }
@@ -149,53 +92,83 @@ bool is_sensible(const ToneModel<Interval>& design, const Interval& band, const 
          std::all_of(claim.shares.begin(), claim.shares.end(), [](double share) { return share >= 0.0; });
 }
 
-template <typename Visit>
-void follow(const ToneModel<Interval>& design, const WindowClaim& claim, const Cell& cell,
-            const Visit& visit) {
-  follow_window<Model>(lifted(design), claim.assumption,
-                       {claim.settling, static_cast<int>(claim.shares.size()), claim.slew},
-                       Model::variable(cell.phase, 0), Model::variable(cell.frequency, 1), visit);
+WindowTask task_of(const ToneModel<Interval>& design, const WindowClaim& claim,
+                   const std::vector<StartVariances>& starts) {
+  WindowTask task{design,
+                  claim.assumption,
+                  {claim.settling, static_cast<int>(claim.shares.size()), claim.slew},
+                  claim.shares.data(),
+                  claim.curvature,
+                  claim.curvature_weight,
+                  claim.signal_uncertainty,
+                  static_cast<int>(starts.size()),
+                  {},
+                  {}};
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    task.start_signal[i] = starts[i].signal;
+    task.start_frequency[i] = starts[i].frequency;
+  }
+  return task;
 }
 
 }  // namespace
 
+namespace detail {
+
+InstructionSet instructions_for_window() {
+  return trackers::widest_instruction_set();
+}
+
+CheckWindow* check_window_of(InstructionSet set) {
+#ifdef VERITRACK_MUTATION
+  return check_window<1>;  // the guards of a proof are those of single cells
+#else
+  return set == InstructionSet::avx512 ? check_window_avx512
+         : set == InstructionSet::avx2 ? check_window_avx2
+                                       : check_window<2>;
+#endif
+}
+
+CheckWindow* check_window_one_by_one() {
+  return check_window<1>;
+}
+
+}  // namespace detail
+
+std::optional<VerifiedWindow> verify_window(const ToneModel<Interval>& design, const Interval& band,
+                                            const WindowClaim& claim,
+                                            const std::vector<StartVariances>& starts) {
+  const rigor::UpwardRounding outer;
+  if (!is_sensible(design, band, claim) || starts.size() > WindowTask::kMostStarts) {
+    return std::nullopt;
+  }
+  const std::vector<WindowCells> batches = cells_of(band);
+  std::vector<WindowAnswers> answers;
+  const auto holds = [](const WindowAnswers& found) {
+    return std::all_of(std::begin(found.holds), std::end(found.holds), [](bool one) { return one; });
+  };
+  if (batches.empty() || !look_at_all(task_of(design, claim, starts), batches, answers, holds)) {
+    return std::nullopt;
+  }
+  VerifiedWindow window{{kInfinity, kInfinity, kInfinity}, std::vector<bool>(starts.size(), true)};
+  for (const WindowAnswers& found : answers) {
+    window.floor = {
+        std::min(window.floor.p11, *std::min_element(std::begin(found.p11), std::end(found.p11))),
+        std::min(window.floor.p22, *std::min_element(std::begin(found.p22), std::end(found.p22))),
+        std::min(window.floor.p33, *std::min_element(std::begin(found.p33), std::end(found.p33)))};
+    for (std::size_t start = 0; start < starts.size(); ++start) {
+      const auto& below = found.is_below[start];
+      window.is_below[start] = window.is_below[start] &&
+                               std::all_of(std::begin(below), std::end(below), [](bool one) { return one; });
+    }
+  }
+  return window;
+}
+
 std::optional<WindowFloor> verify_window(const ToneModel<Interval>& design, const Interval& band,
                                          const WindowClaim& claim) {
-  const rigor::UpwardRounding outer;
-  if (!is_sensible(design, band, claim)) {
-    return std::nullopt;
-  }
-  const auto window = static_cast<int>(claim.shares.size());
-  const std::vector<Cell> cells = cells_of(band);
-  std::vector<WindowFloor> floors(cells.size());
-  const auto check = [&](std::size_t i) {
-    bool all = false;
-    follow(design, claim, cells[i],
-           [&](int m, const Bound& upper, const Bound& lower, const Bound& predicted_lower) {
-             const Model share(claim.shares[static_cast<std::size_t>(m - 1)]);
-             const bool last = m == window;
-             const Model left(last ? claim.signal_uncertainty : 0.0);
-             const bool holds =
-                 keeps_variances(upper, claim.assumption) &&
-                 certainly_positive(combined(lower, -share, upper)) &&
-                 certainly_positive(combined(predicted_lower, Model(-1.0), diagonal(left, Model(0.0)))) &&
-                 (!last || certainly_positive(curvature_room(upper, claim)));
-             all = holds && last;
-             if (all) {
-               floors[i] = {lower.p11.range().lower(), lower.p22.range().lower(), lower.p33.range().lower()};
-             }
-             return holds;
-           });
-    return all;
-  };
-  if (!holds_for_all(cells, check)) {
-    return std::nullopt;
-  }
-  WindowFloor floor{kInfinity, kInfinity, kInfinity};
-  for (const WindowFloor& one : floors) {
-    floor = {std::min(floor.p11, one.p11), std::min(floor.p22, one.p22), std::min(floor.p33, one.p33)};
-  }
-  return floor;
+  const auto window = verify_window(design, band, claim, {});
+  return window ? std::optional(window->floor) : std::nullopt;
 }
 
 bool certainly_below_covariances(const ToneModel<Interval>& design, const Interval& band,
@@ -203,22 +176,8 @@ bool certainly_below_covariances(const ToneModel<Interval>& design, const Interv
                                  const StartVariances& start VERITRACK_DECLARED_CALL_SITE) {
   VERITRACK_MUTANT_RETURNS(true)
   const rigor::UpwardRounding outer;
-  if (!is_sensible(design, band, claim) || !is_finite(start.signal) || !is_finite(start.frequency)) {
-    return false;
-  }
-  const std::vector<Cell> cells = cells_of(band);
-  return holds_for_all(cells, [&](std::size_t i) {
-    bool holds = false;
-    follow(design, claim, cells[i],
-           [&](int m, const Bound& /*upper*/, const Bound& lower, const Bound& /*predicted_lower*/) {
-             if (m == static_cast<int>(claim.shares.size())) {
-               holds = certainly_positive(
-                   combined(lower, Model(-1.0), diagonal(Model(start.signal), Model(start.frequency))));
-             }
-             return true;
-           });
-    return holds;
-  });
+  const auto window = verify_window(design, band, claim, {start});
+  return window && window->is_below.front();
 }
 
 }  // namespace veritrack::single_channel

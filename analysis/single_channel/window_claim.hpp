@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "analysis/rigor/interval.hpp"
-#include "analysis/single_channel/covariance_window.hpp"
+#include "analysis/single_channel/window_cells.hpp"
+#include "trackers/instruction_set.hpp"
 
 namespace veritrack::single_channel {
 
@@ -52,8 +53,29 @@ struct StartVariances {
 [[nodiscard]] std::optional<WindowFloor> verify_window(const trackers::ToneModel<rigor::Interval>& design,
                                                        const rigor::Interval& band, const WindowClaim& claim);
 
-/// True only when the matrix is below every lower bound on P that the window gives, at every phase and
-/// frequency. Needs the same claim to be verified.
+/// A claim that holds, and which of the starts are certainly below every lower bound on P that the window
+/// gives, at every phase and frequency.
+struct VerifiedWindow {
+  WindowFloor floor;
+  std::vector<bool> is_below;
+};
+
+/// The same, and more in one go: of up to three starts.
+[[nodiscard]] std::optional<VerifiedWindow> verify_window(const trackers::ToneModel<rigor::Interval>& design,
+                                                          const rigor::Interval& band,
+                                                          const WindowClaim& claim,
+                                                          const std::vector<StartVariances>& starts);
+
+namespace detail {
+/// The check of cells for a set of instructions, and for single cells; all give the same bits.
+[[nodiscard]] CheckWindow* check_window_of(trackers::InstructionSet set);
+[[nodiscard]] CheckWindow* check_window_one_by_one();
+/// The set that verify_window uses.
+[[nodiscard]] trackers::InstructionSet instructions_for_window();
+}  // namespace detail
+
+/// True only when the claim is verified and the matrix is below every lower bound on P that the window gives,
+/// at every phase and frequency.
 [[nodiscard]] bool certainly_below_covariances(const trackers::ToneModel<rigor::Interval>& design,
                                                const rigor::Interval& band, const WindowClaim& claim,
                                                const StartVariances& start VERITRACK_CALL_SITE);

@@ -86,13 +86,21 @@ double WindowErrors::next(const std::vector<double>& levels) const {
   return (shrinkage_[m] * Interval(levels[first]) + curvature_ * sum + pushed(m)).upper();
 }
 
+/// Whether the last levels are the same over more than a window: all that follow are the same, too.
+bool WindowErrors::is_constant(const std::vector<double>& levels) const {
+  const std::size_t run = shrinkage_.size();
+  return levels.size() >= run && std::all_of(levels.end() - static_cast<std::ptrdiff_t>(run), levels.end(),
+                                             [&](double level) { return level == levels.back(); });
+}
+
 std::optional<std::vector<double>> WindowErrors::levels(double start, int samples) const {
   std::vector<double> levels;
   levels.reserve(static_cast<std::size_t>(samples) + 1);
   levels.push_back(start);
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < samples && !is_constant(levels); ++k) {
     levels.push_back(next(levels));
   }
+  levels.resize(static_cast<std::size_t>(samples) + 1, levels.back());
   const bool inside = std::all_of(levels.begin(), levels.end(), [&](double level) {
     return certainly_less_equal(Interval(level), radius_);
   });
@@ -103,7 +111,7 @@ double WindowErrors::ultimate() const {
   constexpr int kSamples = 4000;
   std::vector<double> levels(static_cast<std::size_t>(window()), radius_.upper());
   levels.reserve(levels.size() + kSamples);
-  for (int k = 0; k < kSamples; ++k) {
+  for (int k = 0; k < kSamples && !is_constant(levels); ++k) {
     levels.push_back(std::min(next(levels), levels.back()));
   }
   return levels.back();

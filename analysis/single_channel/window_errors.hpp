@@ -48,6 +48,7 @@ class WindowErrors {
   [[nodiscard]] rigor::Interval pushed_by_rounding(std::size_t samples) const;
   [[nodiscard]] rigor::Interval pushed(std::size_t samples) const;
   [[nodiscard]] double next(const std::vector<double>& levels) const;
+  [[nodiscard]] bool is_constant(const std::vector<double>& levels) const;
 
   rigor::Interval radius_;
   std::vector<rigor::Interval> shrinkage_;  ///< kappa_0 = 1, ..., kappa_n

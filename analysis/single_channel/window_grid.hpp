@@ -1,51 +1,83 @@
-// What the proposals of windows look at: phases and frequencies of a grid, in floating point.
+// What the proposals of windows look at: phases and frequencies of a grid, in floating point, several points
+// at once (window_grid_lanes.hpp).
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <array>
-#include <limits>
-#include <numbers>
+#include <cstddef>
+#include <vector>
 
-#include "analysis/rigor/matrix.hpp"
 #include "analysis/single_channel/window_proposal.hpp"
+#include "trackers/instruction_set.hpp"
 
 namespace veritrack::single_channel::detail {
 
-using Covariance = PhaseCovariance<double>;
-using Matrix3 = rigor::Matrix<3>;
-
 inline constexpr int kSettling = 16;
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr int kLongestWindow = 12;
+inline constexpr int kGridPhases = 24;
+inline constexpr int kGridFrequencies = 5;
+inline constexpr int kGridPoints = kGridPhases * kGridFrequencies;
+inline constexpr int kWeights = 10;  ///< of a curvature
+inline constexpr int kParts = 9;     ///< of a start
 
-[[nodiscard]] inline Matrix3 matrix_of(const Covariance& p) {
-  Matrix3 matrix;
-  matrix << p.p11, p.p12, p.p13, p.p12, p.p22, p.p23, p.p13, p.p23, p.p33;
-  return matrix;
-}
+/// What is followed at the points of a grid. Plain, for units for different processors.
+struct GridTask {
+  trackers::ToneModel<double> design;
+  WindowAssumption assumption;
+  WindowLength length;
+  const double* sine = nullptr;  ///< of the phase, kGridPoints for each sample, the settling ones first
+  const double* cosine = nullptr;
+};
 
-template <int Size>
-[[nodiscard]] double smallest_eigenvalue(const rigor::Matrix<Size>& matrix) {
-  return Eigen::SelfAdjointEigenSolver<rigor::Matrix<Size>>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);
-}
+/// The largest variances of the upper bounds after the first sample of the window.
+struct GridVariances {
+  double signal = 0.0;
+  double frequency = 0.0;
+};
 
-/// Calls visit as follow_window does, at phases and frequencies of a grid.
-template <typename Visit>
-void follow_grid(const WindowRequest& request, const WindowAssumption& assumption, int window,
-                 const Visit& visit) {
-  constexpr int kPhases = 24;
-  constexpr std::array<double, 5> kFrequencies = {0.0, 0.1, 0.5, 0.9, 1.0};
-  for (const double share : kFrequencies) {
-    const double frequency =
-        request.lowest_frequency + share * (request.highest_frequency - request.lowest_frequency);
-    for (int i = 0; i < kPhases; ++i) {
-      const double phase = std::numbers::pi * i / kPhases;
-      follow_window<double>(request.design, assumption, {kSettling, window, request.slew}, phase, frequency,
-                            [&](int m, const auto& upper, const auto& lower, const auto& predicted) {
-                              visit(m, upper, lower, predicted);
-                              return true;
-                            });
-    }
+/// What is seen under the assumption, for windows of every length up to the longest.
+struct GridView {
+  double shares[kLongestWindow];                // NOLINT: plain
+  double signal_uncertainties[kLongestWindow];  // NOLINT
+  double curvatures[kWeights];                  ///< for each of the weights NOLINT
+};
+
+/// For each part t in {0.1, ..., 0.9} the least level whose square, times the covariances after the window,
+/// is above diag(signal^2 / t, signal^2 / t, frequency^2 / (1 - t)).
+struct GridLevels {
+  double levels[kParts];  // NOLINT
+};
+
+/// A weight of curvature_weight.
+[[nodiscard]] inline double grid_weight(int i) {
+  double weight = 0.5;
+  for (int k = 0; k < i; ++k) {
+    weight *= 1.35;
   }
+  return weight;
 }
+
+/// The functions for one set of instructions; all give the same bits.
+struct GridFunctions {
+  GridVariances (*variances)(const GridTask& task);
+  void (*look)(const GridTask& task, GridView& view);
+  void (*levels)(const GridTask& task, double signal, double frequency, GridLevels& found);
+};
+extern const GridFunctions kGridAvx2;
+extern const GridFunctions kGridAvx512;
+[[nodiscard]] const GridFunctions& grid_functions_of(trackers::InstructionSet set);
+[[nodiscard]] const GridFunctions& grid_functions();
+
+/// The directions of the phases at the points of the grid.
+class PhaseGrid {
+ public:
+  explicit PhaseGrid(const WindowRequest& request);
+  [[nodiscard]] GridTask task(const WindowAssumption& assumption, int window) const {
+    return {request_.design, assumption, {kSettling, window, request_.slew}, sine_.data(), cosine_.data()};
+  }
+
+ private:
+  WindowRequest request_;
+  std::vector<double> sine_, cosine_;
+};
 
 }  // namespace veritrack::single_channel::detail

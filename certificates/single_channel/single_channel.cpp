@@ -257,6 +257,11 @@ void certify_single_channel(Certificate& certificate, const CertifyProgress& pro
     question.tracker.with_limits =
         tables.require.largest_noise_at_least || tables.require.largest_slew_at_least;
   }
+  if (only_verdicts && question.tracker.required.any() && !question.tracker.with_limits &&
+      !tables.require.frequency_error_radius_at_least) {
+    question.tracker.effort =
+        certificate.extent == Extent::quick ? sets::SearchEffort::quick : sets::SearchEffort::sufficient;
+  }
   single_channel::PhaseCertificate contraction = single_channel::certify_over_phases(question);
   certificate.derivations.push_back(std::move(contraction.derivation));
   certificate.contraction = std::move(contraction.result);

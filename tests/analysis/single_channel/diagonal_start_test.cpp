@@ -42,7 +42,8 @@ TEST_CASE("a start is proposed also where the errors are zero") {
   REQUIRE(!claims.empty());
   for (const StartBox& box :
        {StartBox{0.0, 0.0}, StartBox{0.001, 0.0}, StartBox{0.0, 0.001}, StartBox{0.001, 0.001}}) {
-    const DiagonalStart start = propose_diagonal_start(request, claims.front(), box, 1.1, 1.0);
+    const DiagonalStart start =
+        diagonal_start(propose_start(request, claims.front(), shape_of(box)), box, 1.1, 1.0);
     const auto level = level_of(start, box, Interval(1.0));
     REQUIRE(level.has_value());
     CHECK(std::isfinite(*level));

@@ -245,6 +245,36 @@ TEST_CASE(
   CHECK(found > 0);
 }
 
+TEST_CASE("a search for what is required stops at a set that does it, and a harder question is UNDECIDED") {
+  const rigor::UpwardRounding upward;
+  PhaseQuestion question = question_of({0.005, 0.01, 1.2, 1.3, 0.0005, 0.00005, 0.0005});
+  const PhaseCertificate all = certify_over_phases(question);
+  REQUIRE(all.bound_set);
+  const double least = all.result.starts.proved_bound().value().upper();
+  question.tracker.with_limits = false;
+  question.tracker.effort = sets::SearchEffort::sufficient;
+  for (const double share : {1.01, 1.5}) {
+    question.tracker.required.frequency_error = share * least;
+    const PhaseCertificate enough = certify_over_phases(question);
+    REQUIRE(enough.bound_set);
+    CHECK(enough.result.starts.verdict == rigor::Verdict::proved);
+    CHECK(enough.result.starts.proved_bound().value().upper() < share * least);
+    CHECK(enough.result.frequency_error_radius.value.lower() > 0.0);
+  }
+  question.tracker.required.frequency_error = 0.5 * least;
+  const PhaseCertificate full = certify_over_phases(question);
+  REQUIRE(full.bound_set);
+  CHECK(full.result.starts.proved_bound().value().upper() == least);
+  question.tracker.effort = sets::SearchEffort::quick;
+  CHECK_FALSE(certify_over_phases(question).set);
+  question.tracker.required.frequency_error.reset();
+  question.tracker.required.samples = 2.0;
+  question.tracker.settled_frequency_error = 2.0 * least;
+  CHECK(certify_over_phases(question).bound_set);
+  question.tracker.settled_frequency_error = 1e-9;
+  CHECK_FALSE(certify_over_phases(question).bound_set);
+}
+
 TEST_CASE("the sets do not depend on the number of threads") {
   const rigor::UpwardRounding upward;
   const PhaseQuestion question = question_of({0.005, 0.01, 1.2, 1.3, 0.0005, 0.00005, 0.0005});

@@ -3,12 +3,16 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 
 #include "analysis/rigor/matrix.hpp"
 #include "analysis/single_channel/window_errors.hpp"
+#include "analysis/single_channel/window_grid.hpp"
 #include "analysis/single_channel/window_proposal.hpp"
 #include "tests/analysis/single_channel/phase_attack.hpp"
 
@@ -119,6 +123,132 @@ TEST_CASE("claims that say a little too much do not verify") {
   CHECK(!certainly_below_covariances(design(), kBand, good, {Interval::empty(), Interval(1e-9)}));
 }
 
+TEST_CASE("cells side by side are looked at as single cells are, to the bit") {
+  const rigor::UpwardRounding upward;
+  const WindowClaim good = good_claim();
+  WindowClaim wrong = good;
+  wrong.shares.back() *= 1.05;  // true in some cells of phase
+  int refused = 0;
+  int held = 0;
+  for (const WindowClaim& claim : {good, wrong}) {
+    WindowTask task{design(),
+                    claim.assumption,
+                    {claim.settling, static_cast<int>(claim.shares.size()), 1e-6},
+                    claim.shares.data(),
+                    claim.curvature,
+                    claim.curvature_weight,
+                    claim.signal_uncertainty,
+                    1,
+                    {Interval(0.001), Interval(), Interval()},
+                    {Interval(0.002), Interval(), Interval()}};
+    for (int batch = 0; batch < 6; ++batch) {
+      WindowCells cells{};
+      cells.count = WindowCells::kMost;
+      for (int i = 0; i < cells.count; ++i) {
+        cells.phase[0][i] = (8 * batch + i) * 0.0655;
+        cells.phase[1][i] = (8 * batch + i + 1) * 0.0655;
+        cells.frequency[0][i] = 1.1;
+        cells.frequency[1][i] = 1.12;
+      }
+      WindowAnswers alone{};
+      detail::check_window_one_by_one()(task, cells, alone);
+      for (const auto set : {trackers::InstructionSet::sse2, trackers::InstructionSet::avx2,
+                             trackers::InstructionSet::avx512}) {
+        if (!trackers::has(set)) {
+          continue;
+        }
+        WindowAnswers found{};
+        detail::check_window_of(set)(task, cells, found);
+        for (int i = 0; i < cells.count; ++i) {
+          CHECK(found.holds[i] == alone.holds[i]);
+          (alone.holds[i] ? held : refused) += 1;
+          if (alone.holds[i]) {
+            CHECK(found.is_below[0][i] == alone.is_below[0][i]);
+            CHECK(found.p11[i] == alone.p11[i]);
+            CHECK(found.p22[i] == alone.p22[i]);
+            CHECK(found.p33[i] == alone.p33[i]);
+          }
+        }
+      }
+    }
+  }
+  CHECK(refused > 0);
+  CHECK(held > 0);
+}
+
+TEST_CASE("proposals do not depend on the set of instructions, and see what eigenvalues are") {
+  const rigor::UpwardRounding upward;
+  const WindowRequest request{{kQ, kQ, kR, 0.0}, 1.1, 1.12};
+  const WindowClaim claim = good_claim();
+  const detail::PhaseGrid grid(request);
+  const detail::GridTask task = grid.task(claim.assumption, detail::kLongestWindow);
+  const auto& sse2 = detail::grid_functions_of(trackers::InstructionSet::sse2);
+  detail::GridView seen{};
+  sse2.look(task, seen);
+  detail::GridLevels levels{};
+  sse2.levels(task, 0.01, 0.02, levels);
+  for (const auto set : {trackers::InstructionSet::avx2, trackers::InstructionSet::avx512}) {
+    if (!trackers::has(set)) {
+      continue;
+    }
+    const auto& wide = detail::grid_functions_of(set);
+    detail::GridView also{};
+    wide.look(task, also);
+    for (int m = 0; m < detail::kLongestWindow; ++m) {
+      CHECK(also.shares[m] == seen.shares[m]);
+      CHECK(also.signal_uncertainties[m] == seen.signal_uncertainties[m]);
+    }
+    for (int i = 0; i < detail::kWeights; ++i) {
+      CHECK(also.curvatures[i] == seen.curvatures[i]);
+    }
+    detail::GridLevels also_levels{};
+    wide.levels(task, 0.01, 0.02, also_levels);
+    for (int i = 0; i < detail::kParts; ++i) {
+      CHECK(also_levels.levels[i] == levels.levels[i]);
+    }
+    CHECK(wide.variances(task).signal == sse2.variances(task).signal);
+    CHECK(wide.variances(task).frequency == sse2.variances(task).frequency);
+  }
+  // The same by Eigen's solvers, at each point of the grid.
+  std::array<double, detail::kLongestWindow> shares{};
+  shares.fill(1.0);
+  double curvature = 0.0;
+  double level = 0.0;
+  for (const double share : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+    for (int i = 0; i < detail::kGridPhases; ++i) {
+      follow_window<double>(
+          request.design, claim.assumption, {detail::kSettling, detail::kLongestWindow, 0.0},
+          std::numbers::pi * i / detail::kGridPhases, 1.1 + share * (1.12 - 1.1),
+          [&](int m, const auto& upper, const auto& lower, const auto& /*predicted*/) {
+            const rigor::NearestRounding nearest;
+            const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3> solver(matrix_of(lower), matrix_of(upper),
+                                                                           Eigen::EigenvaluesOnly);
+            double& least = shares[static_cast<std::size_t>(m - 1)];
+            least = std::min(least, solver.eigenvalues()(0));
+            if (m == detail::kLongestWindow) {
+              const double weight = detail::grid_weight(3);
+              Matrix3 c;
+              c << 0.0, 0.0, std::sqrt(weight), 1.0 / std::sqrt(weight), 0.0, 0.0, 0.0,
+                  1.0 / std::sqrt(weight), 0.5 / std::sqrt(weight);
+              curvature =
+                  std::max(curvature, -0.5 * smallest_eigenvalue(-(c * matrix_of(upper) * c.transpose())));
+              const Matrix3 wanted =
+                  rigor::Vector<3>(1e-4 / 0.3, 1e-4 / 0.3, 4e-4 / (1.0 - 0.3)).asDiagonal();
+              const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3> start(wanted, matrix_of(lower),
+                                                                            Eigen::EigenvaluesOnly);
+              level = std::max(level, std::sqrt(start.eigenvalues()(2)));
+            }
+            return true;
+          });
+    }
+  }
+  for (std::size_t m = 0; m < shares.size(); ++m) {
+    CHECK(seen.shares[m] == doctest::Approx(shares[m]).epsilon(1e-7));
+  }
+  CHECK(seen.curvatures[3] == doctest::Approx(curvature).epsilon(1e-7));
+  CHECK(levels.levels[2] == doctest::Approx(level).epsilon(1e-7));
+}
+
 TEST_CASE("the recursion of the errors") {
   const rigor::UpwardRounding upward;
   const WindowClaim claim = good_claim();
@@ -194,7 +324,9 @@ TEST_CASE("the bounds of a window hold covariances that each step moves by its r
   constexpr double kFrequency = 1.11;
   claim.assumption.rounding = {0.0, kShare};
   const auto step = [](const PhaseCovariance<double>& p, double share, int sample) {
-    return scaled(1.0 + share, updated(predicted(p, 1.0, 0.0, {kQ, kQ, kR, 0.0}), sample * kFrequency, kR));
+    const double phase = sample * kFrequency;
+    return scaled(1.0 + share,
+                  updated(predicted(p, 1.0, 0.0, {kQ, kQ, kR, 0.0}), std::sin(phase), std::cos(phase), kR));
   };
   // From long ago, a little larger each time; and from zero, a little smaller.
   PhaseCovariance<double> large = diagonal(kQ, kQ);

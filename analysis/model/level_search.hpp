@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/model/place_store.hpp"
 #include "analysis/model/set_search.hpp"
 
 namespace veritrack::model::detail {
@@ -16,7 +17,7 @@ namespace veritrack::model::detail {
 class LevelSearch {
  public:
   LevelSearch(const TrackerModel& model, const TubeProposal& proposal, const SetTask& task)
-      : model_(&model), proposal_(&proposal), task_(&task) {
+      : model_(&model), proposal_(&proposal), task_(&task), places_(model, proved_.tube, kMostPlaces) {
     // Slow trackers have little room, so that cells are small.
     const double room = 1.0 - proposal.worth.rate;
     constexpr double kLittleRoom = 0.02;
@@ -93,6 +94,8 @@ class LevelSearch {
   [[nodiscard]] double guess() const { return level(); }
 
  private:
+  /// About 30 kB each.
+  static constexpr std::size_t kMostPlaces = 2048;
   /// What is tried, as shares of what points allow.
   static constexpr std::array<double, 8> kFactors{0.985, 0.96, 0.93, 0.89, 0.84, 0.77, 0.68, 0.55};
 
@@ -109,7 +112,7 @@ class LevelSearch {
     // What is kept for a radius is kept for smaller ones.
     question.with_covariance = radius > kept_radius_;
     const bool may =
-        !task_->deadline.is_over() && sampled_growth(*model_, proved_.tube, question, kPhases) <= slow_;
+        !task_->deadline.is_over() && may_shrink(*model_, proved_.tube, question, kPhases, slow_, &places_);
     kept_radius_ = may ? std::max(kept_radius_, radius) : kept_radius_;
     return may;
   }
@@ -125,7 +128,7 @@ class LevelSearch {
 
   bool holds(LevelQuestion question) {
     question.shrinking = with_room(question.shrinking);
-    const LevelResult result = verify_level(*model_, proved_.tube, question, proved_.grid);
+    const LevelResult result = verify_level(*model_, proved_.tube, question, proved_.grid, &places_);
     const bool is_proved = result.verdict == rigor::Verdict::proved;
     last_cells_ = is_proved ? result.cells : last_cells_;
     proved_.cells += is_proved ? result.cells : 0;
@@ -164,7 +167,7 @@ class LevelSearch {
       LevelQuestion below{next, noise};
       below.with_covariance = false;  // shown with the largest radius
       if (task_->deadline.is_over() ||
-          !(sampled_growth(*model_, proved_.tube, below, kPhases) <= with_room(step.shrinking))) {
+          !may_shrink(*model_, proved_.tube, below, kPhases, with_room(step.shrinking), &places_)) {
         return false;
       }
       // What is verified is from this number up.
@@ -190,6 +193,7 @@ class LevelSearch {
   const TubeProposal* proposal_;
   const SetTask* task_;
   ProvedTube proved_;
+  PlaceStore places_;
   std::size_t last_cells_ = 0;  ///< of the last verification that succeeded
   double kept_radius_ = 0.0;    ///< for which points allow that bounds of a covariance are kept
   double slow_ = 1.0;

@@ -1,0 +1,80 @@
+#include "analysis/model/place_store.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "analysis/model/tube_proposal.hpp"
+#include "analysis/model/tube_verification.hpp"
+#include "tests/analysis/model/tube_examples.hpp"
+
+namespace veritrack::model {
+namespace {
+
+using rigor::Verdict;
+using test::Example;
+
+TEST_CASE("what is kept is what was made for the same cell and slew, up to a number of cells") {
+  const TrackerModel model{};
+  const Tube tube{};
+  PlaceStore store(model, tube, 2);
+  int made = 0;
+  const auto at = [&](const TubeCell& cell, double slew) {
+    return *store.at<int>(model, tube, cell, slew, [&] { return ++made; });
+  };
+  const TubeCell a{0.25, 0.125, 0.0, 1.0};
+  const TubeCell b{0.25, 0.0625, 0.0, 1.0};
+  CHECK(at(a, 0.0) == 1);
+  CHECK(at(a, 0.0) == 1);
+  CHECK(at(a, 1e-5) == 2);
+  CHECK(at(b, 0.0) == 3);
+  CHECK(at(b, 0.0) == 4);  // the third is not kept
+  CHECK(at(a, 0.0) == 1);
+  CHECK(at(a, 1e-5) == 2);
+  const Tube other{};
+  const TrackerModel another{};
+  CHECK_THROWS_AS((void)store.at<int>(model, other, a, 0.0, [] { return 0; }), std::logic_error);
+  CHECK_THROWS_AS((void)store.at<int>(another, tube, a, 0.0, [] { return 0; }), std::logic_error);
+}
+
+TEST_CASE("verdicts, cells and frequency errors are the same with a store as without one") {
+  const Example loop(test::phase_locked_loop());
+  TubeSettings settings;
+  settings.shape.objective = ShapeObjective::largest_noise;
+  settings.largest_curve_error = 1e-7;
+  const TubeProposal proposal = propose_tube(test::tone_of(loop.tracker), 0.3, 0.04, settings);
+  REQUIRE(proposal.tube.has_value());
+  const Tube& tube = *proposal.tube;
+  PlaceStore store(loop.model, tube, 60);  // fewer than there are cells
+  int proved = 0;
+  for (const double slew : {0.0, 1e-6}) {
+    for (const double noise : {0.0, 0.02, 0.04, 0.08}) {
+      for (const double radius : {0.003, 0.0045, 0.013}) {
+        CAPTURE(slew);
+        CAPTURE(noise);
+        CAPTURE(radius);
+        LevelQuestion question{radius, noise};
+        question.slew = slew;
+        const LevelResult alone = verify_level(loop.model, tube, question, {});
+        const LevelResult stored = verify_level(loop.model, tube, question, {}, &store);
+        CHECK(alone.verdict == stored.verdict);
+        CHECK(alone.cells == stored.cells);
+        if (alone.verdict == Verdict::proved) {
+          ++proved;
+          CHECK(alone.frequency_error.upper() == stored.frequency_error.upper());
+          CHECK(alone.frequency_error.lower() == stored.frequency_error.lower());
+        }
+        const double growth = sampled_growth(loop.model, tube, question, 16);
+        CHECK(may_shrink(loop.model, tube, question, 16, growth, &store));
+        CHECK(std::isfinite(growth) !=
+              may_shrink(loop.model, tube, question, 16, growth * (1.0 - 1e-12), &store));
+        CHECK_FALSE(may_shrink(loop.model, tube, question, 16, NAN, &store));
+      }
+    }
+  }
+  CHECK(proved > 4);
+}
+
+}  // namespace
+}  // namespace veritrack::model

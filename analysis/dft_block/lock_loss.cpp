@@ -1,10 +1,10 @@
 #include "analysis/dft_block/lock_loss.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "analysis/dft_block/lock_search.hpp"
+#include "analysis/dft_block/loss_proposals.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/linear_solve.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -19,69 +19,10 @@ using rigor::Verdict;
 using theorems::Derivation;
 using theorems::Sense;
 
-/// A set that is proposed, or verified.
-struct InNoise {
-  LockSet set;
-  LockDrift drift;
-  double slew_share = 1.0;
-  LossBound bound;
-};
-
 Interval determinant_of(const rigor::IntervalMatrix<3>& a) {
   return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) -
          a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
          a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
-}
-
-/// Proposals with their bounds, the best first; all of floating point but the bounds.
-std::vector<InNoise> proposals(const LossQuestion& question, const LockSearch& search) {
-  std::vector<InNoise> result;
-  constexpr double kLargest = 4.0;
-  for (double radius = 0.1; radius < kLargest; radius *= 1.1) {
-    const auto set = search.set_for(radius);
-    const auto frame = set ? LockFrame::make(question.problem, *set) : std::nullopt;
-    if (!frame) {
-      break;
-    }
-    for (double tilt = 0.2; tilt < 0.95; tilt += 0.1) {
-      const auto drift = search.drift_for(*set, radius, tilt);
-      if (!drift) {
-        break;
-      }
-      for (const double share : {0.02, 0.05, 0.1, 0.2, 0.4}) {
-        if (auto bound = loss_bound(question, *frame, *drift, share)) {
-          result.push_back({*set, *drift, share, *bound});
-        }
-      }
-    }
-  }
-  std::sort(result.begin(), result.end(), [](const InNoise& a, const InNoise& b) {
-    return a.bound.probability.upper() < b.bound.probability.upper();
-  });
-  return result;
-}
-
-/// The first of them that is verified, and that the starts are in; a few are tried.
-std::optional<InNoise> first_verified(const LossQuestion& question, const LockSearch& search) {
-  std::vector<InNoise> proposed = proposals(question, search);
-  constexpr int kMostTries = 4;
-  int tries = 0;
-  double last_radius = 10.0;
-  for (InNoise& one : proposed) {
-    // After a failure a smaller set.
-    if (!(one.drift.radius < 0.97 * last_radius)) {
-      continue;
-    }
-    const auto frame = LockFrame::make(question.problem, one.set);
-    if (frame && frame->verify(one.drift, question.most_cells)) {
-      return std::move(one);
-    }
-    last_radius = one.drift.radius;
-    if (++tries >= kMostTries) {
-      break;
-    }
-  }
-  return std::nullopt;
 }
 
 void add_loss(Derivation& derivation, const char* name, const char* symbol, const char* words,
@@ -104,7 +45,7 @@ std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFram
     return std::nullopt;
   }
   Interval power(drift.growth);
-  Interval factor = Interval(1.0) / sqrt(determinant);
+  Interval log_factor = -half * rigor::log(determinant);  // in logarithms: a slew in little noise overflows
   if (!(question.problem.slew == Interval(0.0))) {
     if (!(slew_share > 0.0)) {
       return std::nullopt;
@@ -112,8 +53,8 @@ std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFram
     const rigor::IntervalVector<3> s = frame.slew_direction();
     const Interval length = (s.transpose() * *inverse * s)(0, 0);
     power *= Interval(1.0) + Interval(slew_share);
-    factor *= rigor::exp(half * theta * (Interval(1.0) + Interval(1.0) / Interval(slew_share)) *
-                         square(question.problem.slew) * length);
+    log_factor += half * theta * (Interval(1.0) + Interval(1.0) / Interval(slew_share)) *
+                  square(question.problem.slew) * length;
   }
   if (!rigor::certainly_less(power, Interval(1.0)) || !rigor::certainly_positive(power)) {
     return std::nullopt;
@@ -128,23 +69,22 @@ std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFram
   found.level = half * theta * square(Interval(drift.radius));
   found.start_level = half * theta * square(start);
   // factor W^power - W is largest where W = (power factor)^(1/(1 - power)).
-  found.constant = rigor::exp(rigor::log(power * factor) / (Interval(1.0) - power)) *
-                   (Interval(1.0) / power - Interval(1.0));
-  found.probability = rigor::exp(found.start_level - found.level) +
-                      question.blocks * found.constant * rigor::exp(-found.level);
-  if (!rigor::is_finite(found.probability) || !rigor::is_finite(found.level)) {
+  const Interval log_constant = (rigor::log(power) + log_factor) / (Interval(1.0) - power) +
+                                rigor::log(Interval(1.0) / power - Interval(1.0));
+  found.probability =
+      rigor::exp(found.start_level - found.level) + question.blocks * rigor::exp(log_constant - found.level);
+  // E log W+ <= log factor + power log W: it stays below what it tends to, or begins with.
+  const Interval tends_to = max(log_factor, Interval(0.0)) / (Interval(1.0) - power);
+  found.mean_square = Interval(2.0) * max(found.start_level, tends_to) / theta;
+  if (!rigor::is_finite(found.probability) || !rigor::is_finite(found.level) ||
+      !rigor::is_finite(found.mean_square)) {
     return std::nullopt;
   }
   return found;
 }
 
-Derivation derive_loss(const LossQuestion& question) {
-  const LockSearch search(question.problem);
-  const rigor::UpwardRounding upward;
-  Derivation derivation;
-  derivation.id = "lock-in-noise";
-  derivation.title = "A set about the exact lock and the probability of leaving it";
-  const std::optional<InNoise> found = first_verified(question, search);
+void conclude_loss(Derivation& derivation, const LossQuestion& question,
+                   const std::optional<InNoise>& found) {
   const auto frame = found ? LockFrame::make(question.problem, found->set) : std::nullopt;
   const bool starts = frame && (!question.covariance || frame->holds(*question.covariance));
   const auto condition = [&](const char* id, const char* statement, bool is_proved, const char* ground,
@@ -160,7 +100,7 @@ Derivation derive_loss(const LossQuestion& question) {
                   : "There is no set.");
   theorems::conclude(derivation);
   if (!frame) {
-    return derivation;
+    return;
   }
   derivation.evidence.push_back({"drift",
                                  {{"above", found->set.above},
@@ -173,18 +113,44 @@ Derivation derive_loss(const LossQuestion& question) {
                                   {"slew_share", found->slew_share}},
                                  {{"frame", found->set.frame}, {"floor", found->drift.floor}}});
   if (derivation.verdict != Verdict::proved) {
-    return derivation;
+    return;
   }
   const Interval radius(found->drift.radius);
   add_loss(derivation, "probability_of_losing_lock", "p", "the probability of leaving the set",
            min(found->bound.probability, Interval(1.0)));
+  // An estimate is the next prediction before the slew.
   add_loss(derivation, "offset_error_bound", "\\sup_{k < \\tau} |\\tilde\\delta_k|",
-           "the offset error until then, bins", radius * frame->reach(2));
+           "the offset error until then, bins", radius * frame->reach(2) + question.problem.slew);
+  add_loss(derivation, "rms_offset_error", "\\sup_k E[\\tilde\\delta_k^2;\\, k < \\tau]^{1/2}",
+           "the root mean square of the offset error in lock, bins",
+           sqrt(found->bound.mean_square) * frame->reach(2));
   add_loss(derivation, "phase_error_bound", "\\sup_{k < \\tau} |\\tilde\\varphi_k|",
            "the phase error of the prediction at the middle of every block until then, rad",
            radius * frame->reach(1));
   add_loss(derivation, "amplitude_error_bound", "\\sup_{k < \\tau} |\\hat x_1/x_1 - 1|",
            "the error of x1 until then, relative to the tone's", radius * frame->reach(0));
+}
+
+Derivation derive_loss(const LossQuestion& question) {
+  const LockSearch search(question.problem);
+  const rigor::UpwardRounding upward;
+  constexpr double kStep = 1.1;
+  std::vector<InNoise> proposed;
+  for (const ProposedDrift& one : propose_drifts(question.problem, search, kStep)) {
+    const auto frame = LockFrame::make(question.problem, one.set);
+    for (const double share : kSlewShares) {
+      if (const auto bound = frame ? loss_bound(question, *frame, one.drift, share) : std::nullopt) {
+        proposed.push_back({one.set, one.drift, share, *bound});
+      }
+    }
+  }
+  std::stable_sort(proposed.begin(), proposed.end(), [](const InNoise& a, const InNoise& b) {
+    return a.bound.probability.upper() < b.bound.probability.upper();
+  });
+  Derivation derivation;
+  derivation.id = "lock-in-noise";
+  derivation.title = "A set about the exact lock and the probability of leaving it";
+  conclude_loss(derivation, question, first_verified(question, proposed));
   return derivation;
 }
 

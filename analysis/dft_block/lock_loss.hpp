@@ -24,8 +24,8 @@ struct LossQuestion {
 struct LossBound {
   rigor::Interval level;        ///< theta radius^2 / 2
   rigor::Interval start_level;  ///< theta |e_1|^2 / 2 at most
-  rigor::Interval constant;     ///< E W+ <= W + constant at most
-  rigor::Interval probability;  ///< exp(-level) (exp(start_level) + blocks constant) at most
+  rigor::Interval probability;  ///< that it is left within the blocks, at most
+  rigor::Interval mean_square;  ///< E |e_k|^2 in lock, at most, in every block
 };
 
 /// `slew_share` is zeta > 0, by which |Ae + ws|^2 <= (1 + zeta)|Ae|^2 + (1 + 1/zeta)|ws|^2; without slew it

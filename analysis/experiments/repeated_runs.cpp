@@ -45,4 +45,13 @@ double quantile_of(std::span<const double> values, double share) {
   return sorted[static_cast<std::size_t>(std::clamp(std::round(share * last), 0.0, last))];
 }
 
+Median median_of(std::span<const double> values) {
+  const double ranks = 0.5 / std::sqrt(static_cast<double>(values.size()));
+  const double value = quantile_of(values, 0.5);
+  if (values.size() == 1) {
+    return {value, std::numeric_limits<double>::quiet_NaN()};
+  }
+  return {value, 0.5 * (quantile_of(values, 0.5 + ranks) - quantile_of(values, 0.5 - ranks))};
+}
+
 }  // namespace veritrack::experiments

@@ -40,4 +40,13 @@ struct Summary {
 /// The value with this share of the values at or below it, 0 <= share <= 1; NaN counts as infinite.
 [[nodiscard]] double quantile_of(std::span<const double> values, double share);
 
+/// The median, and its standard error for any distribution: half the distance of the order statistics one
+/// deviation of the binomial count to either side, sqrt(n)/2 ranks. Infinite, or NaN, where these are.
+struct Median {
+  double value = 0.0;
+  double error = 0.0;
+};
+/// Of at least one value; the error of a single one is NaN.
+[[nodiscard]] Median median_of(std::span<const double> values);
+
 }  // namespace veritrack::experiments

@@ -94,8 +94,10 @@ ZarchanRun run_of(const ZarchanExperiment& experiment, std::uint64_t seed) {
 
 }  // namespace
 
-std::vector<ZarchanRun> zarchan_runs(const ZarchanExperiment& experiment, int runs) {
-  return repeat(runs, [&](std::uint64_t seed) { return run_of(experiment, seed); });
+std::vector<ZarchanRun> zarchan_runs(const ZarchanExperiment& experiment, int runs, int before) {
+  return repeat(runs, [&](std::uint64_t seed) {
+    return run_of(experiment, seed + static_cast<std::uint64_t>(before));
+  });
 }
 
 bool stays_within(const ZarchanRun& run, double interval, std::size_t state, double tolerance, double from,

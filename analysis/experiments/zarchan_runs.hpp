@@ -38,8 +38,9 @@ struct ZarchanSample {
 
 using ZarchanRun = std::vector<ZarchanSample>;  ///< at TS, 2 TS, ..., 20 s
 
-/// Those of the seeds 1, ..., runs.
-[[nodiscard]] std::vector<ZarchanRun> zarchan_runs(const ZarchanExperiment& experiment, int runs);
+/// Those of the seeds after `before`: before + 1, ..., before + runs.
+[[nodiscard]] std::vector<ZarchanRun> zarchan_runs(const ZarchanExperiment& experiment, int runs,
+                                                   int before = 0);
 
 /// Whether a state is within `tolerance` of `sign` times its truth in all samples after `from` seconds.
 [[nodiscard]] bool stays_within(const ZarchanRun& run, double interval, std::size_t state, double tolerance,

@@ -134,8 +134,9 @@ std::vector<SlopeModel> Follower::widened_place(CaptureTrack& track, const Follo
     const double reach = (Interval(set.radius) * Interval(target.row_length[i])).upper();
     place.push_back(set.middle[i].lowered<2>().widened(reach));
   }
+  const double errors = track.sample_errors(set.sample + 1);
   for (const CaptureModel& sample : track.samples(set.sample + 1)) {
-    place.push_back(sample.lowered<2>().widened(problem_->noise));
+    place.push_back(sample.lowered<2>().widened(errors));
   }
   return place;
 }
@@ -167,10 +168,11 @@ FollowedStep Follower::step(CaptureTrack& track, const FollowedSet& set) {
   }
   next.added = take_polynomials(next.set.middle, after);
   double image = 0.0;
-  if (set.radius > 0.0 || problem_->noise > 0.0) {
+  const double errors = track.sample_errors(set.sample + 1);
+  if (set.radius > 0.0 || errors > 0.0) {
     const Derivatives slopes = derivatives(widened_place(track, set));
     image = ball_image(after.inverse_slopes * (slopes.by_state * before.shape_slopes), set.radius,
-                       after.inverse_slopes * slopes.by_sample, problem_->noise);
+                       after.inverse_slopes * slopes.by_sample, errors);
   }
   const Interval radius = Interval(image) + Interval(next.added);
   next.set.radius = set.radius >= 0.0 && rigor::is_finite(radius) ? radius.upper() : kRadiusUnknown;

@@ -115,11 +115,27 @@ const std::vector<CaptureModel>& CaptureTrack::samples(std::size_t sample) {
     std::vector<OverPhase> values(problem_->tracker->signal->results().size());
     problem_->tracker->signal->run(std::span<const OverPhase>(signal_inputs_), registers_, std::span(values));
     here.samples.emplace();
+    here.sample_errors = problem_->noise;
+    if (problem_->tracker->amplitude_varies) {
+      Interval squares(0.0);
+      for (OverPhase& value : values) {
+        squares += square(Interval(value.remainder()));
+        value = value.polynomial();
+      }
+      const Interval errors = Interval(problem_->noise) + sqrt(squares);
+      here.sample_errors =
+          rigor::is_finite(errors) ? errors.upper() : std::numeric_limits<double>::infinity();
+    }
     for (const OverPhase& value : values) {
       here.samples->push_back(lifted(value));
     }
   }
   return *here.samples;
+}
+
+double CaptureTrack::sample_errors(std::size_t sample) {
+  (void)samples(sample);
+  return place(sample).sample_errors;
 }
 
 const CaptureTarget& CaptureTrack::target(std::size_t sample) {

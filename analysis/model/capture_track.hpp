@@ -62,6 +62,9 @@ class CaptureTrack {
 
   /// Of the signal, without noise.
   [[nodiscard]] const std::vector<CaptureModel>& samples(std::size_t sample);
+  /// Errors of these samples, all channels together, are at most this: the noise, and what amplitudes that
+  /// vary do. Infinite when nothing is known.
+  [[nodiscard]] double sample_errors(std::size_t sample);
   [[nodiscard]] const CaptureTarget& target(std::size_t sample);
 
  private:
@@ -70,6 +73,7 @@ class CaptureTrack {
   struct Place {
     std::optional<OverPhase> phase;  ///< rad
     std::optional<std::vector<CaptureModel>> samples;
+    double sample_errors = 0.0;
     std::optional<CaptureTarget> target;
   };
 

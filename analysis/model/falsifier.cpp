@@ -45,7 +45,8 @@ class AttackRun {
         tubes_(tone.slew > 0.0 ? 2 : 1, PointTube(tube, tone.frequency)),
         tone_(tone),
         directions_(attack_directions(model.recursion->samples, tone.noise)),
-        nexts_(directions_.size()) {}
+        amplitudes_(model.amplitude_varies ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.5}),
+        nexts_(directions_.size() * amplitudes_.size()) {}
 
   /// Where covariances of a filter with bounds begin, between them: see PointTracker::state.
   void begin_with_covariance(Eigen::MatrixXd place) { place_ = std::move(place); }
@@ -61,9 +62,12 @@ class AttackRun {
   /// The coordinates after the next sample, under the worst disturbances.
   const Eigen::VectorXd& step() {
     phase_ += frequency_;
-    const Eigen::VectorXd samples = tracker_.samples(phase_);
-    for (std::size_t i = 0; i < directions_.size(); ++i) {
-      nexts_[i] = tracker_.next(state_, samples + directions_[i]);
+    auto to = nexts_.begin();
+    for (const double place : amplitudes_) {
+      const Eigen::VectorXd samples = tracker_.samples(phase_, place);
+      for (const Eigen::VectorXd& direction : directions_) {
+        *to++ = tracker_.next(state_, samples + direction);
+      }
     }
     level_ = -1.0;
     const double before = frequency_;
@@ -100,7 +104,9 @@ class AttackRun {
   double low_, high_;
   std::vector<PointTube> tubes_;  // one for each way that the frequency may go
   AttackedTone tone_;
-  std::vector<Eigen::VectorXd> directions_, nexts_;
+  std::vector<Eigen::VectorXd> directions_;
+  std::vector<double> amplitudes_;  ///< places in the range: the ends of one from which each sample may come
+  std::vector<Eigen::VectorXd> nexts_;
   PointFrame frame_;
   Eigen::VectorXd state_, coordinates_;
   Eigen::MatrixXd place_;

@@ -215,7 +215,7 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
                                 const FilterStepQuestion& question, double of_gaussian, PlaceStore* store) {
   require_sizes(model, tube);
   const double radius = question.radius;
-  const bool is_noisy = question.noise > 0.0;
+  const bool is_noisy = is_disturbed(model, question.noise);
   const bool is_moving = question.slew > 0.0;
   const auto kept = kept_at<FilterPlace>(store, model, tube, cell, question.slew, [&] {
     const rigor::BallModelScope plane(0, 0);
@@ -252,13 +252,12 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
                                                 BallModel::disturbance(of_noise));
   }();
   const std::vector<BallModel> state = state_in(here, radius);
-  std::vector<BallModel> samples;
-  for (std::size_t c = 0; c < channels; ++c) {
-    const BallModel sample = place.frame.next[c].lifted();
-    samples.push_back(is_noisy ? sample + BallModel(question.noise * stretch) *
-                                              BallModel::disturbance(static_cast<int>(c))
-                               : sample);
+  std::vector<BallModel> clean;
+  clean.reserve(channels);
+  for (const BallModel& sample : place.frame.next) {
+    clean.push_back(sample.lifted());
   }
+  const std::vector<BallModel> samples = noisy_samples(model, clean, question.noise, stretch);
   const trackers::FilterValues<BallModel> values = parts_at(model, state, samples);
   const BallMatrix gain = lifted(place.gain);
   const BallMatrix factor = lifted(place.factor);
@@ -315,7 +314,7 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
                              const FilterStepQuestion& question, const std::vector<double>& scales,
                              PlaceStore* store) {
   require_sizes(model, tube);
-  const bool is_noisy = question.noise > 0.0;
+  const bool is_noisy = is_disturbed(model, question.noise);
   const bool is_moving = question.slew > 0.0;
   StepBounds bounds;
   bounds.steps.assign(scales.size(), std::numeric_limits<double>::quiet_NaN());

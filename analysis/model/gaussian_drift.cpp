@@ -63,6 +63,10 @@ DriftResult verify_drift(const TrackerModel& model, const Tube& tube, const Drif
   if (!result.reason.empty()) {
     return result;
   }
+  if (model.amplitude_varies) {
+    result.reason = "in Gaussian noise the amplitude must be constant";
+    return result;
+  }
   if (!is_positive(question.radius) || !is_positive(question.deviation) ||
       !is_positive(question.most_noise) || !is_positive(question.exponent) || !is_positive(question.factor) ||
       question.factor > 1.0 || !is_positive(question.constant) || !(question.room >= 1.0) ||

@@ -259,7 +259,7 @@ TubeSet prove_gaussian_set(const TrackedTone& tone, const TrackerModel& model, d
   SetTask shape;
   shape.objective = ShapeObjective::largest_deviation;
   shape.deadline = task.deadline;
-  BandSettings settings = settings_of(shape, low, high);
+  BandSettings settings = settings_of(tone, shape, low, high);
   settings.tube.shape.exponent = std::log(task.samples / task.probability);
   double told = 0.0;
   const auto tell = [&](double share) {

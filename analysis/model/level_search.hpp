@@ -16,8 +16,14 @@ namespace veritrack::model::detail {
 /// The search for the levels of one tube.
 class LevelSearch {
  public:
-  LevelSearch(const TrackerModel& model, const TubeProposal& proposal, const SetTask& task)
-      : model_(&model), proposal_(&proposal), task_(&task), places_(model, proved_.tube, kMostPlaces) {
+  /// `share`: of the band, that this cell is; of what the curve may cost.
+  LevelSearch(const TrackerModel& model, const TubeProposal& proposal, const SetTask& task,
+              double share = 1.0)
+      : model_(&model),
+        proposal_(&proposal),
+        task_(&task),
+        share_(share),
+        places_(model, proved_.tube, kMostPlaces) {
     // Slow trackers have little room, so that cells are small.
     const double room = 1.0 - proposal.worth.rate;
     constexpr double kLittleRoom = 0.02;
@@ -72,14 +78,28 @@ class LevelSearch {
       best_noise = noise;
       best_radius = radius;
     };
+    // As a share of the guess: to be larger than the best so far.
+    const double least = 0.05 * proposal_->worth.noise;
+    const auto try_radius = [&](double radius, double noise) {
+      improve(radius, std::min(most, std::max(best_noise * 1.02, noise)));
+    };
     for (const double factor : {1.0, 0.8, 0.65, 0.5, 1.25}) {
-      // As a share of the guess: to be larger than the best so far.
-      improve(factor * level(), std::min(most, std::max(best_noise * 1.02, 0.05 * proposal_->worth.noise)));
+      try_radius(factor * level(), least);
     }
     // Where the guess was far too large.
     const double guess = proposal_->worth.noise * level() / proposal_->worth.level;
     for (double factor = 0.35; factor > 0.02 && !(best_noise > 0.0); factor *= 0.7) {
-      improve(factor * level(), std::min(most, 0.05 * factor * guess));
+      try_radius(factor * level(), 0.05 * factor * guess);
+    }
+    if (!(best_noise > 0.0) && task_->known_noise > 0.0) {
+      try_radius(largest_radius(level(), [&](double tried) { return may_hold(tried, task_->known_noise); }),
+                 task_->known_noise);
+    }
+    // The first radius that will do need not be the best.
+    constexpr double kSmaller = 0.85;
+    for (double before = 0.0; best_noise > before && best_noise < most;) {
+      before = best_noise;
+      try_radius(kSmaller * best_radius, 0.0);
     }
     for (const double factor : kFactors) {
       if (best_noise > 0.0 && proves(best_radius, factor * best_noise)) {
@@ -97,6 +117,7 @@ class LevelSearch {
   /// About 30 kB each.
   static constexpr std::size_t kMostPlaces = 2048;
   /// What is tried, as shares of what points allow.
+  static constexpr double kDeep = 1e-3;  ///< of the first level
   static constexpr std::array<double, 8> kFactors{0.985, 0.96, 0.93, 0.89, 0.84, 0.77, 0.68, 0.55};
 
   /// The guess, unless errors were larger than the frequency: of a step that is nearly linear.
@@ -126,9 +147,10 @@ class LevelSearch {
     return true;
   }
 
-  bool holds(LevelQuestion question) {
+  bool holds(LevelQuestion question) { return holds(question, proved_.grid); }
+  bool holds(LevelQuestion question, const VerificationBudget& grid) {
     question.shrinking = with_room(question.shrinking);
-    const LevelResult result = verify_level(*model_, proved_.tube, question, proved_.grid, &places_);
+    const LevelResult result = verify_level(*model_, proved_.tube, question, grid, &places_);
     const bool is_proved = result.verdict == rigor::Verdict::proved;
     last_cells_ = is_proved ? result.cells : last_cells_;
     proved_.cells += is_proved ? result.cells : 0;
@@ -142,9 +164,72 @@ class LevelSearch {
     // Where cells become many, the curve itself is what the models cannot resolve.
     const std::size_t most_cells = 3 * last_cells_ + 1000;
     proved_.grid.most_cells = std::min(proved_.grid.most_cells, 2 * most_cells);
-    while (proved_.levels.back() > least && proved_.levels.size() < kMostLevels && last_cells_ < most_cells &&
-           step_down(noise)) {
+    while (proved_.levels.back() > least && proved_.levels.size() < kMostLevels && last_cells_ < most_cells) {
+      if (is_for_curve() ? !step_to_curve() : !step_down(noise)) {
+        break;
+      }
     }
+  }
+
+  /// Whether levels are far below the first one, and the curve is to be known as far as cells are worth it:
+  /// of few states, whose cells are cheap.
+  [[nodiscard]] bool is_for_curve() const {
+    constexpr std::size_t kFewStates = 3;
+    return task_->with_curve && !proved_.tube.bounds_covariance() &&
+           proved_.tube.curve.size() <= kFewStates && proved_.levels.size() > 1 &&
+           proved_.levels.back() < kDeep * proved_.levels.front();
+  }
+  /// Two levels that are far apart take no more cells than the lower one alone, and the lower one is where
+  /// the curve has to be resolved: so it is as low as the cells that are allowed make it, in one step. The
+  /// grid is found at some of its cells, since a verification that begins too coarse costs three times as
+  /// much.
+  bool step_to_curve() {
+    // A bias is enclosed to about twice the level. Lower ones than this only where they are cheap.
+    constexpr double kAsLowAsWanted = 4e-9;  // rad/sample
+    constexpr double kLowest = 2.5e-10;
+    const double radius = proved_.levels.back();
+    LevelQuestion question{radius, 0.0};
+    question.with_covariance = false;
+    question.shrinking = fast_;
+    int tries = 0;
+    constexpr int kMostTries = 2;
+    for (double next = kLowest; next < 0.5 * radius && tries < kMostTries; next *= 2.0) {
+      question.least_scale = next / radius * (1.0 - 1e-12);
+      const double most = next < kAsLowAsWanted ? 2048.0 : std::clamp(32768.0 * share_, 1024.0, 8192.0);
+      const auto grid = task_->deadline.is_over() ? std::nullopt : grid_for(question, static_cast<int>(most));
+      if (!grid) {
+        continue;
+      }
+      ++tries;
+      if (holds(question, *grid)) {
+        proved_.levels.push_back(next);
+        proved_.shrinking.push_back(fast_);
+        return true;
+      }
+    }
+    return false;
+  }
+  /// The coarsest grid whose cells hold, as far as some of them tell; nothing where it is too fine.
+  [[nodiscard]] std::optional<VerificationBudget> grid_for(const LevelQuestion& question, int most) const {
+    VerificationBudget grid = proved_.grid;
+    grid.most_cells = 2 * static_cast<std::size_t>(most);
+    const auto growth_with = [&](int phases, int frequencies) {
+      VerificationBudget tried = grid;
+      tried.phases *= phases;
+      tried.frequencies *= frequencies;
+      return growth_on_grid(*model_, proved_.tube, question, tried);
+    };
+    double growth = growth_with(1, 1);
+    while (!(growth <= with_room(question.shrinking))) {
+      if (2 * grid.phases * grid.frequencies > most) {
+        return std::nullopt;
+      }
+      const double by_phase = growth_with(2, 1);
+      const double by_frequency = growth_with(1, 2);
+      (by_frequency < by_phase ? grid.frequencies : grid.phases) *= 2;
+      growth = std::min(by_phase, by_frequency);
+    }
+    return grid;
   }
 
   bool step_down(double noise) {
@@ -156,7 +241,6 @@ class LevelSearch {
     const std::array<Step, 5> far{{{0.125, fast_}, {0.25, fast_}, {0.5, fast_}, {0.7, slow_}, {0.9, slow_}}};
     // Far down the curve is what models cannot resolve, and a step that fails has cost many cells.
     const std::array<Step, 2> deep{{{0.25, fast_}, {0.5, fast_}}};
-    constexpr double kDeep = 1e-3;
     const bool is_deep = task_->with_curve && proved_.levels.back() < kDeep * proved_.levels.front();
     const std::array<Step, 3> near{{{0.5, slow_}, {0.7, slow_}, {0.9, slow_}}};
     const auto take = [&](const Step& step) {
@@ -192,6 +276,7 @@ class LevelSearch {
   const TrackerModel* model_;
   const TubeProposal* proposal_;
   const SetTask* task_;
+  double share_;
   ProvedTube proved_;
   PlaceStore places_;
   std::size_t last_cells_ = 0;  ///< of the last verification that succeeded

@@ -35,6 +35,7 @@ class Orbit {
           tone.step.jacobian(state_at(curve, phase(k - 1)), samples_of(tone.signal, tone.amplitude, next));
       states_.emplace_back(jacobian.leftCols(n));
       inputs_.emplace_back(jacobian.rightCols(jacobian.cols() - n));
+      of_amplitude_.emplace_back(inputs_.back() * samples_of(tone.signal, tone.amplitude_deviation, next));
       slopes_.emplace_back((state_at(beside, next) - state_at(curve, next)) /
                            (beside.frequency - curve.frequency));
     }
@@ -48,7 +49,8 @@ class Orbit {
     double sum = error;
     for (int k = last; k > last - memory; --k) {
       const auto step = static_cast<std::size_t>(k - 1);
-      sum += noise * (row * inputs_[step]).norm() + slew * std::fabs(row.dot(slopes_[step]));
+      sum += noise * (row * inputs_[step]).norm() + slew * std::fabs(row.dot(slopes_[step])) +
+             std::fabs(row.dot(of_amplitude_[step]));
       row = (row * states_[step]).eval();
     }
     worst.undisturbed = std::max(worst.undisturbed, error);
@@ -63,6 +65,7 @@ class Orbit {
   double first_;
   std::vector<Eigen::MatrixXd> states_, inputs_;  // of the step to sample k at k - 1
   std::vector<Eigen::VectorXd> slopes_;
+  std::vector<Eigen::VectorXd> of_amplitude_;  // what another amplitude of the sample does
 };
 
 }  // namespace

@@ -19,9 +19,9 @@ struct LinearWorstCase {
 ///   d(phi + omega) = A(phi) d(phi) + B(phi) v - C_omega w,   error = h(C) - omega + h_X d,
 /// with the derivatives A, B of the step and C_omega of the curve. The largest error for |v| <= `noise`,
 /// signal units, and |w| <= `slew`, rad/sample per sample, is |h(C) - omega| + sum_j (noise |h_X A ... A B| +
-/// slew |h_X A ... A C_omega|), over the samples j before the phase, at the worst of `phases` phases. What is
-/// nonlinear is left out, in either direction: not a bound. Nothing where no steady state is found. Throws
-/// std::invalid_argument unless noise >= 0, slew >= 0 and phases > 0.
+/// slew |h_X A ... A C_omega|), over the samples j before the phase, at the worst of `phases` phases; and
+/// what amplitudes that vary add. What is nonlinear is left out, in either direction: not a bound. Nothing
+/// where no steady state is found. Throws std::invalid_argument unless noise >= 0, slew >= 0 and phases > 0.
 [[nodiscard]] std::optional<LinearWorstCase> linear_worst_case(const TrackedTone& tone, double frequency,
                                                                double noise, double slew, int phases = 48);
 

@@ -126,7 +126,8 @@ std::optional<TubeSet> prove_long_run_set(const TrackedTone& tone, const Tracker
       return std::nullopt;
     }
     const TubeProposal proposal =
-        propose_long_run_tube(tone, around.tube, around.levels.back(), set.noise, around.parameters, nearby);
+        propose_long_run_tube(tone, around.tube, around.levels.back(), set.noise + error_from_amplitude(tone),
+                              around.parameters, nearby);
     if (proposal.outcome != TubeOutcome::proposed) {
       return std::nullopt;
     }

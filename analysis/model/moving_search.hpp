@@ -37,10 +37,13 @@ class MovingSearch {
       set.tubes.push_back(std::move(proved));
       rate = std::max(rate, cell.worth.rate);
       // Errors have to be smaller than the frequency.
-      const double level =
-          cell.worth.level * std::min(1.0, cell.frequency / std::max(cell.worth.reach, cell.frequency));
+      const double share = std::min(1.0, cell.frequency / std::max(cell.worth.reach, cell.frequency));
+      const double level = share * cell.worth.level;
       level_ = level_ > 0.0 ? std::min(level_, level) : level;
-      most_slew_ = most_slew_ > 0.0 ? std::min(most_slew_, cell.worth.slew) : cell.worth.slew;
+      // Of a shape that was not made for a slew: as much as adds up to the reach.
+      const double slew =
+          share * (cell.worth.slew > 0.0 ? cell.worth.slew : cell.worth.reach * (1.0 - cell.worth.rate));
+      most_slew_ = most_slew_ > 0.0 ? std::min(most_slew_, slew) : slew;
     }
     constexpr double kLittleRoom = 0.02;
     for (ProvedTube& proved : set.tubes) {
@@ -75,26 +78,44 @@ class MovingSearch {
     return false;
   }
 
-  /// The largest slew, for the noise of the set, with one level.
-  [[nodiscard]] bool find_slew() {
+  /// The largest slew, for the noise of the set, with one level. `known_slew`: what another set tolerates, or
+  /// 0; the search begins with it where it finds nothing else.
+  [[nodiscard]] bool find_slew(double known_slew = 0.0) {
     double slew = 0.0;
     double radius = 0.0;
+    const auto try_radius = [&](double tried_radius, double least) {
+      double tried = std::max(1.02 * slew, least);
+      if (!(tried > 0.0) || !may_hold(tried_radius, tried)) {
+        return;
+      }
+      for (double step = 1.6; step > 1.02; step = std::sqrt(step)) {
+        while (may_hold(tried_radius, tried * step)) {
+          tried *= step;
+        }
+      }
+      slew = tried;
+      radius = tried_radius;
+    };
     constexpr double kHalf = 0.5;
     for (const double factor : {1.0, 0.75, kHalf, 0.3, 0.15, 0.07}) {
       if (factor < kHalf && slew > 0.0) {
         break;  // smaller ones are for where the guess was far too large
       }
-      double tried = std::max(1.02 * slew, 0.02 * most_slew_);
-      if (!(tried > 0.0) || !may_hold(factor * level_, tried)) {
-        continue;
+      try_radius(factor * level_, 0.02 * most_slew_);
+    }
+    if (!(slew > 0.0)) {
+      const double widest = largest_radius(level_, [&](double tried) { return may_hold(tried, known_slew); });
+      try_radius(widest, known_slew);
+      constexpr double kShare = 0.7;
+      for (double least = 0.02; widest > 0.0 && !(slew > 0.0) && least > 1e-4; least *= kHalf) {
+        try_radius(kShare * widest, least * most_slew_);
       }
-      for (double step = 1.6; step > 1.02; step = std::sqrt(step)) {
-        while (may_hold(factor * level_, tried * step)) {
-          tried *= step;
-        }
-      }
-      slew = tried;
-      radius = factor * level_;
+    }
+    // The first radius that will do need not be the best.
+    constexpr double kSmaller = 0.85;
+    for (double before = 0.0; slew > before;) {
+      before = slew;
+      try_radius(kSmaller * radius, 0.0);
     }
     return std::any_of(kFactors.begin(), kFactors.end(),
                        [&](double factor) { return slew > 0.0 && proves(radius, factor * slew); });

@@ -55,7 +55,7 @@ CellRun widest_part(const std::vector<TubeProposal>& cells, CellRun run,
 TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, double low, double high,
                          const SetTask& task, const SetProgress& progress) {
   const rigor::NearestRounding nearest;
-  BandSettings settings = settings_of(task, low, high);
+  BandSettings settings = settings_of(tone, task, low, high);
   settings.one_shape = true;
   double told = 0.0;
   const auto tell = [&](double share) {
@@ -83,7 +83,7 @@ TubeSet prove_moving_set(const TrackedTone& tone, const TrackerModel& model, dou
     set.tubes.clear();
     MovingSearch search(model, std::span(band.cells).subspan(run.first, run.end - run.first), task.deadline,
                         set, [&](double share) { tell(kOfProposals + 0.4 * share); });
-    is_found = task.largest_slew ? search.find_slew() : search.find_levels();
+    is_found = task.largest_slew ? search.find_slew(task.known_slew) : search.find_levels();
     if (is_found && task.largest_slew && task.of_each_cell) {
       search.find_own_slews();
     }

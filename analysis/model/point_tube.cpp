@@ -101,14 +101,19 @@ PointTracker::PointTracker(const TrackerModel& model) : model_(&model) {
     step_inputs_.push_back(0.5 * (constant.lower() + constant.upper()));
   }
   signal_inputs_ = step_inputs_;
-  signal_inputs_.push_back(0.5 * (model.amplitude.lower() + model.amplitude.upper()));
-  signal_inputs_.push_back(0.0);
+  signal_inputs_.resize(signal_inputs_.size() + 2);  // amplitude, phase
   frequency_inputs_ = step_inputs_;
   frequency_inputs_.resize(frequency_inputs_.size() + static_cast<std::size_t>(states()));
   step_inputs_.resize(frequency_inputs_.size() + static_cast<std::size_t>(channels()));
 }
 
 Eigen::VectorXd PointTracker::samples(double phase) {
+  return samples(phase, 0.5);
+}
+
+Eigen::VectorXd PointTracker::samples(double phase, double place) {
+  const double low = model_->amplitude.lower();
+  signal_inputs_[signal_inputs_.size() - 2] = low + place * (model_->amplitude.upper() - low);
   signal_inputs_.back() = phase;
   Eigen::VectorXd values(channels());
   model_->signal->run(std::span<const double>(signal_inputs_), registers_,

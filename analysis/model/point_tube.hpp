@@ -59,8 +59,10 @@ class PointTracker {
 
   [[nodiscard]] int states() const { return model_->recursion->states; }
   [[nodiscard]] int channels() const { return model_->recursion->samples; }
-  /// The samples at this phase, without noise.
+  /// The samples at this phase, without noise, at the middle of the amplitudes.
   [[nodiscard]] Eigen::VectorXd samples(double phase);
+  /// At an amplitude of the range: 0 is the least, 1 the largest.
+  [[nodiscard]] Eigen::VectorXd samples(double phase, double place);
   /// The state at these coordinates; of a filter with a tube that bounds the covariance, with the covariance
   /// that the middle of its bounds leads to, or this one `between` them: symmetric, of a norm of at most 1.
   [[nodiscard]] Eigen::VectorXd state(const PointFrame& frame, const Eigen::VectorXd& coordinates,

@@ -11,7 +11,7 @@ namespace veritrack::model {
 
 using rigor::Interval;
 
-BandSettings settings_of(const SetTask& task, double low, double high) {
+BandSettings settings_of(const TrackedTone& tone, const SetTask& task, double low, double high) {
   BandSettings settings;
   settings.deadline = task.deadline;
   settings.tube.shape.deadline = task.deadline;
@@ -19,7 +19,8 @@ BandSettings settings_of(const SetTask& task, double low, double high) {
   settings.tube.fine_curve = task.with_curve;
   settings.tube.shape.objective = task.objective;
   settings.tube.shape.start = task.deviations;
-  settings.tube.shape.noise = task.noise;
+  // Of the largest noise it would be the one that is given.
+  settings.tube.shape.noise = task.noise + (task.largest_noise ? 0.0 : error_from_amplitude(tone));
   settings.tube.shape.slew = task.slew;
   settings.tube.shape.largest_reach = task.largest_error;
   // A lock on a harmonic is off by half of the frequency or more; a bias may be a tenth.

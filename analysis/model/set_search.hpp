@@ -10,7 +10,7 @@
 namespace veritrack::model {
 
 /// How tubes are proposed for a task, over a band in rad/sample.
-[[nodiscard]] BandSettings settings_of(const SetTask& task, double low, double high);
+[[nodiscard]] BandSettings settings_of(const TrackedTone& tone, const SetTask& task, double low, double high);
 
 /// About the largest radius near `level` for which `may_hold(radius)`; 0 when there is none. With noise
 /// growth is too large for small radii, and always for large ones.

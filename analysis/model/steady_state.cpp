@@ -102,6 +102,16 @@ std::string objection_of(const TrackedTone& tone, const PeriodicRun& run) {
 
 }  // namespace
 
+double error_from_amplitude(const TrackedTone& tone) {
+  constexpr int kPhases = 64;
+  double most = 0.0;
+  for (int k = 0; k < kPhases && tone.amplitude_deviation > 0.0; ++k) {
+    const double phase = 2.0 * std::numbers::pi * k / kPhases;
+    most = std::max(most, samples_of(tone.signal, tone.amplitude_deviation, phase).norm());
+  }
+  return most;
+}
+
 SteadyState find_steady_state(const TrackedTone& tone, double frequency,
                               const SteadyStateSettings& settings) {
   const rigor::NearestRounding nearest;

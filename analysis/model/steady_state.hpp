@@ -27,7 +27,12 @@ struct TrackedTone {
   const trackers::FilterParts* filter = nullptr;
   /// What it means that an operation of the step is undefined, one for each: for messages; or empty.
   std::vector<std::string> objections = {};
+  /// How far amplitudes of samples may be from this one, where they vary.
+  double amplitude_deviation = 0.0;
 };
+
+/// About the largest error of a sample from the amplitudes, of all channels together.
+[[nodiscard]] double error_from_amplitude(const TrackedTone& tone);
 
 enum class SteadyStateOutcome {
   settled,

@@ -3,10 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "analysis/model/tube_models.hpp"
@@ -32,7 +35,7 @@ TubeCell cell_of(const ErrorGrid& grid, std::size_t number) {
 
 void require_grid(const ErrorGrid& grid) {
   const auto is_power_of_two = [](int n) { return n > 0 && (n & (n - 1)) == 0; };
-  if (!is_power_of_two(grid.phases) || !is_power_of_two(grid.frequencies)) {
+  if (!is_power_of_two(grid.phases) || !is_power_of_two(grid.frequencies) || !is_power_of_two(grid.finer)) {
     throw std::invalid_argument("a grid that is none");
   }
 }
@@ -54,11 +57,96 @@ std::size_t cells_of(const ErrorGrid& grid) {
   return static_cast<std::size_t>(grid.phases) * static_cast<std::size_t>(grid.frequencies);
 }
 
+/// Powers of z from z^1 on, and as many.
+constexpr std::size_t kPowers = 4;
+
 /// What is known of h - omega in a cell.
 struct CellErrors {
   Interval error = Interval::empty();
   BallModel::MeanInZ mean;
+  /// h - omega is the sum of in_z[d - 1] z^d and of this.
+  Interval rest = Interval::empty();
+  std::array<double, kPowers> in_z{};
 };
+
+/// Takes apart what depends on z alone, whose coefficients are exact numbers.
+void split_in_z(const BallModel& error, CellErrors& cell) {
+  BallModel rest = error;
+  BallModel power(1.0);
+  for (std::size_t d = 1; d <= kPowers; ++d) {
+    power = power * BallModel::z();
+    const rigor::BallMonomials& monomials = error.monomials();
+    const std::size_t place = monomials.classes()[monomials.class_of(0, 0, 0, static_cast<int>(d))].first;
+    cell.in_z.at(d - 1) = error.coefficients()[place];
+    rest.add_multiple(power, -cell.in_z.at(d - 1));
+  }
+  cell.rest = rest.range();
+}
+
+/// About the mean of a row's errors as a polynomial in z; any numbers will do.
+std::array<double, kPowers> common_of(std::span<const CellErrors> row) {
+  std::array<double, kPowers> common{};
+  for (const CellErrors& cell : row) {
+    for (std::size_t d = 0; d < kPowers; ++d) {
+      common.at(d) += cell.in_z.at(d) / static_cast<double>(row.size());
+    }
+  }
+  return common;
+}
+
+/// Contains h - omega less what all phases of a row have in common. Empty when nothing is known.
+Interval without(const std::array<double, kPowers>& common, const CellErrors& cell) {
+  Interval here = cell.rest;
+  for (std::size_t d = 0; d < kPowers; ++d) {
+    const Interval left = Interval(cell.in_z.at(d)) - Interval(common.at(d));
+    // The index d is that of z^(d + 1), between -1 and 1, of an even power between 0 and 1.
+    here = here + hull(d % 2 == 1 ? Interval(0.0) : -left, left);
+  }
+  return rigor::is_finite(here) ? here : Interval::empty();
+}
+
+/// What is known of the parts of the cell at this place of a row; empty where it is not divided.
+using PartsOfCell = std::function<std::vector<CellErrors>(std::size_t place)>;
+
+/// Contains the same in a cell, by its parts where there are any.
+Interval without(const std::array<double, kPowers>& common, const std::vector<CellErrors>& parts,
+                 const Interval& whole) {
+  std::optional<Interval> all;
+  for (const CellErrors& part : parts) {
+    const Interval range = without(common, part);
+    if (rigor::is_empty(range)) {
+      return whole;
+    }
+    all = all ? hull(*all, range) : range;
+  }
+  return all.value_or(whole);
+}
+
+/// At each frequency of a row of cells, the largest h - omega less the smallest: at most this.
+double ripple_of(std::span<const CellErrors> row, const PartsOfCell& parts_of) {
+  const std::array<double, kPowers> common = common_of(row);
+  std::vector<Interval> ranges;
+  ranges.reserve(row.size());
+  double at_least = -kInfinity;  // the largest value; the smallest one is at most:
+  double at_most = kInfinity;
+  for (const CellErrors& cell : row) {
+    ranges.push_back(without(common, cell));
+    if (rigor::is_empty(ranges.back())) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    at_least = std::max(at_least, ranges.back().lower());
+    at_most = std::min(at_most, ranges.back().upper());
+  }
+  Interval all = ranges.front();
+  bool is_first = true;
+  for (std::size_t place = 0; place < ranges.size(); ++place) {
+    const bool may_be_extreme = ranges[place].upper() > at_least || ranges[place].lower() < at_most;
+    const Interval here = may_be_extreme ? without(common, parts_of(place), ranges[place]) : ranges[place];
+    all = is_first ? here : hull(all, here);
+    is_first = false;
+  }
+  return (Interval(all.upper()) - Interval(all.lower())).upper();
+}
 
 BallModel frequency_error(const TrackerModel& model, const CellFrame& frame,
                           const std::vector<BallModel>& state) {
@@ -71,10 +159,26 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
   const rigor::UpwardRounding upward;
   require_grid(grid);
   std::vector<CellErrors> cells(cells_of(grid));
-  for_each_cell(model, tube, grid, [&](std::size_t number, const CellFrame& frame) {
+  const auto errors_in = [&](const CellFrame& frame) {
     const BallModel error = frequency_error(model, frame, state_in(frame.here, radius));
-    cells[number] = {error.range(), error.mean_in_z()};
-  });
+    CellErrors cell{error.range(), error.mean_in_z()};
+    split_in_z(error, cell);
+    return cell;
+  };
+  for_each_cell(model, tube, grid,
+                [&](std::size_t number, const CellFrame& frame) { cells[number] = errors_in(frame); });
+  // The parts of a cell in phase.
+  const auto parts_of = [&](std::size_t number) {
+    const rigor::BallModelScope scope(static_cast<int>(tube.curve.size()), 0);
+    const TubeCell whole = cell_of(grid, number);
+    const double half = whole.half_turn / grid.finer;
+    std::vector<CellErrors> parts;
+    for (int i = 0; i < grid.finer && grid.finer > 1; ++i) {
+      const TubeCell part{whole.turn - whole.half_turn + (2.0 * i + 1.0) * half, half, whole.z, whole.half_z};
+      parts.push_back(errors_in(frame_of(model, tube, part, FrameParts::here)));
+    }
+    return parts;
+  };
   TubeErrors nothing_known{
       Interval::empty(), Interval::empty(), std::numeric_limits<double>::quiet_NaN(), {}};
   TubeErrors result{Interval::empty(), Interval::empty(), 0.0, {}};
@@ -99,8 +203,9 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
     const Interval mean = total / Interval(static_cast<double>(grid.phases));
     result.error = first == 0 ? range : hull(result.error, range);
     result.mean = first == 0 ? mean : hull(result.mean, mean);
-    const double ripple = (Interval(range.upper()) - Interval(range.lower())).upper();
-    result.ripple = std::max(result.ripple, ripple);
+    const double ripple = ripple_of(std::span(cells).subspan(first, phases),
+                                    [&](std::size_t place) { return parts_of(first + place); });
+    result.ripple = result.ripple >= ripple ? result.ripple : ripple;  // NaN stays
     const TubeCell place = cell_of(grid, first);
     result.slices.push_back({tube.frequency + tube.half_width * (place.z - place.half_z),
                              tube.frequency + tube.half_width * (place.z + place.half_z), mean, ripple});

@@ -13,6 +13,9 @@ namespace veritrack::model {
 struct ErrorGrid {
   int phases = 128;
   int frequencies = 4;
+  /// Into how many parts those phases are divided, for the ripple, at which the error may be largest or
+  /// smallest: 1 for none.
+  int finer = 1;
 };
 
 /// Of h - omega, rad/sample, for all |xi| <= radius, phases and frequencies of the tube. Empty or NaN where
@@ -28,7 +31,8 @@ struct TubeErrors {
   rigor::Interval error;  ///< contains all
   /// Contains the mean over the phase for each frequency, whatever xi does while the phase turns.
   rigor::Interval mean;
-  /// For each frequency the largest less the smallest over the phase is at most this.
+  /// For each frequency the largest less the smallest over the phase is at most this. (At one frequency: how
+  /// the mean changes from one to the other is not counted.)
   double ripple = 0.0;
   std::vector<Slice> slices;  ///< from low frequencies to high ones; none where nothing is known
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <span>
@@ -203,6 +204,30 @@ CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& 
     }
   }
   return frame;
+}
+
+std::vector<BallModel> noisy_samples(const TrackerModel& model, const std::vector<BallModel>& samples,
+                                     double noise, double stretch) {
+  if (!is_disturbed(model, noise)) {
+    return samples;
+  }
+  std::vector<BallModel> result = samples;
+  double most = noise;
+  if (model.amplitude_varies) {
+    Interval squares(0.0);
+    for (BallModel& sample : result) {
+      squares += rigor::square(Interval(sample.error()));
+      sample = sample.without_error();
+    }
+    most = (Interval(noise) + rigor::sqrt(squares)).upper();
+    if (!std::isfinite(most)) {
+      return std::vector<BallModel>(samples.size(), BallModel(Interval::empty()));
+    }
+  }
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    result[c] = result[c] + BallModel(most * stretch) * BallModel::disturbance(static_cast<int>(c));
+  }
+  return result;
 }
 
 TubeHere tube_difference(const Tube& a, const BallModel& z_of_a, const Tube& b, const BallModel& z_of_b,

@@ -42,6 +42,13 @@ struct CellFrame {
   std::vector<rigor::BallModel> next;  ///< the samples at the next phase
 };
 
+/// The samples of a frame, with |v| <= noise, times `stretch` for the ball: the first disturbances of the
+/// scope. An amplitude that varies is an error of the models of the samples, so that a sample is their
+/// polynomial and |v| <= noise + the length of these errors. Needs the upward rounding mode.
+[[nodiscard]] std::vector<rigor::BallModel> noisy_samples(const TrackerModel& model,
+                                                          const std::vector<rigor::BallModel>& samples,
+                                                          double noise, double stretch);
+
 /// Which of them: not `there` and not `next`; not `there`; all.
 enum class FrameParts { here, with_samples, with_next };
 /// `store`: of this model and tube, or none.

@@ -36,7 +36,7 @@ TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low
     bool is_good = cell.outcome == TubeOutcome::proposed;
     if (cell.outcome == TubeOutcome::proposed) {
       widen(*cell.tube);
-      LevelSearch search(model, cell, task);
+      LevelSearch search(model, cell, task, (to - from) / (high - low));
       std::optional<ProvedTube> proved;
       if (task.largest_noise) {
         if (auto found = search.with_largest_noise(task.of_each_cell ? INFINITY : noise)) {
@@ -71,7 +71,7 @@ TubeSet prove_set(const TrackedTone& tone, const TrackerModel& model, double low
     }
     return is_good;
   };
-  BandSettings settings = settings_of(task, low, high);
+  BandSettings settings = settings_of(tone, task, low, high);
   settings.decided = prove_cell;
   const BandProposal band = propose_band(tone, low, high, settings);
   set.reasons = reasons_of(band);

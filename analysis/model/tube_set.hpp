@@ -46,6 +46,9 @@ struct SetTask {
   /// are no larger. (Others have levels that are as good.)
   double largest_error = 0.0;
   search::Deadline deadline = {};  ///< after which nothing more is proved
+  /// In searches for the largest: as much as another set tolerates, with which they begin where they find
+  /// nothing else.
+  double known_noise = 0.0, known_slew = 0.0;
 };
 
 /// Gaussian noise, and the inequality that is proved for every tube of a set (gaussian_drift.hpp), with

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "analysis/model/map_bound.hpp"
 #include "analysis/model/tube_models.hpp"
@@ -22,24 +23,20 @@ StepOver step_over(const TrackerModel& model, const Tube& tube, const TubeCell& 
                    double noise, double slew, double stretch, PlaceStore* store) {
   require_sizes(model, tube);
   const auto states = static_cast<std::size_t>(model.recursion->states);
-  const auto samples = static_cast<std::size_t>(model.recursion->samples);
-  const bool is_noisy = noise > 0.0;
   const bool is_moving = slew > 0.0;
   CellFrame frame =
       frame_of(model, tube, cell, is_moving ? FrameParts::with_samples : FrameParts::with_next, store);
   if (is_moving) {
     // Rounded up: more slew than is asked for.
-    const int last = is_noisy ? static_cast<int>(samples) : 0;
+    const int last = is_disturbed(model, noise) ? model.recursion->samples : 0;
     frame.there =
         tube_at(tube, frame.next_phase,
                 frame.z + BallModel(slew * stretch / tube.half_width) * BallModel::disturbance(last));
   }
   const std::vector<BallModel> state = state_in(frame.here, radius);
   std::vector<BallModel> inputs = state;
-  for (std::size_t c = 0; c < samples; ++c) {
-    inputs.push_back(is_noisy ? frame.next[c] +
-                                    BallModel(noise * stretch) * BallModel::disturbance(static_cast<int>(c))
-                              : frame.next[c]);
+  for (BallModel& sample : noisy_samples(model, frame.next, noise, stretch)) {
+    inputs.push_back(std::move(sample));
   }
   std::vector<BallModel> next = run(model, model.recursion->step, inputs);
   for (std::size_t i = 0; i < states; ++i) {
@@ -56,7 +53,7 @@ StepOver step_over(const TrackerModel& model, const Tube& tube, const TubeCell& 
 
 StepBounds bound_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell, double radius,
                       double noise, const std::vector<double>& scales, double slew, PlaceStore* store) {
-  const bool is_noisy = noise > 0.0;
+  const bool is_noisy = is_disturbed(model, noise);
   const bool is_moving = slew > 0.0;
   const int of_noise = is_noisy ? model.recursion->samples : 0;
   const rigor::BallModelScope scope(model.recursion->states, is_moving ? of_noise + 1 : of_noise);

@@ -24,7 +24,8 @@ struct TrackerModel {
   const trackers::Recursion* recursion = nullptr;
   const trackers::StraightLineProgram* signal = nullptr;  ///< inputs: constants, amplitude, phase
   std::vector<rigor::Interval> constants;
-  rigor::Interval amplitude;
+  rigor::Interval amplitude;      ///< of each sample
+  bool amplitude_varies = false;  ///< from sample to sample, in that range; otherwise it is constant
   /// Of an extended Kalman filter that can be taken to its parts: for tubes that bound the covariance.
   const trackers::FilterParts* filter = nullptr;
 };
@@ -53,7 +54,13 @@ struct StepBounds {
   double by_frequency = 0.0;
 };
 
-/// F over a cell, as ball models in xi/radius and the disturbances: v/noise, and then zeta.
+/// Whether samples may differ from a signal of one amplitude: there is noise, or the amplitude varies.
+[[nodiscard]] inline bool is_disturbed(const TrackerModel& model, double noise) {
+  return noise > 0.0 || model.amplitude_varies;
+}
+
+/// F over a cell, as ball models in xi/radius and the disturbances: v/noise, and then zeta. Where the
+/// amplitude varies, v is the noise together with what that does to the samples.
 struct StepOver {
   std::vector<rigor::BallModel> deviation;  ///< F
   rigor::Interval frequency_error;          ///< of h(C + U xi) - omega; empty when nothing is known
@@ -62,8 +69,8 @@ struct StepOver {
 
 /// For |xi| <= radius, |v| <= noise stretch and a slew up to slew stretch. Needs the upward rounding mode,
 /// and a scope of ball models with as many components as there are states, and disturbances as there are
-/// samples (noise > 0) and one more (slew > 0). `store`: of this model and tube, or none. Throws
-/// std::invalid_argument when sizes do not fit.
+/// samples (where they are disturbed) and one more (slew > 0). `store`: of this model and tube, or none.
+/// Throws std::invalid_argument when sizes do not fit.
 [[nodiscard]] StepOver step_over(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
                                  double radius, double noise, double slew = 0.0, double stretch = 1.0,
                                  PlaceStore* store = nullptr);

@@ -149,4 +149,29 @@ bool may_shrink(const TrackerModel& model, const Tube& tube, const LevelQuestion
   return all.load();
 }
 
+double growth_on_grid(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
+                      const VerificationBudget& grid) {
+  constexpr std::size_t kPhases = 6;
+  constexpr std::size_t kPlaces = 3;
+  const auto phases = static_cast<double>(grid.phases);
+  const auto frequencies = static_cast<double>(grid.frequencies);
+  const std::array<double, 2> scales{1.0, question.least_scale};
+  std::vector<double> growths(kPhases * kPlaces);
+  tbb::parallel_for(std::size_t{0}, growths.size(), [&](std::size_t number) {
+    const rigor::UpwardRounding upward;
+    const double share = (static_cast<double>(number / kPlaces) + 0.3) / kPhases;
+    const double row = std::floor(static_cast<double>(number % kPlaces) / kPlaces * frequencies);
+    const TubeCell cell{(std::floor(share * phases) + 0.5) / phases, 0.5 / phases,
+                        (2.0 * row + 1.0) / frequencies - 1.0, 1.0 / frequencies};
+    const StepBounds bounds = bounds_of(model, tube, cell, question, {scales.begin(), scales.end()}, nullptr);
+    double largest = bounds.steps.size() == scales.size() ? 0.0 : std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < scales.size() && std::isfinite(largest); ++i) {
+      const double here = bounds.steps[i] / (scales.at(i) * question.radius);
+      largest = std::isfinite(here) ? std::max(largest, here) : std::numeric_limits<double>::infinity();
+    }
+    growths[number] = largest;
+  });
+  return *std::max_element(growths.begin(), growths.end());
+}
+
 }  // namespace veritrack::model

@@ -65,4 +65,9 @@ struct LevelResult {
 [[nodiscard]] bool may_shrink(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
                               int phases, double most, PlaceStore* store = nullptr);
 
+/// About the largest |F| over scale radius, at the radius and at its least scale, in the cells of a grid: of
+/// some of them. For proposals; proves nothing. Infinity when nothing is known.
+[[nodiscard]] double growth_on_grid(const TrackerModel& model, const Tube& tube,
+                                    const LevelQuestion& question, const VerificationBudget& grid);
+
 }  // namespace veritrack::model

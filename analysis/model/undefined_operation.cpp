@@ -15,8 +15,8 @@ using rigor::BallModel;
 /// The instruction that is undefined at some phase, or -1.
 int undefined_at(const TrackerModel& model, const Tube& tube, double radius, double noise) {
   constexpr int kPhases = 32;
-  const bool is_noisy = noise > 0.0;
-  const rigor::BallModelScope scope(model.recursion->states, is_noisy ? model.recursion->samples : 0);
+  const rigor::BallModelScope scope(model.recursion->states,
+                                    is_disturbed(model, noise) ? model.recursion->samples : 0);
   const trackers::StraightLineProgram& step = model.recursion->step;
   std::vector<BallModel> registers;
   std::vector<BallModel> next(step.results().size());
@@ -30,9 +30,8 @@ int undefined_at(const TrackerModel& model, const Tube& tube, double radius, dou
     for (BallModel& state : state_in(frame.here, radius)) {
       inputs.push_back(std::move(state));
     }
-    for (int c = 0; c < model.recursion->samples; ++c) {
-      const BallModel& sample = frame.next[static_cast<std::size_t>(c)];
-      inputs.push_back(is_noisy ? sample + BallModel(noise) * BallModel::disturbance(c) : sample);
+    for (BallModel& sample : noisy_samples(model, frame.next, noise, 1.0)) {
+      inputs.push_back(std::move(sample));
     }
     step.run(std::span<const BallModel>(inputs), registers, std::span(next));
     const int found =

@@ -20,6 +20,8 @@ constexpr double kRoundingOfProduct = 20 * 0x1p-52;
 /// Degrees of x, v, s and z: 65 with disturbances.
 constexpr std::size_t kMostClasses = 65;
 
+thread_local const BallMonomials* current_monomials = nullptr;
+
 /// By group, the sums of the norms of classes.
 using GroupSums = std::array<double, BallMonomials::kGroups>;
 
@@ -255,6 +257,12 @@ BallModel BallModel::lifted() const {
       result.norms()[there] = norm(number);
     }
   }
+  return result;
+}
+
+BallModel BallModel::without_error() const {
+  BallModel result = *this;
+  result.error_ = std::isfinite(error_) ? 0.0 : kNothingKnown;
   return result;
 }
 

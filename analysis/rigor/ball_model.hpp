@@ -95,6 +95,8 @@ class BallModel {
   /// The same functions of s and z among the models of this thread's scope. Throws std::logic_error when
   /// there are terms in x or v.
   [[nodiscard]] BallModel lifted() const;
+  /// The polynomial alone: error() is 0. Not known when nothing is known.
+  [[nodiscard]] BallModel without_error() const;
   /// Every function that is within `more` of one of these.
   [[nodiscard]] BallModel widened(double more) const;
 

@@ -10,10 +10,19 @@ namespace {
 using rigor::Verdict;
 using enum FindingKind;
 
-/// "False as stated (thesis, (2.33)): " before the reason, when the claim is in the ledger and REFUTED.
-void cite(std::string_view claim, Verdict verdict, std::string& reason) {
-  const PaperFinding* finding = verdict == Verdict::refuted ? find_paper_finding(claim) : nullptr;
-  if (finding == nullptr) {
+/// "False as stated (thesis, (2.33)): " before the reason, when the claim is in the ledger and REFUTED. What
+/// the scan does not show is neither proved nor refuted: the verdict was one on our reading of it.
+void cite(std::string_view claim, Verdict& verdict, std::string& reason) {
+  const PaperFinding* finding = find_paper_finding(claim);
+  if (finding != nullptr && finding->kind == illegible) {
+    const std::string reading = verdict == Verdict::refuted  ? "as we read it, it would be false: "
+                                : verdict == Verdict::proved ? "as we read it, it would be true: "
+                                                             : "";
+    reason = "Illegible in the scan (" + std::string(finding->place) + "): " + reading + reason;
+    verdict = Verdict::undecided;
+    return;
+  }
+  if (finding == nullptr || verdict != Verdict::refuted) {
     return;
   }
   std::string words(to_string(finding->kind));

@@ -40,7 +40,8 @@ struct PaperFinding {
 /// The line for a claim: that of its id, else that of its id without the last part; null when there is none.
 [[nodiscard]] const PaperFinding* find_paper_finding(std::string_view claim);
 
-/// Puts kind and place before the reason of every REFUTED statement, or condition, that the ledger has.
+/// Puts kind and place before the reason of every REFUTED statement, or condition, that the ledger has. What
+/// is illegible becomes UNDECIDED, whatever the verdict on our reading; the reason says what that would be.
 void cite_findings(std::vector<Statement>& statements);
 void cite_findings(Derivation& derivation);
 

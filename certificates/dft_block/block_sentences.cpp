@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/rigor/rounding.hpp"
 #include "certificates/sets/gaussian_noise.hpp"
 
 namespace veritrack::certificates {
@@ -27,6 +28,19 @@ rigor::Interval bin_deviation(const BlockTables& tables) {
   const Number& amplitude = tables.assume.amplitude[0];
   return deviation_at_unit_amplitude(tables.assume.gaussian.value(), amplitude) * amplitude.value /
          sqrt(rigor::Interval(2.0) * tables.design.block_length.value().value);
+}
+
+BlockTables with_snr(BlockTables tables, const std::string& decibels) {
+  Number number;
+  number.value = rigor::parse_decimal(decibels);
+  number.tight = number.value;
+  number.text = decibels;
+  {
+    const rigor::NearestRounding nearest;
+    number.nearest = midpoint(number.value);
+  }
+  tables.assume.gaussian = GaussianNoise{number, std::nullopt};
+  return tables;
 }
 
 namespace {

@@ -17,6 +17,10 @@ namespace veritrack::certificates {
 /// the root of 2 T. The noise must be Gaussian. Needs the upward mode.
 [[nodiscard]] rigor::Interval bin_deviation(const BlockTables& tables);
 
+/// The design in white noise of another signal-to-noise ratio, a decimal in dB, in place of what is assumed.
+/// Needs the upward mode.
+[[nodiscard]] BlockTables with_snr(BlockTables tables, const std::string& decibels);
+
 /// Everything up to what is claimed of the assumed tones, noise and starts. Needs the upward mode.
 [[nodiscard]] std::string block_hypotheses(const BlockTables& tables);
 

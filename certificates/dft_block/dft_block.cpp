@@ -6,8 +6,8 @@
 
 #include "analysis/dft_block/false_lock.hpp"
 #include "analysis/dft_block/lock_certificate.hpp"
-#include "analysis/dft_block/lock_loss.hpp"
 #include "analysis/rigor/decimal.hpp"
+#include "certificates/dft_block/block_loss.hpp"
 #include "certificates/dft_block/block_sentences.hpp"
 #include "certificates/dft_block/dft_block_design.hpp"
 #include "certificates/dft_block/false_lock_claims.hpp"
@@ -53,35 +53,16 @@ dft_block::LockQuestion lock_question(const BlockTables& tables) {
   return question;
 }
 
-dft_block::LossQuestion loss_question(const BlockTables& tables) {
-  const dft_block::LockQuestion lock = lock_question(tables);
-  dft_block::LossQuestion question;
-  question.problem = lock.problem;
-  question.problem.noise = rigor::Interval(0.0);
-  question.deviation = bin_deviation(tables);
-  question.blocks = tables.assume.blocks.value().value;
-  question.amplitude_error = lock.amplitude_error;
-  question.phase_error = lock.phase_error;
-  question.offset_error = lock.offset_error;
-  question.covariance = lock.covariance;
-  return question;
-}
-
 /// The claims, and the derivation that decides them.
 class BlockClaims {
  public:
   explicit BlockClaims(Certificate& certificate)
       : certificate_(&certificate),
         tables_(&block_tables(certificate.design)),
-        found_(find_derivation(certificate, tables_->assume.gaussian ? "lock-in-noise" : "lock-set")),
+        found_(find_derivation(certificate, "lock-set")),
         hypotheses_(block_hypotheses(*tables_)) {}
 
   void add_all() {
-    if (tables_->assume.gaussian) {
-      add_losing_lock();
-      conclude_requirements(*certificate_);
-      return;
-    }
     add_guarantee();
     if (tables_->require.offset_error_below) {
       add_offset_error(*tables_->require.offset_error_below);
@@ -152,54 +133,6 @@ class BlockClaims {
     add(std::move(claim));
   }
 
-  /// What is proved in Gaussian noise, and what is required.
-  void add_losing_lock() {
-    const theorems::Quantity* probability = quantity("probability_of_losing_lock");
-    const theorems::Quantity* error = quantity("offset_error_bound");
-    const std::string& blocks = tables_->assume.blocks.value().text;
-    Claim claim;
-    claim.id = "dft-block/losing-lock";
-    claim.statement = hypotheses_;
-    const bool says_something = probability != nullptr && error != nullptr &&
-                                rigor::certainly_less(probability->value, rigor::Interval(1.0));
-    if (says_something) {
-      claim.verdict = Verdict::proved;
-      claim.evidence = {*probability, *error};
-      claim.statement += fmt::format(
-          "the probability that within the first {} blocks the offset error of an estimate exceeds {} bins "
-          "is "
-          "at most {}.",
-          blocks, rigor::upper_decimal(error->value, kBlockDigits),
-          rigor::upper_decimal(probability->value, kBlockDigits));
-      claim.reason =
-          "An exponential of the errors grows by no more than a constant on average in each block.";
-    } else {
-      claim.statement +=
-          fmt::format("the probability of losing lock within the first {} blocks is below 1.", blocks);
-      if (probability != nullptr) {
-        claim.reason = "The bound that is proved is 1.";
-      }
-    }
-    add(std::move(claim));
-    if (const auto& below = tables_->require.probability_of_losing_lock_below) {
-      Claim needed =
-          required("dft-block/probability-of-losing-lock", *below,
-                   fmt::format("within the first {} blocks lock is lost with a probability below {}", blocks,
-                               below->text));
-      if (says_something) {
-        const bool is_met = rigor::certainly_less(probability->value, below->value);
-        needed.verdict = is_met ? Verdict::proved : Verdict::undecided;
-        needed.reason =
-            fmt::format("The proved bound is {}{}.", rigor::upper_decimal(probability->value, kBlockDigits),
-                        is_met ? "" : ", which is not what is required");
-        if (is_met) {
-          needed.evidence = {*probability};
-        }
-      }
-      add(std::move(needed));
-    }
-  }
-
   /// What is proved, with all numbers.
   void add_guarantee() {
     Claim claim;
@@ -243,8 +176,11 @@ class BlockClaims {
 void certify_dft_block(Certificate& certificate, const CertifyProgress& /*progress*/) {
   const BlockTables& tables = block_tables(certificate.design);
   const dft_block::LockQuestion question = lock_question(tables);
-  certificate.derivations.push_back(tables.assume.gaussian ? dft_block::derive_loss(loss_question(tables))
-                                                           : dft_block::derive_lock(question));
+  if (tables.assume.gaussian) {
+    derive_block_loss(certificate, question);
+  } else {
+    certificate.derivations.push_back(dft_block::derive_lock(question));
+  }
   // What is beside [require] is not asked for by everyone.
   const bool all = certificate.extent == Extent::everything;
   if (all) {
@@ -252,7 +188,12 @@ void certify_dft_block(Certificate& certificate, const CertifyProgress& /*progre
       certificate.derivations.push_back(std::move(found));
     }
   }
-  BlockClaims(certificate).add_all();
+  if (tables.assume.gaussian) {
+    add_block_loss_claims(certificate);
+    conclude_requirements(certificate);
+  } else {
+    BlockClaims(certificate).add_all();
+  }
   if (all) {
     add_false_lock_claims(certificate);
   }

@@ -42,6 +42,17 @@ std::string block_set_section(const Certificate& certificate) {
          markdown::notes_list(found) + "\n";
 }
 
+/// The set for as much noise as could be proved.
+std::string lowest_snr_section(const Certificate& certificate) {
+  const theorems::Derivation* found = find_derivation(certificate, "lowest-snr");
+  if (found == nullptr) {
+    return "";
+  }
+  return "## The lowest signal-to-noise ratio: conditions " + markdown::satisfied(found->verdict) + "\n\n" +
+         found->title + ".\n\n" + markdown::conditions_table(*found) + "\n" + markdown::values_table(*found) +
+         "\n";
+}
+
 /// What is proved of starts that never find the tone.
 std::string false_lock_section(const Certificate& certificate) {
   const auto* below = find_derivation(certificate, "false-lock-below");
@@ -119,8 +130,12 @@ std::string block_coverage(bool is_gaussian) {
          "the assumed bounds and changes by no more than the assumed slew from one block to the next, and is "
          "constant "
          "within each block, with its amplitude and phase going on from block to block; " +
-         noise +
-         "every start within the assumed errors.\n- Of the model (4.9), not of the samples: what a real "
+         noise + "every start within the assumed errors.\n" +
+         (is_gaussian
+              ? "- *In lock* is a filter whose errors and covariance have not left the certified set; "
+                "in the root mean square the blocks after that count nothing.\n"
+              : "") +
+         "- Of the model (4.9), not of the samples: what a real "
          "tone's "
          "transform is beside it (about the amplitude over $`T`$) " +
          (is_gaussian ? "is not in the noise that is assumed, and neither is"
@@ -140,7 +155,8 @@ std::string block_coverage(bool is_gaussian) {
 
 std::string dft_block_summary(const Certificate& certificate) {
   std::string text;
-  for (const char* id : {"dft-block/guarantee", "dft-block/losing-lock", "dft-block/every-start-locks"}) {
+  for (const char* id : {"dft-block/guarantee", "dft-block/losing-lock", "dft-block/lowest-snr",
+                         "dft-block/every-start-locks"}) {
     const auto claim = std::find_if(certificate.claims.begin(), certificate.claims.end(),
                                     [id](const Claim& one) { return one.id == id; });
     if (claim != certificate.claims.end()) {
@@ -157,8 +173,8 @@ std::string dft_block_sections(const Certificate& certificate, const MarkdownOpt
     figures += picture(figure);
   }
   return block_filter_section(certificate) + block_set_section(certificate) +
-         false_lock_section(certificate) + (figures.empty() ? "" : "## In simulation\n\n" + figures) +
-         landing_section(certificate) +
+         lowest_snr_section(certificate) + false_lock_section(certificate) +
+         (figures.empty() ? "" : "## In simulation\n\n" + figures) + landing_section(certificate) +
          block_coverage(block_tables(certificate.design).assume.gaussian.has_value());
 }
 

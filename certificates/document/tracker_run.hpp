@@ -67,7 +67,8 @@ class TrackerRun {
 
 /// What a design assumes of its signal, in doubles: for a comparison with a recording.
 struct SignalAssumptions {
-  std::array<double, 2> amplitude{1, 1};  ///< [least, largest], constant, signal units
+  std::array<double, 2> amplitude{1, 1};  ///< [least, largest], signal units
+  bool amplitude_varies = false;          ///< from sample to sample; otherwise it is constant
   std::array<double, 2> frequency{0, 0};  ///< [lowest, highest], rad/sample
   std::optional<double> noise;            ///< |v(k)| at most, signal units
   std::optional<double> noise_deviation;  ///< of each channel, signal units; where the noise is Gaussian

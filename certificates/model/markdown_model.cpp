@@ -79,7 +79,12 @@ std::string design_section(const Certificate& certificate, const ModelTables& ta
     rows.push_back({"parameters", equations(table.parameters), "—"});
   }
   rows.push_back({"estimated frequency", quoted(table.frequency.text), "rad/sample"});
-  rows.push_back({"amplitude of the signal, constant", quoted(assume.amplitude.text), "signal units"});
+  const auto& [least, largest] = assume.amplitude;
+  rows.push_back(
+      assume.one_amplitude
+          ? std::vector<std::string>{"amplitude of the signal, constant", quoted(least.text), "signal units"}
+          : std::vector<std::string>{"amplitude of the signal, of each sample, within",
+                                     fmt::format("[`{}`, `{}`]", least.text, largest.text), "signal units"});
   const FrequencyUnits units(assume.sample_rate);
   const std::string band = fmt::format("[`{}`, `{}`]", assume.frequency[0].text, assume.frequency[1].text);
   if (units.has_hertz()) {
@@ -139,7 +144,7 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
       "phase and every frequency that a statement names.\n"
       "- Not covered: the rounding of the program that runs, quantised samples, and whatever the formulas do "
       "not say, such as resets, lock detectors and limits that act.\n"
-      "- The amplitude is exactly the assumed one, and the signal has no other components than those of the "
+      "- The amplitude {}, and the signal has no other components than those of the "
       "signal formula. What else is in the samples must {}.\n"
       "- The frequency {}. A mean is the mean over the phase of the signal.\n"
       "- The certified sets are the tubes in `certificate.json`. \"Started in the set\" refers to them by "
@@ -149,6 +154,9 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
       "- The proof is in `docs/model-proof.md` of the program's sources. Every bound was computed with "
       "outward rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
       is_gaussian ? "the noise that a statement names" : "every noise within the assumed bound",
+      tables.assume.one_amplitude ? "is exactly the assumed one"
+                                  : "of every sample is in the assumed range and may be another one at each "
+                                    "sample",
       is_gaussian ? "be noise of that kind" : "fit into the noise",
       moves
           ? "stays in the band and changes by no more than assumed, or is constant where a statement says so"

@@ -56,12 +56,18 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
     return "## Bias and ripple\n\nNothing is known of them: they need a set without noise in which errors "
            "shrink.\n\n";
   }
-  const FrequencyUnits units(model_tables(certificate.design).assume.sample_rate);
+  const ModelAssumptions& assume = model_tables(certificate.design).assume;
+  const FrequencyUnits units(assume.sample_rate);
   std::string text =
-      "## Bias and ripple\n\nWithout noise, at a constant frequency and in the long run, the estimate "
-      "repeats "
-      "itself with the phase of the signal. Its *bias* is the mean over the phase of the frequency error "
-      "(estimate less true frequency), its *ripple* the largest less the smallest error over the phase. Both "
+      std::string("## Bias and ripple\n\nWithout noise, at a constant frequency and in the long run, the ") +
+      (assume.one_amplitude
+           ? "estimate repeats itself with the phase of the signal. Its"
+           : "frequency error stays between two bounds at each phase of the signal, at any amplitude of the "
+             "range at each sample. The numbers are those of all such amplitudes. The") +
+      " *bias* is the mean over the phase of the frequency error "
+      "(estimate less true frequency), " +
+      (assume.one_amplitude ? "its" : "the") +
+      " *ripple* the largest less the smallest error over the phase. Both "
       "are proved for every frequency of a row; a bias is between the two "
       "numbers. The ends of rows are rounded to six digits.\n\n";
   std::vector<std::string> header{"Frequency, rad/sample", "Bias, rad/sample", "Ripple, at most, rad/sample"};

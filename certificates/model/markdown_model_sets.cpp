@@ -126,11 +126,13 @@ std::string disturbances_of(const model::TubeSet& set, const FrequencyUnits& uni
              : noise + ", at a constant frequency";
 }
 
-std::string sentence_of(const NamedSet& named, const FrequencyUnits& units) {
+std::string sentence_of(const NamedSet& named, const FrequencyUnits& units, bool amplitude_varies) {
   const ModelSet& set = *named.set;
   std::string text = fmt::format(
-      "- *For {}{}*: {}, a start in this set stays in it for ever, with a frequency error of at most {}",
-      named.purpose, named.where, disturbances_of(set.tubes, units), units.at_most(set.frequency_error));
+      "- *For {}{}*: {}{}, a start in this set stays in it for ever, with a frequency error of at most {}",
+      named.purpose, named.where, disturbances_of(set.tubes, units),
+      amplitude_varies ? ", at any amplitude of the range at each sample" : "",
+      units.at_most(set.frequency_error));
   const double samples = samples_to_settle(set, named.long_run);
   if (samples > 0.0 && std::isfinite(samples) && std::isfinite(named.settled_error())) {
     text += fmt::format("; from sample {} on the error is at most {}", samples,
@@ -183,8 +185,9 @@ std::string attack_on(const NamedSet& named, const model::TrackerModel& tracker,
       "each{}, reached a frequency error of {:.3g} rad/sample{}: {:.2f} of the certified bound. After the "
       "first sample it reached at most {:.3f} of the set's size.\n\n",
       named.purpose, attack.starts, attack.samples,
-      set.tubes.noise > 0.0 || set.tubes.slew > 0.0 ? " under disturbances that push outward at every sample"
-                                                    : "",
+      set.tubes.noise > 0.0 || set.tubes.slew > 0.0 || tracker.amplitude_varies
+          ? " under disturbances that push outward at every sample"
+          : "",
       attack.frequency_error,
       units.has_hertz() ? fmt::format(" ({:.3g} Hz)", units.drawn(attack.frequency_error)) : "",
       attack.frequency_error / set.frequency_error, attack.level_share);
@@ -258,7 +261,7 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
   for (const NamedSet& named : all) {
     rows.push_back(row_of(named, units));
     if (named.is_any()) {
-      meanings += sentence_of(named, units);
+      meanings += sentence_of(named, units, !assume.one_amplitude);
     }
     if (!named.set->is_proved()) {
       failures += objections(named);

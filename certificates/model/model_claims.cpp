@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <optional>
 #include <utility>
 
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/model/band_part.hpp"
+#include "certificates/model/model_limits.hpp"
 #include "certificates/model/model_lock.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/model/model_words.hpp"
@@ -23,7 +23,7 @@ namespace {
 using rigor::Interval;
 using rigor::Verdict;
 
-/// The frequencies for which all of some sets are proved.
+/// The frequencies for which a set is proved.
 struct Scope {
   bool is_any = false;
   std::optional<BandPart> part;  ///< of the band; none: all of it
@@ -51,13 +51,13 @@ class ModelClaims {
     if (is_gaussian()) {
       add_lock_claims(*certificate_);
     }
-    if (const Scope scope = scope_of({deciding_}); scope.is_any && keeps_starts() && !is_gaussian()) {
+    if (const Scope scope = scope_of(*deciding_); scope.is_any && keeps_starts() && !is_gaussian()) {
       const ModelWords words = words_for(scope.part);
       Claim claim = told("model/guarantee", words.assumed_tone() + words.noise() +
                                                 words.start(sets_->assumed ? "assumed" : "starts"));
       const std::string bound = above(deciding_->frequency_error);
       claim.values = {{"frequency_error", bound}};
-      add_part(claim, scope);
+      add_part(claim, scope.part);
       claim.statement +=
           fmt::format(", the frequency error stays at or below {} for ever", units_.at_most(bound));
       if (std::isfinite(settled_error()) && settles()) {
@@ -67,37 +67,22 @@ class ModelClaims {
       }
       add(claim);
     }
-    const ModelSet& starts = sets_->starts;
-    // With a bias no set contains errors of both signs.
-    const bool has_reach = starts.reach > 0.0 && std::isfinite(starts.reach) && scope_of({&starts}).is_any;
-    const Scope of_noise = !sets_->noise ? Scope{}
-                           : has_reach   ? scope_of({&starts, &*sets_->noise})
-                                         : scope_of({&*sets_->noise});
-    if (of_noise.is_any && sets_->noise->tubes.noise > 0.0) {
-      Claim claim = told("model/limits", words_for(of_noise.part).constant_tone());
-      const std::string noise = below(sets_->noise->tubes.noise);
-      claim.values = {{"noise", noise}};
-      claim.statement += fmt::format(", the tracker tolerates noise up to {}", noise);
-      if (has_reach) {
-        const std::string reach = below(starts.reach);
-        claim.values.emplace_back("reach", reach);
-        claim.statement += fmt::format(
-            ", and without noise a certified invariant set contains frequency errors up to {} at every phase",
-            units_.at_least(reach));
-      } else {
-        claim.statement += ": a certified invariant set exists";
-      }
-      add_part(claim, of_noise);
-      add(claim);
+    if (const auto limits = limits_of(*sets_, tables_->assume)) {
+      add_limits(*limits);
     }
-    if (const Scope scope = scope_of({&starts}); scope.is_any && knows_bias()) {
+    if (const auto limit = slew_limit_of(*sets_, tables_->assume)) {
+      add_slew_limit(*limit);
+    }
+    const ModelSet& starts = sets_->starts;
+    if (const Scope scope = scope_of(starts); scope.is_any && knows_bias()) {
       Claim claim = told("model/steady-state", words_for(scope.part).constant_tone() + ", without noise, " +
                                                    words_.started_in("starts"));
       const std::string low = below(starts.bias.lower());
       const std::string high = above(starts.bias.upper());
-      const std::string ripple = above(starts.ripple);
+      constexpr int kDigits = 6;  // so that a large one is as exact as it is known
+      const std::string ripple = rigor::to_decimal(starts.ripple, kDigits, rigor::Direction::up);
       claim.values = {{"bias_low", low}, {"bias_high", high}, {"ripple", ripple}};
-      add_part(claim, scope);
+      add_part(claim, scope.part);
       claim.statement += fmt::format(
           ", the mean over the phase of the frequency error in the long run is between {}, and the error "
           "varies "
@@ -129,7 +114,7 @@ class ModelClaims {
     if (const auto& number = sets.largest_noise_at_least) {
       Claim claim = required("model/largest-noise", *number, words_.constant_tone(),
                              "the tracker tolerates noise up to {}: a certified invariant set exists");
-      decide_size(claim, largest_noise(), *number, "The largest noise that was proved is {}",
+      decide_size(claim, largest_noise(*sets_).size, *number, "The largest noise that was proved is {}",
                   objection_to_size(sets_->noise, &model::TubeSet::noise, "noise"));
     }
     if (const auto& number = sets.largest_slew_at_least) {
@@ -137,7 +122,7 @@ class ModelClaims {
           required("model/largest-slew", *number,
                    words_.tone_with("a frequency that stays in " + words_.band()) + ", without noise",
                    "the tracker tolerates a slew up to {}: a certified invariant set exists", slew_words);
-      decide_size(claim, largest_slew(), *number, "The largest slew that was proved is {}",
+      decide_size(claim, largest_slew(*sets_).size, *number, "The largest slew that was proved is {}",
                   objection_to_size(sets_->slew, &model::TubeSet::slew, "slew"));
     }
     if (const auto& number = sets.frequency_error_radius_at_least) {
@@ -187,28 +172,63 @@ class ModelClaims {
     claim.verdict = Verdict::proved;
     return claim;
   }
-  /// Where all of these sets are proved.
-  [[nodiscard]] Scope scope_of(std::initializer_list<const ModelSet*> sets) const {
-    Scope scope;
-    model::FrequencyRange range{0.0, INFINITY};
-    bool is_whole = true;
-    for (const ModelSet* set : sets) {
-      if (!sets_->objection.empty() || (!set->is_proved() && !set->has_part())) {
-        return scope;
-      }
-      if (!set->is_proved()) {
-        is_whole = false;
-        range = {std::max(range.low, set->tubes.part.low), std::min(range.high, set->tubes.part.high)};
-      }
+  /// " (by the set "assumed" of the certificate)", of a set that was made for something else.
+  static std::string by_set(const ModelSet& set, const char* usual) {
+    return set.tubes.name == usual ? std::string()
+                                   : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
+  }
+  void add_limits(const ModelLimits& limits) {
+    Claim claim = told("model/limits", words_for(limits.part).constant_tone());
+    const std::string noise = below(limits.noise.size);
+    claim.values = {{"noise", noise}};
+    claim.statement +=
+        fmt::format(", the tracker tolerates noise up to {}{}", noise, by_set(*limits.noise.set, "noise"));
+    if (limits.reach.set != nullptr) {
+      const std::string reach = below(limits.reach.size);
+      claim.values.emplace_back("reach", reach);
+      claim.statement += fmt::format(
+          ", and without noise a certified invariant set contains frequency errors up to {} at every phase",
+          units_.at_least(reach));
+    } else {
+      claim.statement += ": a certified invariant set exists";
     }
-    scope.part = is_whole ? std::nullopt : band_part(tables_->assume, range);
-    scope.is_any = is_whole || scope.part.has_value();
+    add_part(claim, limits.part);
+    add(claim);
+  }
+  /// The noise of the set that tolerates so much slew is tolerated together with it.
+  void add_slew_limit(const SlewLimit& limit) {
+    const ModelWords words = words_for(limit.part);
+    Claim claim = told("model/slew-limit", words.tone_with("a frequency that stays in " + words.band()));
+    const ModelSet& set = *limit.slew.set;
+    const std::string slew = below(limit.slew.size);
+    claim.values = {{"slew", slew}};
+    if (set.tubes.noise > 0.0) {
+      const std::string noise = below(set.tubes.noise);
+      claim.values.emplace_back("noise", noise);
+      claim.statement += fmt::format(", with noise of at most {}", noise);
+    } else {
+      claim.statement += ", without noise";
+    }
+    claim.statement +=
+        fmt::format(", the tracker tolerates a slew up to {}{}: a certified invariant set exists",
+                    units_.slew(slew), by_set(set, "slew"));
+    add_part(claim, limit.part);
+    add(claim);
+  }
+  /// Where the set is proved.
+  [[nodiscard]] Scope scope_of(const ModelSet& set) const {
+    Scope scope;
+    if (!sets_->objection.empty() || (!set.is_proved() && !set.has_part())) {
+      return scope;
+    }
+    scope.part = set.is_proved() ? std::nullopt : band_part(tables_->assume, set.tubes.part);
+    scope.is_any = set.is_proved() || scope.part.has_value();
     return scope;
   }
-  static void add_part(Claim& claim, const Scope& scope) {
-    if (scope.part) {
-      claim.values.emplace_back("from", scope.part->from);
-      claim.values.emplace_back("to", scope.part->to);
+  static void add_part(Claim& claim, const std::optional<BandPart>& part) {
+    if (part) {
+      claim.values.emplace_back("from", part->from);
+      claim.values.emplace_back("to", part->to);
     }
   }
   void add(Claim claim) {
@@ -336,28 +356,10 @@ class ModelClaims {
            std::all_of(starts.tubes.tubes.begin(), starts.tubes.tubes.end(),
                        [](const model::ProvedTube& tube) { return tube.levels.size() > 1; });
   }
-  [[nodiscard]] double largest_noise() const {
-    double largest = 0.0;
-    for (const std::optional<ModelSet>* set : {&sets_->assumed, &sets_->noise}) {
-      if (*set && (*set)->is_proved()) {
-        largest = std::max(largest, (*set)->tubes.noise);
-      }
-    }
-    return largest;
-  }
-  [[nodiscard]] double largest_slew() const {
-    double largest = 0.0;
-    for (const std::optional<ModelSet>* set : {&sets_->assumed, &sets_->slew}) {
-      if (*set && (*set)->is_proved()) {
-        largest = std::max(largest, (*set)->tubes.slew);
-      }
-    }
-    return largest;
-  }
   /// `is_met`: what is required is proved for the frequencies that the set covers.
   [[nodiscard]] std::string objection_of(const ModelSet& set, bool is_met = false) const {
     std::string text = "No set of tubes was proved for the whole band";
-    if (const Scope scope = scope_of({&set}); scope.part) {
+    if (const Scope scope = scope_of(set); scope.part) {
       text = fmt::format("{} over {} to {} {} only", is_met ? "Proved" : "A set of tubes was proved",
                          scope.part->from, scope.part->to, words_.unit());
     }
@@ -378,7 +380,7 @@ class ModelClaims {
     std::string text;
     const auto tell = [&](const std::optional<ModelSet>& set, double model::TubeSet::*size,
                           std::string_view what, std::string_view unit) {
-      const Scope scope = sets_->assumed && set ? scope_of({&*set}) : Scope{};
+      const Scope scope = sets_->assumed && set ? scope_of(*set) : Scope{};
       if (!scope.is_any || !(set->tubes.*size > 0.0)) {
         return;
       }

@@ -41,7 +41,8 @@ struct ModelTable {
 
 /// [assume] of a model.
 struct ModelAssumptions {
-  Number amplitude;                   ///< signal units
+  std::array<Number, 2> amplitude;    ///< [least, largest], of each sample, signal units
+  bool one_amplitude = true;          ///< both are the same number; otherwise samples differ in it
   std::optional<Number> sample_rate;  ///< Hz
   std::array<Number, 2> frequency;    ///< [lowest, highest]
   bool frequency_in_hertz = false;    ///< otherwise rad/sample

@@ -131,7 +131,11 @@ Json tube_json(const model::ProvedTube& proved) {
 
 Json model_design_json(const Design& design) {
   const auto& [model, assume, require] = model_tables(design);
-  Json assumed{{"amplitude", number_json(assume.amplitude)},
+  Json amplitude = number_json(assume.amplitude[0]);
+  if (!assume.one_amplitude) {
+    amplitude = Json::array({number_json(assume.amplitude[0]), number_json(assume.amplitude[1])});
+  }
+  Json assumed{{"amplitude", amplitude},
                {"frequency", {number_json(assume.frequency[0]), number_json(assume.frequency[1])}},
                {"frequency_in_hertz", assume.frequency_in_hertz},
                {"slew", number_json(assume.slew)},

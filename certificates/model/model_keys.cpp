@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/design/input_error.hpp"
 #include "certificates/design/key_readers.hpp"
 #include "certificates/design/nearest_key.hpp"
 #include "certificates/model/model.hpp"
@@ -170,6 +171,22 @@ void frequency_band(const TomlValue& value, ModelAssumptions& assume) {
   });
 }
 
+/// A number, or two of which the first is certainly the smaller one.
+void amplitude_of_samples(const TomlValue& value, ModelAssumptions& assume) {
+  assume.one_amplitude = !value.is_array();
+  if (assume.one_amplitude) {
+    const Number number = value.real(positive);
+    assume.amplitude = {number, number};
+    return;
+  }
+  const std::vector<TomlValue> ends = value.elements(2);
+  assume.amplitude = {ends[0].real(positive), ends[1].real(positive)};
+  if (!rigor::certainly_less(assume.amplitude[0].value, assume.amplitude[1].value)) {
+    value.refuse(fmt::format("[{}, {}]", printable(assume.amplitude[0].text, 40),
+                             printable(assume.amplitude[1].text, 40)));
+  }
+}
+
 void slew_rate(const TomlValue& value, ModelAssumptions& assume) {
   assume.slew_in_hertz_per_second = in_unit(
       value, "hz_per_second", [&](const TomlValue& number) { assume.slew = number.real(not_negative); });
@@ -181,7 +198,10 @@ void noise_of_samples(const TomlValue& value, ModelAssumptions& assume) {
 
 using ModelAssume = ModelAssumptions;
 constexpr std::array kModelAssumeKeys{
-    Key<ModelAssume>{"amplitude", kPositive, real<&ModelAssume::amplitude, positive>, defaults_to("1")},
+    Key<ModelAssume>{
+        "amplitude",
+        "a number above 0, or [least, largest] of amplitudes above 0 that may differ from sample to sample",
+        amplitude_of_samples, defaults_to("1")},
     Key<ModelAssume>{"sample_rate", "a number above 0, in Hz", real<&ModelAssume::sample_rate, positive>,
                      kOptional},
     Key<ModelAssume>{
@@ -263,6 +283,13 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
   }
   if (auto objection = objection_to_noise(assume, require)) {
     return objection;
+  }
+  if (assume.gaussian && !assume.one_amplitude) {
+    return TableObjection{
+        "assume",
+        "Gaussian noise with a range of amplitudes, of which nothing is proved; allowed: one "
+        "amplitude, or noise with a bound",
+        {}};
   }
   try {
     const Model made = make_model(model, assume.signal);

@@ -74,7 +74,8 @@ ModelLock certify_model_lock(const LockSearch& search, bool lowest_snr, const mo
   task.name = lowest_snr ? "lowest-snr" : "gaussian";
   task.largest_deviation = lowest_snr;
   task.deviation =
-      (deviation_at_unit_amplitude(*assume.gaussian, assume.amplitude) * assume.amplitude.value).upper();
+      (deviation_at_unit_amplitude(*assume.gaussian, assume.amplitude[0]) * assume.amplitude[0].value)
+          .upper();
   task.samples = samples.upper();
   const auto& required = require.sets.probability_of_losing_lock_below;
   task.probability = required ? required->value.lower() : kUsualProbability;
@@ -107,7 +108,7 @@ ModelLock certify_model_lock(const LockSearch& search, bool lowest_snr, const mo
   const model::GaussianTerms& terms = *lock.tubes.gaussian;
   lock.probability = with_some_room(
       model::leaving_probability(terms, search.tracker->recursion->samples, samples, lock.start_share));
-  lock.snr_db = decibels_of(terms.deviation, assume.amplitude.value);
+  lock.snr_db = decibels_of(terms.deviation, assume.amplitude[0].value);
   return lock;
 }
 
@@ -119,7 +120,7 @@ void add_lock_claims(Certificate& certificate) {
   if (const auto& lock = sets.gaussian; lock && lock->is_proved() && lock->probability < 1.0) {
     certificate.claims.push_back(told_of("model/losing-lock", *lock,
                                          words.constant_tone() +
-                                             gaussian_words(*assume.gaussian, assume.amplitude) +
+                                             gaussian_words(*assume.gaussian, assume.amplitude[0]) +
                                              words.start_inside("gaussian"),
                                          assume));
   }
@@ -131,7 +132,7 @@ void add_lock_claims(Certificate& certificate) {
     noise.snr_db->value = rigor::parse_decimal(lock->snr_db);
     Claim claim = told_of(
         "model/lowest-snr", *lock,
-        words.constant_tone() + gaussian_words(noise, assume.amplitude) + words.start_inside("lowest-snr"),
+        words.constant_tone() + gaussian_words(noise, assume.amplitude[0]) + words.start_inside("lowest-snr"),
         assume);
     claim.values.emplace_back("snr_db", lock->snr_db);
     certificate.claims.push_back(std::move(claim));
@@ -148,7 +149,7 @@ Claim required_lock_claim(const Certificate& certificate) {
   claim.id = "model/probability-of-losing-lock";
   claim.requirement =
       fmt::format("the probability of losing lock is below {} {}", required.text, stretch_of(assume));
-  claim.statement = words.constant_tone() + gaussian_words(*assume.gaussian, assume.amplitude) +
+  claim.statement = words.constant_tone() + gaussian_words(*assume.gaussian, assume.amplitude[0]) +
                     words.start_inside("gaussian") + ", " + claim.requirement + ".";
   claim.required = true;
   claim.position = required.position;

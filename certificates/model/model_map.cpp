@@ -155,12 +155,13 @@ double range_of(const MappedState& state, const std::optional<double>& given, bo
 std::optional<model::ProvedTube> tube_about(const Interval& frequency, const model::TrackedTone& tone,
                                             const model::TrackerModel& tracker, double noise,
                                             std::string& reason) {
-  const model::SetTask task{
-      .name = "starts",
-      .objective = noise > 0.0 ? model::ShapeObjective::largest_noise : model::ShapeObjective::largest_starts,
-      .noise = noise,
-      .with_curve = true,
-      .deviations = {}};
+  const model::SetTask task{.name = "starts",
+                            .objective = model::is_disturbed(tracker, noise)
+                                             ? model::ShapeObjective::largest_noise
+                                             : model::ShapeObjective::largest_starts,
+                            .noise = noise,
+                            .with_curve = true,
+                            .deviations = {}};
   constexpr double kShare = 1e-4;  // of the frequency: narrow
   const double middle = rigor::midpoint(frequency);
   const double half = std::min(kShare * middle, 0.25 * (std::numbers::pi - middle));

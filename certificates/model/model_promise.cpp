@@ -18,6 +18,9 @@ std::string objection_to_use(const ModelAssumptions& assume) {
   if (assume.frequency_in_hertz || assume.slew_in_hertz_per_second) {
     return "its frequencies are in Hz; allowed for a model here: rad/sample";
   }
+  if (!assume.one_amplitude) {
+    return "its amplitude is a range; allowed for a model here: one amplitude";
+  }
   return assume.signal.empty() ? "" : "its [assume] signal is not the tone alone";
 }
 
@@ -26,7 +29,7 @@ std::string objection_to_use(const ModelAssumptions& assume) {
 FrequencyPromise model_frequency_promise(const Certificate& certificate) {
   const ModelTables& tables = model_tables(certificate.design);
   FrequencyPromise promise;
-  promise.amplitude = tables.assume.amplitude;
+  promise.amplitude = tables.assume.amplitude[0];
   promise.frequency = tables.assume.frequency;
   promise.noise = tables.assume.noise;
   promise.slew = tables.assume.slew;

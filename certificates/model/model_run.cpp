@@ -148,10 +148,11 @@ TrackerOnSamples model_on_samples(const Design& design) {
     assume.slew = slew_of(tables.assume).upper();
   }
   const rigor::NearestRounding nearest;
-  assume.amplitude = {tables.assume.amplitude.nearest, tables.assume.amplitude.nearest};
+  assume.amplitude = {tables.assume.amplitude[0].nearest, tables.assume.amplitude[1].nearest};
+  assume.amplitude_varies = !tables.assume.one_amplitude;
   if (tables.assume.gaussian) {
     assume.noise_deviation =
-        nearest_deviation(*tables.assume.gaussian, tables.assume.amplitude) * assume.amplitude[0];
+        nearest_deviation(*tables.assume.gaussian, tables.assume.amplitude[0]) * assume.amplitude[0];
   } else {
     assume.noise = tables.assume.noise.nearest;
   }

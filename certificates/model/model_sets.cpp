@@ -97,19 +97,23 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
     const std::vector<Interval> of_tube(
         deviations.begin(), deviations.begin() + static_cast<std::ptrdiff_t>(proved.tube.curve.size()));
     const double start = model::bound_start(tracker, proved.tube, of_tube, grid);
-    constexpr model::ErrorGrid kFine{128, 16};  // the bias changes with the frequency
+    constexpr model::ErrorGrid kFine{128, 16, 16};  // the bias changes with the frequency
     const model::TubeErrors settled =
         model::bound_errors(tracker, proved.tube, proved.levels.back(), cells != nullptr ? kFine : grid);
     const Interval whole = model::bound_errors(tracker, proved.tube, radius, grid).error;
-    // A tenth of what is unknown, and what rounding comes to.
-    const double room = rigor::is_finite(settled.mean)
-                            ? 0.05 * (settled.mean.upper() - settled.mean.lower()) + 1e-12
-                            : INFINITY;
+    // A tenth of what is unknown where it is least, and what rounding comes to.
+    double unknown = INFINITY;
+    for (const model::TubeErrors::Slice& slice : settled.slices) {
+      unknown = std::min(unknown, slice.mean.upper() - slice.mean.lower());
+    }
+    const double room = rigor::is_finite(settled.mean) ? 0.05 * unknown + 1e-12 : INFINITY;
     const Interval mean = rigor::is_finite(settled.mean) ? settled.mean + Interval::from_bounds(-room, room)
                                                          : Interval::empty();
     set.frequency_error = larger(set.frequency_error, with_room(size_of(whole)));
     set.settled_error = larger(set.settled_error, with_room(size_of(settled.error)));
-    set.ripple = larger(set.ripple, with_room(1.01 * settled.ripple));
+    constexpr double kOfRipple = 2e-5;
+    set.ripple = larger(set.ripple, settled.ripple + std::min(0.01 * settled.ripple,
+                                                              kOfRipple * settled.ripple + 0.05 * unknown));
     set.reach = reach < set.reach ? reach : set.reach;
     set.start_share = larger(set.start_share, (Interval(with_room(start)) / Interval(radius)).upper());
     // Once nothing is known of one tube, nothing is known.
@@ -190,7 +194,8 @@ model::TrackerModel proved_model(const Model& model, const ModelAssumptions& ass
   for (const language::Constant& constant : model.constants) {
     tracker.constants.push_back(constant.value);
   }
-  tracker.amplitude = assume.amplitude.value;
+  tracker.amplitude = hull(assume.amplitude[0].value, assume.amplitude[1].value);
+  tracker.amplitude_varies = !assume.one_amplitude;
   tracker.filter = model.filter ? &*model.filter : nullptr;
   return tracker;
 }
@@ -213,7 +218,8 @@ model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& ass
   for (const language::Constant& constant : model.constants) {
     constants.push_back(constant.nearest);
   }
-  const double amplitude = assume.amplitude.nearest;
+  // Curves and shapes are those of the middle.
+  const double amplitude = 0.5 * (assume.amplitude[0].nearest + assume.amplitude[1].nearest);
   const auto start = [program = model.start, constants, amplitude](double omega) {
     std::vector<double> inputs = constants;
     inputs.push_back(amplitude);
@@ -229,7 +235,8 @@ model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& ass
           start,
           model.states,
           nullptr,
-          objections_to_operations(model)};
+          objections_to_operations(model),
+          0.5 * (assume.amplitude[1].nearest - assume.amplitude[0].nearest)};
 }
 
 Interval band_of(const ModelAssumptions& assume) {
@@ -318,7 +325,12 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   const double slew = slew_of(assume).upper();
   const bool is_everything = extent == Extent::everything;
   std::vector<model::SetTask> tasks(1);
-  tasks.front() = {.name = "starts", .with_curve = true, .deviations = sizes};
+  // An amplitude that varies is a disturbance, without noise, too.
+  tasks.front() = {
+      .name = "starts",
+      .objective = assume.one_amplitude ? ShapeObjective::largest_starts : ShapeObjective::largest_noise,
+      .with_curve = true,
+      .deviations = sizes};
   if (noise > 0.0 || slew > 0.0) {
     tasks.push_back({.name = "assumed",
                      .objective = noise > 0.0 ? ShapeObjective::largest_noise : ShapeObjective::largest_slew,
@@ -333,8 +345,12 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
                      .deviations = {}});
   }
   if (slew > 0.0 || require.largest_slew_at_least) {
-    tasks.push_back(
-        {.name = "slew", .objective = ShapeObjective::largest_slew, .largest_slew = true, .deviations = {}});
+    // A shape for the slew alone leaves no room for amplitudes; that of a filter is for both.
+    const bool is_alone = assume.one_amplitude || tone.filter != nullptr;
+    tasks.push_back({.name = "slew",
+                     .objective = is_alone ? ShapeObjective::largest_slew : ShapeObjective::largest_noise,
+                     .largest_slew = true,
+                     .deviations = {}});
   }
   if (const auto& required = require.frequency_error_below) {
     tasks[noise > 0.0 || slew > 0.0 ? 1 : 0].largest_error = required->value.lower();
@@ -362,6 +378,10 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   for (model::SetTask& task : tasks) {
     task.deadline = deadline;
     task.of_each_cell = is_everything;
+    if (sets.assumed && sets.assumed->is_proved()) {
+      task.known_noise = task.largest_noise ? sets.assumed->tubes.noise : 0.0;
+      task.known_slew = task.largest_slew ? sets.assumed->tubes.slew : 0.0;
+    }
     const bool moves = task.slew > 0.0 || task.largest_slew;
     TubeSet tubes = moves ? model::prove_moving_set(tone, tracker, searched.low, searched.high, task, tell)
                           : model::prove_set(tone, tracker, searched.low, searched.high, task, tell);

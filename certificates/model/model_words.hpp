@@ -24,9 +24,15 @@ class ModelWords {
 
   [[nodiscard]] std::string unit() const { return assume_->frequency_in_hertz ? "Hz" : "rad/sample"; }
   [[nodiscard]] std::string tone_with(const std::string& frequency) const {
-    return fmt::format("{}, on {} of amplitude {} with {}", kExactArithmetic,
-                       assume_->signal.empty() ? "a tone" : "the signal of the design file",
-                       assume_->amplitude.text, frequency);
+    const std::string signal = assume_->signal.empty() ? "a tone" : "the signal of the design file";
+    const auto& [least, largest] = assume_->amplitude;
+    return assume_->one_amplitude
+               ? fmt::format("{}, on {} of amplitude {} with {}", kExactArithmetic, signal, least.text,
+                             frequency)
+               : fmt::format(
+                     "{}, on {} with an amplitude in [{}, {}], which may differ from sample to sample, "
+                     "with {}",
+                     kExactArithmetic, signal, least.text, largest.text, frequency);
   }
   [[nodiscard]] std::string band() const {
     if (part_) {

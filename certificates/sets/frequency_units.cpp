@@ -82,6 +82,16 @@ std::string FrequencyUnits::at_least(const std::string& decimal) const {
                       : "");
 }
 
+std::string FrequencyUnits::slew(const std::string& decimal) const {
+  std::string text = decimal + " rad/sample per sample";
+  if (has_hertz()) {
+    const rigor::UpwardRounding upward;
+    const Interval per_second = in_hertz(rigor::parse_decimal(decimal)) * sample_rate_->value().value;
+    text += fmt::format(" ({} Hz per second)", rigor::lower_decimal(per_second, kDigitsOfDecimals));
+  }
+  return text;
+}
+
 std::string FrequencyUnits::between(const std::string& low, const std::string& high) const {
   std::string text = fmt::format("{} and {} rad/sample", low, high);
   if (!has_hertz()) {

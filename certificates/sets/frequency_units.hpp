@@ -40,6 +40,7 @@ class FrequencyUnits {
 
   [[nodiscard]] std::string at_most(const std::string& decimal) const;
   [[nodiscard]] std::string at_least(const std::string& decimal) const;
+  [[nodiscard]] std::string slew(const std::string& decimal) const;
   /// "-1.7e-6 and 9e-7 rad/sample (-0.0028 and 0.0015 Hz)": what lies between two decimals.
   [[nodiscard]] std::string between(const std::string& low, const std::string& high) const;
 

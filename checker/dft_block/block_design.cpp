@@ -22,6 +22,11 @@ void read_pair(const Tree& pair, const std::string& name, Ball& low, Ball& high,
   }
 }
 
+/// Of the samples: 10 log10(amplitude^2 / (2 deviation^2)) is the signal-to-noise ratio in dB.
+Ball sample_deviation(const Ball& amplitude, const Ball& decibels) {
+  return amplitude * exp(-(decibels / Ball(20.0)) * log(Ball(10.0))) / sqrt(two);
+}
+
 }  // namespace
 
 BlockDesign::BlockDesign(const Tree& design, Objections& objections)
@@ -105,8 +110,7 @@ void BlockDesign::read_noise(Objections& objections) {
     if (!one_amplitude_) {
       objections.emplace_back("snr_db goes with one amplitude");
     }
-    deviation = problem_.amplitude_low *
-                exp(-(read_number(*decibels, objections) / Ball(20.0)) * log(Ball(10.0))) / sqrt(two);
+    deviation = sample_deviation(problem_.amplitude_low, read_number(*decibels, objections));
   } else {
     deviation = read_positive(noise.at("deviation"), "deviation", objections);
   }
@@ -227,28 +231,41 @@ std::string BlockDesign::noise_words() const {
     return "plus noise whose length in all bins of a block together is at most " + text_of(noise);
   }
   const Tree* decibels = noise.find("snr_db");
+  return gaussian_words(deviation_, decibels != nullptr
+                                        ? "an SNR of at least " + text_of(*decibels) + " dB"
+                                        : "a deviation of at most " + text_of(noise.at("deviation")));
+}
+
+std::string BlockDesign::gaussian_words(const Ball& deviation, const std::string& of_samples) const {
   return "in a way that does not depend on the noise, plus Gaussian noise of mean zero, independent from "
          "block "
          "to block and from bin to bin, with independent real and imaginary parts of a deviation of at "
          "most " +
-         lower_decimal(deviation_) + " each: that of blocks of " +
-         text_of(design_.at("design").at("block_length")) + " samples with white noise and " +
-         (decibels != nullptr ? "an SNR of at least " + text_of(*decibels) + " dB"
-                              : "a deviation of at most " + text_of(noise.at("deviation")));
+         lower_decimal(deviation) + " each: that of blocks of " +
+         text_of(design_.at("design").at("block_length")) + " samples with white noise and " + of_samples;
 }
 
-std::string BlockDesign::hypotheses() const {
+Ball BlockDesign::deviation_at(const std::string& decibels) const {
+  Objections read_before;
+  const Ball length = read_number(design_.at("design").at("block_length"), read_before);
+  return sample_deviation(problem_.amplitude_low, from_decimal(decibels)) / sqrt(two * length);
+}
+
+std::string BlockDesign::hypotheses_at(const std::string& decibels) const {
+  return hypotheses_with(gaussian_words(deviation_at(decibels), "an SNR of at least " + decibels + " dB"));
+}
+
+std::string BlockDesign::hypotheses_with(const std::string& noise) const {
   const auto text = [](const Tree& table, const char* key) { return text_of(table.at(key)); };
   return filter_words() + ", is fed with the bins (4.9) of a tone of " + amplitude_words() +
          ", constant within each block and continuous in phase from one to the next, whose offset is "
          "between " +
          text_of(assume_.at("offset").at(0)) + " and " + text_of(assume_.at("offset").at(1)) +
          " bins in every block and changes by at most " + text(assume_, "slew") +
-         " bins from one to the next, " + noise_words() +
-         ". Its first prediction has a root amplitude x1 within " + text(assume_, "initial_amplitude_error") +
-         " of the tone's, relative to it, a phase within " + text(assume_, "initial_phase_error") +
-         " rad at the middle of the block, an offset within " + text(assume_, "initial_offset_error") +
-         " bins, and the covariance " +
+         " bins from one to the next, " + noise + ". Its first prediction has a root amplitude x1 within " +
+         text(assume_, "initial_amplitude_error") + " of the tone's, relative to it, a phase within " +
+         text(assume_, "initial_phase_error") + " rad at the middle of the block, an offset within " +
+         text(assume_, "initial_offset_error") + " bins, and the covariance " +
          (start_.covariance ? covariance_text_
                             : "of the steady state in exact lock in the middle of these offsets") +
          ". Then ";

@@ -26,6 +26,10 @@ class BlockDesign {
   /// With Gaussian noise: the deviation of each part of a bin, and the blocks.
   [[nodiscard]] const Ball& deviation() const { return deviation_; }
   [[nodiscard]] const Ball& blocks() const { return blocks_; }
+  /// The deviation at another signal-to-noise ratio of the samples, a decimal in dB. Only with Gaussian noise
+  /// and one amplitude.
+  [[nodiscard]] Ball deviation_at(const std::string& decibels) const;
+  [[nodiscard]] bool has_one_amplitude() const { return one_amplitude_; }
 
   [[nodiscard]] const std::vector<Requirement>& requirements() const { return requirements_; }
   [[nodiscard]] bool asks_for(const char* key) const { return design_.at("require").find(key) != nullptr; }
@@ -38,7 +42,9 @@ class BlockDesign {
   [[nodiscard]] std::string filter_words() const;
   [[nodiscard]] std::string amplitude_words() const;
   /// Everything up to what is claimed of the assumed tones, noise and starts.
-  [[nodiscard]] std::string hypotheses() const;
+  [[nodiscard]] std::string hypotheses() const { return hypotheses_with(noise_words()); }
+  /// The same with another signal-to-noise ratio, as deviation_at.
+  [[nodiscard]] std::string hypotheses_at(const std::string& decibels) const;
   /// The decimal of a key of [assume]; `index` of an array.
   [[nodiscard]] const std::string& assumed_text(const char* key) const;
   [[nodiscard]] const std::string& assumed_text(const char* key, std::size_t index) const;
@@ -51,6 +57,8 @@ class BlockDesign {
   std::vector<Requirement> read_requirements(Objections& objections);
   [[nodiscard]] std::string asked_text(const char* key) const;
   [[nodiscard]] std::string noise_words() const;
+  [[nodiscard]] std::string gaussian_words(const Ball& deviation, const std::string& of_samples) const;
+  [[nodiscard]] std::string hypotheses_with(const std::string& noise) const;
 
   const Tree& design_;
   const Tree& assume_;

@@ -16,6 +16,8 @@ namespace {
 
 const std::string kGuarantee = "dft-block/guarantee";
 const std::string kLosingLock = "dft-block/losing-lock";
+const std::string kLowestSnr = "dft-block/lowest-snr";
+const std::string kLowest = "lowest-snr";  // the derivation
 const std::string kEveryStart = "dft-block/every-start-locks";
 const std::string kClaimOf = "dft-block/";  // and the id of a false lock
 
@@ -43,9 +45,15 @@ class BlockVerifier {
   void check_one(const Tree& derivation) {
     const std::string& id = derivation.at("id").text();
     Objections objections;
-    const bool is_known = id == (design_.is_gaussian() ? "lock-in-noise" : "lock-set") || is_false_lock(id);
+    const bool is_lowest = id == kLowest && design_.is_gaussian() && design_.has_one_amplitude();
+    const bool is_known =
+        is_lowest || id == (design_.is_gaussian() ? "lock-in-noise" : "lock-set") || is_false_lock(id);
     if (!is_known || !seen_.insert(id).second) {
       result_.parts.push_back({id, {is_known ? "a second derivation of this id" : kUnknown}});
+      return;
+    }
+    if (is_lowest && lowest_snr_text(derivation).empty()) {
+      result_.parts.push_back({id, {"the evidence names no signal-to-noise ratio"}});
       return;
     }
     check_derivation(
@@ -54,19 +62,21 @@ class BlockVerifier {
         : design_.is_gaussian()
             ? lock_in_noise(
                   derivation, design_.problem(),
-                  {design_.deviation(), design_.blocks(), design_.start().errors, design_.start().covariance},
+                  {is_lowest ? design_.deviation_at(lowest_snr_text(derivation)) : design_.deviation(),
+                   design_.blocks(), design_.start().errors, design_.start().covariance},
                   result_.cells, objections)
             : lock_set(derivation, design_.problem(), design_.start(), result_.cells, objections),
         objections);
     if (objections.empty() && verdict_of(derivation) == Verdict::proved) {
-      (is_false_lock(id) ? false_locks_[id] : proved_) = &derivation;
+      (is_false_lock(id) ? false_locks_[id] : is_lowest ? lowest_ : proved_) = &derivation;
     }
     result_.parts.push_back({id, objections});
   }
 
   /// What the verified derivation says of the quantity; a ball of everything when it says nothing.
-  [[nodiscard]] Ball at_most(const char* name) const {
-    const Tree* quantity = proved_ != nullptr ? proved_->at("quantities").find(name) : nullptr;
+  [[nodiscard]] Ball at_most(const char* name) const { return at_most(proved_, name); }
+  [[nodiscard]] static Ball at_most(const Tree* proved, const char* name) {
+    const Tree* quantity = proved != nullptr ? proved->at("quantities").find(name) : nullptr;
     const Tree* number = quantity != nullptr ? quantity->find("hi") : nullptr;
     return number != nullptr ? exact_number(*number) : Ball::everything();
   }
@@ -103,32 +113,53 @@ class BlockVerifier {
   [[nodiscard]] Claim claim_in_noise(const Tree& claim, Objections& objections) const {
     const std::string& id = claim.at("id").text();
     const bool is_required = id == kProbability && design_.asks_for("probability_of_losing_lock_below");
-    if (id != kLosingLock && !is_required) {
+    const bool is_lowest = id == kLowestSnr;
+    if (id != kLosingLock && !is_lowest && !is_required) {
       objections.emplace_back(kUnknown);
       return {};
     }
-    if (proved_ == nullptr) {
+    const Tree* proved = is_lowest ? lowest_ : proved_;
+    if (proved == nullptr) {
       objections.emplace_back(kUnverified);
     }
     Claim found;
-    const Ball probability = at_most("probability_of_losing_lock");
     if (is_required) {
       found.statement = hypotheses_ + design_.required_text(id) + ".";
-      found.verdict =
-          proved_if(certainly_less(probability, design_.asked("probability_of_losing_lock_below")));
+      found.verdict = proved_if(certainly_less(at_most("probability_of_losing_lock"),
+                                               design_.asked("probability_of_losing_lock_below")));
       found.evidence = {bounded("probability_of_losing_lock")};
-    } else {
-      const Tree& evidence = claim.at("evidence");
-      const auto most = [&](const char* name) { return upper_decimal(high_of(evidence.at(name))); };
-      found.is_summary = true;
-      found.verdict = proved_if(certainly_less(probability, one) && at_most("offset_error_bound").finite());
-      found.evidence = {bounded("probability_of_losing_lock"), bounded("offset_error_bound")};
-      found.statement = hypotheses_ + "the probability that within the first " +
-                        design_.assumed_text("blocks") + " blocks the offset error of an estimate exceeds " +
-                        most("offset_error_bound") + " bins is at most " +
-                        most("probability_of_losing_lock") + ".";
+    } else if (is_lowest && proved != nullptr) {
+      const std::string snr = lowest_snr_text(*proved);
+      found = losing_lock(claim, *proved, design_.hypotheses_at(snr));
+      found.evidence.push_back({"lowest_snr", at_most(proved, "lowest_snr"), Sense::bounds_above});
+      if (!at_most(proved, "lowest_snr").finite()) {
+        found.verdict = Verdict::undecided;
+      }
+    } else if (proved != nullptr) {
+      found = losing_lock(claim, *proved, hypotheses_);
     }
     check_claim(claim, found, objections);
+    return found;
+  }
+
+  /// What a derivation in Gaussian noise says, with the numbers that the claim names.
+  [[nodiscard]] Claim losing_lock(const Tree& claim, const Tree& proved,
+                                  const std::string& hypotheses) const {
+    const Tree& evidence = claim.at("evidence");
+    const auto most = [&](const char* name) { return upper_decimal(high_of(evidence.at(name))); };
+    Claim found;
+    found.is_summary = true;
+    found.verdict = proved_if(certainly_less(at_most(&proved, "probability_of_losing_lock"), one) &&
+                              at_most(&proved, "offset_error_bound").finite() &&
+                              at_most(&proved, "rms_offset_error").finite());
+    for (const char* name : {"probability_of_losing_lock", "offset_error_bound", "rms_offset_error"}) {
+      found.evidence.push_back({name, at_most(&proved, name), Sense::bounds_above});
+    }
+    found.statement = hypotheses + "the probability that within the first " + design_.assumed_text("blocks") +
+                      " blocks the offset error of an estimate exceeds " + most("offset_error_bound") +
+                      " bins is at most " + most("probability_of_losing_lock") +
+                      "; while the filter is in lock, the root mean square of that error is at most " +
+                      most("rms_offset_error") + " bins in every block.";
     return found;
   }
 
@@ -230,7 +261,9 @@ class BlockVerifier {
   Verification& result_;
   std::string hypotheses_;
   std::set<std::string> seen_;
-  const Tree* proved_ = nullptr;  ///< the derivation "lock-set", once verified, and PROVED as a whole
+  /// The derivation "lock-set" or "lock-in-noise", and "lowest-snr", once verified, and PROVED as a whole.
+  const Tree* proved_ = nullptr;
+  const Tree* lowest_ = nullptr;
   std::map<std::string, const Tree*> false_locks_;  ///< likewise, by their ids
 };
 

@@ -6,11 +6,17 @@ namespace veritrack::checker {
 
 namespace {
 
-/// The probability that |e| exceeds the radius within the blocks, at most. With theta = tilt r/deviation^2, W
+struct Loss {
+  Ball probability = Ball::everything();  ///< that |e| exceeds the radius within the blocks, at most
+  Ball mean_square = Ball::everything();  ///< E |e_k|^2 until then, at most, in every block
+};
+
+/// With theta = tilt r/deviation^2, W
 /// = exp(theta |e|^2/2): E W+ <= det(floor)^(-1/2) exp(theta m'floor^-1 m ... /2) <= factor W^power, which is
-/// at most W + constant. Balls of everything where it is not defined.
-Ball probability_of_leaving(const BlockProblem& problem, const BlockNoise& noise, const BlockLock& lock,
-                            const BlockDrift& drift, const Ball& slew_share) {
+/// at most W + constant; and E log W+ <= log factor + power log W. Balls of everything where it is not
+/// defined.
+Loss loss_of(const BlockProblem& problem, const BlockNoise& noise, const BlockLock& lock,
+             const BlockDrift& drift, const Ball& slew_share) {
   const Ball theta = drift.tilt * problem.r / square(noise.deviation);
   const Matrix3& f = drift.floor;
   // A symmetric floor, by its pivots.
@@ -30,13 +36,14 @@ Ball probability_of_leaving(const BlockProblem& problem, const BlockNoise& noise
     log_factor += half * theta * (one + one / share) * square(problem.slew) * length;
   }
   if (!certainly_positive(power) || !certainly_less(power, one) || !certainly_positive(noise.deviation)) {
-    return Ball::everything();
+    return {};
   }
   // factor W^power - W has its maximum at log W = log(power factor)/(1 - power).
   const Ball log_constant = (log(power) + log_factor) / (one - power) + log((one - power) / power);
   const Ball level = half * theta * square(drift.radius);
   const Ball start_level = half * theta * square(lock.length_of(noise.start));
-  return exp(start_level - level) + noise.blocks * exp(log_constant - level);
+  return {exp(start_level - level) + noise.blocks * exp(log_constant - level),
+          two * max(start_level, max(log_factor, zero) / (one - power)) / theta};
 }
 
 bool is_drift(const BlockDrift& drift) {
@@ -48,10 +55,19 @@ bool is_drift(const BlockDrift& drift) {
 
 }  // namespace
 
+std::string lowest_snr_text(const Tree& derivation) {
+  const Tree* evidence = find_evidence(derivation, "drift");
+  const Tree* decimals = evidence != nullptr ? evidence->find("decimals") : nullptr;
+  const Tree* decibels = decimals != nullptr ? decimals->find("snr_db") : nullptr;
+  return decibels != nullptr ? decibels->text() : "";
+}
+
 Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, const BlockNoise& noise,
                          std::int64_t& cells, Objections& objections) {
   Derivation found;
-  found.title = "A set about the exact lock and the probability of leaving it";
+  const bool is_lowest = derivation.at("id").is("lowest-snr");
+  found.title = is_lowest ? "The lowest signal-to-noise ratio for which the required probability is proved"
+                          : "A set about the exact lock and the probability of leaving it";
   const Tree* evidence = find_evidence(derivation, "drift");
   if (evidence == nullptr || derivation.at("evidence").elements().size() != 1) {
     objections.emplace_back("the evidence is not \"drift\" alone");
@@ -84,11 +100,16 @@ Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, co
   const auto add = [&](const char* name, const Ball& value) {
     found.quantities.push_back({name, value, Sense::bounds_above});
   };
-  add("probability_of_losing_lock",
-      min(probability_of_leaving(problem, noise, lock, drift, slew_share), one));
-  add("offset_error_bound", drift.radius * lock.reach(2));
+  const Loss loss = loss_of(problem, noise, lock, drift, slew_share);
+  add("probability_of_losing_lock", min(loss.probability, one));
+  // An estimate is the next prediction before the slew, of which the mean square is no larger.
+  add("offset_error_bound", drift.radius * lock.reach(2) + problem.slew);
+  add("rms_offset_error", sqrt(loss.mean_square) * lock.reach(2));
   add("phase_error_bound", drift.radius * lock.reach(1));
   add("amplitude_error_bound", drift.radius * lock.reach(0));
+  if (is_lowest) {
+    add("lowest_snr", from_decimal(lowest_snr_text(derivation)));
+  }
   return found;
 }
 

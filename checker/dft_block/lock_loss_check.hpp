@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "checker/dft_block/lock_check.hpp"
 #include "checker/document/json_tree.hpp"
@@ -17,7 +18,11 @@ struct BlockNoise {
   std::optional<Matrix3> covariance;  ///< P(1|0); none: that of the steady state
 };
 
-/// The derivation "lock-in-noise" as the checker computes it from its evidence. `cells` counts.
+/// The decimal "snr_db" in the evidence of a derivation "lowest-snr", dB; empty where there is none.
+std::string lowest_snr_text(const Tree& derivation);
+
+/// The derivation "lock-in-noise", or "lowest-snr" with the noise of its own, as the checker computes it from
+/// its evidence. `cells` counts.
 Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, const BlockNoise& noise,
                          std::int64_t& cells, Objections& objections);
 

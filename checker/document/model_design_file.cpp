@@ -84,7 +84,9 @@ class FileSays {
     if (&part == &file.table()) {  // a design inside another one's file has no source
       fallback("source", "");
     }
-    fallback("assume.amplitude", "1");
+    if (!has_amplitude_) {
+      said_["assume.amplitude"] = "1";
+    }
     fallback("assume.slew", "0");
     fallback("assume.frequency_in_hertz", "false");
     fallback("assume.slew_in_hertz_per_second", "false");
@@ -200,6 +202,13 @@ class FileSays {
         list(path, in_unit(value, "hz", "assume.frequency_in_hertz"));
       } else if (name == "slew") {
         leaf(path, in_unit(value, "hz_per_second", "assume.slew_in_hertz_per_second"));
+      } else if (name == "amplitude") {
+        has_amplitude_ = true;
+        if (value.is_array()) {
+          list(path, value);
+        } else {
+          leaf(path, value);
+        }
       } else if (name == "signal") {
         has_signal_ = true;
         list("model.signal", value);
@@ -232,6 +241,7 @@ class FileSays {
   Objections* objections_;
   Said said_;
   bool has_signal_ = false;
+  bool has_amplitude_ = false;
 };
 
 }  // namespace

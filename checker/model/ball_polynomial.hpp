@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "checker/model/vector_monomials.hpp"
@@ -73,6 +74,8 @@ class BallPolynomial {
   BallPolynomial& operator-=(const BallPolynomial& y) { return add(y, -1.0); }
   /// This and factor times y.
   BallPolynomial& add(const BallPolynomial& y, double factor);
+  /// The bound on the distance, of which nothing is left: the polynomial alone. Of what is known only.
+  [[nodiscard]] double take_error() { return std::exchange(error_, 0.0); }
   /// All functions within `distance` of these.
   BallPolynomial& widen(double distance);
 

@@ -278,12 +278,7 @@ const FilterStep::LaterPlace& FilterStep::later() const {
 std::vector<BallPolynomial> FilterStep::map(double radius, double noise, double of_gaussian) const {
   const LaterPlace& place = later();
   const TubeOver there = moved();
-  std::vector<BallPolynomial> samples = signal_;
-  if (noise != 0.0) {
-    for (std::size_t c = 0; c < samples.size(); ++c) {
-      samples[c].add(BallPolynomial::variable(*monomials_, monomials_->first(1) + c), noise);
-    }
-  }
+  const std::vector<BallPolynomial> samples = with_noise(*model_, signal_, noise, *monomials_);
   const auto parts = model_->recursion->filter_parts(here_.point(radius, components(*monomials_)), samples);
   std::vector<BallPolynomial> next = parts.predicted;
   for (std::size_t i = 0; i < states_; ++i) {

@@ -141,6 +141,10 @@ bool is_seldom_left(const TrackedModel& model, const TubeSet& set, std::int64_t&
     objections.emplace_back("no tubes for Gaussian noise");
     return false;
   }
+  if (model.amplitude_varies) {
+    objections.emplace_back("in Gaussian noise the amplitude must be one number");
+    return false;
+  }
   const GaussianTerms& terms = *set.gaussian;
   const bool is_filter = bounds_covariance(set);
   if (is_filter && !bounds_suit(*model.recursion)) {

@@ -28,6 +28,8 @@ class LengthBound {
   /// How much of the bound comes from the extent in s, and in z, about. Not evidence.
   [[nodiscard]] double by_phase() const { return by_phase_; }
   [[nodiscard]] double by_frequency() const { return by_frequency_; }
+  /// What was cut off. Not evidence by itself.
+  [[nodiscard]] double error() const { return error_; }
   /// Whether these say something: not where errors are far longer than what is to be bounded. Not evidence.
   [[nodiscard]] bool tells_extents(double radius) const { return error_ < 64.0 * radius; }
 

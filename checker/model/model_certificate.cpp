@@ -80,7 +80,7 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
   for (const Tree& derivation : certificate.at("derivations").elements()) {
     result.parts.push_back({derivation.at("id").text(), {kUnknown}});
   }
-  const TrackedModel model{&recursion, design.amplitude};
+  const TrackedModel model{&recursion, design.amplitude, design.amplitude_varies};
   const std::map<std::string, TubeSet> sets = verified_sets(certificate.at("tubes"), model, result);
   const ModelClaims claims(tree, design, model, sets, result.cells);
   const auto check = [&](const Tree& claim, Objections& found) { return claims.check(claim, found); };

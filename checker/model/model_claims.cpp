@@ -20,6 +20,7 @@ const std::string kBias = "model/bias";
 const std::string kRipple = "model/ripple";
 const std::string kGuarantee = "model/guarantee";
 const std::string kLimits = "model/limits";
+const std::string kSlewLimit = "model/slew-limit";
 const std::string kSteadyState = "model/steady-state";
 const std::string kLosingLock = "model/probability-of-losing-lock";
 const std::string kLock = "model/losing-lock";
@@ -344,24 +345,72 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   return found;
 }
 
+const TubeSet* ModelClaims::largest(std::initializer_list<const char*> names, double TubeSet::*size,
+                                    const Part& part) const {
+  const TubeSet* found = nullptr;
+  for (const char* name : names) {
+    const TubeSet* set = find(name, part);
+    if (set != nullptr && !set->gaussian && set->*size > (found != nullptr ? found->*size : 0.0)) {
+      found = set;
+    }
+  }
+  return found;
+}
+
+namespace {
+
+std::string by_set(const TubeSet* set, const std::string& usual) {
+  return set == nullptr || set->name == usual ? std::string()
+                                              : " (by the set \"" + set->name + "\" of the certificate)";
+}
+
+}  // namespace
+
 Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
-  const TubeSet* noise = find("noise", part);
+  const TubeSet* noise = largest({"noise", "assumed", "slew"}, &TubeSet::noise, part);
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   Claim found;
   found.is_summary = true;
-  found.statement = words.constant_tone() + ", the tracker tolerates noise up to " + claim.at("noise").text();
+  found.statement = words.constant_tone() + ", the tracker tolerates noise up to " +
+                    claim.at("noise").text() + by_set(noise, "noise");
   const Ball tolerated = written(claim, "noise");
   bool certain =
       noise != nullptr && certainly_positive(tolerated) && certainly_at_most(tolerated, Ball(noise->noise));
   if (const Tree* errors = claim.find("reach")) {
-    const TubeSet* starts = find("starts", part);
     const Ball reach = written(claim, "reach");
     found.statement += ", and without noise a certified invariant set contains frequency errors up to " +
                        units_.at_least(errors->text()) + " at every phase.";
-    certain = certain && starts != nullptr && certainly_positive(reach) && of(*starts).contains_errors(reach);
+    // A set for some noise is one without noise, too.
+    const auto contains = [&](const char* name) {
+      const TubeSet* set = find(name, part);
+      return set != nullptr && !set->gaussian && of(*set).contains_errors(reach);
+    };
+    certain = certain && certainly_positive(reach) &&
+              (contains("starts") || contains("assumed") || contains("noise") || contains("slew"));
   } else {
     found.statement += ": a certified invariant set exists.";
   }
+  found.verdict = proved_if(certain);
+  return found;
+}
+
+Claim ModelClaims::slew_limit(const Tree& claim, const Part& part) const {
+  const TubeSet* set = largest({"slew", "assumed"}, &TubeSet::slew, part);
+  const ModelWords words(*tree_, part, bound_covariance(*sets_));
+  const Ball slew = written(claim, "slew");
+  bool certain = set != nullptr && certainly_positive(slew) && certainly_at_most(slew, Ball(set->slew));
+  Claim found;
+  found.is_summary = true;
+  found.statement = words.tone_in_band();
+  if (const Tree* noise = claim.find("noise")) {
+    const Ball together = written(claim, "noise");
+    found.statement += ", with noise of at most " + noise->text();
+    certain = certain && certainly_positive(together) && certainly_at_most(together, Ball(set->noise));
+  } else {
+    found.statement += ", without noise";
+  }
+  found.statement += ", the tracker tolerates a slew up to " + units_.slew(claim.at("slew").text()) +
+                     by_set(set, "slew") + ": a certified invariant set exists.";
   found.verdict = proved_if(certain);
   return found;
 }
@@ -386,8 +435,8 @@ Claim ModelClaims::steady_state(const Tree& claim, const Part& part) const {
 Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
   const std::string& id = claim.at("id").text();
   const std::vector<Requirement> asked = required();
-  const bool is_told =
-      id == kGuarantee || id == kLimits || id == kSteadyState || id == kLock || id == kLowestSnr;
+  const bool is_told = id == kGuarantee || id == kLimits || id == kSlewLimit || id == kSteadyState ||
+                       id == kLock || id == kLowestSnr;
   const bool is_asked = std::any_of(asked.begin(), asked.end(),
                                     [&](const Requirement& requirement) { return requirement.claim == id; });
   if (!is_told && !is_asked) {
@@ -398,6 +447,7 @@ Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
   const Part part = is_told && !is_lock ? part_of(claim, objections) : Part();
   Claim found = id == kGuarantee               ? guarantee(claim, part)
                 : id == kLimits                ? limits(claim, part)
+                : id == kSlewLimit             ? slew_limit(claim, part)
                 : id == kSteadyState           ? steady_state(claim, part)
                 : is_lock                      ? told_lock(claim)
                 : id == kLosingLock            ? required_lock()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -61,7 +62,12 @@ class ModelClaims {
   [[nodiscard]] Claim required_lock() const;
   [[nodiscard]] Claim told_lock(const Tree& claim) const;
   [[nodiscard]] Claim guarantee(const Tree& claim, const Part& part) const;
+  /// Of the sets with these names that cover the part and are never left, the one with the largest noise or
+  /// slew, the first of equal ones; none where all are 0.
+  [[nodiscard]] const TubeSet* largest(std::initializer_list<const char*> names, double TubeSet::*size,
+                                       const Part& part) const;
   [[nodiscard]] Claim limits(const Tree& claim, const Part& part) const;
+  [[nodiscard]] Claim slew_limit(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim steady_state(const Tree& claim, const Part& part) const;
 
   const Tree* tree_;

@@ -34,6 +34,24 @@ void read_model_band(const Tree& assume, ModelDesign& design, Objections& object
   }
 }
 
+/// A number, or a range [least, largest] in which that of every sample is.
+void read_amplitude(const Tree& amplitude, ModelDesign& design, Objections& objections) {
+  design.amplitude_varies = amplitude.kind() == Tree::Kind::array;
+  if (!design.amplitude_varies) {
+    design.amplitude = read_positive(amplitude, "amplitude", objections);
+    return;
+  }
+  if (amplitude.elements().size() != 2) {
+    throw Malformed("a range of amplitudes has two ends");
+  }
+  const Ball least = read_positive(amplitude.at(0), "amplitude", objections);
+  const Ball largest = read_positive(amplitude.at(1), "amplitude", objections);
+  if (!certainly_less(least, largest)) {
+    objections.emplace_back("the amplitudes must go from low to high");
+  }
+  design.amplitude = Ball::hull(least, largest);
+}
+
 void read_start(const Tree& start, ModelRecursion& recursion, ModelDesign& design, Objections& objections) {
   const std::vector<std::string>& names = recursion.state_names();
   design.start_within.assign(names.size(), zero);
@@ -131,7 +149,7 @@ Ball deviation_at(const Ball& decibels) {
 ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objections& objections) {
   const Tree& assume = tree.at("assume");
   ModelDesign design;
-  design.amplitude = read_positive(assume.at("amplitude"), "amplitude", objections);
+  read_amplitude(assume.at("amplitude"), design, objections);
   read_model_band(assume, design, objections);
   read_noise(assume, design, objections);
   design.slew = read_not_negative(assume.at("slew"), "slew", objections);
@@ -152,6 +170,9 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
   if (design.deviation && !certainly_equal(design.slew, zero)) {
     objections.emplace_back("nothing is certified of Gaussian noise with a slew");
   }
+  if (design.deviation && design.amplitude_varies) {
+    objections.emplace_back("nothing is certified of Gaussian noise with a range of amplitudes");
+  }
   const bool asks_for_ever = design.frequency_error_below || design.settles_within || design.largest_noise ||
                              design.largest_slew || design.radius;
   if (design.deviation && asks_for_ever) {
@@ -160,12 +181,20 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
   return design;
 }
 
+std::string ModelWords::amplitude() const {
+  const Tree& amplitude = assume().at("amplitude");
+  return amplitude.kind() != Tree::Kind::array
+             ? "of amplitude " + text_of(amplitude) + " with "
+             : "with an amplitude in [" + text_of(amplitude.at(0)) + ", " + text_of(amplitude.at(1)) +
+                   "], which may differ from sample to sample, with ";
+}
+
 std::string ModelWords::tone(const std::string& frequency) const {
   const auto& signal = design_->at("model").at("signal").elements();
   const bool is_tone = !signal.empty() && signal.size() <= 2 && signal[0].text() == "A*cos(phi)" &&
                        (signal.size() < 2 || signal[1].text() == "A*sin(phi)");
   return std::string("In exact arithmetic, on ") + (is_tone ? "a tone" : "the signal of the design file") +
-         " of amplitude " + text_of(assume().at("amplitude")) + " with " + frequency;
+         " " + amplitude() + frequency;
 }
 
 std::string ModelWords::band() const {

@@ -20,10 +20,11 @@ struct RequiredNumber {
 
 /// In rad/sample and signal units: each number both as the decimal and as the double nearest to it.
 struct ModelDesign {
-  Ball amplitude;
-  Ball lowest, highest;  ///< of the frequency
-  Ball band_unit;        ///< in which the design writes them: Hz, or 1
-  Ball noise;            ///< bound on the length of the error of a sample, all channels together
+  Ball amplitude;                 ///< of each sample
+  bool amplitude_varies = false;  ///< from sample to sample, in that range; otherwise it is one number
+  Ball lowest, highest;           ///< of the frequency
+  Ball band_unit;                 ///< in which the design writes them: Hz, or 1
+  Ball noise;                     ///< bound on the length of the error of a sample, all channels together
   /// Gaussian noise in place of that bound: its deviation in each channel, signal units, and for how many
   /// samples a probability is asked.
   std::optional<Ball> deviation;
@@ -41,7 +42,8 @@ struct ModelDesign {
 Ball deviation_at(const Ball& decibels);
 
 /// Reads the members "assume" and "require" of a design. Objects unless 0 <= lowest <= highest <= 3.142
-/// (pi, as one may write it), the amplitude is positive, and nothing that has to be is negative.
+/// (pi, as one may write it), amplitudes are positive and those of a range go from low to high, and nothing
+/// that has to be is negative.
 ModelDesign read_model_design(const Tree& design, ModelRecursion& recursion, Objections& objections);
 
 /// A part of the band: what a claim writes, and it in rad/sample.
@@ -79,6 +81,7 @@ class ModelWords {
  private:
   [[nodiscard]] std::string start_within(const std::string& set) const;
   [[nodiscard]] const Tree& assume() const { return design_->at("assume"); }
+  [[nodiscard]] std::string amplitude() const;
   [[nodiscard]] std::string tone(const std::string& frequency) const;
   [[nodiscard]] std::string band() const;
   [[nodiscard]] std::string covariance_of(const std::string& set) const {

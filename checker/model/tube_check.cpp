@@ -48,6 +48,21 @@ double low_end_of(const TubeSet& set, const PhaseTube& tube, std::size_t j, cons
                                  : tube.levels[j + 1];
 }
 
+/// Whether what was cut off is why a pair of levels is not certain: it must not be much more than what a step
+/// takes off the lower one. Not evidence.
+bool fails_by_error(const LengthBound& bound, double shrinking, double low_end) {
+  constexpr double kShare = 0.25;
+  return bound.error() > kShare * (1.0 - shrinking) * low_end;
+}
+
+/// What is cut off of functions of the phases here and a sample later: the wider of both makes it.
+/// Frequencies count more, as curve and shape depend on them besides.
+bool is_wider_in_frequency(const PhaseTube& tube, const TubePart& part) {
+  constexpr double kMore = 3.0;
+  constexpr double kTurn = 6.283;
+  return kMore * part.half_z * tube.half_width > kTurn * part.half_turn;
+}
+
 /// Of a filter: with the largest radius also that the bounds of the covariance are kept.
 PartAnswer ask_of_filter(const TubeSet& set, std::size_t number, const FilterStep& step,
                          const std::vector<Ball>& common, const std::vector<std::size_t>& pairs) {
@@ -121,7 +136,7 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
   if (set_->gaussian) {
     objections.emplace_back("in Gaussian noise every set is left some time");
   }
-  const bool is_noisy = !certainly_equal(Ball(set_->noise), zero);
+  const bool is_noisy = model_->is_disturbed(set_->noise);
   const bool moves = !certainly_equal(Ball(set_->slew), zero);
   if (moves) {
     check_common_levels(*set_, objections);
@@ -152,6 +167,7 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
     }
     double by_phase = 0.0;
     double by_frequency = 0.0;
+    bool is_by_error = false;
     for (const std::size_t j : pairs) {
       const double radius = tube.levels[j];
       const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, set_->noise)); };
@@ -159,11 +175,12 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
       const double low_end = low_end_of(*set_, tube, j, common);
       if (!shrinks(bound, tube, j, low_end, bound_up_to)) {
         answer.open.push_back(j);
+        is_by_error = is_by_error || fails_by_error(bound, tube.shrinking[j], low_end);
         by_phase += bound.by_phase() / radius;
         by_frequency += bound.by_frequency() / radius;
       }
     }
-    answer.halve_frequencies = by_frequency > by_phase;
+    answer.halve_frequencies = is_by_error ? is_wider_in_frequency(tube, part) : by_frequency > by_phase;
     return answer;
   };
   std::vector<FirstGrid> grids;

@@ -49,9 +49,9 @@ class PhaseTubeCheck {
   [[nodiscard]] bool error_is_within(const std::function<std::size_t(const PhaseTube&)>& level,
                                      const Ball& bound, bool strictly) const;
   /// Whether the answer holds for all frequencies: asked of h - omega on all parts of a turn, for some of
-  /// them.
+  /// them; `without_common`: less a function of the frequency.
   [[nodiscard]] bool holds_for_turns(
-      const std::function<bool(const std::vector<BallPolynomial>& errors)>& holds) const;
+      const std::function<bool(const std::vector<BallPolynomial>& errors)>& holds, bool without_common) const;
 
   const TrackedModel* model_;
   const TubeSet* set_;

@@ -25,18 +25,53 @@ struct OpenPart {
   int alike = 0;
 };
 
+/// The last part for which the answer to some questions was certain. Its neighbours take about as small ones,
+/// so that parts that are a little larger are halved before they are asked. Much larger ones are asked: what
+/// is hard at one place need not be everywhere.
+struct LastCertain {
+  std::vector<std::size_t> questions;
+  TubePart part;
+
+  /// By frequency, or by phase, for these questions; nothing where a part is not larger.
+  [[nodiscard]] std::optional<bool> halving_of(const OpenPart& here) const {
+    constexpr double kMuch = 4.0;
+    const double ratio = (here.part.half_turn / part.half_turn) * (here.part.half_z / part.half_z);
+    if (questions.empty() || questions != here.questions || !(ratio <= kMuch)) {
+      return std::nullopt;
+    }
+    return here.part.half_turn > part.half_turn ? std::optional(false)
+           : here.part.half_z > part.half_z     ? std::optional(true)
+                                                : std::nullopt;
+  }
+};
+
+void halve(const OpenPart& here, const std::vector<std::size_t>& questions, bool by_frequency,
+           std::vector<OpenPart>& open) {
+  const int alike = here.alike > 0 && by_frequency == here.was_by_frequency ? here.alike + 1 : 1;
+  for (const bool second : {true, false}) {
+    open.push_back({by_frequency ? here.part.half_of_frequencies(second) : here.part.half_of_phases(second),
+                    questions, here.halvings + 1, by_frequency, alike});
+  }
+}
+
 bool is_certain(std::size_t tube, const TubePart& first, std::size_t count, const PartQuestion& ask,
                 std::int64_t& cells) {
   std::vector<std::size_t> all(count);
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<OpenPart> open;
   open.push_back({first, std::move(all)});
+  LastCertain last;
   while (!open.empty()) {
     const OpenPart here = std::move(open.back());
     open.pop_back();
+    if (const auto halving = last.halving_of(here); halving && here.halvings < kMostHalvings) {
+      halve(here, here.questions, *halving, open);
+      continue;
+    }
     ++cells;
     PartAnswer answer = ask(tube, here.part, here.questions);
     if (answer.open.empty()) {
+      last = {here.questions, here.part};
       continue;
     }
     const bool is_time = here.halvings % kBetweenMiddles == kBetweenMiddles - 1;
@@ -48,11 +83,7 @@ bool is_certain(std::size_t tube, const TubePart& first, std::size_t count, cons
     const bool by_frequency = here.alike == kMostAlike
                                   ? !here.was_by_frequency
                                   : answer.halve_frequencies.value_or(here.halvings % 2 == 0);
-    const int alike = here.alike > 0 && by_frequency == here.was_by_frequency ? here.alike + 1 : 1;
-    for (const bool second : {true, false}) {
-      open.push_back({by_frequency ? here.part.half_of_frequencies(second) : here.part.half_of_phases(second),
-                      answer.open, here.halvings + 1, by_frequency, alike});
-    }
+    halve(here, answer.open, by_frequency, open);
   }
   return true;
 }

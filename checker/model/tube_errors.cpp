@@ -1,5 +1,6 @@
 // What the estimate of the frequency does in a tube.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "checker/model/tube_check.hpp"
@@ -158,8 +159,29 @@ bool PhaseTubeCheck::contains_starts(const std::vector<Ball>& deviations, const 
   return certain_everywhere(std::vector<FirstGrid>(set_->tubes.size()), ask, *cells_);
 }
 
+namespace {
+
+/// Without what all have in common, about: the mean of their coefficients of z, z^2, ... At a frequency the
+/// same number is taken from all of them.
+void take_away_common(std::vector<BallPolynomial>& errors) {
+  std::array<double, BallPolynomial::kPlaces> common{};
+  for (const BallPolynomial& error : errors) {
+    const std::span<const double> block = error.block(0, 0);
+    for (int power = 1; power <= BallPolynomial::kMostDegree; ++power) {
+      const std::size_t place = places_up_to(power) - 1;  // the last one of its degree
+      common.at(place) += place < block.size() ? block[place] / static_cast<double>(errors.size()) : 0.0;
+    }
+  }
+  const BallPolynomial taken = BallPolynomial::of_places(common, 0.0);
+  for (BallPolynomial& error : errors) {
+    error = error - taken;
+  }
+}
+
+}  // namespace
+
 bool PhaseTubeCheck::holds_for_turns(
-    const std::function<bool(const std::vector<BallPolynomial>& errors)>& holds) const {
+    const std::function<bool(const std::vector<BallPolynomial>& errors)>& holds, bool without_common) const {
   constexpr std::size_t kFirst = 32;
   constexpr std::size_t kMost = 4096;
   constexpr double kLeastWidth = 0x1p-12;
@@ -187,7 +209,12 @@ bool PhaseTubeCheck::holds_for_turns(
       errors.push_back(frequency_error(
           *model_, *here.tube, part,
           TubeOver(*here.tube, part, false).point(here.tube->levels.back(), components(monomials))));
-      extent.add(errors.back());
+    }
+    if (without_common) {
+      take_away_common(errors);
+    }
+    for (const BallPolynomial& error : errors) {
+      extent.add(error);
     }
     if (holds(errors)) {
       continue;
@@ -206,18 +233,19 @@ bool PhaseTubeCheck::holds_for_turns(
 }
 
 bool PhaseTubeCheck::mean_error_is_between(const Ball& low, const Ball& high) const {
-  return holds_for_turns([&](const std::vector<BallPolynomial>& errors) {
+  const auto is_between = [&](const std::vector<BallPolynomial>& errors) {
     BallPolynomial sum;
     for (const BallPolynomial& error : errors) {
       sum += error.mean_over_phase();
     }
     const Ball mean = sum.range() / Ball(static_cast<double>(errors.size()));
     return certainly_at_most(low, mean) && certainly_at_most(mean, high);
-  });
+  };
+  return holds_for_turns(is_between, false);
 }
 
 bool PhaseTubeCheck::error_varies_by_at_most(const Ball& most) const {
-  return holds_for_turns([&](const std::vector<BallPolynomial>& errors) {
+  const auto vary_little = [&](const std::vector<BallPolynomial>& errors) {
     Ball least = Ball::everything();
     Ball greatest = least;
     for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -229,7 +257,8 @@ bool PhaseTubeCheck::error_varies_by_at_most(const Ball& most) const {
       greatest = i == 0 ? range.upper() : max(greatest, range.upper());
     }
     return certainly_at_most(greatest - least, most);
-  });
+  };
+  return holds_for_turns(vary_little, true);
 }
 
 }  // namespace veritrack::checker

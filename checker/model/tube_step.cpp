@@ -164,6 +164,29 @@ std::vector<BallPolynomial> signal_later(const TrackedModel& model, const PhaseT
   return model.recursion->signal(BallPolynomial(model.amplitude), phase_over(tube, part, true));
 }
 
+std::vector<BallPolynomial> with_noise(const TrackedModel& model, std::vector<BallPolynomial> signal,
+                                       double noise, const VectorMonomials& monomials) {
+  if (!model.is_disturbed(noise)) {
+    return signal;
+  }
+  double length = noise;
+  if (model.amplitude_varies) {
+    Ball squares;
+    const auto is_known = [](const BallPolynomial& sample) { return sample.known(); };
+    if (!std::all_of(signal.begin(), signal.end(), is_known)) {
+      return std::vector<BallPolynomial>(signal.size(), BallPolynomial::everything());
+    }
+    for (BallPolynomial& sample : signal) {
+      squares += square(Ball(sample.take_error()));
+    }
+    length = (Ball(noise) + sqrt(squares)).upper_double();
+  }
+  for (std::size_t c = 0; c < signal.size(); ++c) {
+    signal[c].add(BallPolynomial::variable(monomials, monomials.first(1) + c), length);
+  }
+  return signal;
+}
+
 BallPolynomial frequency_over(const PhaseTube& tube, const TubePart& part) {
   const Ball width(tube.half_width);
   return BallPolynomial(Ball(tube.frequency) + width * Ball(part.z)) +
@@ -203,14 +226,8 @@ TubeStep::TubeStep(const TrackedModel& model, const PhaseTube& tube, const TubeP
       signal_(signal_later(model, tube, part)) {}
 
 std::vector<BallPolynomial> TubeStep::map(double radius, double noise) const {
-  std::vector<BallPolynomial> samples = signal_;
-  if (noise != 0.0) {
-    for (std::size_t c = 0; c < samples.size(); ++c) {
-      samples[c].add(BallPolynomial::variable(*monomials_, monomials_->first(1) + c), noise);
-    }
-  }
-  std::vector<BallPolynomial> next =
-      model_->recursion->next(here_.point(radius, components(*monomials_)), samples);
+  std::vector<BallPolynomial> next = model_->recursion->next(
+      here_.point(radius, components(*monomials_)), with_noise(*model_, signal_, noise, *monomials_));
   for (std::size_t i = 0; i < next.size(); ++i) {
     next[i] -= there_.curve[i];
   }

@@ -17,7 +17,11 @@ namespace veritrack::checker {
 /// The tracker, and the amplitude of its signal.
 struct TrackedModel {
   const ModelRecursion* recursion = nullptr;
-  Ball amplitude;
+  Ball amplitude;                 ///< of each sample
+  bool amplitude_varies = false;  ///< from sample to sample, in that range
+
+  /// Whether samples may differ from a signal of one amplitude. A vector v of the monomials belongs to it.
+  [[nodiscard]] bool is_disturbed(double noise) const { return noise != 0.0 || amplitude_varies; }
 };
 
 /// Phases 2 pi (turn - half_turn) to 2 pi (turn + half_turn), and z - half_z to z + half_z of a tube.
@@ -65,6 +69,11 @@ struct TubeOver {
 /// The signal over the part a sample later, without noise.
 std::vector<BallPolynomial> signal_later(const TrackedModel& model, const PhaseTube& tube,
                                          const TubePart& part);
+/// The same with |v| <= noise in signal units, v the second vector of the monomials. Where the amplitude
+/// varies, what it does to a sample is what the polynomials of the signal leave open: an error of the sample
+/// beside the noise, whose length is at most that of these errors.
+std::vector<BallPolynomial> with_noise(const TrackedModel& model, std::vector<BallPolynomial> signal,
+                                       double noise, const VectorMonomials& monomials);
 /// omega over the part, and the estimate of the frequency at a state less that; rad/sample.
 BallPolynomial frequency_over(const PhaseTube& tube, const TubePart& part);
 BallPolynomial frequency_error(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
@@ -83,7 +92,7 @@ class TubeStep {
   /// Whether the shape is one here and a sample later: certainly positive on its diagonal.
   [[nodiscard]] bool has_shape() const { return here_.has_shape() && there_.has_shape(); }
   /// F for |xi| <= radius, |v| <= noise, where the ball polynomials are in xi/radius and v/noise. The second
-  /// vector of the monomials is v if there is noise.
+  /// vector of the monomials is v if samples are disturbed.
   [[nodiscard]] std::vector<BallPolynomial> map(double radius, double noise) const;
 
  private:

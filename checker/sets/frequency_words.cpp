@@ -49,6 +49,13 @@ std::string FrequencyWords::slew(const Ball& radians) const {
                       : text;
 }
 
+std::string FrequencyWords::slew(const std::string& decimal) const {
+  const std::string text = decimal + " rad/sample per sample";
+  return sample_rate_ ? text + " (" + lower_decimal(in_hertz(from_decimal(decimal)) * *sample_rate_) +
+                            " Hz per second)"
+                      : text;
+}
+
 std::string FrequencyWords::sampled() const {
   return sample_rate_ ? ", sampled at " + text_ + " Hz," : "";
 }

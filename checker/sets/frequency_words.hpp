@@ -26,6 +26,7 @@ class FrequencyWords {
   [[nodiscard]] std::string between(const std::string& low, const std::string& high) const;
   /// "0.001 rad/sample per sample (1.01e4 Hz per second)", rounded down.
   [[nodiscard]] std::string slew(const Ball& radians) const;
+  [[nodiscard]] std::string slew(const std::string& decimal) const;
   /// ", sampled at 8000 Hz,"; empty without a sample rate.
   [[nodiscard]] std::string sampled() const;
 

@@ -93,8 +93,10 @@ class Collection {
       row = rows_.end() - 1;
     }
     row->verdicts.push_back({design_, verdict, ground});
-    if (verdict == Verdict::refuted) {
-      row->finding = theorems::find_paper_finding(id);
+    const theorems::PaperFinding* finding = theorems::find_paper_finding(id);
+    if (verdict == Verdict::refuted ||
+        (finding != nullptr && finding->kind == theorems::FindingKind::illegible)) {
+      row->finding = finding;
     }
   }
 
@@ -148,11 +150,11 @@ bool Row::is_illegible() const {
 }
 
 bool Row::stands() const {
-  return !is_illegible() && is_everywhere(Verdict::proved);
+  return is_everywhere(Verdict::proved);
 }
 
 bool Row::falls() const {
-  return !is_illegible() && is_anywhere(Verdict::refuted);
+  return is_anywhere(Verdict::refuted);
 }
 
 std::vector<Row> collect() {
@@ -193,6 +195,9 @@ std::string consequence(const Row& row, const std::vector<Row>& rows) {
   if (row.place.role == theorems::PaperRole::repair) {
     return "ours, in place of what is printed";
   }
+  if (row.is_illegible()) {
+    return "none that can be decided from the scan";
+  }
   if (!row.is_anywhere(Verdict::refuted)) {
     return row.is_everywhere(Verdict::proved) ? "it stands" : "open";
   }
@@ -216,7 +221,7 @@ std::string consequence(const Row& row, const std::vector<Row>& rows) {
     case FindingKind::needs_unstated_assumption:
       return with_repair("it is true under an assumption that should be stated", row, rows);
     case FindingKind::illegible:
-      return "none that can be decided from the scan";
+      break;  // above
   }
   return "";
 }

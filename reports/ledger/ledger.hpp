@@ -29,7 +29,7 @@ struct Row {
   theorems::PaperPlace place;
   std::string words;                    ///< what is claimed: plain text, or Markdown with a formula
   std::vector<DesignVerdict> verdicts;  ///< one for each design that it was evaluated for, never empty
-  const theorems::PaperFinding* finding = nullptr;  ///< when it is REFUTED and we know what mistake it is
+  const theorems::PaperFinding* finding = nullptr;  ///< what mistake it is, or that it is illegible
 
   /// The same for all designs?
   [[nodiscard]] bool is_uniform() const;
@@ -38,12 +38,12 @@ struct Row {
   /// Is it that for any design?
   [[nodiscard]] bool is_anywhere(rigor::Verdict verdict) const;
 
-  /// Does the scan leave open what is printed? Its verdicts are then about a reading of ours, and the row
-  /// counts neither as proved nor as refuted.
+  /// Does the scan leave open what is printed? It is then UNDECIDED for every design, whatever is true of our
+  /// reading of it (cite_findings).
   [[nodiscard]] bool is_illegible() const;
-  /// PROVED for every design, and legible.
+  /// PROVED for every design.
   [[nodiscard]] bool stands() const;
-  /// REFUTED for at least one design, and legible.
+  /// REFUTED for at least one design.
   [[nodiscard]] bool falls() const;
 };
 

@@ -55,11 +55,16 @@ std::string verdict_cell(const Row& row) {
   return text;
 }
 
-/// The ground without the kind of mistake and the place before it, which have columns of their own.
+/// The ground without the kind of mistake and the place before it, which have columns of their own: a
+/// sentence.
 std::string without_finding(const Row& row, const std::string& ground) {
   const std::string place = row.finding == nullptr ? "" : fmt::format(" ({}): ", row.finding->place);
   const std::size_t at = place.empty() ? std::string::npos : ground.find(place);
-  return at == std::string::npos ? ground : ground.substr(at + place.size());
+  std::string rest = at == std::string::npos ? ground : ground.substr(at + place.size());
+  if (row.is_illegible() && !rest.empty()) {  // "as we read it, ..."
+    rest.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(rest.front())));
+  }
+  return rest;
 }
 
 /// The ground for the strongest verdict: a refutation counts more than a proof, and that more than neither.
@@ -68,11 +73,10 @@ std::string ground_cell(const Row& row) {
     const auto found = std::find_if(row.verdicts.begin(), row.verdicts.end(),
                                     [&](const DesignVerdict& each) { return each.verdict == verdict; });
     if (found != row.verdicts.end()) {
-      return (row.is_illegible() ? "As we read the scan it would be false: " : "") +
-             escaped(without_finding(row, found->ground));
+      return escaped(without_finding(row, found->ground));
     }
   }
-  return escaped(row.verdicts.front().ground);
+  return escaped(without_finding(row, row.verdicts.front().ground));
 }
 
 /// Id, place, what it says, consequence: of the rows with that finding.

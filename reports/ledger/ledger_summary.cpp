@@ -52,8 +52,8 @@ std::vector<std::string> count_row(const std::vector<Row>& rows, Paper paper, Pa
           of([](const Row&) { return true; }),
           of([](const Row& row) { return row.stands(); }),
           of([](const Row& row) { return row.falls() && row.is_uniform(); }),
-          of([](const Row& row) { return row.is_everywhere(Verdict::undecided); }),
-          of([](const Row& row) { return !row.is_illegible() && !row.is_uniform(); }),
+          of([](const Row& row) { return !row.is_illegible() && row.is_everywhere(Verdict::undecided); }),
+          of([](const Row& row) { return !row.is_uniform(); }),
           of([](const Row& row) { return row.is_illegible(); })};
 }
 

@@ -48,6 +48,15 @@ std::string amount(double value, const MappedState& state) {
   return fmt::format("{:.4g}{}{}", value, state.unit.empty() ? "" : " ", markdown::escaped(state.unit));
 }
 
+/// "of amplitude 1 with", or the same of a range.
+std::string amplitude_of(const certificates::ModelAssumptions& assume) {
+  const auto& [least, largest] = assume.amplitude;
+  return assume.one_amplitude
+             ? fmt::format("of amplitude {} with", markdown::escaped(least.text))
+             : fmt::format("with an amplitude in [{}, {}], which may differ from sample to sample, with",
+                           markdown::escaped(least.text), markdown::escaped(largest.text));
+}
+
 std::string statement(const certificates::ModelTables& tables, const ModelMap& map,
                       const FrequencyUnits& units) {
   const std::string noise =
@@ -58,7 +67,7 @@ std::string statement(const certificates::ModelTables& tables, const ModelMap& m
                        frequency_of(map, units), noise);
   }
   return fmt::format(
-      "**PROVED**: In exact arithmetic, on a tone of amplitude {} with the constant frequency {}, {}, "
+      "**PROVED**: In exact arithmetic, on a tone {} the constant frequency {}, {}, "
       "started "
       "at any phase of the signal with a deviation from the steady state in `{}` and `{}` that is in a cell "
       "marked proved, and no deviation in any other state, the tracker is in the certified set after at most "
@@ -68,8 +77,8 @@ std::string statement(const certificates::ModelTables& tables, const ModelMap& m
       "of these cells. In the certified set the frequency error is at most {}, and at most {} from {} "
       "samples "
       "later on.\n\n",
-      markdown::escaped(tables.assume.amplitude.text), frequency_of(map, units), noise, map.x.name,
-      map.y.name, map.longest(), units.at_most(map.frequency_error), units.at_most(map.settled_error),
+      amplitude_of(tables.assume), frequency_of(map, units), noise, map.x.name, map.y.name, map.longest(),
+      units.at_most(map.frequency_error), units.at_most(map.settled_error),
       std::isfinite(map.settling_samples) ? fmt::format("{:.0f}", map.settling_samples)
                                           : "an unknown number of");
 }
@@ -115,7 +124,7 @@ std::string hypotheses_section(const certificates::ModelTables& tables, const Mo
       "## What is proved, and what is not\n\n"
       "- Proved for this frequency only: the decimal and the double nearest to it. It is constant{}.\n"
       "- Exact arithmetic: the rounding of the program that runs is not covered.\n"
-      "- The amplitude is exactly the assumed one. {}.\n"
+      "- The amplitude {}. {}.\n"
       "- The steady state is the curve in `map.json`, from which that of the tracker differs by less than "
       "the "
       "lowest level of the tube. Starts deviate from it in two states; the other states are on it.\n"
@@ -127,6 +136,9 @@ std::string hypotheses_section(const certificates::ModelTables& tables, const Mo
       "maps.\n\n"
       "`region.csv` has a line for each cell; `map.json` has the same as exact numbers, and the tube.\n",
       moves ? "; the assumed slew is not part of a map" : "",
+      tables.assume.one_amplitude
+          ? "is exactly the assumed one"
+          : "of every sample is in the assumed range; simulations have the middle of it",
       map.noise > 0.0 ? "The noise is bounded at every sample, and otherwise arbitrary"
                       : "There is no noise; with --noise the assumed noise is part of the proof");
 }

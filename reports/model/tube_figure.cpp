@@ -127,6 +127,7 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
   const double frequency = 0.5 * (first.frequency - first.half_width + last.frequency + last.half_width);
   const ProvedTube& proved = tube_at_frequency(set, frequency);
   TubeSection section(tracker, proved.tube, frequency);
+  const bool varies = tracker.amplitude_varies;
 
   constexpr int kStarts = 4;
   constexpr int kSamples = 2000;
@@ -165,8 +166,10 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
           "point, and the simulations prove nothing.",
           units.drawn(frequency), unit, tube_disturbances(set, units), unit, kStarts, kSamples,
           set.noise > 0.0
-              ? ", with the noise that pushes outward most at every sample, at a constant frequency"
-              : ""),
+              ? std::string(", with the noise") + (varies ? " and the amplitude that push" : " that pushes") +
+                    " outward most at every sample, at a constant frequency"
+          : varies ? ", with the amplitude that pushes outward most at every sample"
+                   : ""),
       std::move(script),
       "The certified tube, with simulated runs",
       {std::move(envelope), std::move(starts), std::move(errors)}};

@@ -65,18 +65,19 @@ std::string assumptions_section(const TrackReport& report, const RecordingUnits&
            "No stretch of the recording could be judged: none was in lock and without gaps for long "
            "enough.\n\n";
   }
-  text +=
-      markdown::table({"", "assumed", "estimated in the recording", "exceeded in"},
-                      {frequency_row(report, units),
-                       slew_row(report, units),
-                       noise_row(report),
-                       {"amplitude", amplitude_words(report.assume) + ", constant",
-                        fmt::format("from {:.4g} to {:.4g}", found.amplitude.least, found.amplitude.largest),
-                        "counts as noise"},
-                       {"noise around the fitted tone", "",
-                        fmt::format("largest {:.4g}; root mean square of each channel {:.4g}",
-                                    found.largest_residual, found.noise_deviation),
-                        ""}});
+  text += markdown::table(
+      {"", "assumed", "estimated in the recording", "exceeded in"},
+      {frequency_row(report, units),
+       slew_row(report, units),
+       noise_row(report),
+       {"amplitude",
+        amplitude_words(report.assume) + (report.assume.amplitude_varies ? ", of each sample" : ", constant"),
+        fmt::format("from {:.4g} to {:.4g}", found.amplitude.least, found.amplitude.largest),
+        "counts as noise"},
+       {"noise around the fitted tone", "",
+        fmt::format("largest {:.4g}; root mean square of each channel {:.4g}", found.largest_residual,
+                    found.noise_deviation),
+        ""}});
   text += fmt::format(
       "\nAll of these are estimates. A tone is fitted to each stretch of {} samples in lock, with an "
       "amplitude and a frequency that may drift in it; {} of {} samples lie in such stretches. Slew and "

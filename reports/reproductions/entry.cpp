@@ -30,11 +30,6 @@ std::string number(double value) {
   return fmt::format("{:.4g}", value);
 }
 
-std::string with_error(double value, double error) {
-  return std::isfinite(error) ? fmt::format("{:.4g} ± {:.2g}", value, error)
-                              : fmt::format("{:.4g} ± unknown", value);
-}
-
 /// Whether the share of the runs is above `limit`: by Wilson's interval at two standard errors.
 ComesOut is_above(double share, double limit, std::size_t runs) {
   const auto [low, high] = share_interval(share, static_cast<int>(runs));
@@ -81,6 +76,11 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 
 }  // namespace
 
+std::string with_error(double value, double error) {
+  return std::isfinite(error) ? fmt::format("{:.4g} ± {:.2g}", value, error)
+                              : fmt::format("{:.4g} ± unknown", value);
+}
+
 double PrintedNumber::value() const {
   double result = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
@@ -107,9 +107,10 @@ Outcome among_runs(const PrintedNumber& printed, std::span<const double> runs) {
   const double below = share([&](double run) { return run <= value + half; });
   const double low = experiments::quantile_of(runs, kTail);
   const double high = experiments::quantile_of(runs, 1.0 - kTail);
-  return {is_above(std::min(above, below), kTail, runs.size()),
-          fmt::format("{} to {}, median {}", number(low), number(high),
-                      number(experiments::quantile_of(runs, 0.5)))};
+  const experiments::Median median = experiments::median_of(runs);
+  return {
+      is_above(std::min(above, below), kTail, runs.size()),
+      fmt::format("{} to {}, median {}", number(low), number(high), with_error(median.value, median.error))};
 }
 
 Outcome same_mean(const PrintedNumber& printed, double printed_deviation, int printed_runs,

@@ -13,6 +13,9 @@
 
 namespace veritrack::reports {
 
+/// "2.503 ± 0.012"; "± unknown" where the error is not finite.
+[[nodiscard]] std::string with_error(double value, double error);
+
 /// A number as it is printed. Tables of them stand beside their sources, as data.
 struct PrintedNumber {
   std::string_view id;     ///< "la-scala-1994/table-3.2/figure-3.4"
@@ -40,7 +43,8 @@ struct Outcome {
 };
 
 /// A number of one run, against the same number of our runs: it comes out when it lies among them, neither
-/// below nor above more than all but 2.5 % of them.
+/// below nor above more than all but 2.5 % of them. Ours: the range of the others, and the median with its
+/// standard error (experiments::median_of).
 [[nodiscard]] Outcome among_runs(const PrintedNumber& printed, std::span<const double> runs);
 
 /// A mean of `printed_runs` runs with a printed deviation, against the mean of ours. It comes out when the

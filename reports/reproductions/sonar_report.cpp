@@ -115,7 +115,8 @@ Outcome searched(const PrintedNumber& number, const SetStudy& study, SumsOf sums
 }
 
 std::string range_words(const std::vector<double>& runs) {
-  return fmt::format("{:.3g} ({:.3g} to {:.3g})", experiments::quantile_of(runs, 0.5),
+  const experiments::Median median = experiments::median_of(runs);
+  return fmt::format("{} ({:.3g} to {:.3g})", with_error(median.value, median.error),
                      experiments::quantile_of(runs, 0.025), experiments::quantile_of(runs, 0.975));
 }
 
@@ -181,17 +182,21 @@ std::string document(const std::vector<Entry>& entries, const std::array<SetStud
   text += fmt::format(
       "## Printed and ours\n\nThe thesis has one run of each set. A number agrees when it lies among those "
       "of our {} runs (at most 2.5 % beyond it on either side) for one of three Doppler shifts and one of "
-      "two starts; *ours* is the range of 95 % of the runs, and their median, of the choice that comes out, "
-      "or of the first.\n\n{}",
+      "two starts; *ours* is the range of 95 % of the runs, and their median with its standard error (half "
+      "the "
+      "distance of the order statistics √n/2 ranks to either side), of the choice that comes out, or of the "
+      "first.\n\n{}",
       runs, entry_table(entries));
   text +=
-      "\n## All three sets with the noise of set 1\n\nMedian (2.5 % to 97.5 % of the runs), offset ±1.42 "
+      "\n## All three sets with the noise of set 1\n\nMedian ± its standard error (2.5 % to 97.5 % of the "
+      "runs), offset ±1.42 "
       "bins, started by the initialisation:\n\n" +
       as_set_1_table(studies) +
       "\n![Two panels: sums over the noise variance; the printed ones of sets 2 and 3 lie far "
       "below](figures/noise.svg)\n\n*Median sum of squared errors over the noise variance, for the three "
       "designs of Table 4.2, started at the truth; points: the sums as printed, at the variances of Table "
-      "4.1.*\n\n## All choices\n\nWith the noise of Table 4.1. Median (2.5 % to 97.5 % of the runs); good "
+      "4.1.*\n\n## All choices\n\nWith the noise of Table 4.1. Median ± its standard error (2.5 % to 97.5 % "
+      "of the runs); good "
       "starts: the offset of (4.35) is within half a bin.\n\n" +
       all_choices_table(studies) +
       fmt::format(

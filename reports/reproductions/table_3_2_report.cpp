@@ -144,22 +144,26 @@ std::string table_3_2_document(const std::vector<Entry>& entries, const std::arr
                     fmt::format("{:.4f}", studies[0].without_noise.at(i)),
                     mean_words(studies[1].sums.at(i))});
   }
-  const auto median = [](const Figure31& each) { return experiments::quantile_of(best_q(each), 0.5); };
+  const experiments::Median median = experiments::median_of(best_q(studies[0].figure));
   text +=
       "**" + count_sentence(entries) + "** " +
       (!warning.empty()
            ? std::string(kNoConclusion)
            : fmt::format(
                  "For one signal that fits what is known of the thesis's, each of the four printed numbers "
-                 "lies among those of our runs, and the best q of Figure 3.1 is {:.4f} in the median "
+                 "lies among those of our runs, and the best q of Figure 3.1 is {:.4f} ± {:.4f} in the "
+                 "median "
                  "(printed: 0.0065). The order of the four designs and the reason for it hold for both of "
                  "our signals: the leak 0.05 keeps the estimate below the frequency, and most of the sum is "
                  "this bias, not noise. That is why a leak of 0.01 gains a factor of five.\n\n",
-                 median(studies[0].figure)));
+                 median.value, median.error));
   text += fmt::format(
       "## Printed and ours\n\nThe thesis has one run of each, so that a number agrees when it lies among the "
       "numbers of our runs (2.5 % of them may lie beyond it on either side); *ours* is the range of 95 % of "
-      "{} runs of the fitted signal (below), and their median.\n\n{}",
+      "{} runs of the fitted signal (below), and their median with its standard error (half the distance of "
+      "the "
+      "order statistics √n/2 ranks to either side; of the best q, which is one of a grid, it may be "
+      "0).\n\n{}",
       runs, entry_table(entries));
   text +=
       "\nMean / standard deviation of the sum, (rad/sample)²:\n\n" +

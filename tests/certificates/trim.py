@@ -72,6 +72,7 @@ dft-block-covariance  the same with more bins, a range of amplitudes and a given
 dft-block-false-locks  of the first: its false locks, alone
 From tests/certificates/dft-block-gaussian.toml:
 dft-block-gaussian   the probability of losing lock in Gaussian noise, from a smaller set: checked fast
+dft-block-lowest-snr  the lowest signal-to-noise ratio, alone
 """
 import fractions
 import json
@@ -327,14 +328,14 @@ def model_moving(certificate):
     """Without what is told of a frequency that does not move."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
     certificate["claims"] = [claim for claim in certificate["claims"]
-                             if claim["id"] not in ("model/limits", "model/steady-state")]
+                             if claim["id"] not in ("model/limits", "model/slew-limit", "model/steady-state")]
 
 
 def model_gaussian(certificate):
     """Without what is told of no noise, and of noise with a bound."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] in ("gaussian", "lowest-snr")]
     certificate["claims"] = [claim for claim in certificate["claims"]
-                             if claim["id"] not in ("model/limits", "model/steady-state")]
+                             if claim["id"] not in ("model/limits", "model/slew-limit", "model/steady-state")]
 
 
 def model_filter_moving(certificate):
@@ -353,14 +354,14 @@ def model_long_run(certificate):
     """Without what is told of no noise, and of more."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] in ("assumed", "long-run")]
     certificate["claims"] = [claim for claim in certificate["claims"]
-                             if claim["id"] not in ("model/limits", "model/steady-state")]
+                             if claim["id"] not in ("model/limits", "model/slew-limit", "model/steady-state")]
 
 
 def model_filter(certificate):
     """Without what is told of no noise; the error in the long run is that of a level between."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
     certificate["claims"] = [claim for claim in certificate["claims"]
-                             if claim["id"] not in ("model/limits", "model/steady-state")]
+                             if claim["id"] not in ("model/limits", "model/slew-limit", "model/steady-state")]
     for cell in certificate["tubes"][0]["cells"]:
         cell["levels"] = cell["levels"][:3]
         cell["shrinking"] = cell["shrinking"][:2]
@@ -372,7 +373,7 @@ def model_filter(certificate):
 def without_false_locks(certificate):
     keep(certificate, ["lock-set", "lock-in-noise"],
          [claim["id"] for claim in certificate["claims"]
-          if not claim["id"].startswith(("dft-block/every-start", "dft-block/false-lock"))])
+          if not claim["id"].startswith(("dft-block/every-start", "dft-block/false-lock", "dft-block/lowest-snr"))])
 
 
 def dft_block_gaussian(certificate):
@@ -380,6 +381,11 @@ def dft_block_gaussian(certificate):
     certificate["derivations"][0]["evidence"][0]["numbers"]["radius"] = "0x1.0000000000000p-2"
     for part in [certificate["derivations"][0]["quantities"], *(claim["evidence"] for claim in certificate["claims"])]:
         part["probability_of_losing_lock"]["hi"] = "0x1.0000000000000p-10"
+
+
+def dft_block_lowest_snr(certificate):
+    drop_requirements(certificate)
+    keep(certificate, ["lowest-snr"], ["dft-block/lowest-snr"])
 
 
 def false_locks(certificate):
@@ -452,6 +458,7 @@ KINDS = {
     "dft-block-covariance": without_false_locks,
     "dft-block-gaussian": dft_block_gaussian,
     "dft-block-false-locks": false_locks,
+    "dft-block-lowest-snr": dft_block_lowest_snr,
 }
 
 with open(sys.argv[1], encoding="utf-8") as file:

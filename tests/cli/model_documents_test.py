@@ -13,7 +13,7 @@ class ModelDocuments(CliTestCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.text = DESIGN.read_text()
+        cls.text = DESIGN.read_text().replace("[0.09, 0.11]", "[0.1, 0.101]")  # seconds; make verify takes the whole band
 
     def certify(self, text):
         self.write(text)
@@ -70,10 +70,9 @@ class ModelDocuments(CliTestCase):
         self.assertEqual(probabilities, sorted(probabilities))
 
     def test_the_same_bytes_twice(self):
-        text = self.text.replace("[0.09, 0.11]", "[0.1, 0.101]")
-        _, first = self.certify(text)
+        _, first = self.certify(self.text)
         figures = [path.read_bytes() for path in sorted((self.folder / "out" / "figures").iterdir())]
-        _, second = self.certify(text)
+        _, second = self.certify(self.text)
         self.assertEqual(first, second)
         self.assertEqual(figures, [path.read_bytes() for path in sorted((self.folder / "out" / "figures").iterdir())])
 

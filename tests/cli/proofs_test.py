@@ -132,7 +132,7 @@ class Proofs(CliTestCase):
         ])
 
     def test_guarantee(self):
-        # With a slew, so that it is changed, too; of designs without one scripts/proofs has Coq accept four.
+        # With a slew, so that it is changed, too; scripts/proofs has Coq accept designs without one.
         design = self.changed((ROOT / "designs/la-scala-1994-figure-3.5-without-leak.toml").read_text(),
                               "slew = 0.0 ", "slew = 0.0005 ")
         part, text = self.certify(design, "guarantee")

@@ -49,8 +49,8 @@ class Verify(CliTestCase):
             self.assertIn(part, verified)
 
     def test_with_a_leak_a_radius_is_measured_from_the_steady_state_and_says_so(self):
-        text = (ROOT / "designs/la-scala-1994-figure-3.4.toml").read_text()
-        design = self.write(text.replace("[require]", "[require]\nfrequency_error_radius_at_least = 0.05"))
+        text = (ROOT / "tests/certificates/steady-set.toml").read_text()
+        design = self.write(text.replace("[require]", "[require]\nfrequency_error_radius_at_least = 0.001"))
         self.run_here("certify", design, "--out", "leak")
         result = verify("--json", self.folder / "leak/certificate.json")
         self.assertEqual(result.returncode, 0)

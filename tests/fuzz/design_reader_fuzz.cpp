@@ -136,7 +136,8 @@ void check(const SingleChannelEkfTables& tables) {
 
 void check(const ModelTables& tables) {
   const ModelAssumptions& assume = tables.assume;
-  for (const Number& number : {assume.amplitude, assume.frequency[0], assume.frequency[1], assume.slew}) {
+  for (const Number& number :
+       {assume.amplitude[0], assume.amplitude[1], assume.frequency[0], assume.frequency[1], assume.slew}) {
     check(number);
     require(number.value.lower() >= 0.0, "a negative number");
   }
@@ -147,7 +148,11 @@ void check(const ModelTables& tables) {
                                                      : assume.gaussian->snr_db.value();
   check(noise);
   require((assume.gaussian && assume.gaussian->snr_db) || noise.value.lower() >= 0.0, "negative noise");
-  require(assume.amplitude.value.lower() > 0.0, "an amplitude that may be zero");
+  require(assume.amplitude[0].value.lower() > 0.0, "an amplitude that may be zero");
+  require(assume.one_amplitude ? same_number(assume.amplitude[0], assume.amplitude[1])
+                               : assume.amplitude[0].value.upper() < assume.amplitude[1].value.lower(),
+          "amplitudes that are no range");
+  require(assume.one_amplitude || !assume.gaussian, "Gaussian noise with a range of amplitudes");
   require(assume.frequency[0].value.lower() <= assume.frequency[1].value.upper(),
           "a reversed frequency band");
   require(!assume.frequency_in_hertz || assume.sample_rate.has_value(), "hertz without a sample rate");

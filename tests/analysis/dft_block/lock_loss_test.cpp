@@ -5,12 +5,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
-#include <complex>
 #include <span>
 #include <vector>
 
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "tests/analysis/dft_block/loss_question.hpp"
 #include "tests/support/random.hpp"
 #include "trackers/dft_block/dft_block_ekf.hpp"
 #include "trackers/signals/random.hpp"
@@ -21,48 +21,8 @@ using namespace veritrack;
 using rigor::Interval;
 
 constexpr double kCircle = 3.141592653589793;
-constexpr double kVariance = 12.5 / 4096.0;
-
-/// Set 1 of the thesis in a narrow band, and bins of that deviation.
-dft_block::LossQuestion question(double deviation, double slew, double blocks) {
-  dft_block::LossQuestion result;
-  result.problem = {Interval(5e-5),
-                    Interval(1e-3),
-                    Interval(2.5e-3),
-                    Interval(kVariance),
-                    2,
-                    Interval(1.0),
-                    Interval::from_bounds(0.29, 0.31),
-                    Interval(0.0),
-                    Interval(slew)};
-  result.deviation = Interval(deviation);
-  result.blocks = Interval(blocks);
-  result.amplitude_error = result.phase_error = result.offset_error = Interval(1e-3);
-  return result;
-}
-
-double number_of(const theorems::Derivation& found, const std::string& name) {
-  for (const auto& [key, value] : found.evidence.front().numbers) {
-    if (key == name) {
-      return value;
-    }
-  }
-  return NAN;
-}
-
-/// The bins of a tone of amplitude 1 by (4.9), with complex numbers.
-std::vector<trackers::DftBin<double>> noisy_bins(double phase, double offset, double deviation,
-                                                 trackers::RandomStream& random) {
-  std::vector<trackers::DftBin<double>> bins;
-  const std::complex<double> j(0.0, 1.0);
-  for (int m = -2; m <= 2; ++m) {
-    const std::complex<double> bin = std::exp(j * phase) * (std::exp(2.0 * kCircle * j * offset) - 1.0) /
-                                     (4.0 * kCircle * j * (offset - m));
-    const double real = bin.real() + deviation * random.normal();
-    bins.push_back({real, bin.imag() + deviation * random.normal()});
-  }
-  return bins;
-}
+using test::kVarianceOfBins;
+using test::number_of;
 
 /// The tracker's own block, from z and its covariance to the next z.
 Eigen::Vector3d next_error(const Eigen::Vector3d& z, const Eigen::Matrix3d& covariance, double offset,
@@ -70,12 +30,12 @@ Eigen::Vector3d next_error(const Eigen::Vector3d& z, const Eigen::Matrix3d& cova
   const double root = std::sqrt(1.0 / (4.0 * kCircle));
   Eigen::Matrix3d to_start = Eigen::Vector3d(root, 1.0, 1.0).asDiagonal();
   to_start(1, 2) = -kCircle;
-  const trackers::DftBlockDesign<double> design{5e-5, 1e-3, 2.5e-3, kVariance, 0.0, 0.0};
+  const trackers::DftBlockDesign<double> design{5e-5, 1e-3, 2.5e-3, kVarianceOfBins, 0.0, 0.0};
   const double phase = 6.0 * random.uniform();
   trackers::DftBlockEkf<double> tracker(design,
                                         {root * (1.0 + z(0)), phase + z(1) - kCircle * z(2), offset + z(2),
                                          to_start * covariance * to_start.transpose()});
-  const auto bins = noisy_bins(phase, offset, deviation, random);
+  const auto bins = test::noisy_bins(phase, offset, deviation, random);
   tracker.measurement_update(std::span<const trackers::DftBin<double>>(bins));
   tracker.time_update();
   const auto& next = tracker.predicted();
@@ -88,11 +48,11 @@ Eigen::Vector3d next_error(const Eigen::Vector3d& z, const Eigen::Matrix3d& cova
 
 TEST_CASE(
     "W grows on average by no more than is said, from anywhere in the set, as the tracker itself has it") {
-  const double deviation = std::sqrt(kVariance / 60.0);
-  const theorems::Derivation found = dft_block::derive_loss(question(deviation, 0.0, 1000.0));
+  const double deviation = std::sqrt(kVarianceOfBins / 60.0);
+  const theorems::Derivation found = dft_block::derive_loss(test::loss_question(deviation, 0.0, 1000.0));
   REQUIRE(found.verdict == rigor::Verdict::proved);
   const double radius = number_of(found, "radius");
-  const double theta = number_of(found, "tilt") * kVariance / (deviation * deviation);
+  const double theta = number_of(found, "tilt") * kVarianceOfBins / (deviation * deviation);
   const double growth = number_of(found, "growth");
   const Eigen::Matrix3d frame = found.evidence.front().matrices[0].second;
   const Eigen::Matrix3d floor = found.evidence.front().matrices[1].second;
@@ -132,11 +92,11 @@ TEST_CASE(
 
 TEST_CASE("less noise and fewer blocks are less probable to lose lock, and slew is more") {
   const auto probability = [](double deviation, double slew, double blocks) {
-    const theorems::Derivation found = dft_block::derive_loss(question(deviation, slew, blocks));
+    const theorems::Derivation found = dft_block::derive_loss(test::loss_question(deviation, slew, blocks));
     REQUIRE(found.verdict == rigor::Verdict::proved);
     return theorems::find_quantity(found, "probability_of_losing_lock").value.upper();
   };
-  const double deviation = std::sqrt(kVariance / 60.0);
+  const double deviation = std::sqrt(kVarianceOfBins / 60.0);
   const double usual = probability(deviation, 0.0, 1000.0);
   CHECK(usual < 1.0);
   CHECK(probability(0.9 * deviation, 0.0, 1000.0) < usual);
@@ -145,7 +105,7 @@ TEST_CASE("less noise and fewer blocks are less probable to lose lock, and slew 
 }
 
 TEST_CASE("what is no drift is not verified") {
-  const auto asked = question(std::sqrt(kVariance / 60.0), 0.0, 1000.0);
+  const auto asked = test::loss_question(std::sqrt(kVarianceOfBins / 60.0), 0.0, 1000.0);
   const theorems::Derivation found = dft_block::derive_loss(asked);
   REQUIRE(found.verdict == rigor::Verdict::proved);
   const auto& evidence = found.evidence.front();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "trackers/signals/random.hpp"
 
@@ -52,6 +53,38 @@ TEST_CASE("quantiles; what is no number is large") {
   CHECK(quantile_of(values, 0.0) == 1.0);
   CHECK(quantile_of(values, 0.5) == 3.0);
   CHECK(std::isinf(quantile_of(values, 1.0)));
+}
+
+TEST_CASE("the error of a median is its deviation over repetitions, for a distribution that is not normal") {
+  // Exponential values: the median of n has the deviation 1/sqrt(n), about, since the density there is 1/2.
+  constexpr int kValues = 400;
+  constexpr int kRepetitions = 600;
+  std::vector<double> medians;
+  double error = 0.0;
+  for (int k = 0; k < kRepetitions; ++k) {
+    trackers::RandomStream random(static_cast<std::uint64_t>(k) + 1);
+    std::vector<double> values;
+    for (int i = 0; i < kValues; ++i) {
+      values.push_back(-std::log(random.uniform()));
+    }
+    const Median found = median_of(values);
+    medians.push_back(found.value);
+    error += found.error / kRepetitions;
+  }
+  const Summary over = summary_of(medians);
+  CHECK(std::fabs(over.mean - std::log(2.0)) < 5.0 * over.mean_error + 2.0 / kValues);
+  CHECK(error == doctest::Approx(over.deviation).epsilon(0.15));
+  CHECK(over.deviation == doctest::Approx(1.0 / std::sqrt(kValues)).epsilon(0.15));
+}
+
+TEST_CASE("the median of one value has no error, and one among infinities is infinite") {
+  const std::array<double, 1> one{2.0};
+  CHECK(median_of(one).value == 2.0);
+  CHECK(std::isnan(median_of(one).error));
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::array<double, 4> values{1.0, infinite, 2.0, infinite};
+  CHECK_FALSE(std::isfinite(median_of(values).error));
+  CHECK_THROWS_AS((void)median_of({}), std::invalid_argument);
 }
 
 }  // namespace

@@ -28,6 +28,16 @@ TEST_CASE("the filter that sees only the square of the frequency does the same f
   }
 }
 
+TEST_CASE("runs in parts are the runs at once") {
+  const ZarchanExperiment experiment{ZarchanFilter::oscillator, 1.0, 2.0};
+  const auto all = zarchan_runs(experiment, 5);
+  const auto later = zarchan_runs(experiment, 2, 3);
+  REQUIRE(later.size() == 2);
+  for (std::size_t i = 0; i < later.size(); ++i) {
+    CHECK(later[i].back().state == all[i + 3].back().state);
+  }
+}
+
 TEST_CASE("with little noise every run settles, and only from the given time on") {
   const ZarchanExperiment experiment{ZarchanFilter::known_amplitude, 1.0, 2.0, 1e-3};
   for (const ZarchanRun& run : zarchan_runs(experiment, 5)) {

@@ -142,7 +142,8 @@ TEST_CASE("a phase-locked loop on a frequency that moves over a band: no traject
   CHECK_FALSE(is_never_left(loop, tubes, {0.0075, 0.0, 4e-5, 0.0}, budget));
 }
 
-TEST_CASE("a SOGI-FLL and KalmANF on a frequency that moves across a border") {
+TEST_CASE("a SOGI-FLL and KalmANF on a frequency that moves across a border" *
+          doctest::test_suite("nightly")) {
   const double hertz = 2.0 * M_PI / 10000.0;
   const Example sogi(test::integrator_loop());
   const std::vector<Tube> tubes = tubes_of(sogi, 49.0 * hertz, 51.0 * hertz, hertz);

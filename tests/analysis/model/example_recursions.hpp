@@ -71,6 +71,36 @@ inline ExampleTracker phase_locked_loop(double bandwidth = 0.02, double damping 
   return example;
 }
 
+/// The same with two channels, whose phase detector is the angle between the samples and the prediction:
+/// nearly linear. ahead = theta + w; e = atan2(y2 cos ahead - y1 sin ahead, y1 cos ahead + y2 sin ahead); w'
+/// = w + ki e; theta' = ahead + kp e. States w, theta.
+inline ExampleTracker angle_loop(double ki = 4e-4, double kp = 0.04) {
+  ExampleTracker example;
+  Recursion& r = example.recursion;
+  r.constants = 2;  // ki, kp
+  r.states = 2;
+  r.samples = 2;
+  r.is_angle = {false, true};
+  StraightLineProgram step(6);
+  const int ki_at = 0, kp_at = 1, w = 2, theta = 3, y1 = 4, y2 = 5;
+  const int ahead = step.append(Operation::add, theta, w);
+  const int cosine = step.append(Operation::cos, ahead);
+  const int sine = step.append(Operation::sin, ahead);
+  const auto product = [&](int a, int b) { return step.append(Operation::multiply, a, b); };
+  const int across = step.append(Operation::subtract, product(y2, cosine), product(y1, sine));
+  const int along = step.append(Operation::add, product(y1, cosine), product(y2, sine));
+  const int e = step.append(Operation::atan2, across, along);
+  const int next_w = step.append(Operation::add, w, product(ki_at, e));
+  const int next_theta = step.append(Operation::add, ahead, product(kp_at, e));
+  step.add_result(next_w);
+  step.add_result(next_theta);
+  r.step = step;
+  r.frequency = frequency_of_state(2, 2, 0);
+  example.constants = {ki, kp};
+  example.start = [](double omega) { return std::vector<double>{omega, 0.0}; };
+  return example;
+}
+
 /// A second-order generalised integrator with a frequency-locked loop, at `rate` samples a second. States
 /// alpha, beta, w (rad/s).
 inline ExampleTracker integrator_loop(double rate = 10000.0, double k = std::sqrt(2.0), double gamma = 50.0) {

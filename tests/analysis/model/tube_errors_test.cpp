@@ -117,6 +117,27 @@ TEST_CASE("a ripple that changes with the frequency does not blur the mean over 
   CHECK(moving.mean.upper() <= 0.03125 + 0.125 + around + 1e-6);
 }
 
+TEST_CASE("a ripple is that of each frequency by itself, and finer parts make it sharp") {
+  const Line line(state_itself());
+  Tube tube = line.tube;
+  // 0.03125 + 0.125 z - 0.0625 z^2 + 0.0625 cos(phi): 0.125 and the width of the tube, at every frequency.
+  tube.curve[0].coefficients.at(0).assign({1.03125, 0.25, -0.0625});
+  const double ripple = 0.125 + 2.0 * 0.0078125;
+  const double coarse = bound_errors(line.model, tube, 0.015625, {128, 1}).ripple;
+  CHECK(coarse >= ripple);
+  CHECK(coarse <= ripple + 2e-4);
+  CHECK(coarse >= ripple + 1e-5);
+  const double fine = bound_errors(line.model, tube, 0.015625, {128, 1, 16}).ripple;
+  CHECK(fine >= ripple);
+  CHECK(fine <= ripple + 2e-6);
+  // (0.0625 + 0.03125 z) cos(phi): that of the frequency where it is largest.
+  tube.curve[0].coefficients.at(1).assign({0.0625, 0.03125});
+  const double largest = bound_errors(line.model, tube, 0.015625, {128, 1, 16}).ripple;
+  CHECK(largest >= 0.1875 + 2.0 * 0.0078125);
+  CHECK(largest <= 0.1875 + 2.0 * 0.0078125 + 2e-6);
+  CHECK_THROWS_AS((void)bound_errors(line.model, tube, 0.015625, {128, 1, 3}), std::invalid_argument);
+}
+
 TEST_CASE("random states of a phase-locked loop's tube are within its bounds") {
   const test::Example loop(test::phase_locked_loop());
   TubeSettings settings;

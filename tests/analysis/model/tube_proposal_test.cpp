@@ -101,7 +101,7 @@ TEST_CASE("tubes for starts: sampled steps stay inside, and the radii are those 
   }
 }
 
-TEST_CASE("tubes for noise and for slew tolerate what the derivation says") {
+TEST_CASE("tubes for noise and for slew tolerate what the derivation says" * doctest::test_suite("nightly")) {
   const rigor::NearestRounding nearest;
   struct Case {
     test::ExampleTracker example;

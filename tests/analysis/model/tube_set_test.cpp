@@ -48,6 +48,9 @@ TEST_CASE("a set for large starts: it covers the band, and every level is one") 
   // Down to what the curve is known to.
   CHECK(set.tubes.front().levels.front() > 0.011);
   CHECK(set.tubes.front().levels.back() < 2e-5 * set.tubes.front().levels.front());
+  const rigor::Interval mean =
+      bound_errors(loop.model, set.tubes.front().tube, set.tubes.front().levels.back(), {128, 16}).mean;
+  CHECK(mean.upper() - mean.lower() < 1e-8);
   for (const ProvedTube& proved : set.tubes) {
     CHECK(is_locked(loop.model, proved.tube, proved.levels.front()));
     CHECK_FALSE(is_locked(loop.model, proved.tube, 100.0));
@@ -77,6 +80,30 @@ TEST_CASE("sets for noise: as much as is asked, as much as is found, and none fo
   CHECK(none.tubes.empty());
   REQUIRE_FALSE(none.reasons.empty());
   CHECK(none.reasons.front().find("no radius was proved for noise") != std::string::npos);
+}
+
+TEST_CASE("the search for the most finds no less than what was given, where the guess is far too large") {
+  // The detector is so nearly linear that derivatives at the curve promise levels of many radians.
+  test::Example loop(test::angle_loop());
+  loop.signal = test::tone(loop.tracker.recursion.constants, true);
+  const TrackedTone tone = test::tone_of(loop.tracker, true);
+  SetTask task{
+      .name = "assumed", .objective = ShapeObjective::largest_noise, .noise = 0.02, .deviations = {}};
+  REQUIRE(prove_set(tone, loop.model, 0.2, 0.3, task).is_complete);
+  task = {
+      .name = "noise", .objective = ShapeObjective::largest_noise, .largest_noise = true, .deviations = {}};
+  const TubeSet noise = prove_set(tone, loop.model, 0.2, 0.3, task);
+  REQUIRE(noise.is_complete);
+  CHECK(noise.noise > 0.025);
+  check_levels(loop.model, noise);
+  task = {.name = "slew", .objective = ShapeObjective::largest_slew, .slew = 1e-5, .deviations = {}};
+  REQUIRE(prove_moving_set(tone, loop.model, 0.2, 0.3, task).is_complete);
+  task.slew = 0.0;
+  task.largest_slew = true;
+  const TubeSet slew = prove_moving_set(tone, loop.model, 0.2, 0.3, task);
+  REQUIRE(slew.is_complete);
+  CHECK(slew.slew > 2e-5);
+  check_levels(loop.model, slew);
 }
 
 TEST_CASE("sets for a frequency that moves have equal levels, and their borders are proved") {

@@ -24,7 +24,7 @@ const std::set<std::string> kSentences{"riccati-bounds",        "theorem-3.1", "
 
 bool begins_with_a_kind(const std::string& reason) {
   return reason.starts_with("False as stated (") || reason.starts_with("Slip without consequence (") ||
-         reason.starts_with("Needs an assumption that is not stated (") || reason.starts_with("Illegible (");
+         reason.starts_with("Needs an assumption that is not stated (");
 }
 
 }  // namespace
@@ -48,6 +48,7 @@ TEST_CASE("every refuted statement about the thesis says what kind of mistake it
         CAPTURE(condition.id);
         if (kSentences.contains(derivation.id)) {
           CHECK(begins_with_a_kind(condition.reason) == (condition.verdict == Verdict::refuted));
+          CHECK(condition.reason.starts_with("Illegible in the scan (") == (condition.id == "gram-entry"));
         }
       }
     }
@@ -97,4 +98,20 @@ TEST_CASE("a line of the ledger is found by the id, or by the id without its rea
   CHECK(kind_of("theorem-3.1/to-the-letter/gram-entry") == FindingKind::illegible);
   CHECK(theorems::find_paper_finding("theorem-2.9/R_x") == nullptr);
   CHECK(theorems::find_paper_finding("") == nullptr);
+}
+
+TEST_CASE("what is illegible in the scan is undecided, whatever our reading of it") {
+  for (const Verdict reading : {Verdict::proved, Verdict::refuted, Verdict::undecided}) {
+    theorems::Derivation derivation;
+    derivation.id = "theorem-3.1/to-the-letter";
+    derivation.conditions.push_back({"gram-entry", "0 \\le -1", reading, {}, {}, "0 is at least 0."});
+    derivation.conditions.push_back({"definition-3.1", "0 < 0", Verdict::refuted, {}, {}, "0 is at most 0."});
+    theorems::cite_findings(derivation);
+    const theorems::Condition& illegible = derivation.conditions.front();
+    CHECK(illegible.verdict == Verdict::undecided);
+    CHECK(illegible.reason.starts_with("Illegible in the scan (thesis, section 3.2.1"));
+    CHECK((illegible.reason.find("would be false") != std::string::npos) == (reading == Verdict::refuted));
+    CHECK((illegible.reason.find("would be true") != std::string::npos) == (reading == Verdict::proved));
+    CHECK(derivation.conditions.back().verdict == Verdict::refuted);
+  }
 }

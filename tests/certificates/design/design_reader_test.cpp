@@ -86,7 +86,8 @@ std::string file_refusal(const fs::path& path) {
 
 std::vector<Number> numbers_of_model(const ModelTables& tables) {
   const ModelAssumptions& assume = tables.assume;
-  std::vector<Number> numbers{assume.amplitude, assume.frequency[0], assume.frequency[1], assume.slew};
+  std::vector<Number> numbers{assume.amplitude[0], assume.amplitude[1], assume.frequency[0],
+                              assume.frequency[1], assume.slew};
   if (!assume.gaussian) {
     numbers.push_back(assume.noise);
   }

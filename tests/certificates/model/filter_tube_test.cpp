@@ -174,19 +174,20 @@ const Filter& example() {
   return filter;
 }
 
-/// Verifies the tube, and attacks what is proved of it.
-void check_tube(const Filter& filter, const model::TubeProposal& proposal, double least_radius) {
+/// Verifies the tube for this noise, and attacks what is proved of it.
+void check_tube(const Filter& filter, const model::TubeProposal& proposal, double least_radius,
+                double noise_bound = 0.003) {
   REQUIRE(proposal.outcome == model::TubeOutcome::proposed);
   const model::Tube& tube = *proposal.tube;
   REQUIRE(tube.bounds_covariance());
   REQUIRE(tube.curve.size() == 3);
   const double radius = 0.7 * proposal.worth.level;
   CHECK(radius > least_radius);
-  constexpr double kNoise = 0.003;
+  const double deviation = filter.tone.amplitude_deviation;
   constexpr double kShrinking = 0.995;
   constexpr double kLeast = 0.5;
   const model::LevelResult proved =
-      model::verify_level(filter.tracker, tube, {radius, kNoise, kLeast, kShrinking}, {32, 1, 2000, {}});
+      model::verify_level(filter.tracker, tube, {radius, noise_bound, kLeast, kShrinking}, {32, 1, 2000, {}});
   REQUIRE(proved.verdict == Verdict::proved);
   const rigor::NearestRounding nearest;
   test::Random random(72);
@@ -223,8 +224,9 @@ void check_tube(const Filter& filter, const model::TubeProposal& proposal, doubl
     const model::PointTube point(tube, frequency);
     point.at(phase, frame);
     const VectorXd estimate = frame.state(random_vector(random, level));
-    const double noise = random.below(2) == 0 ? kNoise : -kNoise;
-    const VectorXd sample = VectorXd::Constant(1, std::cos(phase + frequency) + noise);
+    const double noise = random.below(2) == 0 ? noise_bound : -noise_bound;
+    const double amplitude = 1.0 + (random.below(2) == 0 ? deviation : -deviation);
+    const VectorXd sample = VectorXd::Constant(1, amplitude * std::cos(phase + frequency) + noise);
     const VectorXd next = filter.tone.step.next(joined_state(estimate, covariance), sample);
     point.at(phase + frequency, frame);
     const double reached = frame.coordinates(next).norm();
@@ -249,6 +251,19 @@ TEST_CASE("a proved tube of a filter keeps every estimate and covariance in its 
 TEST_CASE("a proved tube of a filter with a given Jacobian does, too") {
   const Filter given(filter_text("'x1'", "0", kGivenJacobian));
   check_tube(given, propose_for_noise(given), 0.02);
+}
+
+TEST_CASE("a proved tube of a filter does at every amplitude of a range, too") {
+  // The covariance does not depend on the samples, and the noise of the proposal is what amplitudes come to.
+  const Filter varying(filter_text() + "amplitude = [0.998, 1.002]\n");
+  CHECK(varying.tone.amplitude_deviation == doctest::Approx(0.002));
+  CHECK(model::error_from_amplitude(varying.tone) == doctest::Approx(0.002).epsilon(1e-3));
+  check_tube(varying, proposed(example()), 0.025, 0.001);
+  const model::Tube& tube = *proposed(example()).tube;
+  const double radius = 0.7 * proposed(example()).worth.level;
+  const Filter far(filter_text() + "amplitude = [0.9, 1.1]\n");
+  CHECK(model::verify_level(far.tracker, tube, {radius, 0.0}, {32, 1, 300, {}}).verdict ==
+        Verdict::undecided);
 }
 
 TEST_CASE("wrong bounds of a covariance are not proved") {

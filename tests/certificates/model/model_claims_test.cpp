@@ -196,9 +196,10 @@ TEST_CASE("a part of the band has claims of its own, and what is required stays 
   CHECK(value(guarantee, "from") == "0.3");
   CHECK(value(guarantee, "to") == "0.3125");
   CHECK(value(find(certificate, "model/steady-state"), "to") == "0.312345");
-  // Where both sets are proved.
+  // Of the widest part in which some noise is tolerated.
   CHECK(value(find(certificate, "model/limits"), "from") == "0.301");
-  CHECK(value(find(certificate, "model/limits"), "to") == "0.312345");
+  CHECK(value(find(certificate, "model/limits"), "to") == "0.32");
+  CHECK(value(find(certificate, "model/limits"), "noise") == "0.05");
   for (const char* id : {"model/frequency-error-bound", "model/largest-noise", "model/frequency-error-radius",
                          "model/bias", "model/ripple"}) {
     CAPTURE(id);
@@ -229,13 +230,16 @@ TEST_CASE("a part that is empty, or in which too little is proved, has no claims
   sets.assumed->start_share = 1.1;
   CHECK_FALSE(has(sets, "model/guarantee"));
   sets = sets_of();
-  limit(sets.starts, 0.3, 0.305);
-  limit(*sets.noise, 0.306, 0.32);
+  limit(*sets.assumed, 0.3, 0.3);
+  limit(*sets.noise, 0.31, std::nan(""));
   CHECK_FALSE(has(sets, "model/limits"));
   sets.noise->tubes.tubes.clear();
   CHECK_FALSE(has(sets, "model/limits"));
+  sets.assumed.reset();
+  CHECK_FALSE(has(sets, "model/limits"));
+  CHECK_FALSE(has(sets, "model/slew-limit"));
   sets = sets_of();
-  sets.starts.reach = 0.0;  // as with a bias: of the noise alone
+  sets.starts.reach = sets.assumed->reach = sets.noise->reach = 0.0;  // as with a bias: of the noise alone
   const Certificate biased = certificate_of(sets, text_of(kRequired));
   REQUIRE(find(biased, "model/limits") != nullptr);
   CHECK(find(biased, "model/limits")->values.size() == 1);
@@ -248,6 +252,93 @@ TEST_CASE("a part that is empty, or in which too little is proved, has no claims
   const Certificate certificate = certificate_of(sets, text_of(kRequired));
   CHECK(find(certificate, "model/frequency-error-bound")
             ->reason.starts_with("A set of tubes was proved over 0.3 to 0.3125 rad/sample only: "));
+}
+
+/// The value of a claim, "" where there is none, and how its statement ends.
+struct Told {
+  std::string noise, slew, reach, from, statement;
+};
+Told told(const ModelSets& sets, const char* id) {
+  Told result;
+  const Certificate certificate = certificate_of(sets, text_of(kRequired));
+  if (const Claim* claim = find(certificate, id)) {
+    for (const auto& [name, text] : claim->values) {
+      (name == "noise"   ? result.noise
+       : name == "slew"  ? result.slew
+       : name == "reach" ? result.reach
+                         : result.from) = text;
+    }
+    result.statement = claim->statement;
+  }
+  return result;
+}
+
+TEST_CASE("limits are the largest that some set proves over the whole band, and name the set") {
+  ModelSets sets = sets_of();
+  CHECK(told(sets, "model/limits").noise == "0.05");
+  CHECK(told(sets, "model/limits").statement.find("by the set") == std::string::npos);
+  // A search that ends below what is assumed.
+  sets.noise->tubes.noise = 0.005;
+  CHECK(told(sets, "model/limits").noise == "0.02");
+  CHECK(told(sets, "model/limits")
+            .statement.find(", the tracker tolerates noise up to 0.02 (by the set \"assumed\" of the "
+                            "certificate), and without noise a certified") != std::string::npos);
+  // Or that was not made, or proves it over a part only.
+  limit(*sets.noise);
+  sets.noise->tubes.noise = 0.5;
+  CHECK(told(sets, "model/limits").noise == "0.02");
+  CHECK(told(sets, "model/limits").from.empty());
+  sets.noise.reset();
+  CHECK(told(sets, "model/limits").noise == "0.02");
+  // How far sets reach: a set for some noise is one without, and the widest counts.
+  CHECK(told(sets, "model/limits").reach == "0.005");
+  sets.assumed->reach = 0.0625;
+  CHECK(told(sets, "model/limits").reach == "0.0625");
+  limit(sets.starts);
+  sets.starts.reach = 0.25;
+  CHECK(told(sets, "model/limits").reach == "0.0625");
+  // Of equal ones, the one that was made for it.
+  sets.noise = set_of("noise", 0.02, 0.0);
+  CHECK(told(sets, "model/limits").statement.find("by the set") == std::string::npos);
+  for (const double unknown : {static_cast<double>(INFINITY), std::nan("")}) {
+    sets.noise->tubes.noise = unknown;
+    CHECK(told(sets, "model/limits").noise == "0.02");
+    sets.noise->reach = unknown;
+    CHECK(told(sets, "model/limits").reach == "0.0625");
+  }
+  sets.objection = "the assumed frequencies are no band";
+  CHECK(told(sets, "model/limits").statement.empty());
+}
+
+TEST_CASE("the largest slew is that of any set for a slew, with the noise of that set") {
+  ModelSets sets = sets_of();
+  CHECK(told(sets, "model/slew-limit").statement.empty());
+  sets.assumed = set_of("assumed", 0.02, 0x1p-20);
+  sets.slew = ModelSet{};
+  sets.slew->tubes.name = "slew";
+  const Told of_assumed = told(sets, "model/slew-limit");
+  CHECK(of_assumed.slew == "9.536e-7");
+  CHECK(of_assumed.noise == "0.02");
+  CHECK(of_assumed.statement.find(
+            "with a frequency that stays in [0.3, 0.32] rad/sample at 1000 samples per second, with noise of "
+            "at most 0.02, the tracker tolerates a slew up to 9.536e-7 rad/sample per sample (0.151 Hz per "
+            "second) (by the set \"assumed\" of the certificate): a certified invariant set exists.") !=
+        std::string::npos);
+  sets.slew = set_of("slew", 0.0, 0x1p-18);
+  const Told of_search = told(sets, "model/slew-limit");
+  CHECK(of_search.slew == "3.814e-6");
+  CHECK(of_search.noise.empty());
+  CHECK(of_search.statement.find(" per second, without noise, the tracker tolerates a slew up to ") !=
+        std::string::npos);
+  CHECK(of_search.statement.find("by the set") == std::string::npos);
+  // A part of it is not in the certificate.
+  limit(*sets.slew);
+  CHECK(told(sets, "model/slew-limit").slew == "9.536e-7");
+  limit(*sets.assumed);
+  CHECK(told(sets, "model/slew-limit").from == "0.3125");  // to, the last
+  sets.slew->tubes.noise = 1.0;
+  sets.noise.reset();
+  CHECK(told(sets, "model/limits").noise == "0.02");
 }
 
 TEST_CASE("a band is searched as far as it can be reached") {

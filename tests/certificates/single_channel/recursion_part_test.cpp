@@ -95,7 +95,8 @@ TEST_CASE("the recursion is the tracker: a step from random states") {
 TEST_CASE("the recursion has the amplitude, the noise and the band, and what it is asked") {
   const Design design = design_of(kChosen, kAssumed, "largest_noise_at_least = 0.002");
   const ModelTables& told = model_tables(recursion_of(design));
-  CHECK(told.assume.amplitude.text == "2");
+  CHECK(told.assume.one_amplitude);
+  CHECK(told.assume.amplitude[0].text == "2");
   CHECK(told.assume.noise.text == "0.01");
   CHECK(told.assume.frequency[0].text == "0.4");
   CHECK(told.assume.frequency[1].text == "2.6");

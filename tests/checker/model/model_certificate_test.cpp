@@ -218,13 +218,69 @@ TEST_CASE("sets of a part of the band prove claims about that part, and nothing 
            decimal("0.0078125", 0.0078125, 0.0078125));
   required("bias_below", "model/bias", decimal("0.00048828125", 0x1p-11, 0x1p-11));
   required("ripple_below", "model/ripple", decimal("0.00390625", 0x1p-8, 0x1p-8));
-  // Of two sets, both have to cover the part: here the cell of the noise begins at 0.29.
+  // The set of the noise has to cover the part: here its cell begins at 0.29.
   json = wider("0.28", "0.3125");
   json["claims"].erase(0);
   json["claims"].erase(1);
   CHECK(verifies(json));
   json["tubes"][1]["cells"][0]["frequency"] = hexadecimal(0.3105);
   CHECK_FALSE(verifies(json));
+}
+
+/// With the set for the noise as the one for what is assumed, and another set for the largest noise.
+Json with_two_noises(double searched) {
+  Json json = test::loop_certificate();
+  json["design"]["assume"]["noise"] = decimal("0.03125", 0.03125, 0.03125);
+  Json assumed = json["tubes"][1];
+  assumed["name"] = "assumed";
+  json["tubes"][1]["noise"] = hexadecimal(searched);
+  json["tubes"].push_back(assumed);
+  json["claims"] = Json::array({json["claims"][1]});
+  return json;
+}
+
+TEST_CASE("limits are those of all verified sets, and the sentence names the set") {
+  const auto sentence_of = [](const Json& json) {
+    try {
+      const Verification found = verify_json(json);
+      return found.verified() && found.sentences.size() == 1 ? found.sentences[0].text : std::string();
+    } catch (const Malformed&) {
+      return std::string();
+    }
+  };
+  // The search for the largest noise ended at 0.005; 0.04 is proved by the other set.
+  const Json json = with_two_noises(0.005);
+  CHECK(sentence_of(json).find(", the tracker tolerates noise up to 0.039 (by the set \"assumed\" of the "
+                               "certificate), and without noise") != std::string::npos);
+  CHECK(sentence_of(with_two_noises(0.04)).find("by the set") == std::string::npos);
+  // Above every verified set.
+  Json above = json;
+  above["claims"][0]["noise"] = "0.0401";
+  CHECK(sentence_of(above).empty());
+  // A set that is not verified does not count.
+  Json wrong = json;
+  wrong["tubes"][2]["noise"] = hexadecimal(0.08);
+  CHECK(sentence_of(wrong).empty());
+  // Nor one over a part of the band, for the whole of it.
+  Json part = json;
+  part["design"]["assume"]["frequency"][0] = decimal("0.25", 0.25, 0.25);
+  CHECK(sentence_of(part).empty());
+  part["claims"][0]["from"] = "0.28";
+  part["claims"][0]["to"] = "0.3125";
+  CHECK(sentence_of(part).find("[0.28, 0.3125] rad/sample (a part of the assumed band), the tracker") !=
+        std::string::npos);
+  // Errors that only the set for some noise contains.
+  Json reach = json;
+  reach["claims"][0]["reach"] = "0.002";
+  reach["tubes"].erase(0);
+  CHECK(sentence_of(reach).find("frequency errors up to 0.002 rad/sample at every phase.") !=
+        std::string::npos);
+  reach["claims"][0]["reach"] = "0.0095";
+  CHECK(sentence_of(reach).empty());
+  // No set is for a frequency that moves.
+  Json slew = json;
+  slew["claims"][0] = test::told_claim("model/slew-limit", {{"slew", "1e-9"}});
+  CHECK(sentence_of(slew).empty());
 }
 
 TEST_CASE("a band may begin at 0 and end at half the sample rate") {
@@ -286,6 +342,66 @@ TEST_CASE("designs that are none are refused, and noise needs a set of its own")
   CHECK(refuses([&](Json& json) { json["design"]["model"]["step"] = "w' = w\ntheta' = theta + w*y"; }));
   CHECK(refuses([&](Json& json) { json["design"]["model"]["parameters"][0]["formula"] = "0.04"; }));
   CHECK(refuses([&](Json& json) { json["design"]["require"]["another"] = decimal("1", 1.0, 1.0); }));
+}
+
+/// The tube for noise 0.04, for less noise and amplitudes that differ by a fiftieth.
+Json varying_certificate() {
+  Json json = test::loop_certificate();
+  json["design"]["assume"]["amplitude"] = {decimal("0.984375", 0.984375, 0.984375),
+                                           decimal("1.015625", 1.015625, 1.015625)};
+  const Json cells = json["tubes"][1]["cells"];
+  json["tubes"] = {test::ProposedModel::set("starts", 0.0, cells),
+                   test::ProposedModel::set("noise", 0.02, cells)};
+  json["claims"] = {test::told_claim("model/guarantee", {{"frequency_error", "0.007"}}),
+                    test::told_claim("model/limits", {{"noise", "0.0195"}, {"reach", "0.001"}})};
+  return json;
+}
+
+TEST_CASE("amplitudes that differ from sample to sample: in these words, and for no wider range") {
+  const Verification found = verify_json(varying_certificate());
+  for (const Part& part : found.parts) {
+    CAPTURE(part.name);
+    CHECK(objections_to(found, part.name).empty());
+  }
+  REQUIRE(found.verified());
+  REQUIRE(found.sentences.size() == 2);
+  CHECK(found.sentences[0].text ==
+        "In exact arithmetic, on a tone with an amplitude in [0.984375, 1.015625], which may differ from "
+        "sample to sample, with any constant frequency in [0.28125, 0.3125] rad/sample, without noise, "
+        "started in the set \"starts\" of the certificate, the frequency error stays at or below 0.007 "
+        "rad/sample for ever.");
+  const auto refuses_with = [](const std::function<void(Json&)>& change) {
+    Json certificate = varying_certificate();
+    change(certificate);
+    try {
+      return !verify_json(certificate).verified();
+    } catch (const Malformed&) {
+      return true;
+    }
+  };
+  CHECK_FALSE(refuses_with([](Json&) {}));
+  const auto amplitude = [](Json& json) -> Json& { return json["design"]["assume"]["amplitude"]; };
+  // What is proved for a range is proved for one that is narrower.
+  CHECK_FALSE(refuses_with([&](Json& json) { amplitude(json)[0] = decimal("1", 1.0, 1.0); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[0] = decimal("0.75", 0.75, 0.75); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[1] = decimal("1.25", 1.25, 1.25); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[1] = decimal("1e300", 1e300, 1e300); }));
+  CHECK(refuses_with([&](Json& json) { std::swap(amplitude(json)[0], amplitude(json)[1]); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[1] = amplitude(json)[0]; }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[0] = decimal("0", 0.0, 0.0); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[0] = decimal("-1", -1.0, -1.0); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[1] = decimal("1.25", 1.015625, 1.015625); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json)[1] = decimal("1.015625", 1.0, 1.0); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json).erase(1); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json).push_back(amplitude(json)[1]); }));
+  CHECK(refuses_with([&](Json& json) { amplitude(json) = Json::array(); }));
+  CHECK(refuses_with([&](Json& json) { json["design"]["assume"].erase("amplitude"); }));
+  CHECK(refuses_with([&](Json& json) { json["tubes"][1]["noise"] = hexadecimal(0.04); }));
+  // Nothing is certified of Gaussian noise with a range.
+  CHECK(refuses_with([&](Json& json) {
+    json["design"]["assume"]["noise"] = {{"deviation", decimal("0.0078125", 0.0078125, 0.0078125)}};
+    json["design"]["assume"]["samples"] = decimal("1024", 1024.0, 1024.0);
+  }));
 }
 
 TEST_CASE("starts within given deviations") {

@@ -85,6 +85,8 @@ TEST_CASE("another file is found out") {
   CHECK(objections("samples = 'y'", "samples = 'y'\nangles = ['w']") == 1);
   CHECK(objections("amplitude = 1\n", "") == 0);
   CHECK(objections("amplitude = 1", "amplitude = 2") == 1);
+  CHECK(objections("amplitude = 1", "amplitude = [0.9, 1.1]") == 3);
+  CHECK(objections("amplitude = 1", "amplitude = [1, 1]") == 3);
   CHECK(objections("[1.4, 1.6]", "[1.4, 1.61]") == 1);
   CHECK(objections("[1.4, 1.6]", "{ hz = [1.4, 1.6] }") == 1);
   CHECK(objections("amplitude = 1", "slew = 0") == 0);
@@ -98,6 +100,28 @@ TEST_CASE("another file is found out") {
   CHECK(objections("[assume]", "[another]\nsamples = 1\n[assume]") == 1);
   // Where a simulation begins is no part of what is proved.
   CHECK(objections("x1 = 'A'", "x1 = '2*A'") == 0);
+}
+
+TEST_CASE("a range of amplitudes is the one of the file") {
+  const std::string name = "single-channel-ekf.toml";
+  test::Json design = design_of(name);
+  const std::string file = replaced(contents(name), "amplitude = 1", "amplitude = [0.75, 1.25]");
+  CHECK(compared(design, file).size() == 3);
+  const test::Json low = test::decimal("0.75", 0.75, 0.75);
+  const test::Json high = test::decimal("1.25", 1.25, 1.25);
+  const auto objections = [&](const test::Json& amplitude) {
+    design["assume"]["amplitude"] = amplitude;
+    return compared(design, file).size();
+  };
+  CHECK(objections({low, high}) == 0);
+  CHECK(objections({high, low}) == 2);
+  CHECK(objections({low, test::decimal("1.125", 1.125, 1.125)}) == 1);
+  CHECK(objections({low}) == 1);
+  CHECK(objections({low, high, high}) == 1);
+  CHECK(objections(low) == 3);
+  CHECK(objections(test::Json::array()) == 2);
+  design["assume"].erase("amplitude");
+  CHECK(compared(design, file).size() == 2);
 }
 
 TEST_CASE("a certificate that says more is found out") {

@@ -71,7 +71,8 @@ std::vector<Ball> curve_at(const PhaseTube& tube, const Ball& phase, const Ball&
 
 /// F in balls, at a point: by the definition.
 std::vector<Ball> exact_step(const Tracked& tracked, const Ball& phase, const Ball& z,
-                             const std::vector<Ball>& xi, const std::vector<Ball>& noise, const Ball& move) {
+                             const std::vector<Ball>& xi, const std::vector<Ball>& noise, const Ball& move,
+                             const Ball& amplitude = one) {
   const PhaseTube& tube = tracked.tube;
   const Ball next_z = z + move / Ball(tube.half_width);
   const Ball next_phase = phase + Ball(tube.frequency) + Ball(tube.half_width) * z;
@@ -81,7 +82,7 @@ std::vector<Ball> exact_step(const Tracked& tracked, const Ball& phase, const Ba
       state[i] += sum_at(tube.shape[i * (i + 1) / 2 + j], phase, z) * xi[j];
     }
   }
-  std::vector<Ball> samples = tracked.recursion.signal(tracked.model.amplitude, next_phase);
+  std::vector<Ball> samples = tracked.recursion.signal(amplitude, next_phase);
   for (std::size_t c = 0; c < samples.size(); ++c) {
     samples[c] += noise[c];
   }
@@ -187,6 +188,74 @@ void check_step(const Tracked& tracked, double radius, double noise, double slew
     REQUIRE(bound.is_at_most(100.0 * worst, 1.0));
     REQUIRE(bound.is_at_most(100.0 * worst, 0.5));
   }
+}
+
+/// Steps at random amplitudes of a range, many of them its ends: none is longer than the bound.
+void check_amplitudes(Tracked& tracked, double low, double high, double radius, double noise,
+                      std::int64_t trials) {
+  test::Random random(93);
+  tracked.model.amplitude = Ball::hull(Ball(low), Ball(high));
+  tracked.model.amplitude_varies = true;
+  const std::size_t n = tracked.recursion.states();
+  const VectorMonomials monomials(n, tracked.recursion.samples(), 0);
+  constexpr std::size_t kParts = 64;
+  double nearest = 0.0;
+  for (std::int64_t trial = 0; trial < trials; ++trial) {
+    const TubePart part = TubePart::of_grid(random.below(kParts), kParts, random.below(2), 2);
+    const TubeStep step(tracked.model, tracked.tube, part, monomials, 0.0);
+    const LengthBound bound(step.map(radius, noise));
+    double worst = 0.0;
+    for (int i = 0; i < 60; ++i) {
+      const Ball phase =
+          two * pi() * (Ball(part.turn) + Ball(part.half_turn) * Ball(random.uniform(-1.0, 1.0)));
+      const Ball place = Ball(part.z) + Ball(part.half_z) * Ball(random.uniform(-1.0, 1.0));
+      const std::uint64_t kind = random.below(3);
+      const Ball amplitude(kind == 0 ? low : kind == 1 ? high : random.uniform(low, high));
+      std::vector<Ball> xi;
+      std::vector<Ball> error;
+      for (const double component : random_direction(random, n)) {
+        xi.push_back(Ball(radius) * Ball(component));
+      }
+      for (const double component : random_direction(random, tracked.recursion.samples())) {
+        error.push_back(Ball(noise) * Ball(component));
+      }
+      Ball square_of_length;
+      for (const Ball& component : exact_step(tracked, phase, place, xi, error, zero, amplitude)) {
+        square_of_length += square(component);
+      }
+      worst = std::max(worst, sqrt(square_of_length).near());
+    }
+    REQUIRE_FALSE(bound.is_at_most(worst * (1.0 - 1e-9), 1.0));
+    REQUIRE(bound.is_at_most(3.0 * worst, 1.0));
+    nearest = bound.is_at_most(worst * 1.1, 1.0) ? nearest + 1.0 : nearest;
+  }
+  CHECK(nearest > 0.2 * static_cast<double>(trials));
+}
+
+TEST_CASE("amplitudes that differ from sample to sample") {
+  Tracked loop("type-2-pll.toml", 0.3, 0.02);
+  check_amplitudes(loop, 0.97, 1.03, 0.004, 0.01, test::effort(20));
+  check_amplitudes(loop, 0.9, 1.2, 0.004, 0.0, test::effort(20));
+}
+
+TEST_CASE("what amplitudes do to samples is taken for noise, and never lost") {
+  Tracked loop("type-2-pll.toml", 0.3, 0.02);
+  loop.model.amplitude_varies = true;
+  const VectorMonomials monomials(2, 1, 0);
+  const BallPolynomial sample = BallPolynomial::affine(0.5, 0.1, 0.0, 0.25);
+  const BallPolynomial noisy = with_noise(loop.model, {sample}, 0.125, monomials).front();
+  CHECK(noisy.error() < 1e-12);
+  CHECK(noisy.block(1, monomials.first(1))[0] >= 0.375);
+  CHECK(noisy.block(1, monomials.first(1))[0] < 0.375 * (1.0 + 1e-12));
+  CHECK(noisy.block(0, 0)[0] == 0.5);
+  // Of two samples, one unknown: neither is known, and not without its noise.
+  for (const BallPolynomial& each :
+       with_noise(loop.model, {sample, BallPolynomial::everything()}, 0.125, monomials)) {
+    CHECK_FALSE(each.known());
+  }
+  loop.model.amplitude_varies = false;
+  CHECK(with_noise(loop.model, {sample}, 0.0, monomials).front().error() == 0.25);
+  CHECK(with_noise(loop.model, {sample}, 0.125, monomials).front().error() >= 0.25);
 }
 
 TEST_CASE("a phase-locked loop") {

@@ -88,7 +88,8 @@ TEST_CASE("the set is verified as it stands") {
   CHECK(refusal({}).empty());
 }
 
-TEST_CASE("a set of a design with large corrections, as tight as the program proves it") {
+TEST_CASE("a set of a design with large corrections, as tight as the program proves it" *
+          doctest::test_suite("nightly")) {
   // q1 = q2 = r = 0.1, noise 0.02, slew 0.0005: secants that are not the same from both ends lose it.
   WrittenSet set;
   set.metric = {{{"0x1.336bf14a7ef5ep+1", "0x0p+0", "0x0p+0"},

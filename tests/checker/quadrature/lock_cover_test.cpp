@@ -53,23 +53,19 @@ TEST_CASE("with a leak the set has no mirror image, and its bias and frequencies
   std::int64_t half_as_many = 0;
   CHECK(drifts_slowly(lock_test::Variances().filter(), lock_test::WrittenSet().set(), half_as_many));
   CHECK(cells > half_as_many);
-  LockSet other = set;
-  SUBCASE("the frequencies of the mirror image") {
-    other.lowest_frequency = Ball(-1.6);
-    other.highest_frequency = Ball(-1.4);
-    CHECK_FALSE(drifts_slowly(filter, other, cells));
-    other.bias[1] = -set.bias[1];
-    other.bias[2] = -set.bias[2];
-    CHECK(drifts_slowly(filter, other, cells));
-  }
-  SUBCASE("more frequencies") {
-    other.highest_frequency = Ball(30.0);
-    CHECK_FALSE(drifts_slowly(filter, other, cells));
-  }
-  SUBCASE("another bias") {
-    other.bias[2] = Ball(0.25);
-    CHECK_FALSE(drifts_slowly(filter, other, cells));
-  }
+  LockSet mirrored = set;
+  mirrored.lowest_frequency = Ball(-1.6);
+  mirrored.highest_frequency = Ball(-1.4);
+  CHECK_FALSE(drifts_slowly(filter, mirrored, cells));
+  mirrored.bias[1] = -set.bias[1];
+  mirrored.bias[2] = -set.bias[2];
+  CHECK(drifts_slowly(filter, mirrored, cells));
+  LockSet with_more_frequencies = set;
+  with_more_frequencies.highest_frequency = Ball(30.0);
+  CHECK_FALSE(drifts_slowly(filter, with_more_frequencies, cells));
+  LockSet with_another_bias = set;
+  with_another_bias.bias[2] = Ball(0.25);
+  CHECK_FALSE(drifts_slowly(filter, with_another_bias, cells));
 }
 
 TEST_CASE("a set whose numbers are no doubles is covered by nothing, which proves nothing") {

@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import tomllib
 import unittest
 
 from support import ROOT, run
@@ -30,11 +31,13 @@ class OctaveCode(unittest.TestCase):
         self.assertTrue(MODELS)
         for design in MODELS:
             with self.subTest(design=design.name), tempfile.TemporaryDirectory() as folder:
-                text = design.read_text()
+                keys = tomllib.loads(design.read_text())
                 python = {}
                 exec(show(design, "python"), python)  # pylint: disable=exec-used
-                omega = 0.4 if "hz" not in text else 2 * math.pi * 50 / 10000
-                channels = 2 if "['y1', 'y2']" in text else 1
+                frequency = keys["assume"]["frequency"]
+                omega = 0.4 if not isinstance(frequency, dict) else \
+                    2 * math.pi * sum(frequency["hz"]) / 2 / keys["assume"]["sample_rate"]
+                channels = len(keys["model"]["samples"]) if isinstance(keys["model"]["samples"], list) else 1
                 samples = [[math.cos(omega * k), math.sin(omega * k)][:channels] for k in range(SAMPLES)]
                 expected = []
                 state = python["tracker_start"](1.0, omega)

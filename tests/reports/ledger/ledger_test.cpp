@@ -7,6 +7,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "certificates/document/tracker_kind.hpp"
 #include "certificates/help/texts.hpp"
@@ -98,6 +99,7 @@ TEST_CASE("what the scan does not show counts neither as proved nor as refuted")
     CAPTURE(claim);
     const Row& row = row_of(claim);
     CHECK(row.is_illegible());
+    CHECK(row.is_everywhere(Verdict::undecided));
     CHECK_FALSE(row.falls());
     CHECK_FALSE(row.stands());
     const std::size_t at = document.find("| `" + std::string(claim) + "` |");
@@ -151,6 +153,28 @@ TEST_CASE("every publication has rows, and every kind of tracker that a publicat
              return design.text.find(key) != std::string::npos;
            })));
   }
+}
+
+TEST_CASE("every claim is counted in one column of the summary") {
+  const std::string document = reports::ledger::ledger_document(ledger_rows(), {});
+  std::size_t at = document.find("| Publication | What is | Claims |");
+  REQUIRE(at != std::string::npos);
+  at = document.find('\n', document.find('\n', at) + 1) + 1;  // past the heads
+  int rows = 0;
+  for (; document[at] == '|'; at = document.find('\n', at) + 1, ++rows) {
+    std::istringstream line(document.substr(at, document.find('\n', at) - at));
+    std::vector<int> counts;
+    for (std::string cell; std::getline(line, cell, '|');) {
+      if (cell.find_first_not_of(" 0123456789") == std::string::npos &&
+          cell.find_first_of("0123456789") != std::string::npos) {
+        counts.push_back(std::stoi(cell));
+      }
+    }
+    CAPTURE(document.substr(at, 60));
+    REQUIRE(counts.size() == 6);
+    CHECK(counts[0] == counts[1] + counts[2] + counts[3] + counts[4] + counts[5]);
+  }
+  CHECK(rows > 8);
 }
 
 TEST_CASE("the summary is a page, has every publication, and what it says is in the rows") {

@@ -133,7 +133,7 @@ TEST_CASE("every tracker follows a clean tone from its first sample") {
   for (const char* name :
        {"la-scala-1994-figure-3.5-without-leak.toml", "bittanti-savaresi-2000-example-1-quiet.toml",
         "models/sogi-fll.toml", "models/type-2-pll.toml", "models/kalmanf.toml", "models/aranovskiy.toml",
-        "models/pei-tseng-notch.toml", "models/single-channel-ekf.toml"}) {
+        "models/pei-tseng-notch.toml", "models/quadrature-notch.toml", "models/single-channel-ekf.toml"}) {
     INFO(name);
     certificates::TrackerOnSamples tracker = tracker_of_file(name);
     const double frequency = 0.5 * (tracker.assume.frequency[0] + tracker.assume.frequency[1]);

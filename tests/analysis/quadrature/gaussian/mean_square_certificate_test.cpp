@@ -72,8 +72,7 @@ TEST_CASE("the root mean square is above that of a simulation, and it is the one
 }
 
 TEST_CASE("without a set there is no mean square, and it says why") {
-  LockQuestion question = test_sets::question(3.0);
-  const MeanSquareCertificate found = certify_mean_square(question, certify_lock(question));
+  const MeanSquareCertificate found = certify_mean_square(test_sets::question(3.0), LockCertificate{});
   CHECK(found.mean_squares.empty());
   CHECK(found.derivation.verdict == Verdict::undecided);
   CHECK(theorems::applicable_quantity(found.derivation, "rms_frequency_error") == nullptr);

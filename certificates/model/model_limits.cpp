@@ -1,0 +1,116 @@
+#include "certificates/model/model_limits.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace veritrack::certificates {
+
+namespace {
+
+using Sets = std::vector<const ModelSet*>;
+using Part = std::optional<model::FrequencyRange>;
+
+double noise_of(const ModelSet& set) {
+  return set.tubes.noise;
+}
+double slew_of_set(const ModelSet& set) {
+  return set.tubes.slew;
+}
+double reach_of(const ModelSet& set) {
+  return set.reach;
+}
+
+/// Those that the certificate has, in this order; of the set for the largest slew no part is written.
+Sets in_order(std::initializer_list<const std::optional<ModelSet>*> sets, const ModelSet* starts = nullptr) {
+  Sets found;
+  if (starts != nullptr) {
+    found.push_back(starts);
+  }
+  for (const std::optional<ModelSet>* set : sets) {
+    if (*set) {
+      found.push_back(&**set);
+    }
+  }
+  return found;
+}
+Sets for_noise(const ModelSets& sets) {
+  return in_order({&sets.noise, &sets.assumed, &sets.slew});
+}
+Sets for_slew(const ModelSets& sets) {
+  return in_order({&sets.slew, &sets.assumed});
+}
+
+bool has_part(const ModelSet& set) {
+  return set.has_part() && set.tubes.name != "slew";
+}
+/// No part: the whole band.
+bool covers(const ModelSet& set, const Part& part) {
+  return set.is_proved() ||
+         (part && has_part(set) && set.tubes.part.low <= part->low && part->high <= set.tubes.part.high);
+}
+
+/// Of those that cover the part. What is no number is no size.
+LargestOfSets largest(const Sets& sets, const Part& part, double (*size)(const ModelSet&)) {
+  LargestOfSets found;
+  for (const ModelSet* set : sets) {
+    const double here = size(*set);
+    if (covers(*set, part) && std::isfinite(here) && here > found.size) {
+      found = {here, set};
+    }
+  }
+  return found;
+}
+
+/// Where the most is known: the whole band, or else the widest part. Nothing where there is none.
+struct Where {
+  Part range;
+  std::optional<BandPart> part;
+};
+std::optional<Where> where(const Sets& sets, const ModelAssumptions& assume,
+                           double (*size)(const ModelSet&)) {
+  if (largest(sets, std::nullopt, size).set != nullptr) {
+    return Where{};
+  }
+  std::optional<Where> widest;
+  for (const ModelSet* set : sets) {
+    const model::FrequencyRange& range = set->tubes.part;
+    const bool is_wider = !widest || range.high - range.low > widest->range->high - widest->range->low;
+    if (!has_part(*set) || !(size(*set) > 0.0) || !is_wider) {
+      continue;
+    }
+    if (auto part = band_part(assume, range)) {
+      widest = Where{range, std::move(part)};
+    }
+  }
+  return widest;
+}
+
+}  // namespace
+
+std::optional<ModelLimits> limits_of(const ModelSets& sets, const ModelAssumptions& assume) {
+  const auto place = sets.objection.empty() ? where(for_noise(sets), assume, noise_of) : std::nullopt;
+  if (!place) {
+    return std::nullopt;
+  }
+  const Sets all = in_order({&sets.assumed, &sets.noise, &sets.slew}, &sets.starts);
+  return ModelLimits{largest(for_noise(sets), place->range, noise_of), largest(all, place->range, reach_of),
+                     place->part};
+}
+
+std::optional<SlewLimit> slew_limit_of(const ModelSets& sets, const ModelAssumptions& assume) {
+  const auto place = sets.objection.empty() ? where(for_slew(sets), assume, slew_of_set) : std::nullopt;
+  if (!place) {
+    return std::nullopt;
+  }
+  return SlewLimit{largest(for_slew(sets), place->range, slew_of_set), place->part};
+}
+
+LargestOfSets largest_noise(const ModelSets& sets) {
+  return sets.objection.empty() ? largest(for_noise(sets), std::nullopt, noise_of) : LargestOfSets{};
+}
+
+LargestOfSets largest_slew(const ModelSets& sets) {
+  return sets.objection.empty() ? largest(for_slew(sets), std::nullopt, slew_of_set) : LargestOfSets{};
+}
+
+}  // namespace veritrack::certificates

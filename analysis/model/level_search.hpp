@@ -23,7 +23,7 @@ class LevelSearch {
         proposal_(&proposal),
         task_(&task),
         share_(share),
-        places_(model, proved_.tube, kMostPlaces) {
+        places_(model, *proposal.tube, places_in(*proposal.tube, kBytesOfPlaces)) {
     // Slow trackers have little room, so that cells are small.
     const double room = 1.0 - proposal.worth.rate;
     constexpr double kLittleRoom = 0.02;
@@ -114,8 +114,7 @@ class LevelSearch {
   [[nodiscard]] double guess() const { return level(); }
 
  private:
-  /// About 30 kB each.
-  static constexpr std::size_t kMostPlaces = 2048;
+  static constexpr double kBytesOfPlaces = 6.4e7;
   /// What is tried, as shares of what points allow.
   static constexpr double kDeep = 1e-3;  ///< of the first level
   static constexpr std::array<double, 8> kFactors{0.985, 0.96, 0.93, 0.89, 0.84, 0.77, 0.68, 0.55};

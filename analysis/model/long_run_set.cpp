@@ -20,7 +20,10 @@ class LongRunLevels {
  public:
   LongRunLevels(const TrackerModel& model, const ProvedTube& around, const TubeProposal& proposal,
                 double noise)
-      : model_(&model), around_(&around), noise_(noise), places_(model, proved_.tube, kMostPlaces) {
+      : model_(&model),
+        around_(&around),
+        noise_(noise),
+        places_(model, *proposal.tube, places_in(*proposal.tube, kBytesOfPlaces)) {
     const double room = 1.0 - proposal.worth.rate;
     proved_.tube = *proposal.tube;
     proved_.parameters = proposal.shape.parameters;
@@ -62,7 +65,7 @@ class LongRunLevels {
   }
 
  private:
-  static constexpr std::size_t kMostPlaces = 2048;
+  static constexpr double kBytesOfPlaces = 6.4e7;
   struct Step {
     double factor, shrinking;
   };

@@ -55,9 +55,12 @@ class MovingSearch {
     slow_ = 1.0 - 0.05 * (1.0 - rate);
     fast_ = 1.0 - 0.5 * (1.0 - rate);
     // All tubes are searched together.
+    constexpr double kBytesOfPlaces = 2e8;
     constexpr std::size_t kMostPlaces = 192;
+    const double bytes = kBytesOfPlaces / static_cast<double>(set.tubes.size());
     for (const ProvedTube& proved : set.tubes) {
-      places_.push_back(std::make_unique<PlaceStore>(model, proved.tube, kMostPlaces));
+      places_.push_back(std::make_unique<PlaceStore>(model, proved.tube,
+                                                     std::min(kMostPlaces, places_in(proved.tube, bytes))));
     }
   }
 

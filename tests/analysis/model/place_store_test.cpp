@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <stdexcept>
+#include <cstddef>
 
 #include "analysis/model/tube_proposal.hpp"
 #include "analysis/model/tube_verification.hpp"
@@ -32,10 +32,63 @@ TEST_CASE("what is kept is what was made for the same cell and slew, up to a num
   CHECK(at(b, 0.0) == 4);  // the third is not kept
   CHECK(at(a, 0.0) == 1);
   CHECK(at(a, 1e-5) == 2);
-  const Tube other{};
+}
+
+TEST_CASE("of another tube, model or kind of value, and of numbers that are none, nothing is handed out") {
+  const TrackerModel model{};
+  Tube tube{0.3, 0.04, 1.0, {0}, {{{{1.0, 2.0}}}}, {{{{0.5}}}}, {}, {}};
+  PlaceStore store(model, tube, 100);
+  int made = 0;
+  const TubeCell a{0.25, 0.125, 0.0, 1.0};
+  const auto make = [&] { return ++made; };
+  const auto at = [&](const TrackerModel& of, const Tube& in, const TubeCell& cell, double variant) {
+    return *store.at<int>(of, in, cell, variant, make);
+  };
+  CHECK(at(model, tube, a, 0.0) == 1);
+  const Tube same = tube;
+  CHECK(at(model, same, a, 0.0) == 1);
   const TrackerModel another{};
-  CHECK_THROWS_AS((void)store.at<int>(model, other, a, 0.0, [] { return 0; }), std::logic_error);
-  CHECK_THROWS_AS((void)store.at<int>(another, tube, a, 0.0, [] { return 0; }), std::logic_error);
+  CHECK(at(another, tube, a, 0.0) == 2);
+  // The tube changes where it stands, in one number.
+  for (double* number : {&tube.frequency, &tube.half_width, &tube.amplitude}) {
+    const double before = *number;
+    *number *= 1.0 + 1e-15;
+    REQUIRE(*number != before);
+    const int known = made;
+    CHECK(at(model, tube, a, 0.0) == known + 1);
+    CHECK(at(model, tube, a, 0.0) == known + 2);  // and is not kept
+    *number = before;
+  }
+  tube.shape[0].coefficients[0][0] = {0.5, 1e-300};
+  const int of_shape = made;
+  CHECK(at(model, tube, a, 0.0) == of_shape + 1);
+  tube = same;
+  tube.covariance_high = {{{{1.0}}}};
+  CHECK(at(model, tube, a, 0.0) == of_shape + 2);
+  tube = same;
+  CHECK(at(model, tube, a, 0.0) == 1);
+  // NaN is before and after every number: it must not be taken for one of them.
+  const int of_numbers = made;
+  CHECK(at(model, tube, a, NAN) == of_numbers + 1);
+  CHECK(at(model, tube, a, NAN) == of_numbers + 2);
+  CHECK(at(model, tube, {NAN, 0.125, 0.0, 1.0}, 0.0) == of_numbers + 3);
+  CHECK(at(model, tube, {0.25, 0.125, NAN, 1.0}, 0.0) == of_numbers + 4);
+  CHECK(at(model, tube, a, 0.0) == 1);
+  CHECK(*store.at<double>(model, tube, a, 0.0, [] { return 2.5; }) == 2.5);
+  CHECK(*store.at<double>(model, tube, a, 0.0, [] { return 3.5; }) == 2.5);
+  CHECK(at(model, tube, a, 0.0) == 1);
+}
+
+TEST_CASE("places are as many as the memory they take allows") {
+  Tube tube;
+  tube.curve.resize(3);
+  tube.shape.resize(6);
+  const std::size_t few = places_in(tube, 1e6);
+  CHECK(few > 50);
+  tube.covariance_low.resize(6);
+  tube.covariance_high.resize(6);
+  CHECK(places_in(tube, 1e6) < few / 2);
+  CHECK(places_in(tube, 1.0) == 0);
 }
 
 TEST_CASE("verdicts, cells and frequency errors are the same with a store as without one") {

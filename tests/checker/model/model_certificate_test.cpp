@@ -396,7 +396,7 @@ TEST_CASE("amplitudes that differ from sample to sample: in these words, and for
   CHECK(refuses_with([&](Json& json) { amplitude(json).push_back(amplitude(json)[1]); }));
   CHECK(refuses_with([&](Json& json) { amplitude(json) = Json::array(); }));
   CHECK(refuses_with([&](Json& json) { json["design"]["assume"].erase("amplitude"); }));
-  CHECK(refuses_with([&](Json& json) { json["tubes"][1]["noise"] = hexadecimal(0.04); }));
+  CHECK(refuses_with([&](Json& json) { json["tubes"][1]["noise"] = hexadecimal(0.08); }));
   // Nothing is certified of Gaussian noise with a range.
   CHECK(refuses_with([&](Json& json) {
     json["design"]["assume"]["noise"] = {{"deviation", decimal("0.0078125", 0.0078125, 0.0078125)}};

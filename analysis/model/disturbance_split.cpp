@@ -12,7 +12,8 @@ namespace veritrack::model {
 
 namespace {
 
-/// Of up to so many rows without an allocation: the states of a tracker and the samples of a filter.
+/// Of up to so many rows without an allocation: the states of a tracker and the samples of a filter. (Ball
+/// models have at most 16 and 3.)
 constexpr int kMostRows = 20;
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
 
@@ -84,7 +85,7 @@ std::optional<std::array<double, kParts>> soon_found(
 }  // namespace
 
 double proposed_split(const Eigen::MatrixXd& x, const Eigen::MatrixXd& v) {
-  if (v.size() == 0 || x.size() == 0) {
+  if (v.size() == 0 || x.size() == 0 || x.rows() > kMostRows) {
     return 0.5;
   }
   if (const auto shares = soon_found<2>({&x, &v})) {
@@ -101,7 +102,7 @@ double proposed_split(const Eigen::MatrixXd& x, const Eigen::MatrixXd& v) {
 
 std::array<double, 3> proposed_shares(const Eigen::MatrixXd& x, const Eigen::MatrixXd& v,
                                       const Eigen::MatrixXd& w) {
-  if (x.size() == 0 || v.size() == 0 || w.size() == 0) {
+  if (x.size() == 0 || v.size() == 0 || w.size() == 0 || x.rows() > kMostRows) {
     return {1.0, 1.0, 1.0};
   }
   if (const auto shares = soon_found<3>({&x, &v, &w})) {

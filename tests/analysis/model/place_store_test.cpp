@@ -36,7 +36,17 @@ TEST_CASE("what is kept is what was made for the same cell and slew, up to a num
 
 TEST_CASE("of another tube, model or kind of value, and of numbers that are none, nothing is handed out") {
   const TrackerModel model{};
-  Tube tube{0.3, 0.04, 1.0, {0}, {{{{1.0, 2.0}}}}, {{{{0.5}}}}, {}, {}};
+  const auto constant = [](double value) {
+    PhaseSeries series;
+    series.coefficients.emplace_back(1, value);
+    return series;
+  };
+  Tube tube;
+  tube.frequency = 0.3;
+  tube.half_width = 0.04;
+  tube.turns.push_back(0);
+  tube.curve.push_back(constant(1.0));
+  tube.shape.push_back(constant(0.5));
   PlaceStore store(model, tube, 100);
   int made = 0;
   const TubeCell a{0.25, 0.125, 0.0, 1.0};
@@ -63,7 +73,7 @@ TEST_CASE("of another tube, model or kind of value, and of numbers that are none
   const int of_shape = made;
   CHECK(at(model, tube, a, 0.0) == of_shape + 1);
   tube = same;
-  tube.covariance_high = {{{{1.0}}}};
+  tube.covariance_high.push_back(constant(1.0));
   CHECK(at(model, tube, a, 0.0) == of_shape + 2);
   tube = same;
   CHECK(at(model, tube, a, 0.0) == 1);

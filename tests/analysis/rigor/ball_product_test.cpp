@@ -86,12 +86,12 @@ TEST_CASE("the error of a product is at least what it drops, and norms at least 
     sum += a;
     sum -= b;
     sum.add_multiple(a, -0.3);
-    for (const BallModel* model : {&a, &b, &product, &sum}) {
-      const auto& classes = model->monomials().classes();
+    for (const BallModel& model : {a, b, product, sum}) {
+      const auto& classes = model.monomials().classes();
       for (std::size_t number = 0; number < classes.size(); ++number) {
-        const long double norm = norm_of(*model, classes[number]);
-        CHECK(static_cast<long double>(model->norm(number)) >= norm * (1 - 1e-18L));
-        CHECK(static_cast<long double>(model->norm(number)) <= norm * (1 + 1e-14L) + 1e-300L);
+        const long double norm = norm_of(model, classes[number]);
+        CHECK(static_cast<long double>(model.norm(number)) >= norm * (1 - 1e-18L));
+        CHECK(static_cast<long double>(model.norm(number)) <= norm * (1 + 1e-14L) + 1e-300L);
       }
     }
     for (int sample = 0; sample < 5; ++sample) {

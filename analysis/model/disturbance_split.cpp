@@ -1,7 +1,10 @@
 #include "analysis/model/disturbance_split.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 #include "analysis/search/golden_section.hpp"
 
@@ -9,10 +12,13 @@ namespace veritrack::model {
 
 namespace {
 
-double largest_eigenvalue_about(const Eigen::MatrixXd& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+/// Of up to so many rows without an allocation: the states of a tracker and the samples of a filter. (Ball
+/// models have at most 16 and 3.)
+constexpr int kMostRows = 20;
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
+
+double largest_eigenvalue_about(const Square& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Square>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
 double logistic(double logit) {
@@ -24,41 +30,83 @@ constexpr double kFarthestLogit = 20.0;
 
 /// Where a function of the logit with one valley is least, and its value there.
 template <typename Function>
-search::GoldenPoint lowest_of(const Function& value) {
-  constexpr int kSteps = 22;
-  return search::golden_section(-kFarthestLogit, kFarthestLogit, kSteps, value);
+search::GoldenPoint lowest_of(const Function& value, int steps = 22) {
+  return search::golden_section(-kFarthestLogit, kFarthestLogit, steps, value);
+}
+
+/// Shares t for which the largest eigenvalue of sum A_i/t_i is least, up to one in a million; nothing when
+/// they are not found soon. For the eigenvector p of that eigenvalue, (sum sqrt(p'A_i p))^2 is at most what
+/// any shares give, and shares in proportion to these roots reach it along p.
+template <std::size_t kParts>
+std::optional<std::array<double, kParts>> soon_found(
+    const std::array<const Eigen::MatrixXd*, kParts>& parts) {
+  constexpr int kRounds = 16;
+  constexpr int kWholeSteps = 2;
+  constexpr double kClose = 1e-6;
+  constexpr double kLeastShare = 1e-9;
+  std::array<double, kParts> shares;
+  shares.fill(1.0 / static_cast<double>(kParts));
+  double bound = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    Square sum = *parts[0] / shares[0];
+    for (std::size_t i = 1; i < kParts; ++i) {
+      sum += *parts.at(i) / shares.at(i);
+    }
+    const Eigen::SelfAdjointEigenSolver<Square> solver(sum);
+    const Eigen::Index last = sum.rows() - 1;
+    const auto p = solver.eigenvectors().col(last);
+    std::array<double, kParts> lengths;
+    double whole = 0.0;
+    for (std::size_t i = 0; i < kParts; ++i) {
+      lengths.at(i) = std::sqrt(std::max(0.0, p.dot(*parts.at(i) * p)));
+      whole += lengths.at(i);
+    }
+    bound = std::max(bound, whole * whole);
+    if (solver.eigenvalues()[last] <= (1.0 + kClose) * bound) {
+      return shares;
+    }
+    const double step = round < kWholeSteps ? 1.0 : 0.5;
+    double total = 0.0;
+    for (std::size_t i = 0; i < kParts; ++i) {
+      const double there = std::max(kLeastShare, lengths.at(i) / whole);
+      shares.at(i) += step * (there - shares.at(i));
+      total += shares.at(i);
+    }
+    if (!std::isfinite(total)) {
+      return std::nullopt;
+    }
+    for (double& share : shares) {
+      share /= total;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 double proposed_split(const Eigen::MatrixXd& x, const Eigen::MatrixXd& v) {
-  if (v.size() == 0 || x.size() == 0) {
+  if (v.size() == 0 || x.size() == 0 || x.rows() > kMostRows) {
     return 0.5;
+  }
+  if (const auto shares = soon_found<2>({&x, &v})) {
+    return shares->front();
   }
   const auto value = [&](double logit) {
     const double t = logistic(logit);
     return largest_eigenvalue_about(x / t + v / (1.0 - t));
   };
   // Convex in t, so one valley in the logit.
-  double low = -kFarthestLogit;
-  double high = kFarthestLogit;
-  constexpr int kSteps = 40;
-  for (int i = 0; i < kSteps; ++i) {
-    const double first = low + (high - low) / 3.0;
-    const double second = high - (high - low) / 3.0;
-    if (value(first) < value(second)) {
-      high = second;
-    } else {
-      low = first;
-    }
-  }
-  return logistic((low + high) / 2.0);
+  constexpr int kSteps = 30;
+  return logistic(lowest_of(value, kSteps).point);
 }
 
 std::array<double, 3> proposed_shares(const Eigen::MatrixXd& x, const Eigen::MatrixXd& v,
                                       const Eigen::MatrixXd& w) {
-  if (x.size() == 0 || v.size() == 0 || w.size() == 0) {
+  if (x.size() == 0 || v.size() == 0 || w.size() == 0 || x.rows() > kMostRows) {
     return {1.0, 1.0, 1.0};
+  }
+  if (const auto shares = soon_found<3>({&x, &v, &w})) {
+    return *shares;
   }
   // Convex in (t1, t2): what is least over t2 is convex in t1.
   const auto of_others = [&](double logit_of_x) {

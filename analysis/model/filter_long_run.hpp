@@ -26,12 +26,17 @@ class LongRunSearch {
         coordinates_(coordinates),
         around_(&around),
         radius_(radius),
-        evaluations_(evaluations) {}
+        evaluations_(evaluations) {
+    for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+      points_.emplace_back(tone, nodes_.at(i), kFirstPhase, surroundings(i));
+    }
+  }
 
-  [[nodiscard]] FilterWorth worth_at(const FilterParameters& parameters, int samples) const {
+  [[nodiscard]] FilterWorth worth_at(const FilterParameters& parameters, int samples,
+                                     double enough = 0.0) const {
     std::array<FilterWorth, kPlaces.size()> each;
     tbb::parallel_for(std::size_t{0}, each.size(),
-                      [&](std::size_t i) { each.at(i) = worth_there(i, parameters, 1e-4, samples); });
+                      [&](std::size_t i) { each.at(i) = worth_there(i, parameters, 1e-4, samples, enough); });
     FilterWorth worth{0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
     for (const FilterWorth& one : each) {
       worth.growth = std::max(worth.growth, one.growth);
@@ -66,18 +71,22 @@ class LongRunSearch {
       return std::nullopt;
     }
     constexpr int kSamples = 40;
-    const double logarithm = least_scale(
-        best.point, [&](const FilterParameters& parameters) { return worth_at(parameters, kSamples); });
+    const double logarithm = least_scale(best.point, [&](const FilterParameters& parameters) {
+      return worth_at(parameters, kSamples, FilterSearch::kLargestGrowth);
+    });
     return std::isfinite(logarithm) ? std::optional(scaled(best.point, logarithm)) : std::nullopt;
   }
 
  private:
   static constexpr std::array<double, 3> kPlaces{-1.0, 0.0, 1.0};
   [[nodiscard]] FilterWorth worth_there(std::size_t place, const FilterParameters& parameters, double share,
-                                        int samples) const {
+                                        int samples, double enough) const {
     return worth_on_orbit(*tone_, nodes_.at(place), parameters,
                           memory_of(coordinates_.rate_squared, parameters, share), samples,
-                          {around_, radius_, kPlaces.at(place)});
+                          surroundings(place), nullptr, &points_[place], enough);
+  }
+  [[nodiscard]] Surroundings surroundings(std::size_t place) const {
+    return {around_, radius_, kPlaces.at(place)};
   }
   [[nodiscard]] static VectorXd scaled(VectorXd x, double logarithm) {
     x.segment(3, x.size() - 3).array() += logarithm;
@@ -115,7 +124,7 @@ class LongRunSearch {
   [[nodiscard]] ScoredPoint score(const VectorXd& x) const {
     constexpr int kSamples = 20;
     const auto at_middle = [&](const FilterParameters& parameters) {
-      return worth_there(1, parameters, 1e-2, kSamples);
+      return worth_there(1, parameters, 1e-2, kSamples, FilterSearch::kLargestGrowth);
     };
     const double logarithm = least_scale(x, at_middle);
     if (!std::isfinite(logarithm)) {
@@ -134,7 +143,8 @@ class LongRunSearch {
   FilterCoordinates coordinates_;
   const Tube* around_;
   double radius_;
-  int evaluations_;  ///< of each round
+  int evaluations_;                  ///< of each round
+  std::vector<OrbitPoints> points_;  ///< of the nodes
 };
 
 }  // namespace veritrack::model::detail

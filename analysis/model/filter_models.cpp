@@ -35,7 +35,7 @@ BallMatrix operator*(const BallMatrix& a, const BallMatrix& b) {
       }
       for (std::size_t j = 0; j < b.columns(); ++j) {
         if (!is_zero_model(b(k, j))) {
-          product(i, j) = product(i, j) + a(i, k) * b(k, j);
+          product(i, j) += a(i, k) * b(k, j);
         }
       }
     }
@@ -47,7 +47,7 @@ BallMatrix operator+(const BallMatrix& a, const BallMatrix& b) {
   BallMatrix sum = a;
   for (std::size_t i = 0; i < a.rows(); ++i) {
     for (std::size_t j = 0; j < a.columns(); ++j) {
-      sum(i, j) = sum(i, j) + b(i, j);
+      sum(i, j) += b(i, j);
     }
   }
   return sum;
@@ -57,7 +57,7 @@ BallMatrix operator-(const BallMatrix& a, const BallMatrix& b) {
   BallMatrix difference = a;
   for (std::size_t i = 0; i < a.rows(); ++i) {
     for (std::size_t j = 0; j < a.columns(); ++j) {
-      difference(i, j) = difference(i, j) - b(i, j);
+      difference(i, j) -= b(i, j);
     }
   }
   return difference;
@@ -106,13 +106,13 @@ BallMatrix cholesky(const BallMatrix& a) {
   for (std::size_t j = 0; j < a.rows(); ++j) {
     BallModel pivot = a(j, j);
     for (std::size_t k = 0; k < j; ++k) {
-      pivot = pivot - square(l(j, k));
+      pivot -= square(l(j, k));
     }
     l(j, j) = sqrt(pivot);
     for (std::size_t i = j + 1; i < a.rows(); ++i) {
       BallModel rest = a(i, j);
       for (std::size_t k = 0; k < j; ++k) {
-        rest = rest - l(i, k) * l(j, k);
+        rest -= l(i, k) * l(j, k);
       }
       l(i, j) = rest / l(j, j);
     }
@@ -125,7 +125,7 @@ std::vector<BallModel> solved(const BallMatrix& l, const std::vector<BallModel>&
   for (std::size_t i = 0; i < b.size(); ++i) {
     BallModel rest = b[i];
     for (std::size_t j = 0; j < i; ++j) {
-      rest = rest - l(i, j) * x[j];
+      rest -= l(i, j) * x[j];
     }
     x.push_back(rest / l(i, i));
   }

@@ -271,7 +271,7 @@ void propose_filter_tube(const TrackedTone& tone, const CurveFit& curve, const T
     proposal.outcome = TubeOutcome::no_shape;
     return;
   }
-  const FilterSearch search(tone, curve, settings, rate);
+  FilterSearch search(tone, curve, settings, rate);
   const bool keeps = keep && nearby && nearby->of_filter.size() == search.coordinates().size();
   const std::optional<VectorXd> point =
       keeps ? std::optional(nearby->of_filter) : search.run(nearby ? nearby->of_filter : VectorXd());

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -60,12 +61,17 @@ struct FilterWorth {
   double most_reach = 0.0;
 };
 
-/// Over so many samples of an orbit, after `before`.
+/// Where the orbits of the search begin, rad.
+inline constexpr double kFirstPhase = 0.3;
+
+/// Over so many samples of an orbit, after `before`. With `enough`, the growth is only compared with it: it
+/// is at most so much, or infinite.
 inline FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curve,
                                   const FilterParameters& parameters, int before, int samples,
-                                  const Surroundings& around = {}, const Eigen::MatrixXcd* slope = nullptr) {
-  FilterOrbit orbit(tone, curve, parameters, around, slope);
-  orbit.begin(0.3);
+                                  const Surroundings& around = {}, const Eigen::MatrixXcd* slope = nullptr,
+                                  const OrbitPoints* points = nullptr, double enough = 0.0) {
+  FilterOrbit orbit(tone, curve, parameters, around, slope, points);
+  orbit.begin(kFirstPhase);
   FilterWorth worth;
   double growth = 0.0;
   double linear = 0.0;
@@ -74,7 +80,7 @@ inline FilterWorth worth_on_orbit(const TrackedTone& tone, const NodeCurve& curv
       return worth;
     }
     if (k >= before) {
-      const FilterGrowth here = orbit.growth();
+      const FilterGrowth here = orbit.growth(enough);
       growth = std::max(growth, here.whole);
       linear = std::max(linear, here.linear);
       const double reach = orbit.reach();
@@ -135,7 +141,8 @@ class FilterSearch {
   FilterSearch(const TrackedTone& tone, const CurveFit& curve, const TubeSettings& settings, double rate)
       : tone_(&tone),
         nodes_{curve.at(-1.0), curve.at(0.0), curve.at(1.0)},
-        slopes_{curve.slope_at(-1.0), curve.slope_at(0.0), curve.slope_at(1.0)} {
+        slopes_{curve.slope_at(-1.0), curve.slope_at(0.0), curve.slope_at(1.0)},
+        points_(std::make_shared<const std::vector<OrbitPoints>>()) {
     const Index n = tone.filter->states;
     const VectorXd state = state_at(nodes_[1], 0.3);
     VectorXd sizes(n);
@@ -164,12 +171,13 @@ class FilterSearch {
 
   [[nodiscard]] const FilterCoordinates& coordinates() const { return coordinates_; }
   /// At the middle and both ends.
-  [[nodiscard]] FilterWorth worth_at(const FilterParameters& parameters, int samples) const {
+  [[nodiscard]] FilterWorth worth_at(const FilterParameters& parameters, int samples,
+                                     double enough = 0.0) const {
     std::array<FilterWorth, 3> each;
     tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
-      each.at(i) =
-          worth_on_orbit(*tone_, nodes_.at(i), parameters,
-                         memory_of(coordinates_.rate_squared, parameters, 1e-4), samples, {}, &slopes_.at(i));
+      each.at(i) = worth_on_orbit(*tone_, nodes_.at(i), parameters,
+                                  memory_of(coordinates_.rate_squared, parameters, 1e-4), samples, {},
+                                  &slopes_.at(i), points_->empty() ? nullptr : &points_->at(i), enough);
     });
     FilterWorth worth{0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0};
     for (const FilterWorth& one : each) {
@@ -233,8 +241,8 @@ class FilterSearch {
     constexpr int kSamples = 20;
     const auto at_middle = [&](const FilterParameters& parameters) {
       return worth_on_orbit(*tone_, nodes_[1], parameters,
-                            memory_of(coordinates_.rate_squared, parameters, 1e-2), kSamples, {},
-                            &slopes_[1]);
+                            memory_of(coordinates_.rate_squared, parameters, 1e-2), kSamples, {}, &slopes_[1],
+                            &points_->at(1), kLargestGrowth);
     };
     const double logarithm = largest_scale(x, at_middle);
     if (!std::isfinite(logarithm)) {
@@ -248,7 +256,8 @@ class FilterSearch {
     return scored;
   }
   /// The best point found, scaled for the whole cell.
-  [[nodiscard]] std::optional<VectorXd> run(const VectorXd& nearby) const {
+  [[nodiscard]] std::optional<VectorXd> run(const VectorXd& nearby) {
+    follow_orbits();
     std::vector<ScoredPoint> starts;
     if (nearby.size() == coordinates_.size()) {
       starts.push_back(score(nearby));
@@ -294,8 +303,9 @@ class FilterSearch {
     ScoredPoint whole;
     for (const double shrink : {0.0, -0.3, -0.7, -1.4}) {
       const VectorXd smaller = shrink < 0.0 ? with_size(best.point, shrink) : best.point;
-      const double logarithm = largest_scale(
-          smaller, [&](const FilterParameters& parameters) { return worth_at(parameters, kSamples); });
+      const double logarithm = largest_scale(smaller, [&](const FilterParameters& parameters) {
+        return worth_at(parameters, kSamples, kLargestGrowth);
+      });
       // The value is that of the scale alone.
       if (std::isfinite(logarithm) && logarithm > whole.value) {
         whole = {logarithm, scaled(smaller, logarithm)};
@@ -310,6 +320,13 @@ class FilterSearch {
   static constexpr double kLargestGrowth = 0.985;
 
  private:
+  void follow_orbits() {
+    std::vector<OrbitPoints> points;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      points.emplace_back(*tone_, nodes_.at(i), kFirstPhase, Surroundings{}, &slopes_.at(i));
+    }
+    points_ = std::make_shared<const std::vector<OrbitPoints>>(std::move(points));
+  }
   /// Of the reach.
   [[nodiscard]] std::vector<ScoredPoint> first_starts() const {
     std::vector<VectorXd> points;
@@ -348,6 +365,7 @@ class FilterSearch {
   const TrackedTone* tone_;
   std::array<NodeCurve, 3> nodes_;
   std::array<Eigen::MatrixXcd, 3> slopes_;
+  std::shared_ptr<const std::vector<OrbitPoints>> points_;  ///< of the nodes; none until the search begins
   FilterCoordinates coordinates_;
   double largest_reach_ = 0.0;
   int evaluations_ = 0;  ///< of each round

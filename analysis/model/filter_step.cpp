@@ -9,6 +9,7 @@
 #include "analysis/model/covariance_order.hpp"
 #include "analysis/model/filter_models.hpp"
 #include "analysis/model/map_bound.hpp"
+#include "analysis/model/place_store.hpp"
 #include "analysis/model/tube_models.hpp"
 #include "analysis/rigor/rounding.hpp"
 
@@ -211,15 +212,16 @@ double best_multiplier(const BallMatrix& spread, const std::vector<BallModel>& d
 }  // namespace
 
 FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
-                                const FilterStepQuestion& question, double of_gaussian) {
+                                const FilterStepQuestion& question, double of_gaussian, PlaceStore* store) {
   require_sizes(model, tube);
   const double radius = question.radius;
   const bool is_noisy = is_disturbed(model, question.noise);
   const bool is_moving = question.slew > 0.0;
-  const FilterPlace place = [&] {
+  const auto kept = kept_at<FilterPlace>(store, model, tube, cell, question.slew, [&] {
     const rigor::BallModelScope plane(0, 0);
     return place_of_filter(model, tube, cell, question.slew);
-  }();
+  });
+  const FilterPlace& place = *kept;
   const std::size_t n = tube.curve.size();
   const std::size_t channels = static_cast<std::size_t>(model.filter->samples);
   const int of_noise = is_noisy ? model.filter->samples : 0;
@@ -262,16 +264,16 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
   std::vector<BallModel> next = values.predicted;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t c = 0; c < channels; ++c) {
-      next[i] = next[i] + gain(i, c) * values.innovation[c];
+      next[i] += gain(i, c) * values.innovation[c];
     }
-    next[i] = next[i] - there.curve[i];
+    next[i] -= there.curve[i];
   }
   const std::vector<BallModel> deviation = in_units_of(there, next);
   std::vector<BallModel> reach;  // L' (innovation)
   for (std::size_t d = 0; d < channels; ++d) {
     BallModel sum;
     for (std::size_t c = d; c < channels; ++c) {
-      sum = sum + factor(c, d) * values.innovation[c];
+      sum += factor(c, d) * values.innovation[c];
     }
     reach.push_back(sum);
   }
@@ -309,7 +311,8 @@ FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube, con
 }
 
 StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
-                             const FilterStepQuestion& question, const std::vector<double>& scales) {
+                             const FilterStepQuestion& question, const std::vector<double>& scales,
+                             PlaceStore* store) {
   require_sizes(model, tube);
   const bool is_noisy = is_disturbed(model, question.noise);
   const bool is_moving = question.slew > 0.0;
@@ -317,7 +320,7 @@ StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const 
   bounds.steps.assign(scales.size(), std::numeric_limits<double>::quiet_NaN());
   const int of_noise = is_noisy ? model.filter->samples : 0;
   const rigor::BallModelScope scope(static_cast<int>(tube.curve.size()), is_moving ? of_noise + 1 : of_noise);
-  const FilterStepOver step = filter_step_over(model, tube, cell, question);
+  const FilterStepOver step = filter_step_over(model, tube, cell, question, 0.0, store);
   bounds.frequency_error = step.frequency_error;
   if (step.vector.empty()) {
     return bounds;

@@ -33,12 +33,12 @@ struct FilterStepOver {
 
 /// For |xi| <= radius, |v| <= noise and the slew, both stretched as in the bounds below. `of_gaussian`: for
 /// Gaussian noise, 2 L (deviation/noise)^2, for which the multiplier of the vector is chosen; 0: for bounded
-/// noise. Needs the upward rounding mode, and a scope of ball models with as many components as there are
-/// states of the estimate, and disturbances as there are samples (noise > 0) and one more (slew > 0). Throws
-/// std::invalid_argument when sizes do not fit.
+/// noise. `store`: of this model and tube, or none. Needs the upward rounding mode, and a scope of ball
+/// models with as many components as there are states of the estimate, and disturbances as there are samples
+/// (noise > 0) and one more (slew > 0). Throws std::invalid_argument when sizes do not fit.
 [[nodiscard]] FilterStepOver filter_step_over(const TrackerModel& model, const Tube& tube,
                                               const TubeCell& cell, const FilterStepQuestion& question,
-                                              double of_gaussian = 0.0);
+                                              double of_gaussian = 0.0, PlaceStore* store = nullptr);
 
 /// Bounds over a cell of |F| for |xi| <= scale radius, for each of the scales, all |v| <= noise, a frequency
 /// that moves by at most the slew, and all covariances between the bounds of the tube; with
@@ -46,7 +46,7 @@ struct FilterStepOver {
 /// for all |xi| <= radius. Sets its own rounding mode. Throws std::invalid_argument when sizes do not fit.
 [[nodiscard]] StepBounds bound_filter_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
                                            const FilterStepQuestion& question,
-                                           const std::vector<double>& scales);
+                                           const std::vector<double>& scales, PlaceStore* store = nullptr);
 
 /// Of the bounds of a covariance, over a cell.
 struct RangeQuestion {

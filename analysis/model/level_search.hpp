@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/model/place_store.hpp"
 #include "analysis/model/set_search.hpp"
 
 namespace veritrack::model::detail {
@@ -18,7 +19,11 @@ class LevelSearch {
   /// `share`: of the band, that this cell is; of what the curve may cost.
   LevelSearch(const TrackerModel& model, const TubeProposal& proposal, const SetTask& task,
               double share = 1.0)
-      : model_(&model), proposal_(&proposal), task_(&task), share_(share) {
+      : model_(&model),
+        proposal_(&proposal),
+        task_(&task),
+        share_(share),
+        places_(model, *proposal.tube, places_in(*proposal.tube, kBytesOfPlaces)) {
     // Slow trackers have little room, so that cells are small.
     const double room = 1.0 - proposal.worth.rate;
     constexpr double kLittleRoom = 0.02;
@@ -109,6 +114,7 @@ class LevelSearch {
   [[nodiscard]] double guess() const { return level(); }
 
  private:
+  static constexpr double kBytesOfPlaces = 6.4e7;
   /// What is tried, as shares of what points allow.
   static constexpr double kDeep = 1e-3;  ///< of the first level
   static constexpr std::array<double, 8> kFactors{0.985, 0.96, 0.93, 0.89, 0.84, 0.77, 0.68, 0.55};
@@ -126,7 +132,7 @@ class LevelSearch {
     // What is kept for a radius is kept for smaller ones.
     question.with_covariance = radius > kept_radius_;
     const bool may =
-        !task_->deadline.is_over() && sampled_growth(*model_, proved_.tube, question, kPhases) <= slow_;
+        !task_->deadline.is_over() && may_shrink(*model_, proved_.tube, question, kPhases, slow_, &places_);
     kept_radius_ = may ? std::max(kept_radius_, radius) : kept_radius_;
     return may;
   }
@@ -143,7 +149,7 @@ class LevelSearch {
   bool holds(LevelQuestion question) { return holds(question, proved_.grid); }
   bool holds(LevelQuestion question, const VerificationBudget& grid) {
     question.shrinking = with_room(question.shrinking);
-    const LevelResult result = verify_level(*model_, proved_.tube, question, grid);
+    const LevelResult result = verify_level(*model_, proved_.tube, question, grid, &places_);
     const bool is_proved = result.verdict == rigor::Verdict::proved;
     last_cells_ = is_proved ? result.cells : last_cells_;
     proved_.cells += is_proved ? result.cells : 0;
@@ -244,7 +250,7 @@ class LevelSearch {
       LevelQuestion below{next, noise};
       below.with_covariance = false;  // shown with the largest radius
       if (task_->deadline.is_over() ||
-          !(sampled_growth(*model_, proved_.tube, below, kPhases) <= with_room(step.shrinking))) {
+          !may_shrink(*model_, proved_.tube, below, kPhases, with_room(step.shrinking), &places_)) {
         return false;
       }
       // What is verified is from this number up.
@@ -271,6 +277,7 @@ class LevelSearch {
   const SetTask* task_;
   double share_;
   ProvedTube proved_;
+  PlaceStore places_;
   std::size_t last_cells_ = 0;  ///< of the last verification that succeeded
   double kept_radius_ = 0.0;    ///< for which points allow that bounds of a covariance are kept
   double slow_ = 1.0;

@@ -6,6 +6,7 @@
 
 #include "analysis/model/filter_proposal.hpp"
 #include "analysis/model/long_run_entry.hpp"
+#include "analysis/model/place_store.hpp"
 #include "analysis/model/set_search.hpp"
 #include "analysis/model/tube_set.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -19,7 +20,10 @@ class LongRunLevels {
  public:
   LongRunLevels(const TrackerModel& model, const ProvedTube& around, const TubeProposal& proposal,
                 double noise)
-      : model_(&model), around_(&around), noise_(noise) {
+      : model_(&model),
+        around_(&around),
+        noise_(noise),
+        places_(model, *proposal.tube, places_in(*proposal.tube, kBytesOfPlaces)) {
     const double room = 1.0 - proposal.worth.rate;
     proved_.tube = *proposal.tube;
     proved_.parameters = proposal.shape.parameters;
@@ -61,6 +65,7 @@ class LongRunLevels {
   }
 
  private:
+  static constexpr double kBytesOfPlaces = 6.4e7;
   struct Step {
     double factor, shrinking;
   };
@@ -83,13 +88,13 @@ class LongRunLevels {
     LevelQuestion below{next, noise_};
     below.with_covariance = false;
     if (proved_.grid.deadline.is_over() ||
-        !(sampled_growth(*model_, proved_.tube, below, kPhases) <= with_room(step.shrinking))) {
+        !may_shrink(*model_, proved_.tube, below, kPhases, with_room(step.shrinking), &places_)) {
       return false;
     }
     // What is verified is from this number up.
     LevelQuestion between{radius, noise_, step.factor * (1.0 - 1e-12), with_room(step.shrinking)};
     between.with_covariance = false;
-    const LevelResult result = verify_level(*model_, proved_.tube, between, proved_.grid);
+    const LevelResult result = verify_level(*model_, proved_.tube, between, proved_.grid, &places_);
     if (result.verdict != rigor::Verdict::proved) {
       return false;
     }
@@ -103,6 +108,7 @@ class LongRunLevels {
   const ProvedTube* around_;
   double noise_;
   ProvedTube proved_;
+  PlaceStore places_;
   double slow_ = 1.0;
   double fast_ = 1.0;
 };

@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "analysis/model/border.hpp"
+#include "analysis/model/place_store.hpp"
 #include "analysis/model/set_search.hpp"
 #include "analysis/rigor/rounding.hpp"
 
@@ -52,10 +54,19 @@ class MovingSearch {
     }
     slow_ = 1.0 - 0.05 * (1.0 - rate);
     fast_ = 1.0 - 0.5 * (1.0 - rate);
+    // All tubes are searched together.
+    constexpr double kBytesOfPlaces = 2e8;
+    constexpr std::size_t kMostPlaces = 192;
+    const double bytes = kBytesOfPlaces / static_cast<double>(set.tubes.size());
+    for (const ProvedTube& proved : set.tubes) {
+      places_.push_back(std::make_unique<PlaceStore>(model, proved.tube,
+                                                     std::min(kMostPlaces, places_in(proved.tube, bytes))));
+    }
   }
 
   /// Levels for the noise and slew of the set.
   [[nodiscard]] bool find_levels() {
+    kept_slew_ = set_->slew;
     const double radius = largest_radius(level_, [&](double tried) { return may_hold(tried, set_->slew); });
     if (!(radius > 0.0)) {
       find_failures();
@@ -141,16 +152,21 @@ class MovingSearch {
 
   [[nodiscard]] bool may_hold(const ProvedTube& proved, double radius, double slew) const {
     constexpr int kPhases = 16;
-    return !deadline_->is_over() && sampled_growth(*model_, proved.tube,
-                                                   {radius, set_->noise, 1.0, 1.0, slew,
-                                                    proved.levels.empty(), set_->covariance_margin},
-                                                   kPhases) <= slow_;
+    return !deadline_->is_over() &&
+           may_shrink(*model_, proved.tube,
+                      {radius, set_->noise, 1.0, 1.0, slew, proved.levels.empty(), set_->covariance_margin},
+                      kPhases, slow_, places_of(proved, slew));
   }
   [[nodiscard]] bool may_hold(double radius, double slew) const {
     return std::all_of(set_->tubes.begin(), set_->tubes.end(),
                        [&](const ProvedTube& proved) { return may_hold(proved, radius, slew); });
   }
 
+  /// Where the slew is the one of the set: another one comes once.
+  [[nodiscard]] PlaceStore* places_of(const ProvedTube& proved, double slew) const {
+    const auto number = static_cast<std::size_t>(&proved - set_->tubes.data());
+    return slew == kept_slew_ ? places_[number].get() : nullptr;
+  }
   /// The cells in which there is no level at all, whatever the others need.
   void find_failures() {
     failed_.clear();
@@ -195,7 +211,7 @@ class MovingSearch {
     const LevelResult result = verify_level(
         *model_, proved.tube,
         {radius, set_->noise, scale, with_room(factor), slew, scale == 1.0, set_->covariance_margin},
-        proved.grid);
+        proved.grid, places_of(proved, slew));
     proved.cells += result.cells;
     return result.verdict == Verdict::proved;
   }
@@ -322,6 +338,8 @@ class MovingSearch {
   const search::Deadline* deadline_;
   TubeSet* set_;
   std::vector<std::size_t> failed_;
+  std::vector<std::unique_ptr<PlaceStore>> places_;  ///< of the tubes of the set
+  double kept_slew_ = -1.0;                          ///< none
   double level_ = 0.0;
   double most_slew_ = 0.0;
   double slow_ = 1.0;

@@ -16,6 +16,7 @@ namespace veritrack::model {
 struct PhaseSeries {
   std::vector<std::vector<std::complex<double>>> coefficients;
 
+  [[nodiscard]] bool operator==(const PhaseSeries& other) const = default;
   /// Its value, where harmonics[h] is (cos h phi, sin h phi) and powers[d] is z^d: at least as many as there
   /// are coefficients.
   template <typename Scalar>
@@ -50,6 +51,7 @@ struct Tube {
   /// lower triangles, row by row. Otherwise empty (docs/model-proof.md, section 13).
   std::vector<PhaseSeries> covariance_low, covariance_high;
 
+  [[nodiscard]] bool operator==(const Tube& other) const = default;
   [[nodiscard]] bool bounds_covariance() const { return !covariance_high.empty(); }
 };
 

@@ -1,6 +1,7 @@
 #include "analysis/model/tube_models.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -8,7 +9,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analysis/model/place_store.hpp"
 #include "analysis/rigor/elementary.hpp"
+#include "analysis/rigor/taylor_coefficients.hpp"
 
 namespace veritrack::model {
 
@@ -44,12 +47,46 @@ std::size_t most_powers(const Tube& tube) {
 /// cos and sin of h phi.
 using Harmonics = std::vector<std::pair<BallModel, BallModel>>;
 
+/// All from the powers of what varies in the phase: cos(h (c + u)) = sum_{k <= 4} f^(k)(h c)/k! (h u)^k +
+/// f^(5)(t)/5! (h u)^5.
 Harmonics harmonics_at(const BallModel& phase, std::size_t count) {
+  const Interval range = phase.range();
   Harmonics harmonics;
   harmonics.reserve(count);
-  for (std::size_t h = 0; h < count; ++h) {
-    const BallModel angle = BallModel(static_cast<double>(h)) * phase;
-    harmonics.emplace_back(cos(angle), sin(angle));
+  if (is_empty(range)) {
+    const BallModel unknown{Interval::empty()};
+    harmonics.assign(count, {unknown, unknown});
+    return harmonics;
+  }
+  const BallModel u = phase.without_constant();
+  std::vector<BallModel> powers{BallModel(1.0), u, u * u};
+  powers.push_back(powers[2] * u);
+  powers.push_back(powers[2] * powers[2]);
+  std::array<Interval, 5> sizes;
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    sizes.at(k) = abs(powers[k].range());
+  }
+  const Interval fifth = pow(Interval(u.deviation()), 5);
+  const auto sum_of = [&](const rigor::TaylorCoefficients& at_constant,
+                          const rigor::TaylorCoefficients& on_range, const Interval& h) {
+    BallModel sum;
+    Interval more(0.0);
+    Interval power(1.0);
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+      const Interval coefficient = at_constant.at(k) * power;
+      const double middle = rigor::midpoint(coefficient);
+      sum.add_multiple(powers[k], middle);
+      more = more + abs(coefficient - Interval(middle)) * sizes.at(k);
+      power = power * h;
+    }
+    return sum.widened((more + abs(on_range.back()) * power * fifth).upper());
+  };
+  for (std::size_t number = 0; number < count; ++number) {
+    const Interval h(static_cast<double>(number));
+    const Interval constant = h * Interval(phase.constant());
+    const Interval whole = h * range;
+    harmonics.emplace_back(sum_of(rigor::taylor_of_cos(constant), rigor::taylor_of_cos(whole), h),
+                           sum_of(rigor::taylor_of_sin(constant), rigor::taylor_of_sin(whole), h));
   }
   return harmonics;
 }
@@ -87,7 +124,7 @@ BallModel sum_of(const PhaseSeries& series, const Harmonics& harmonics,
       continue;  // many series have every second harmonic only
     }
     const auto [real, imaginary] = coefficient_of(series, h, powers);
-    sum = h == 0 ? sum + real : sum + (real * harmonics[h].first - imaginary * harmonics[h].second);
+    sum += h == 0 ? real : real * harmonics[h].first - imaginary * harmonics[h].second;
   }
   return sum;
 }
@@ -137,7 +174,8 @@ TubeHere tube_at(const Tube& tube, const BallModel& phase, const BallModel& z) {
   return here;
 }
 
-CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell, FrameParts parts) {
+CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell, FrameParts parts,
+                   PlaceStore* store) {
   const auto plane = [&] {
     const rigor::BallModelScope scope(0, 0);
     CellFrame frame;
@@ -155,7 +193,7 @@ CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& 
     }
     return frame;
   };
-  CellFrame frame = plane();
+  CellFrame frame = *kept_at<CellFrame>(store, model, tube, cell, static_cast<double>(parts), plane);
   for (BallModel* each : {&frame.phase, &frame.z, &frame.frequency, &frame.next_phase}) {
     *each = each->lifted();
   }
@@ -222,9 +260,9 @@ std::vector<BallModel> state_in(const TubeHere& here, double radius, const std::
   for (std::size_t i = 0; i < state.size(); ++i) {
     BallModel deviation;
     for (std::size_t j = 0; j <= i; ++j) {
-      deviation = deviation + here.shape[i * (i + 1) / 2 + j] * x[j];
+      deviation += here.shape[i * (i + 1) / 2 + j] * x[j];
     }
-    state[i] = state[i] + BallModel(radius) * deviation;
+    state[i].add_multiple(deviation, radius);
   }
   return state;
 }
@@ -234,7 +272,7 @@ std::vector<BallModel> in_units_of(const TubeHere& there, const std::vector<Ball
   for (std::size_t i = 0; i < deviation.size(); ++i) {
     BallModel rest = deviation[i];
     for (std::size_t j = 0; j < i; ++j) {
-      rest = rest - there.shape[i * (i + 1) / 2 + j] * x[j];
+      rest -= there.shape[i * (i + 1) / 2 + j] * x[j];
     }
     x.push_back(rest / there.shape[i * (i + 1) / 2 + i]);
   }

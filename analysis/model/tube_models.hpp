@@ -51,8 +51,9 @@ struct CellFrame {
 
 /// Which of them: not `there` and not `next`; not `there`; all.
 enum class FrameParts { here, with_samples, with_next };
+/// `store`: of this model and tube, or none.
 [[nodiscard]] CellFrame frame_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
-                                 FrameParts parts);
+                                 FrameParts parts, PlaceStore* store = nullptr);
 
 /// C_a - C_b and U_a - U_b at one phase, where the frequency has the place z_of_a in a and z_of_b in b. Their
 /// coefficients are subtracted before the harmonics are expanded: the error of the models is in proportion to

@@ -20,11 +20,12 @@ using rigor::BallModel;
 using rigor::Interval;
 
 StepOver step_over(const TrackerModel& model, const Tube& tube, const TubeCell& cell, double radius,
-                   double noise, double slew, double stretch) {
+                   double noise, double slew, double stretch, PlaceStore* store) {
   require_sizes(model, tube);
   const auto states = static_cast<std::size_t>(model.recursion->states);
   const bool is_moving = slew > 0.0;
-  CellFrame frame = frame_of(model, tube, cell, is_moving ? FrameParts::with_samples : FrameParts::with_next);
+  CellFrame frame =
+      frame_of(model, tube, cell, is_moving ? FrameParts::with_samples : FrameParts::with_next, store);
   if (is_moving) {
     // Rounded up: more slew than is asked for.
     const int last = is_disturbed(model, noise) ? model.recursion->samples : 0;
@@ -39,7 +40,7 @@ StepOver step_over(const TrackerModel& model, const Tube& tube, const TubeCell& 
   }
   std::vector<BallModel> next = run(model, model.recursion->step, inputs);
   for (std::size_t i = 0; i < states; ++i) {
-    next[i] = next[i] - frame.there.curve[i];
+    next[i] -= frame.there.curve[i];
   }
   StepOver step;
   step.deviation = in_units_of(frame.there, next);
@@ -51,14 +52,14 @@ StepOver step_over(const TrackerModel& model, const Tube& tube, const TubeCell& 
 }
 
 StepBounds bound_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell, double radius,
-                      double noise, const std::vector<double>& scales, double slew) {
+                      double noise, const std::vector<double>& scales, double slew, PlaceStore* store) {
   const bool is_noisy = is_disturbed(model, noise);
   const bool is_moving = slew > 0.0;
   const int of_noise = is_noisy ? model.recursion->samples : 0;
   const rigor::BallModelScope scope(model.recursion->states, is_moving ? of_noise + 1 : of_noise);
   // Noise and slew are in the unit ball together when the squared length of each is at most 1/2.
   const double stretch = is_noisy && is_moving ? kRootOfTwo : 1.0;
-  const StepOver step = step_over(model, tube, cell, radius, noise, slew, stretch);
+  const StepOver step = step_over(model, tube, cell, radius, noise, slew, stretch, store);
   StepBounds bounds;
   bounds.steps = length_bounds(step.deviation, scales, is_noisy && is_moving);
   const WidthShares shares = width_shares(step.deviation);

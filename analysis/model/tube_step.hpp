@@ -30,6 +30,8 @@ struct TrackerModel {
   const trackers::FilterParts* filter = nullptr;
 };
 
+class PlaceStore;
+
 /// A part of a tube: phases 2 pi (turn - half_turn) to 2 pi (turn + half_turn), and z - half_z to z + half_z
 /// of the frequencies of the tube. Dyadic numbers, so that parts fit together exactly.
 struct TubeCell {
@@ -67,10 +69,11 @@ struct StepOver {
 
 /// For |xi| <= radius, |v| <= noise stretch and a slew up to slew stretch. Needs the upward rounding mode,
 /// and a scope of ball models with as many components as there are states, and disturbances as there are
-/// samples (where they are disturbed) and one more (slew > 0). Throws std::invalid_argument when sizes do not
-/// fit.
+/// samples (where they are disturbed) and one more (slew > 0). `store`: of this model and tube, or none.
+/// Throws std::invalid_argument when sizes do not fit.
 [[nodiscard]] StepOver step_over(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
-                                 double radius, double noise, double slew = 0.0, double stretch = 1.0);
+                                 double radius, double noise, double slew = 0.0, double stretch = 1.0,
+                                 PlaceStore* store = nullptr);
 
 /// The bounds for |xi| <= scale radius, for each of the scales, in (0, 1], |v| <= noise (the length of
 /// the error of all samples, signal units), and a frequency that moves by at most `slew` (rad/sample per
@@ -78,6 +81,6 @@ struct StepOver {
 /// do not fit.
 [[nodiscard]] StepBounds bound_step(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
                                     double radius, double noise, const std::vector<double>& scales,
-                                    double slew = 0.0);
+                                    double slew = 0.0, PlaceStore* store = nullptr);
 
 }  // namespace veritrack::model

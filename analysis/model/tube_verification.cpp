@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -38,13 +39,29 @@ bool holds(const StepBounds& bounds, const LevelQuestion& question, const std::v
 }
 
 StepBounds bounds_of(const TrackerModel& model, const Tube& tube, const TubeCell& cell,
-                     const LevelQuestion& question, const std::vector<double>& scales) {
+                     const LevelQuestion& question, const std::vector<double>& scales, PlaceStore* store) {
   return tube.bounds_covariance()
              ? bound_filter_step(model, tube, cell,
                                  {question.radius, question.noise, question.slew, question.with_covariance,
                                   question.covariance_margin},
-                                 scales)
-             : bound_step(model, tube, cell, question.radius, question.noise, scales, question.slew);
+                                 scales, store)
+             : bound_step(model, tube, cell, question.radius, question.noise, scales, question.slew, store);
+}
+
+/// Points of a tube, at the middle and both ends of its frequencies.
+constexpr std::array<double, 3> kPlaces{-1.0, 0.0, 1.0};
+
+std::size_t points_of(int phases) {
+  return static_cast<std::size_t>(phases) * kPlaces.size();
+}
+
+/// |F|/R at point number `number`; infinity when nothing is known.
+double growth_at(const TrackerModel& model, const Tube& tube, const LevelQuestion& question, int phases,
+                 std::size_t number, PlaceStore* store) {
+  const std::size_t phase = number / kPlaces.size();
+  const TubeCell point{static_cast<double>(phase) / phases, 0.0, kPlaces.at(number % kPlaces.size()), 0.0};
+  const double step = bounds_of(model, tube, point, question, {1.0}, store).steps.front();
+  return std::isfinite(step) ? step / question.radius : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -75,7 +92,7 @@ std::string place_of_failure(const Tube& tube, const TubeCell& cell) {
 }
 
 LevelResult verify_level(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
-                         const VerificationBudget& budget) {
+                         const VerificationBudget& budget, PlaceStore* store) {
   LevelResult result;
   const rigor::UpwardRounding upward;
   result.reason = objection_to_phases(model, tube);
@@ -97,7 +114,7 @@ LevelResult verify_level(const TrackerModel& model, const Tube& tube, const Leve
     scales.push_back(question.least_scale);
   }
   const auto ask = [&](const TubeCell& cell) -> CellAnswer {
-    const StepBounds bounds = bounds_of(model, tube, cell, question, scales);
+    const StepBounds bounds = bounds_of(model, tube, cell, question, scales, store);
     return {holds(bounds, question, scales), bounds.frequency_error, bounds.by_phase, bounds.by_frequency};
   };
   const CoverResult cover = cover_cells(ask, budget);
@@ -114,15 +131,22 @@ LevelResult verify_level(const TrackerModel& model, const Tube& tube, const Leve
 
 double sampled_growth(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
                       int phases) {
-  constexpr std::array<double, 3> kPlaces{-1.0, 0.0, 1.0};
-  std::vector<double> growths(static_cast<std::size_t>(phases) * kPlaces.size());
+  std::vector<double> growths(points_of(phases));
   tbb::parallel_for(std::size_t{0}, growths.size(), [&](std::size_t number) {
-    const std::size_t phase = number / kPlaces.size();
-    const TubeCell point{static_cast<double>(phase) / phases, 0.0, kPlaces.at(number % kPlaces.size()), 0.0};
-    const double step = bounds_of(model, tube, point, question, {1.0}).steps.front();
-    growths[number] = std::isfinite(step) ? step / question.radius : std::numeric_limits<double>::infinity();
+    growths[number] = growth_at(model, tube, question, phases, number, nullptr);
   });
   return *std::max_element(growths.begin(), growths.end());
+}
+
+bool may_shrink(const TrackerModel& model, const Tube& tube, const LevelQuestion& question, int phases,
+                double most, PlaceStore* store) {
+  std::atomic<bool> all{true};
+  tbb::parallel_for(std::size_t{0}, points_of(phases), [&](std::size_t number) {
+    if (all.load() && !(growth_at(model, tube, question, phases, number, store) <= most)) {
+      all.store(false);
+    }
+  });
+  return all.load();
 }
 
 double growth_on_grid(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
@@ -141,7 +165,7 @@ double growth_on_grid(const TrackerModel& model, const Tube& tube, const LevelQu
     const double row = std::floor(static_cast<double>(place) / kPlaces * frequencies);
     const TubeCell cell{(std::floor(share * phases) + 0.5) / phases, 0.5 / phases,
                         (2.0 * row + 1.0) / frequencies - 1.0, 1.0 / frequencies};
-    const StepBounds bounds = bounds_of(model, tube, cell, question, {scales.begin(), scales.end()});
+    const StepBounds bounds = bounds_of(model, tube, cell, question, {scales.begin(), scales.end()}, nullptr);
     double largest = bounds.steps.size() == scales.size() ? 0.0 : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < scales.size() && std::isfinite(largest); ++i) {
       const double here = bounds.steps[i] / (scales.at(i) * question.radius);

@@ -43,9 +43,11 @@ struct LevelResult {
 /// |xi| <= scale R is convex in the scale, because coefficients of degree a are multiplied by scale^a and the
 /// error is kept: two ends decide.) Cells that fail are halved, up to the budget; the result does not depend
 /// on the number of threads. UNDECIDED, with the reason, when the recursion does not know its angles modulo 2
-/// pi only, when the signal is not 2 pi-periodic in its phase, and when nothing is known somewhere.
+/// pi only, when the signal is not 2 pi-periodic in its phase, and when nothing is known somewhere. `store`:
+/// of this model and tube, or none.
 [[nodiscard]] LevelResult verify_level(const TrackerModel& model, const Tube& tube,
-                                       const LevelQuestion& question, const VerificationBudget& budget);
+                                       const LevelQuestion& question, const VerificationBudget& budget,
+                                       PlaceStore* store = nullptr);
 
 /// Why statements over phases from 0 to 2 pi say nothing of all of them; empty when they do.
 [[nodiscard]] std::string objection_to_phases(const TrackerModel& model, const Tube& tube);
@@ -58,6 +60,10 @@ struct LevelResult {
 /// infinity when nothing is known somewhere.
 [[nodiscard]] double sampled_growth(const TrackerModel& model, const Tube& tube,
                                     const LevelQuestion& question, int phases);
+
+/// Whether that is at most `most`: the first point at which it is not decides.
+[[nodiscard]] bool may_shrink(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
+                              int phases, double most, PlaceStore* store = nullptr);
 
 /// About the largest |F| over scale radius, at the radius and at its least scale, in the cells of a grid: of
 /// some of them. For proposals; proves nothing. Infinity when nothing is known.

@@ -19,9 +19,10 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
+#include <span>
 
 #include "analysis/rigor/ball_monomials.hpp"
+#include "analysis/rigor/ball_numbers.hpp"
 #include "analysis/rigor/interval.hpp"
 #include "analysis/rigor/rounding.hpp"
 
@@ -62,10 +63,12 @@ class BallModel {
   [[nodiscard]] static BallModel z();
 
   [[nodiscard]] const BallMonomials& monomials() const { return *monomials_; }
-  [[nodiscard]] const std::vector<double>& coefficients() const { return coefficients_; }
-  [[nodiscard]] double constant() const { return coefficients_[0]; }
+  [[nodiscard]] std::span<const double> coefficients() const {
+    return {numbers_.data(), monomials_->terms()};
+  }
+  [[nodiscard]] double constant() const { return numbers_.data()[0]; }
   /// An upper bound of the polynomial of a class, by the class's number.
-  [[nodiscard]] double norm(std::size_t number) const { return norms_[number]; }
+  [[nodiscard]] double norm(std::size_t number) const { return norms()[number]; }
   /// At least 0; NaN when nothing is known.
   [[nodiscard]] double error() const { return error_; }
   /// An upper bound of |f - constant()|; NaN when nothing is known.
@@ -97,19 +100,39 @@ class BallModel {
   /// Every function that is within `more` of one of these.
   [[nodiscard]] BallModel widened(double more) const;
 
-  friend BallModel operator+(const BallModel& a, const BallModel& b);
-  friend BallModel operator-(const BallModel& a, const BallModel& b);
+  BallModel& operator+=(const BallModel& other) {
+    add(other, 1.0);
+    return *this;
+  }
+  BallModel& operator-=(const BallModel& other) {
+    add(other, -1.0);
+    return *this;
+  }
+  friend BallModel operator+(BallModel a, const BallModel& b) {
+    a += b;
+    return a;
+  }
+  friend BallModel operator-(BallModel a, const BallModel& b) {
+    a -= b;
+    return a;
+  }
   friend BallModel operator-(const BallModel& a);
   friend BallModel operator*(const BallModel& a, const BallModel& b);
 
  private:
   void add(const BallModel& other, double sign);
+  void add_terms(const BallModel& other, double factor);
   void find_norm(std::size_t number);
+  void multiply_in_plane(const BallModel& a, const BallModel& b);
+  void multiply_by_classes(const BallModel& a, const BallModel& b);
   [[nodiscard]] double polynomial_bound() const;
+  [[nodiscard]] double* terms() { return numbers_.data(); }
+  /// By class; 0 for a class without terms.
+  [[nodiscard]] double* norms() { return numbers_.data() + monomials_->terms(); }
+  [[nodiscard]] const double* norms() const { return numbers_.data() + monomials_->terms(); }
 
   const BallMonomials* monomials_;
-  std::vector<double> coefficients_;
-  std::vector<double> norms_;  ///< by class; 0 for a class without terms
+  BallNumbers numbers_;  ///< coefficients, then norms
   double error_ = 0.0;
 };
 

@@ -93,29 +93,38 @@ BallMonomials::BallMonomials(int balls, int disturbances) : balls_(balls), distu
       }
     }
   }
+  groups_.reserve(classes_.size());
+  for (const Class& here : classes_) {
+    groups_.push_back(static_cast<std::uint8_t>(group_of(here)));
+  }
   for (std::size_t i = 0; i < classes_.size(); ++i) {
+    first_pair_.push_back(pairs_.size());
     for (std::size_t j = 0; j < classes_.size(); ++j) {
+      if (!is_kept(groups_[i], groups_[j])) {
+        continue;
+      }
       const Class& a = classes_[i];
       const Class& b = classes_[j];
-      ClassProduct pair{i, j, classes_.size(), products_.size(), products_.size()};
-      const int vectors = a.ball + b.ball + a.disturbance + b.disturbance;
-      if (vectors <= kMostOfVectors && vectors + a.s + b.s + a.z + b.z <= kMost) {
-        pair.c = class_of(a.ball + b.ball, a.disturbance + b.disturbance, a.s + b.s, a.z + b.z);
-        for (std::size_t p = a.first; p < a.last; ++p) {
-          for (std::size_t q = b.first; q < b.last; ++q) {
-            Exponents sum = monomials[p];
-            for (std::size_t k = 0; k < sum.size(); ++k) {
-              sum[k] += monomials[q][k];
-            }
-            products_.push_back({static_cast<std::uint16_t>(p), static_cast<std::uint16_t>(q),
-                                 static_cast<std::uint16_t>(numbers.at(sum))});
+      const std::size_t c = class_of(a.ball + b.ball, a.disturbance + b.disturbance, a.s + b.s, a.z + b.z);
+      const std::size_t first = products_.size();
+      for (std::size_t p = a.first; p < a.last; ++p) {
+        for (std::size_t q = b.first; q < b.last; ++q) {
+          Exponents sum = monomials[p];
+          for (std::size_t k = 0; k < sum.size(); ++k) {
+            sum[k] += monomials[q][k];
           }
+          products_.push_back({static_cast<std::uint16_t>(p), static_cast<std::uint16_t>(q),
+                               static_cast<std::uint16_t>(numbers.at(sum))});
         }
-        pair.last = products_.size();
       }
-      pairs_.push_back(pair);
+      // The terms of a class are in the order of their exponents of x and v, whatever those of s and z.
+      const bool is_multiple = a.ball + a.disturbance == 0 || b.ball + b.disturbance == 0;
+      pairs_.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j),
+                        static_cast<std::uint16_t>(c), is_multiple, static_cast<std::uint32_t>(first),
+                        static_cast<std::uint32_t>(products_.size())});
     }
   }
+  first_pair_.push_back(pairs_.size());
 }
 
 std::size_t BallMonomials::class_of(int ball, int disturbance, int s, int z) const {

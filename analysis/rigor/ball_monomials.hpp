@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace veritrack::rigor {
@@ -28,13 +29,28 @@ class BallMonomials {
   struct Product {
     std::uint16_t a, b, c;
   };
-  /// The products of two classes that are kept.
+  /// The products of two classes, of which the product is kept.
   struct ClassProduct {
-    std::size_t a, b;  ///< numbers of classes
-    std::size_t c;     ///< class of the product; the number of classes when it is not kept
-    std::size_t first = 0;
-    std::size_t last = 0;  ///< in products()
+    std::uint16_t a, b;  ///< numbers of classes
+    std::uint16_t c;     ///< class of the product
+    /// One of the two has s and z alone, a single term: the terms of the other belong to those of the product
+    /// in their order.
+    bool is_multiple;
+    std::uint32_t first;
+    std::uint32_t last;  ///< in products()
   };
+  /// Degrees in which truncation is decided: in x and v together, and in s and z together. Their number is
+  /// kMostOfVectors + 1 times kMost + 1.
+  static constexpr std::size_t kGroups = 20;
+  [[nodiscard]] static std::size_t group_of(const Class& here) {
+    return static_cast<std::size_t>((here.ball + here.disturbance) * (kMost + 1) + here.s + here.z);
+  }
+  /// Whether the product of two classes of these groups is kept.
+  [[nodiscard]] static constexpr bool is_kept(std::size_t group_of_a, std::size_t group_of_b) {
+    constexpr std::size_t kOfPlace = kMost + 1;
+    const std::size_t vectors = group_of_a / kOfPlace + group_of_b / kOfPlace;
+    return vectors <= kMostOfVectors && vectors + group_of_a % kOfPlace + group_of_b % kOfPlace <= kMost;
+  }
 
   /// Shared tables; balls from 0 to 16, disturbances from 0 to 3. Throws std::invalid_argument otherwise.
   [[nodiscard]] static const BallMonomials& of(int balls, int disturbances);
@@ -48,10 +64,15 @@ class BallMonomials {
   /// alpha! / |alpha|! of the exponents of x, times the same of v: the weights of Bombieri's norm, rounded
   /// up.
   [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
-  /// For every pair of classes, in the order of the first and then the second.
-  [[nodiscard]] const ClassProduct& product(std::size_t a, std::size_t b) const {
-    return pairs_[a * classes_.size() + b];
+  /// The group of every class.
+  [[nodiscard]] const std::vector<std::uint8_t>& groups() const { return groups_; }
+  /// Whether every class has one term, of weight 1: models of s and z alone.
+  [[nodiscard]] bool is_plane() const { return balls_ == 0 && disturbances_ == 0; }
+  /// Of the pairs of classes whose product is kept, those with this class first, in the order of the second.
+  [[nodiscard]] std::span<const ClassProduct> pairs_of(std::size_t a) const {
+    return {pairs_.data() + first_pair_[a], first_pair_[a + 1] - first_pair_[a]};
   }
+  /// For all these pairs in their order.
   [[nodiscard]] const std::vector<Product>& products() const { return products_; }
 
  private:
@@ -61,7 +82,9 @@ class BallMonomials {
   int disturbances_;
   std::vector<Class> classes_;
   std::vector<double> weights_;
+  std::vector<std::uint8_t> groups_;
   std::vector<ClassProduct> pairs_;
+  std::vector<std::size_t> first_pair_;
   std::vector<Product> products_;
 };
 

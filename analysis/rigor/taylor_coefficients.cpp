@@ -43,6 +43,16 @@ TaylorCoefficients power_of_quadratic(const std::array<Interval, 3>& w, const In
   return y;
 }
 
+/// Those of the integral of (1 - t^2)^(-1/2) whose value at t is given.
+TaylorCoefficients integral_of_arcsine(const Interval& t, const Interval& value) {
+  const Interval below_one = (Interval(1.0) - t) * (Interval(1.0) + t);
+  if (!certainly_positive(below_one) || is_empty(value)) {
+    return nothing();
+  }
+  const std::array<Interval, 3> w{below_one, Interval(-2.0) * t, Interval(-1.0)};
+  return integral(value, power_of_quadratic(w, Interval(-0.5), Interval(1.0) / sqrt(below_one)));
+}
+
 }  // namespace
 
 TaylorCoefficients taylor_of_reciprocal(const Interval& t) {
@@ -121,20 +131,15 @@ TaylorCoefficients taylor_of_tan(const Interval& t) {
 
 /// From asin' = (1 - t^2)^(-1/2).
 TaylorCoefficients taylor_of_asin(const Interval& t) {
-  const Interval below_one = (Interval(1.0) - t) * (Interval(1.0) + t);
-  if (!certainly_positive(below_one) || is_empty(asin(t))) {
-    return nothing();
-  }
-  const std::array<Interval, 3> w{below_one, Interval(-2.0) * t, Interval(-1.0)};
-  return integral(asin(t), power_of_quadratic(w, Interval(-0.5), Interval(1.0) / sqrt(below_one)));
+  return integral_of_arcsine(t, asin(t));
 }
 
 TaylorCoefficients taylor_of_acos(const Interval& t) {
-  TaylorCoefficients result = taylor_of_asin(t);
-  for (Interval& coefficient : result) {
-    coefficient = -coefficient;
+  const Interval value = acos(t);
+  TaylorCoefficients result = integral_of_arcsine(t, value);
+  for (std::size_t k = 1; k < kCount; ++k) {
+    result[k] = -result[k];
   }
-  result[0] = is_empty(result[0]) ? result[0] : acos(t);
   return result;
 }
 

@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "tests/support/random.hpp"
 
@@ -66,6 +68,30 @@ TEST_CASE("where there is nothing to split") {
   const Eigen::MatrixXd some = Eigen::MatrixXd::Identity(2, 2);
   CHECK(proposed_split(none, some) == 0.5);
   CHECK(proposed_shares(some, none, some) == std::array<double, 3>{1.0, 1.0, 1.0});
+}
+
+TEST_CASE("of any matrices there are positive shares") {
+  const double unknown = std::nan("");
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double entry : {unknown, infinite, 0.0, -1.0, 1e-320, 1e308}) {
+    CAPTURE(entry);
+    for (const Eigen::Index rows : {1, 3, 20, 21, 40}) {
+      CAPTURE(rows);
+      const Eigen::MatrixXd some = Eigen::MatrixXd::Identity(rows, rows);
+      const Eigen::MatrixXd odd = Eigen::MatrixXd::Constant(rows, rows, entry);
+      for (const double t :
+           {proposed_split(odd, some), proposed_split(some, odd), proposed_split(odd, odd)}) {
+        CHECK(t > 0.0);
+        CHECK(t < 1.0);
+      }
+      for (const auto& shares : {proposed_shares(odd, some, some), proposed_shares(some, some, odd)}) {
+        for (const double share : shares) {
+          CHECK(share > 0.0);
+          CHECK(std::isfinite(share));
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -55,9 +55,12 @@ class StackedLength {
   [[nodiscard]] bool has_others() const { return has_others_; }
   [[nodiscard]] double largest_spread() const { return near_largest_eigenvalue(spread_); }
 
-  /// For this mu, where |x| counts as t of the unit ball of all vectors; infinite for a mu that is not above
-  /// the spread.
-  [[nodiscard]] double at(double mu, double t) const {
+  /// For one mu.
+  struct Turned {
+    SymmetricMatrix of_x, of_others;
+    double of_squares = kInfinity;  ///< infinite for a mu that is not above the spread
+  };
+  [[nodiscard]] Turned turned(double mu) const {
     std::vector<std::vector<double>> rest(states_, std::vector<double>(states_, 0.0));
     for (std::size_t i = 0; i < states_; ++i) {
       for (std::size_t j = 0; j < states_; ++j) {
@@ -66,20 +69,30 @@ class StackedLength {
     }
     const std::vector<std::vector<double>> inverse = near_inverse_root(rest);
     if (inverse.empty()) {
+      return {SymmetricMatrix(size_), SymmetricMatrix(size_)};
+    }
+    const bool is_gaussian = of_gaussian_ > 0.0;
+    return {turned(of_x_, inverse, mu),
+            has_others_ ? turned(of_others_, inverse, mu) : SymmetricMatrix(size_),
+            is_gaussian ? 0.0 : root(near_largest_eigenvalue(turned(of_squares_, inverse, mu)))};
+  }
+
+  /// Where |x| counts as t of the unit ball of all vectors.
+  [[nodiscard]] double at(const Turned& of_mu, double t) const {
+    if (!std::isfinite(of_mu.of_squares)) {
       return kInfinity;
     }
     SymmetricMatrix linear(size_);
     if (of_gaussian_ > 0.0) {
-      linear.add(of_x_, 1.0);
-      linear.add(of_others_, of_gaussian_);
-      return near_largest_eigenvalue(turned(linear, inverse, mu));
+      linear.add(of_mu.of_x, 1.0);
+      linear.add(of_mu.of_others, of_gaussian_);
+      return near_largest_eigenvalue(linear);
     }
-    linear.add(of_x_, has_others_ ? 1.0 / t : 1.0);
+    linear.add(of_mu.of_x, has_others_ ? 1.0 / t : 1.0);
     if (has_others_) {
-      linear.add(of_others_, 1.0 / (1.0 - t));
+      linear.add(of_mu.of_others, 1.0 / (1.0 - t));
     }
-    return root(near_largest_eigenvalue(turned(linear, inverse, mu))) +
-           root(near_largest_eigenvalue(turned(of_squares_, inverse, mu)));
+    return root(near_largest_eigenvalue(linear)) + of_mu.of_squares;
   }
 
  private:
@@ -153,26 +166,26 @@ double near_best_multiplier(const PlaceMatrix& spread, const std::vector<BallPol
   // mu = (1 + e^u) times the largest eigenvalue of the spread.
   const auto multiplier = [&](double u) { return unit * (1.0 + std::exp(u)); };
   const auto share = [](double logit) { return 1.0 / (1.0 + std::exp(-logit)); };
-  constexpr double kUsualShare = 2.2;  // logit: 0.9
   constexpr double kLow = -4.5;
-  constexpr double kHigh = 5.0;
-  const auto best_mu = [&](double t, double low, double high, int sections) {
-    return place_of_least(low, high, sections, [&](double u) { return length.at(multiplier(u), t); });
+  constexpr double kHigh = 6.0;
+  // What is least over the shares falls and then rises with mu. One after the other does not end there: the
+  // valley is narrow, along neither of them, and has edges.
+  const bool is_shared = length.has_others() && !(of_gaussian > 0.0);
+  const auto best_logit = [&](const StackedLength::Turned& of_mu, double middle, double width, int sections) {
+    return place_of_least(middle - width, middle + width, sections,
+                          [&](double logit) { return length.at(of_mu, share(logit)); });
   };
-  double t = share(kUsualShare);
-  double u = best_mu(t, kLow, kHigh, 9);
-  double logit = kUsualShare;
-  // One after the other, twice.
-  for (const double width : {4.0, 0.8}) {
-    if (length.has_others() && !(of_gaussian > 0.0)) {
-      logit = place_of_least(logit - width, logit + width, 8,
-                             [&](double tried) { return length.at(multiplier(u), share(tried)); });
-      t = share(logit);
-    }
-    u = best_mu(t, u - 0.2 * width, u + 0.2 * width, 7);
-  }
+  const auto best_u = [&](double low, double high, int sections, double middle, double width, int inside) {
+    return place_of_least(low, high, sections, [&](double u) {
+      const StackedLength::Turned of_mu = length.turned(multiplier(u));
+      return length.at(of_mu, is_shared ? share(best_logit(of_mu, middle, width, inside)) : 1.0);
+    });
+  };
+  double u = best_u(kLow, kHigh, 7, 2.5, 6.0, 6);
+  const double logit = best_logit(length.turned(multiplier(u)), 2.5, 6.0, 9);
+  u = best_u(u - 0.5, u + 0.5, 6, logit, 0.6, 6);
   const double mu = multiplier(u);
-  return std::isfinite(mu) && std::isfinite(length.at(mu, t)) ? mu : 0.0;
+  return std::isfinite(mu) && std::isfinite(length.turned(mu).of_squares) ? mu : 0.0;
 }
 
 }  // namespace veritrack::checker

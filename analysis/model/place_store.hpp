@@ -46,7 +46,7 @@ class PlaceStore {
         return std::static_pointer_cast<const Value>(found->second);
       }
     }
-    const auto value = std::make_shared<const Value>(make());
+    std::shared_ptr<const Value> value = std::make_shared<const Value>(make());
     const std::scoped_lock lock(mutex_);
     if (kept_.size() < most_) {
       kept_.emplace(key, value);

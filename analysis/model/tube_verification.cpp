@@ -152,17 +152,17 @@ bool may_shrink(const TrackerModel& model, const Tube& tube, const LevelQuestion
 double growth_on_grid(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
                       const VerificationBudget& grid) {
   constexpr std::size_t kPhases = 6;
-  constexpr std::size_t kPlaces = 3;
+  constexpr std::size_t kPlacesOfGrid = 3;
   const auto phases = static_cast<double>(grid.phases);
   const auto frequencies = static_cast<double>(grid.frequencies);
   const std::array<double, 2> scales{1.0, question.least_scale};
-  std::vector<double> growths(kPhases * kPlaces);
+  std::vector<double> growths(kPhases * kPlacesOfGrid);
   tbb::parallel_for(std::size_t{0}, growths.size(), [&](std::size_t number) {
     const rigor::UpwardRounding upward;
-    const std::size_t phase = number / kPlaces;
-    const std::size_t place = number % kPlaces;
+    const std::size_t phase = number / kPlacesOfGrid;
+    const std::size_t place = number % kPlacesOfGrid;
     const double share = (static_cast<double>(phase) + 0.3) / kPhases;
-    const double row = std::floor(static_cast<double>(place) / kPlaces * frequencies);
+    const double row = std::floor(static_cast<double>(place) / kPlacesOfGrid * frequencies);
     const TubeCell cell{(std::floor(share * phases) + 0.5) / phases, 0.5 / phases,
                         (2.0 * row + 1.0) / frequencies - 1.0, 1.0 / frequencies};
     const StepBounds bounds = bounds_of(model, tube, cell, question, {scales.begin(), scales.end()}, nullptr);

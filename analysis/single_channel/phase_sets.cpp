@@ -215,7 +215,7 @@ std::optional<PhaseSet> PhaseSearch::set_for_starts(const Accept& accept) const 
   large.resize(std::min(large.size(), kTries));
   candidates.insert(candidates.end(), large.begin(), large.end());
   for (const WindowClaim& proposal : candidates) {
-    const auto set = verified(proposal, tracker.noise, tracker.slew, [&](const PhaseSet& one) {
+    auto set = verified(proposal, tracker.noise, tracker.slew, [&](const PhaseSet& one) {
       std::vector<PhaseSet> started = with_starts(one, {1.02, 1.1, 1.3});
       std::erase_if(started, [&](const PhaseSet& start) {
         return !certainly_less_equal(Interval(start.claim.signal_uncertainty), tracker.design.q1) ||

@@ -1,4 +1,6 @@
 // The command line: reads arguments and calls commands.hpp.
+#include <malloc.h>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -171,10 +173,18 @@ int run(int argc, char** argv) {
   return app.got_subcommand("certify") ? run_certify(arguments.certify) : run_check(arguments.check);
 }
 
+/// What is freed is kept for the next polynomial instead of being given back to the kernel: with nine states
+/// that took a third of the time.
+void keep_freed_memory() {
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  mallopt(M_MMAP_THRESHOLD, 1 << 25);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
+    keep_freed_memory();
     prepare_standard_streams();
     const int status = run(argc, argv);
     finish_standard_output();

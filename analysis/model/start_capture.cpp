@@ -28,13 +28,13 @@ using rigor::BallModel;
 using rigor::BallModelScope;
 using rigor::Interval;
 
-constexpr double kWholeTurn = 2.0 * std::numbers::pi;
+constexpr double kTurnOfPhase = 2.0 * std::numbers::pi;
 /// Samples between two looks at whether the state is in the tube.
-constexpr std::size_t kStride = 4;
+constexpr std::size_t kSamplesBetweenLooks = 4;
 
 /// Adds whole turns so that the constant is nearest to 0: angles count modulo 2 pi.
 BallModel turned_back(const BallModel& angle) {
-  const double turns = std::round(angle.constant() / kWholeTurn);
+  const double turns = std::round(angle.constant() / kTurnOfPhase);
   const bool is_turned = std::isfinite(turns) && turns != 0.0;
   return is_turned ? angle - BallModel(Interval(turns) * Interval(2.0) * rigor::pi()) : angle;
 }
@@ -53,9 +53,9 @@ BallModel place_part(const BallModel& model) {
   BallModel sum;
   for (const rigor::BallMonomials::Class& here : model.monomials().classes()) {
     if (here.ball == 0 && here.disturbance == 0) {
-      sum.add_multiple(powers_of_s.at(static_cast<std::size_t>(here.s)) *
-                           powers_of_z.at(static_cast<std::size_t>(here.z)),
-                       model.coefficients()[here.first]);
+      sum.add_multiple(
+          powers_of_s.at(static_cast<std::size_t>(here.s)) * powers_of_z.at(static_cast<std::size_t>(here.z)),
+          model.coefficients()[here.first]);
     }
   }
   return sum.without_error();  // the doubles are the polynomial, whatever they come from
@@ -71,11 +71,11 @@ std::vector<BallModel> lifted(const std::vector<BallModel>& models) {
 }
 
 /// The start on its way, over a cell.
-class Follower {
+class StartFollower {
  public:
   /// Needs the scope of the models, and the upward rounding mode.
-  Follower(const TrackerModel& model, const TubeOfLevel& target, const TubeCell& cell,
-           const StartQuestion& question)
+  StartFollower(const TrackerModel& model, const TubeOfLevel& target, const TubeCell& cell,
+                const StartQuestion& question)
       : model_(&model), target_(&target), question_(&question), shape_only_(*target.tube) {
     require_sizes(model, *target.tube);
     if (question.state.size() != target.tube->curve.size()) {
@@ -101,7 +101,7 @@ class Follower {
         result.obstacle = fmt::format("at sample {} the bounds of its state are wider than the set", sample_);
         break;
       }
-      if (sample_ % kStride == 0 && is_inside()) {
+      if (sample_ % kSamplesBetweenLooks == 0 && is_inside()) {
         result.is_captured = true;
         break;
       }
@@ -196,9 +196,8 @@ class Follower {
     // A ball of some size, for the bounds of what is linear in it.
     constexpr double kLeast = 0x1p-40;
     const double length = length_bounds(rest, {1.0}).front();
-    radius_ = is_known_ && std::isfinite(length) && length >= 0.0
-                  ? std::max(length, kLeast * target_->level)
-                  : std::numeric_limits<double>::quiet_NaN();
+    radius_ = is_known_ && std::isfinite(length) && length >= 0.0 ? std::max(length, kLeast * target_->level)
+                                                                  : std::numeric_limits<double>::quiet_NaN();
   }
 
   /// |U^-1 (P - C)| + r <= R_0.
@@ -251,7 +250,7 @@ class Follower {
   bool is_error_known_ = true;
 };
 
-bool is_question(const std::vector<TubeOfLevel>& tubes, const StartQuestion& question) {
+bool is_start_question(const std::vector<TubeOfLevel>& tubes, const StartQuestion& question) {
   const auto is_tube = [](const TubeOfLevel& each) {
     return each.tube != nullptr && std::isfinite(each.level) && each.level > 0.0 &&
            !each.tube->bounds_covariance();
@@ -268,7 +267,7 @@ FollowedStart follow_start(const TrackerModel& model, const TubeOfLevel& target,
                            const StartQuestion& question) {
   const BallModelScope scope(model.recursion->states,
                              is_disturbed(model, question.noise) ? model.recursion->samples : 0);
-  return Follower(model, target, cell, question).run();
+  return StartFollower(model, target, cell, question).run();
 }
 
 StartCapture prove_start_captured(const TrackerModel& model, const std::vector<TubeOfLevel>& tubes,
@@ -276,7 +275,7 @@ StartCapture prove_start_captured(const TrackerModel& model, const std::vector<T
                                   const std::function<void(double)>& progress) {
   StartCapture result;
   const rigor::UpwardRounding upward;
-  if (!is_question(tubes, question) || !is_grid(budget)) {
+  if (!is_start_question(tubes, question) || !is_grid(budget)) {
     result.reason = "no start, set or budget that could be followed";
     return result;
   }
@@ -302,7 +301,7 @@ StartCapture prove_start_captured(const TrackerModel& model, const std::vector<T
       const double late = static_cast<double>(followed.samples);
       return {followed.is_captured,
               rigor::is_finite(followed.frequency_error) ? followed.frequency_error : Interval(0.0),
-              kWholeTurn * cell.half_turn, late * target.tube->half_width * cell.half_z};
+              kTurnOfPhase * cell.half_turn, late * target.tube->half_width * cell.half_z};
     };
     const CoverResult cover = cover_cells(ask, budget);
     if (!cover.is_proved || cover.cells == 0) {
@@ -313,7 +312,7 @@ StartCapture prove_start_captured(const TrackerModel& model, const std::vector<T
                       (budget.deadline.is_over() ? "the time was over before the start was followed"
                        : at_point.is_captured    ? "the start is in the set there, but the cells around it "
                                                    "are too many"
-                                              : at_point.obstacle);
+                                                 : at_point.obstacle);
       return result;
     }
     result.cells += cover.cells;
@@ -348,13 +347,13 @@ std::size_t simulated_capture(const TrackerModel& model, const std::vector<TubeO
         }
         std::size_t sample = 0;
         for (; sample < most; ++sample) {
-          const double phase =
-              std::remainder(kWholeTurn * j / kPhases + static_cast<double>(sample) * frequency, kWholeTurn);
+          const double phase = std::remainder(
+              kTurnOfPhase * j / kPhases + static_cast<double>(sample) * frequency, kTurnOfPhase);
           tube.at(phase, frame);
           Eigen::VectorXd near = x;
           for (Eigen::Index i = 0; i < near.size(); ++i) {
             if (model.recursion->is_angle[static_cast<std::size_t>(i)]) {
-              near[i] -= kWholeTurn * std::round((near[i] - frame.curve[i]) / kWholeTurn);
+              near[i] -= kTurnOfPhase * std::round((near[i] - frame.curve[i]) / kTurnOfPhase);
             }
           }
           const double level = frame.coordinates(near).norm();

@@ -67,6 +67,9 @@ class ModelClaims {
       }
       add(claim);
     }
+    if (const Scope scope = scope_of(*deciding_); scope.is_any && captures_start()) {
+      add_capture(*sets_->capture, scope.part);
+    }
     if (const auto limits = limits_of(*sets_, tables_->assume)) {
       add_limits(*limits);
     }
@@ -176,6 +179,30 @@ class ModelClaims {
   static std::string by_set(const ModelSet& set, const char* usual) {
     return set.tubes.name == usual ? std::string()
                                    : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
+  }
+  /// The grid is evidence: where the checker begins.
+  void add_capture(const ModelCapture& capture, const std::optional<BandPart>& part) {
+    const ModelWords words = words_for(part);
+    const char* set = sets_->assumed ? "assumed" : "starts";
+    const std::string samples = fmt::format("{}", capture.samples);
+    Claim claim = told("model/capture", words.constant_tone() + words.noise() + words.started_exactly());
+    claim.values = {{"samples", samples}};
+    claim.statement += fmt::format(
+        ", the tracker is in the set \"{}\" of the certificate after at most {} samples", set, samples);
+    if (std::isfinite(capture.frequency_error)) {
+      const std::string before = above(capture.frequency_error);
+      claim.values.emplace_back("frequency_error_before", before);
+      claim.statement +=
+          fmt::format(", with a frequency error of at most {} until then", units_.at_most(before));
+    }
+    const std::string after = above(deciding_->frequency_error);
+    claim.values.emplace_back("frequency_error", after);
+    claim.statement +=
+        fmt::format(", and the frequency error stays at or below {} for ever after", units_.at_most(after));
+    claim.values.emplace_back("phases", fmt::format("{}", capture.phases));
+    claim.values.emplace_back("frequencies", fmt::format("{}", capture.frequencies));
+    add_part(claim, part);
+    add(claim);
   }
   void add_limits(const ModelLimits& limits) {
     Claim claim = told("model/limits", words_for(limits.part).constant_tone());
@@ -338,6 +365,9 @@ class ModelClaims {
   /// Of the set that decides, for the frequencies that it covers.
   [[nodiscard]] bool keeps_starts() const {
     return deciding_->start_share <= 1.0 && std::isfinite(deciding_->frequency_error);
+  }
+  [[nodiscard]] bool captures_start() const {
+    return sets_->capture && sets_->capture->is_proved && std::isfinite(deciding_->frequency_error);
   }
   [[nodiscard]] bool guaranteed() const { return covers_assumptions() && keeps_starts(); }
   [[nodiscard]] bool settles() const {

@@ -53,6 +53,7 @@ struct ModelAssumptions {
   Number slew;                            ///< of the frequency
   bool slew_in_hertz_per_second = false;  ///< otherwise rad/sample per sample
   std::vector<NamedText> start_within;    ///< of states: deviations from the curve at the start, at most
+  std::vector<NamedText> start_exactly;   ///< of all states: the state at the start; none: it is not known
   std::vector<SourceText> signal;         ///< a formula in A and phi for each sample; none: the tone alone
 };
 

@@ -359,7 +359,8 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     std::swap(tasks[0], tasks[1]);  // what is required rests on it
   }
   const double locks = !assume.gaussian ? 0.0 : is_everything ? 2.0 : 1.0;
-  const double all = static_cast<double>(tasks.size()) + locks;
+  const double captures = assume.start_exactly.empty() ? 0.0 : 1.0;
+  const double all = static_cast<double>(tasks.size()) + locks + captures;
   double done = 0.0;
   const auto tell = [&](double share) {
     if (progress) {
@@ -409,6 +410,11 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   if (const auto& required = require.frequency_error_below) {
     ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
     deciding = meeting(tracker, std::move(deciding), deviations, *required);
+  }
+  if (!assume.start_exactly.empty()) {
+    const ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
+    sets.capture = capture_of(model, tracker, exact_start(model, tables.model, assume.start_exactly),
+                              deciding.tubes, noise, deciding.frequency_error, deadline, tell);
   }
   if (is_everything && sets.assumed && !sets.assumed->tubes.tubes.empty()) {
     sets.linear = linear_over(tone, sets.assumed->tubes);

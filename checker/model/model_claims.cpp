@@ -1,10 +1,12 @@
 #include "checker/model/model_claims.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "checker/document/design_number.hpp"
 #include "checker/model/gaussian_drift.hpp"
 #include "checker/model/long_run.hpp"
+#include "checker/model/start_capture.hpp"
 #include "checker/numbers/decimal_text.hpp"
 
 namespace veritrack::checker {
@@ -19,6 +21,7 @@ const std::string kRadius = "model/frequency-error-radius";
 const std::string kBias = "model/bias";
 const std::string kRipple = "model/ripple";
 const std::string kGuarantee = "model/guarantee";
+const std::string kCapture = "model/capture";
 const std::string kLimits = "model/limits";
 const std::string kSlewLimit = "model/slew-limit";
 const std::string kSteadyState = "model/steady-state";
@@ -43,6 +46,15 @@ Ball written(const Tree& claim, const char* name) {
     throw Malformed("a decimal of more than 40 characters");
   }
   return from_decimal(text);
+}
+
+/// A whole number from 1 to `most` that the claim writes, or 0 where it writes none.
+std::size_t whole_number(const Tree& claim, const char* name, std::size_t most) {
+  const Ball value = written(claim, name);
+  const double near = std::round(value.near());
+  const bool is_whole =
+      near >= 1.0 && near <= static_cast<double>(most) && certainly_equal(value, Ball(near));
+  return is_whole ? static_cast<std::size_t>(near) : 0;
 }
 
 }  // namespace
@@ -345,6 +357,39 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   return found;
 }
 
+Claim ModelClaims::capture(const Tree& claim, const Part& part) const {
+  Claim found;
+  found.is_summary = true;
+  if (design_->start.empty()) {
+    return found;  // there is no start to speak of
+  }
+  constexpr std::size_t kMostSamples = 100'000;
+  constexpr std::size_t kMostParts = 1U << 14U;
+  const TubeSet* set = deciding_set(part);
+  const ModelWords words(*tree_, part, bound_covariance(*sets_));
+  StartClaim start{design_->start,
+                   design_->noise,
+                   whole_number(claim, "samples", kMostSamples),
+                   {},
+                   whole_number(claim, "phases", kMostParts),
+                   whole_number(claim, "frequencies", kMostParts)};
+  const Ball after = written(claim, "frequency_error");
+  found.statement = words.constant_tone() + words.assumed_noise(design_->is_noisy()) +
+                    words.started_exactly() + ", the tracker is in the set \"" + deciding_name() +
+                    "\" of the certificate after at most " + claim.at("samples").text() + " samples";
+  bool certain = set != nullptr && of(*set).error_is_at_most(first_level, after);
+  if (const Tree* error = claim.find("frequency_error_before")) {
+    found.statement += ", with a frequency error of at most " + units_.at_most(error->text()) + " until then";
+    start.frequency_error = written(claim, "frequency_error_before");
+    // Some are in the set before others.
+    certain = certain && of(*set).error_is_at_most(first_level, *start.frequency_error);
+  }
+  found.statement += ", and the frequency error stays at or below " +
+                     units_.at_most(claim.at("frequency_error").text()) + " for ever after.";
+  found.verdict = proved_if(certain && is_captured(*model_, *set, start, *cells_));
+  return found;
+}
+
 const TubeSet* ModelClaims::largest(std::initializer_list<const char*> names, double TubeSet::*size,
                                     const Part& part) const {
   const TubeSet* found = nullptr;
@@ -435,8 +480,8 @@ Claim ModelClaims::steady_state(const Tree& claim, const Part& part) const {
 Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
   const std::string& id = claim.at("id").text();
   const std::vector<Requirement> asked = required();
-  const bool is_told = id == kGuarantee || id == kLimits || id == kSlewLimit || id == kSteadyState ||
-                       id == kLock || id == kLowestSnr;
+  const bool is_told = id == kGuarantee || id == kCapture || id == kLimits || id == kSlewLimit ||
+                       id == kSteadyState || id == kLock || id == kLowestSnr;
   const bool is_asked = std::any_of(asked.begin(), asked.end(),
                                     [&](const Requirement& requirement) { return requirement.claim == id; });
   if (!is_told && !is_asked) {
@@ -446,6 +491,7 @@ Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
   const bool is_lock = id == kLock || id == kLowestSnr;
   const Part part = is_told && !is_lock ? part_of(claim, objections) : Part();
   Claim found = id == kGuarantee               ? guarantee(claim, part)
+                : id == kCapture               ? capture(claim, part)
                 : id == kLimits                ? limits(claim, part)
                 : id == kSlewLimit             ? slew_limit(claim, part)
                 : id == kSteadyState           ? steady_state(claim, part)

@@ -72,6 +72,30 @@ void read_start(const Tree& start, ModelRecursion& recursion, ModelDesign& desig
   }
 }
 
+/// Each state once.
+void read_exact_start(const Tree& start, ModelRecursion& recursion, ModelDesign& design,
+                      Objections& objections) {
+  const std::vector<std::string>& names = recursion.state_names();
+  std::vector<std::optional<Ball>> state(names.size());
+  for (const Tree& entry : start.elements()) {
+    const std::string& name = entry.at("name").text();
+    const auto found = std::find(names.begin(), names.end(), name);
+    const auto at = static_cast<std::size_t>(found - names.begin());
+    if (found == names.end() || state[at]) {
+      objections.push_back("start_exactly: " + name + " is no state, or there twice");
+      return;
+    }
+    state[at] = recursion.constant_value(entry.at("formula").text());
+  }
+  for (const std::optional<Ball>& value : state) {
+    if (!value) {
+      objections.emplace_back("start_exactly: a state is missing");
+      return;
+    }
+    design.start.push_back(*value);
+  }
+}
+
 /// A bound, or Gaussian noise by one number, and then for how many samples.
 void read_noise(const Tree& assume, ModelDesign& design, Objections& objections) {
   const Tree& noise = assume.at("noise");
@@ -162,6 +186,15 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
   }
   if (const Tree* start = assume.find("start_within")) {
     read_start(*start, recursion, design, objections);
+  }
+  if (const Tree* start = assume.find("start_exactly")) {
+    read_exact_start(*start, recursion, design, objections);
+    if (recursion.filtered() > 0 || design.deviation || !certainly_equal(design.slew, zero) ||
+        !design.start_within.empty()) {
+      objections.emplace_back(
+          "start_exactly is for bounded noise and a constant frequency, not for ekf, and without "
+          "start_within");
+    }
   }
   read_requirements(tree.at("require"), assume, design, objections);
   if (design.losing_lock && !design.deviation) {
@@ -260,12 +293,25 @@ std::string ModelWords::started_in(const std::string& set) const {
   return "started in the set \"" + set + "\" of the certificate" + covariance_of(set);
 }
 
-std::string ModelWords::start_within(const std::string& set) const {
+namespace {
+
+/// "alpha: 0, w: 0.3".
+std::string listed(const Tree& entries) {
   std::string list;
-  for (const Tree& entry : assume().at("start_within").elements()) {
+  for (const Tree& entry : entries.elements()) {
     list += (list.empty() ? "" : ", ") + entry.at("name").text() + ": " + entry.at("formula").text();
   }
-  return ", started within {" + list + "} of the curve of the set \"" + set +
+  return list;
+}
+
+}  // namespace
+
+std::string ModelWords::started_exactly() const {
+  return ", started exactly in {" + listed(assume().at("start_exactly")) + "} at any phase of the signal";
+}
+
+std::string ModelWords::start_within(const std::string& set) const {
+  return ", started within {" + listed(assume().at("start_within")) + "} of the curve of the set \"" + set +
          "\" of the certificate, the other states on it";
 }
 

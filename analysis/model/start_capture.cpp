@@ -95,10 +95,10 @@ class StartFollower {
     if (!include_error(result)) {
       is_error_known_ = false;
     }
-    constexpr double kMostRadii = 4.0;  // of the tube: what is wider has never come back
+    constexpr double kMostRadii = 64.0;  // of the tube: what is wider does not come back
     for (;;) {
       if (!(radius_ <= kMostRadii * target_->level)) {
-        result.obstacle = fmt::format("at sample {} the bounds of its state are wider than the set", sample_);
+        result.obstacle = fmt::format("at sample {} the bounds of its state are far wider than the set", sample_);
         break;
       }
       if (sample_ % kSamplesBetweenLooks == 0 && is_inside()) {

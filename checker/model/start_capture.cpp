@@ -85,7 +85,7 @@ class FollowedStart {
   /// In the tube in time, with errors of the frequency as small as is said.
   [[nodiscard]] bool gets_in() {
     begin();
-    constexpr double kMuch = 4.0;  // of the tube: what is wider does not come back
+    constexpr double kMuch = 64.0;  // of the tube: what is wider does not come back
     while (radius_ <= kMuch * tube_->levels.front() && has_small_error()) {
       if ((sample_ % kBetweenLooks == 0 || sample_ == start_->samples) && is_inside()) {
         return true;

@@ -359,7 +359,8 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     std::swap(tasks[0], tasks[1]);  // what is required rests on it
   }
   const double locks = !assume.gaussian ? 0.0 : is_everything ? 2.0 : 1.0;
-  const double captures = assume.start_exactly.empty() ? 0.0 : 1.0;
+  const bool follows_start = is_everything && !assume.start_exactly.empty();  // it is told, not required
+  const double captures = follows_start ? 1.0 : 0.0;
   const double all = static_cast<double>(tasks.size()) + locks + captures;
   double done = 0.0;
   const auto tell = [&](double share) {
@@ -411,7 +412,7 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
     deciding = meeting(tracker, std::move(deciding), deviations, *required);
   }
-  if (!assume.start_exactly.empty()) {
+  if (follows_start) {
     const ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
     sets.capture = capture_of(model, tracker, exact_start(model, tables.model, assume.start_exactly),
                               deciding.tubes, noise, deciding.frequency_error, deadline, tell);

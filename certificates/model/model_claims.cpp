@@ -114,6 +114,9 @@ class ModelClaims {
     if (sets.settles_within) {
       add(settling(assumed));
     }
+    if (const auto& number = require.captured_within) {
+      add(captured(*number));
+    }
     if (const auto& number = sets.largest_noise_at_least) {
       Claim claim = required("model/largest-noise", *number, words_.constant_tone(),
                              "the tracker tolerates noise up to {}: a certified invariant set exists");
@@ -183,12 +186,12 @@ class ModelClaims {
   /// The grid is evidence: where the checker begins.
   void add_capture(const ModelCapture& capture, const std::optional<BandPart>& part) {
     const ModelWords words = words_for(part);
-    const char* set = sets_->assumed ? "assumed" : "starts";
     const std::string samples = fmt::format("{}", capture.samples);
     Claim claim = told("model/capture", words.constant_tone() + words.noise() + words.started_exactly());
     claim.values = {{"samples", samples}};
-    claim.statement += fmt::format(
-        ", the tracker is in the set \"{}\" of the certificate after at most {} samples", set, samples);
+    claim.statement +=
+        fmt::format(", the tracker is in the set \"{}\" of the certificate after at most {} samples",
+                    deciding_name(), samples);
     if (std::isfinite(capture.frequency_error)) {
       const std::string before = above(capture.frequency_error);
       claim.values.emplace_back("frequency_error_before", before);
@@ -325,6 +328,26 @@ class ModelClaims {
     }
     return claim;
   }
+
+  /// From the start of the design into the set.
+  [[nodiscard]] Claim captured(const Number& within) const {
+    const std::string requirement = fmt::format(
+        "the tracker is in the set \"{}\" of the certificate after at most {{}} samples", deciding_name());
+    Claim claim = required("model/capture-time", within,
+                           words_.constant_tone() + words_.noise() + words_.started_exactly(), requirement);
+    if (!covers_assumptions() || !sets_->capture) {
+      claim.reason = assumption_objection();
+    } else if (!sets_->capture->is_proved) {
+      claim.reason = "It is not proved that it comes there: " + sets_->capture->reason + ".";
+    } else {
+      const double samples = sets_->capture->samples;
+      const bool holds = rigor::certainly_less_equal(Interval(samples), within.value);
+      claim.verdict = holds ? Verdict::proved : Verdict::undecided;
+      claim.reason = fmt::format("It is proved to be there after at most {} samples.", samples);
+    }
+    return claim;
+  }
+  [[nodiscard]] const char* deciding_name() const { return sets_->assumed ? "assumed" : "starts"; }
 
   /// After how many samples the error is below the target at all frequencies; infinity when it is not known.
   [[nodiscard]] double samples_below(const Number& target) const {

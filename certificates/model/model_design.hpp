@@ -60,8 +60,9 @@ struct ModelAssumptions {
 /// [require] of a model.
 struct ModelRequirements {
   Requirements sets;
-  std::optional<Number> bias_below;    ///< rad/sample
-  std::optional<Number> ripple_below;  ///< rad/sample
+  std::optional<Number> captured_within;  ///< samples, from start_exactly
+  std::optional<Number> bias_below;       ///< rad/sample
+  std::optional<Number> ripple_below;     ///< rad/sample
 };
 
 /// The tables of a design file for the tracker "model".

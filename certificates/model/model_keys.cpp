@@ -243,6 +243,10 @@ void settles_within(const TomlValue& value, ModelRequire& target) {
   target.sets.settles_within =
       value.whole_number([](const Interval& x) { return rigor::certainly_less_equal(Interval(1.0), x); });
 }
+void captured_within(const TomlValue& value, ModelRequire& target) {
+  target.captured_within =
+      value.whole_number([](const Interval& x) { return rigor::certainly_less_equal(Interval(1.0), x); });
+}
 void probability_of_losing_lock(const TomlValue& value, ModelRequire& target) {
   target.sets.probability_of_losing_lock_below = value.real([](const Interval& x) {
     return rigor::certainly_positive(x) && rigor::certainly_less(x, Interval(1.0));
@@ -254,6 +258,7 @@ constexpr std::array kModelRequireKeys{
     Key<ModelRequire>{"settles_within", "a whole number of samples, 1 or more", settles_within, kOptional},
     Key<ModelRequire>{"settled_below", kPositiveFrequency, error_of_sets<&Requirements::settled_below>,
                       kOptional},
+    Key<ModelRequire>{"captured_within", "a whole number of samples, 1 or more", captured_within, kOptional},
     Key<ModelRequire>{"largest_noise_at_least", kPositive, of_sets<&Requirements::largest_noise_at_least>,
                       kOptional},
     Key<ModelRequire>{"largest_slew_at_least", kPositiveSlew, slew_of_sets, kOptional},
@@ -328,6 +333,10 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
   }
   if (auto objection = objection_to_exact_start(model, assume)) {
     return objection;
+  }
+  if (require.captured_within && assume.start_exactly.empty()) {
+    return TableObjection{
+        "require", "captured_within without start_exactly, from which it counts; allowed: both of them", {}};
   }
   try {
     const Model made = make_model(model, assume.signal);

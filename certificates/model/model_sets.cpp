@@ -359,7 +359,8 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     std::swap(tasks[0], tasks[1]);  // what is required rests on it
   }
   const double locks = !assume.gaussian ? 0.0 : is_everything ? 2.0 : 1.0;
-  const bool follows_start = is_everything && !assume.start_exactly.empty();  // it is told, not required
+  const bool follows_start =
+      !assume.start_exactly.empty() && (is_everything || tables.require.captured_within);
   const double captures = follows_start ? 1.0 : 0.0;
   const double all = static_cast<double>(tasks.size()) + locks + captures;
   double done = 0.0;

@@ -22,6 +22,7 @@ const std::string kBias = "model/bias";
 const std::string kRipple = "model/ripple";
 const std::string kGuarantee = "model/guarantee";
 const std::string kCapture = "model/capture";
+const std::string kCaptureTime = "model/capture-time";
 const std::string kLimits = "model/limits";
 const std::string kSlewLimit = "model/slew-limit";
 const std::string kSteadyState = "model/steady-state";
@@ -79,6 +80,10 @@ std::string ModelClaims::short_text(const std::string& id) const {
     return "from sample " + design_->settles_within->text + " on, the frequency error stays below " +
            design_->settled_below->text;
   }
+  if (id == kCaptureTime) {
+    return "the tracker is in the set \"" + deciding_name() + "\" of the certificate after at most " +
+           design_->captured_within->text + " samples";
+  }
   if (id == kLargestNoise) {
     return "the tracker tolerates noise up to " + design_->largest_noise->text +
            ": a certified invariant set exists";
@@ -110,6 +115,7 @@ std::vector<Requirement> ModelClaims::required() const {
   };
   require(design_->frequency_error_below.has_value(), kErrorBound);
   require(design_->settles_within.has_value(), kSettlingTime);
+  require(design_->captured_within.has_value(), kCaptureTime);
   require(design_->largest_noise.has_value(), kLargestNoise);
   require(design_->largest_slew.has_value(), kLargestSlew);
   require(design_->radius.has_value(), kRadius);
@@ -357,6 +363,23 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   return found;
 }
 
+Claim ModelClaims::captured_in_time() const {
+  constexpr double kMostSamples = 100'000.0;
+  constexpr std::size_t kPhases = 16;
+  const TubeSet* set = deciding_set();
+  // Whole samples that have passed by then. More than these do not help.
+  const double samples = std::floor(std::min(design_->captured_within->value.lower_double(), kMostSamples));
+  Claim found;
+  found.statement = words_.constant_tone() + words_.assumed_noise(design_->is_noisy()) +
+                    words_.started_exactly() + ", " + short_text(kCaptureTime) + ".";
+  found.verdict = proved_if(
+      set != nullptr && samples >= 1.0 &&
+      is_captured(*model_, *set,
+                  {design_->start, design_->noise, static_cast<std::size_t>(samples), {}, kPhases, 1},
+                  *cells_));
+  return found;
+}
+
 Claim ModelClaims::capture(const Tree& claim, const Part& part) const {
   Claim found;
   found.is_summary = true;
@@ -499,6 +522,7 @@ Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
                 : id == kLosingLock            ? required_lock()
                 : id == kErrorBound            ? bound()
                 : id == kSettlingTime          ? settling()
+                : id == kCaptureTime           ? captured_in_time()
                 : id == kBias || id == kRipple ? long_run(id)
                                                : size(id);
   check_claim(claim, found, objections);

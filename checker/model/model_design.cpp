@@ -133,10 +133,11 @@ RequiredNumber required_number(const std::string& name, const Tree& number, cons
 }
 
 void read_requirements(const Tree& require, const Tree& assume, ModelDesign& design, Objections& objections) {
-  const std::array<std::pair<std::string, std::optional<RequiredNumber>*>, 9> keys{
+  const std::array<std::pair<std::string, std::optional<RequiredNumber>*>, 10> keys{
       {{"frequency_error_below", &design.frequency_error_below},
        {"settles_within", &design.settles_within},
        {"settled_below", &design.settled_below},
+       {"captured_within", &design.captured_within},
        {"largest_noise_at_least", &design.largest_noise},
        {"largest_slew_at_least", &design.largest_slew},
        {"frequency_error_radius_at_least", &design.radius},
@@ -205,6 +206,9 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
   }
   if (design.deviation && design.amplitude_varies) {
     objections.emplace_back("nothing is certified of Gaussian noise with a range of amplitudes");
+  }
+  if (design.captured_within && design.start.empty()) {
+    objections.emplace_back("captured_within is asked of start_exactly");
   }
   const bool asks_for_ever = design.frequency_error_below || design.settles_within || design.largest_noise ||
                              design.largest_slew || design.radius;

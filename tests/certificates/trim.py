@@ -330,7 +330,7 @@ def model_from_rest(certificate):
     """Without what is told of another noise than the assumed one."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
     certificate["claims"] = [claim for claim in certificate["claims"]
-                             if claim["id"] in ("model/guarantee", "model/capture")]
+                             if claim["id"] in ("model/guarantee", "model/capture", "model/capture-time")]
 
 
 def model_moving(certificate):

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/model_claims.hpp"
@@ -97,7 +99,8 @@ TEST_CASE("a claim says what is proved of the start, with all that it rests on")
   std::string text = test::kLoopText;
   const std::string within = "start_within = { w = 0.001 }";
   text.replace(text.find(within), within.size(), "start_exactly = { theta = '1/2', w = 'wn' }");
-  const auto claim_of = [&](const ModelCapture& capture, bool has_set = true) {
+  text += "captured_within = 40\n";
+  const auto certificate_of = [&](const ModelCapture& capture, bool has_set) {
     ModelSets sets;
     sets.assumed.emplace();
     sets.assumed->tubes.name = "assumed";
@@ -111,9 +114,16 @@ TEST_CASE("a claim says what is proved of the start, with all that it rests on")
     certificate.design = test::loop_design(text);
     certificate.particulars = sets;
     add_model_claims(certificate);
+    return certificate;
+  };
+  const auto find = [](const Certificate& certificate, const char* id) {
     const auto found = std::find_if(certificate.claims.begin(), certificate.claims.end(),
-                                    [](const Claim& claim) { return claim.id == "model/capture"; });
-    return found != certificate.claims.end() ? found->statement : std::string();
+                                    [&](const Claim& claim) { return claim.id == id; });
+    return found != certificate.claims.end() ? std::optional(*found) : std::nullopt;
+  };
+  const auto claim_of = [&](const ModelCapture& capture, bool has_set = true) {
+    const auto claim = find(certificate_of(capture, has_set), "model/capture");
+    return claim ? claim->statement : std::string();
   };
   const std::string start =
       "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.3, 0.32] rad/sample "
@@ -129,6 +139,19 @@ TEST_CASE("a claim says what is proved of the start, with all that it rests on")
         start + ", and the frequency error stays at or below 0.007813 rad/sample (1.25 Hz) for ever after.");
   CHECK(claim_of({false, "no", 0, 0.0, 16, 2}).empty());
   CHECK(claim_of({true, "", 40, 0.015625, 16, 2}, false).empty());
+
+  const auto required = [&](const ModelCapture& capture, bool has_set = true) {
+    return find(certificate_of(capture, has_set), "model/capture-time").value();
+  };
+  const Claim in_time = required({true, "", 40, INFINITY, 16, 2});
+  CHECK(in_time.verdict == rigor::Verdict::proved);
+  CHECK(in_time.required);
+  CHECK(in_time.statement == start + ".");
+  CHECK(required({true, "", 41, INFINITY, 16, 2}).verdict == rigor::Verdict::undecided);
+  CHECK(required({true, "", 40, INFINITY, 16, 2}, false).verdict == rigor::Verdict::undecided);
+  const Claim open = required({false, "it is too far", 0, INFINITY, 16, 2});
+  CHECK(open.verdict == rigor::Verdict::undecided);
+  CHECK(open.reason == "It is not proved that it comes there: it is too far.");
 }
 
 }  // namespace

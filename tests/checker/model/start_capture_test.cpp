@@ -38,7 +38,12 @@ bool verifies(const std::function<void(Json& claim)>& change) {
 TEST_CASE("a start from rest is verified, in these words") {
   const Verification found = verify_claim([](Json&) {});
   REQUIRE(found.verified());
-  REQUIRE(found.sentences.size() == 2);
+  CHECK(found.requirements_proved);
+  REQUIRE(found.sentences.size() == 3);
+  CHECK(
+      found.sentences[2].text.ends_with(" at any phase of the signal, the tracker is in the set \"assumed\" "
+                                        "of the certificate after at most 60 "
+                                        "samples."));
   CHECK(
       found.sentences[1].text ==
       "In exact arithmetic, on a tone of amplitude 1 with any constant frequency in [0.31, 0.315] "

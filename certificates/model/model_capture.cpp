@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kMostSimulatedSamples = 20'000;
 /// Parts of a turn to begin with.
 constexpr int kFirstPhases = 16;
+constexpr std::size_t kFewFollowedCells = 2'000;
 constexpr std::size_t kMostFollowedCells = 20'000;  // of a tube
 
 /// An angle that turns with the signal, by its name; empty where there is none. Started at one value at every
@@ -78,9 +79,18 @@ ModelCapture capture_of(const Model& model, const model::TrackerModel& tracker,
   }
   capture.phases = kFirstPhases;
   capture.frequencies = parts_of_frequencies(tubes, simulated);
-  const model::StartQuestion question{start, noise, 2 * simulated + 64};
-  const model::VerificationBudget budget{capture.phases, capture.frequencies, kMostFollowedCells, deadline};
-  const model::StartCapture found = model::prove_start_captured(tracker, targets, question, budget, progress);
+  // Wide cells come in late: first, cells are halved that are not there soon after simulations are.
+  model::StartCapture found;
+  for (const bool is_soon : {true, false}) {
+    const model::StartQuestion question{start, noise,
+                                        is_soon ? simulated + simulated / 4 + 8 : 2 * simulated + 64};
+    const model::VerificationBudget budget{capture.phases, capture.frequencies,
+                                           is_soon ? kFewFollowedCells : kMostFollowedCells, deadline};
+    found = model::prove_start_captured(tracker, targets, question, budget, progress);
+    if (found.verdict == rigor::Verdict::proved) {
+      break;
+    }
+  }
   if (found.verdict != rigor::Verdict::proved) {
     capture.reason = found.reason;
     return capture;

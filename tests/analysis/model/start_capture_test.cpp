@@ -148,6 +148,41 @@ TEST_CASE("a loop that starts at rest is in the set in time, and no simulation i
   CHECK(found.samples < 2 * latest + 40);  // and not much later than these
 }
 
+TEST_CASE("at a point the start is followed as exactly as a simulation, and cells contain their points") {
+  const TubeOfLevel& target = loop().tubes.front();
+  const StartQuestion question = from_rest(0.3125, 0.0);
+  test::Random random(7101);
+  const TubeCell cell{0.40625, 0.03125, 0.5, 0.25};
+  const FollowedStart around = follow_start(loop().example.model, target, cell, question);
+  REQUIRE(around.is_captured);
+  for (int round = 0; round < 12; ++round) {
+    const TubeCell point{cell.turn + cell.half_turn * random.uniform(-1.0, 1.0), 0.0,
+                         cell.z + cell.half_z * random.uniform(-1.0, 1.0), 0.0};
+    const FollowedStart found = follow_start(loop().example.model, target, point, question);
+    REQUIRE(found.is_captured);
+    CHECK(found.samples <= around.samples);
+    const double frequency = target.tube->frequency + target.tube->half_width * point.z;
+    Loop::State state{0.0L, 0.0L, 0.3125L};
+    double low = Loop::error(state, frequency);
+    double high = low;
+    for (std::size_t k = 1; k <= found.samples; ++k) {
+      const long double phase =
+          2.0L * std::numbers::pi_v<long double> * static_cast<long double>(point.turn) +
+          static_cast<long double>(k) * static_cast<long double>(frequency);
+      state = Loop::next(state, std::cos(phase));
+      low = std::min(low, Loop::error(state, frequency));
+      high = std::max(high, Loop::error(state, frequency));
+    }
+    constexpr double kRounding = 1e-13;  // of the frequency, which is a double here
+    CHECK(found.frequency_error.lower() <= low + kRounding);
+    CHECK(found.frequency_error.upper() >= high - kRounding);
+    CHECK(found.frequency_error.lower() > low - 1e-8);
+    CHECK(found.frequency_error.upper() < high + 1e-8);
+    CHECK(around.frequency_error.lower() <= low + kRounding);
+    CHECK(around.frequency_error.upper() >= high - kRounding);
+  }
+}
+
 TEST_CASE(
     "the same start is captured sooner without noise, and its proof does not depend on the first grid") {
   const auto captured = [](double noise, const VerificationBudget& grid) {

@@ -247,8 +247,18 @@ std::vector<NamedText> with_start_covariance(std::vector<NamedText> start,
   return start;
 }
 
+/// Throws LanguageError for a comment in a formula that sentences repeat as it is written.
+void require_no_comment(const SourceText& formula) {
+  if (formula.text.find_first_of("#\n\r") != std::string::npos) {
+    throw LanguageError(formula.position,
+                        "a comment, or a second line, in a formula that is told in a sentence; allowed: the "
+                        "formula alone");
+  }
+}
+
 /// The value of a formula of the parameters, which is evaluated as one more of them.
 rigor::Interval value_of_parameters(std::vector<NamedFormula> parameters, const SourceText& formula) {
+  require_no_comment(formula);
   parameters.push_back({"start", formula.position, language::parse_expression(formula)});
   return language::collect_constants(parameters, {}).at(parameters.size() - 1).value;
 }
@@ -281,6 +291,7 @@ std::vector<rigor::Interval> start_deviations(const Model& model, const ModelTab
       refuse_state(entry.name, model.states);
     }
     // Evaluated as a parameter is: those before it are all others.
+    require_no_comment(entry.formula);
     formulas.push_back({"start", entry.formula.position, language::parse_expression(entry.formula)});
     const language::Constants constants = language::collect_constants(formulas, {});
     formulas.pop_back();

@@ -52,6 +52,16 @@ void read_amplitude(const Tree& amplitude, ModelDesign& design, Objections& obje
   design.amplitude = Ball::hull(least, largest);
 }
 
+/// The value of a formula that stands in sentences as it is written. What is not computed with, a comment,
+/// would stand there, too.
+Ball value_of_told(const Tree& formula, ModelRecursion& recursion, Objections& objections) {
+  const std::string& text = formula.text();
+  if (text.find_first_of("#\n\r") != std::string::npos) {
+    objections.emplace_back("a comment in a formula that is told in a sentence");
+  }
+  return recursion.constant_value(text);
+}
+
 void read_start(const Tree& start, ModelRecursion& recursion, ModelDesign& design, Objections& objections) {
   const std::vector<std::string>& names = recursion.state_names();
   design.start_within.assign(names.size(), zero);
@@ -65,7 +75,7 @@ void read_start(const Tree& start, ModelRecursion& recursion, ModelDesign& desig
       continue;
     }
     is_given[at] = true;
-    design.start_within[at] = recursion.constant_value(entry.at("formula").text());
+    design.start_within[at] = value_of_told(entry.at("formula"), recursion, objections);
     if (!certainly_not_negative(design.start_within[at])) {
       objections.push_back("start_within: " + name + " must not be negative");
     }
@@ -85,7 +95,7 @@ void read_exact_start(const Tree& start, ModelRecursion& recursion, ModelDesign&
       objections.push_back("start_exactly: " + name + " is no state, or there twice");
       return;
     }
-    state[at] = recursion.constant_value(entry.at("formula").text());
+    state[at] = value_of_told(entry.at("formula"), recursion, objections);
   }
   for (const std::optional<Ball>& value : state) {
     if (!value) {

@@ -125,6 +125,10 @@ std::string design_section(const Certificate& certificate, const ModelTables& ta
       {"deviation of the starts from the steady state, at most",
        assume.start_within.empty() ? "any that is inside the certified set" : equations(assume.start_within),
        assume.start_within.empty() ? "—" : "of the state"});
+  if (!assume.start_exactly.empty()) {
+    rows.push_back(
+        {"the start, at any phase of the signal", equations(assume.start_exactly), "of the state"});
+  }
   return text + markdown::table({"What", "Is", "Unit"}, rows) + "\n";
 }
 
@@ -149,7 +153,7 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
       "- The frequency {}. A mean is the mean over the phase of the signal.\n"
       "- The certified sets are the tubes in `certificate.json`. \"Started in the set\" refers to them by "
       "name: `starts`, for large starts without noise, or `assumed`, for the assumed noise and slew{}. How "
-      "the tracker gets there from another start is not covered.{}\n"
+      "the tracker gets there from another start is not covered{}.{}\n"
       "- UNDECIDED refutes nothing: another set may exist.\n"
       "- The proof is in `docs/model-proof.md` of the program's sources. Every bound was computed with "
       "outward rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
@@ -162,6 +166,8 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
           ? "stays in the band and changes by no more than assumed, or is constant where a statement says so"
           : "is constant",
       is_gaussian ? "; `gaussian` and `lowest-snr`, for Gaussian noise" : "",
+      tables.assume.start_exactly.empty() ? ""
+                                          : ", but for the start of the design, where a statement says so",
       bounds_covariance
           ? " \"A covariance between the bounds of a set\": the set has a lower and an upper bound, in the "
             "order of "

@@ -292,6 +292,11 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
                         attacked != nullptr ? attacked->purpose : "",
                         deciding.start_share <= 1.0 ? ", and are inside it" : ": some are outside");
   }
+  if (sets.capture && !sets.capture->is_proved) {
+    text += fmt::format(
+        "That the tracker comes from its start, `start_exactly`, into the set is not proved: {}.\n\n",
+        markdown::escaped(sets.capture->reason));
+  }
   if (attacked != nullptr) {
     text += attack_on(*attacked, proved_model(model, assume), units);
   }

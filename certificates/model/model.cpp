@@ -247,7 +247,39 @@ std::vector<NamedText> with_start_covariance(std::vector<NamedText> start,
   return start;
 }
 
+/// Throws LanguageError for a comment in a formula that sentences repeat as it is written.
+void require_no_comment(const SourceText& formula) {
+  if (formula.text.find_first_of("#\n\r") != std::string::npos) {
+    throw LanguageError(formula.position,
+                        "a comment, or a second line, in a formula that is told in a sentence; allowed: the "
+                        "formula alone");
+  }
+}
+
+/// The value of a formula of the parameters, which is evaluated as one more of them.
+rigor::Interval value_of_parameters(std::vector<NamedFormula> parameters, const SourceText& formula) {
+  require_no_comment(formula);
+  parameters.push_back({"start", formula.position, language::parse_expression(formula)});
+  return language::collect_constants(parameters, {}).at(parameters.size() - 1).value;
+}
+
 }  // namespace
+
+std::vector<rigor::Interval> exact_start(const Model& model, const ModelTable& table,
+                                         const std::vector<NamedText>& start_exactly) {
+  std::vector<rigor::Interval> state;
+  if (start_exactly.empty()) {
+    return state;
+  }
+  (void)formulas_of(start_exactly, model.states, start_exactly.front().name.position,
+                    "value in start_exactly");
+  for (const std::string& name : model.states) {
+    const auto found = std::find_if(start_exactly.begin(), start_exactly.end(),
+                                    [&](const NamedText& entry) { return entry.name.text == name; });
+    state.push_back(value_of_parameters(parameters_of(table), found->formula));
+  }
+  return state;
+}
 
 std::vector<rigor::Interval> start_deviations(const Model& model, const ModelTable& table,
                                               const std::vector<NamedText>& start_within) {
@@ -259,6 +291,7 @@ std::vector<rigor::Interval> start_deviations(const Model& model, const ModelTab
       refuse_state(entry.name, model.states);
     }
     // Evaluated as a parameter is: those before it are all others.
+    require_no_comment(entry.formula);
     formulas.push_back({"start", entry.formula.position, language::parse_expression(entry.formula)});
     const language::Constants constants = language::collect_constants(formulas, {});
     formulas.pop_back();

@@ -41,4 +41,9 @@ struct Model {
 [[nodiscard]] std::vector<rigor::Interval> start_deviations(const Model& model, const ModelTable& table,
                                                             const std::vector<NamedText>& start_within);
 
+/// The state in which the tracker is started, one for each state, or none where none is given. Throws
+/// language::LanguageError, also where a state is missing. Needs the upward rounding mode.
+[[nodiscard]] std::vector<rigor::Interval> exact_start(const Model& model, const ModelTable& table,
+                                                       const std::vector<NamedText>& start_exactly);
+
 }  // namespace veritrack::certificates

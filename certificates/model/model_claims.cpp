@@ -67,6 +67,9 @@ class ModelClaims {
       }
       add(claim);
     }
+    if (const Scope scope = scope_of(*deciding_); scope.is_any && captures_start()) {
+      add_capture(*sets_->capture, scope.part);
+    }
     if (const auto limits = limits_of(*sets_, tables_->assume)) {
       add_limits(*limits);
     }
@@ -110,6 +113,9 @@ class ModelClaims {
     }
     if (sets.settles_within) {
       add(settling(assumed));
+    }
+    if (const auto& number = require.captured_within) {
+      add(captured(*number));
     }
     if (const auto& number = sets.largest_noise_at_least) {
       Claim claim = required("model/largest-noise", *number, words_.constant_tone(),
@@ -176,6 +182,30 @@ class ModelClaims {
   static std::string by_set(const ModelSet& set, const char* usual) {
     return set.tubes.name == usual ? std::string()
                                    : fmt::format(" (by the set \"{}\" of the certificate)", set.tubes.name);
+  }
+  /// The grid is evidence: where the checker begins.
+  void add_capture(const ModelCapture& capture, const std::optional<BandPart>& part) {
+    const ModelWords words = words_for(part);
+    const std::string samples = fmt::format("{}", capture.samples);
+    Claim claim = told("model/capture", words.constant_tone() + words.noise() + words.started_exactly());
+    claim.values = {{"samples", samples}};
+    claim.statement +=
+        fmt::format(", the tracker is in the set \"{}\" of the certificate after at most {} samples",
+                    deciding_name(), samples);
+    if (std::isfinite(capture.frequency_error)) {
+      const std::string before = above(capture.frequency_error);
+      claim.values.emplace_back("frequency_error_before", before);
+      claim.statement +=
+          fmt::format(", with a frequency error of at most {} until then", units_.at_most(before));
+    }
+    const std::string after = above(deciding_->frequency_error);
+    claim.values.emplace_back("frequency_error", after);
+    claim.statement +=
+        fmt::format(", and the frequency error stays at or below {} for ever after", units_.at_most(after));
+    claim.values.emplace_back("phases", fmt::format("{}", capture.phases));
+    claim.values.emplace_back("frequencies", fmt::format("{}", capture.frequencies));
+    add_part(claim, part);
+    add(claim);
   }
   void add_limits(const ModelLimits& limits) {
     Claim claim = told("model/limits", words_for(limits.part).constant_tone());
@@ -299,6 +329,26 @@ class ModelClaims {
     return claim;
   }
 
+  /// From the start of the design into the set.
+  [[nodiscard]] Claim captured(const Number& within) const {
+    const std::string requirement = fmt::format(
+        "the tracker is in the set \"{}\" of the certificate after at most {{}} samples", deciding_name());
+    Claim claim = required("model/capture-time", within,
+                           words_.constant_tone() + words_.noise() + words_.started_exactly(), requirement);
+    if (!covers_assumptions() || !sets_->capture) {
+      claim.reason = assumption_objection();
+    } else if (!sets_->capture->is_proved) {
+      claim.reason = "It is not proved that it comes there: " + sets_->capture->reason + ".";
+    } else {
+      const double samples = sets_->capture->samples;
+      const bool holds = rigor::certainly_less_equal(Interval(samples), within.value);
+      claim.verdict = holds ? Verdict::proved : Verdict::undecided;
+      claim.reason = fmt::format("It is proved to be there after at most {} samples.", samples);
+    }
+    return claim;
+  }
+  [[nodiscard]] const char* deciding_name() const { return sets_->assumed ? "assumed" : "starts"; }
+
   /// After how many samples the error is below the target at all frequencies; infinity when it is not known.
   [[nodiscard]] double samples_below(const Number& target) const {
     const Model model = make_model(tables_->model, tables_->assume.signal);
@@ -338,6 +388,9 @@ class ModelClaims {
   /// Of the set that decides, for the frequencies that it covers.
   [[nodiscard]] bool keeps_starts() const {
     return deciding_->start_share <= 1.0 && std::isfinite(deciding_->frequency_error);
+  }
+  [[nodiscard]] bool captures_start() const {
+    return sets_->capture && sets_->capture->is_proved && std::isfinite(deciding_->frequency_error);
   }
   [[nodiscard]] bool guaranteed() const { return covers_assumptions() && keeps_starts(); }
   [[nodiscard]] bool settles() const {

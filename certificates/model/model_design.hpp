@@ -53,14 +53,16 @@ struct ModelAssumptions {
   Number slew;                            ///< of the frequency
   bool slew_in_hertz_per_second = false;  ///< otherwise rad/sample per sample
   std::vector<NamedText> start_within;    ///< of states: deviations from the curve at the start, at most
+  std::vector<NamedText> start_exactly;   ///< of all states: the state at the start; none: it is not known
   std::vector<SourceText> signal;         ///< a formula in A and phi for each sample; none: the tone alone
 };
 
 /// [require] of a model.
 struct ModelRequirements {
   Requirements sets;
-  std::optional<Number> bias_below;    ///< rad/sample
-  std::optional<Number> ripple_below;  ///< rad/sample
+  std::optional<Number> captured_within;  ///< samples, from start_exactly
+  std::optional<Number> bias_below;       ///< rad/sample
+  std::optional<Number> ripple_below;     ///< rad/sample
 };
 
 /// The tables of a design file for the tracker "model".

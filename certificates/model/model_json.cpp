@@ -146,7 +146,11 @@ Json model_design_json(const Design& design) {
   if (!assume.start_within.empty()) {
     assumed["start_within"] = named_json(assume.start_within);
   }
+  if (!assume.start_exactly.empty()) {
+    assumed["start_exactly"] = named_json(assume.start_exactly);
+  }
   Json required = require_json(require.sets);
+  add_number(required, "captured_within", require.captured_within);
   add_number(required, "bias_below", require.bias_below);
   add_number(required, "ripple_below", require.ripple_below);
   Json recursion{{"samples", texts_json(model.samples)},

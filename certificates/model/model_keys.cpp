@@ -217,6 +217,11 @@ constexpr std::array kModelAssumeKeys{
                      "a table of numbers or formulas of parameters, one for each state that may deviate from "
                      "the steady state at the start, e.g. { w = 0.01 }",
                      names_and_formulas<&ModelAssume::start_within>, kOptional},
+    Key<ModelAssume>{
+        "start_exactly",
+        "a table of numbers or formulas of parameters, one for each state: the state in which the "
+        "tracker is started, e.g. { alpha = 0, beta = 0, w = 0.3 }",
+        names_and_formulas<&ModelAssume::start_exactly>, kOptional},
     Key<ModelAssume>{"signal",
                      "a formula in A and phi for each sample, e.g. 'A*cos(phi) + 0.03*A*cos(3*phi)'",
                      list<&ModelAssume::signal, 2>, kOptional},
@@ -238,6 +243,10 @@ void settles_within(const TomlValue& value, ModelRequire& target) {
   target.sets.settles_within =
       value.whole_number([](const Interval& x) { return rigor::certainly_less_equal(Interval(1.0), x); });
 }
+void captured_within(const TomlValue& value, ModelRequire& target) {
+  target.captured_within =
+      value.whole_number([](const Interval& x) { return rigor::certainly_less_equal(Interval(1.0), x); });
+}
 void probability_of_losing_lock(const TomlValue& value, ModelRequire& target) {
   target.sets.probability_of_losing_lock_below = value.real([](const Interval& x) {
     return rigor::certainly_positive(x) && rigor::certainly_less(x, Interval(1.0));
@@ -249,6 +258,7 @@ constexpr std::array kModelRequireKeys{
     Key<ModelRequire>{"settles_within", "a whole number of samples, 1 or more", settles_within, kOptional},
     Key<ModelRequire>{"settled_below", kPositiveFrequency, error_of_sets<&Requirements::settled_below>,
                       kOptional},
+    Key<ModelRequire>{"captured_within", "a whole number of samples, 1 or more", captured_within, kOptional},
     Key<ModelRequire>{"largest_noise_at_least", kPositive, of_sets<&Requirements::largest_noise_at_least>,
                       kOptional},
     Key<ModelRequire>{"largest_slew_at_least", kPositiveSlew, slew_of_sets, kOptional},
@@ -267,6 +277,36 @@ std::vector<BoundTable> bind_model_tables(std::any& tables) {
   return {bound_table("model", kModelKeys, target.model),
           bound_table("assume", kModelAssumeKeys, target.assume),
           bound_table("require", kModelRequireKeys, target.require)};
+}
+
+/// Of which starts nothing can be told: in noise or of trackers for which they are not followed.
+std::optional<TableObjection> objection_to_exact_start(const ModelTable& model,
+                                                       const ModelAssumptions& assume) {
+  if (assume.start_exactly.empty()) {
+    return std::nullopt;
+  }
+  const Position position = assume.start_exactly.front().formula.position;
+  const auto objection = [&](const char* text) { return TableObjection{"assume", text, position}; };
+  constexpr std::size_t kMostFollowed = 4;
+  if (!assume.start_within.empty()) {
+    return objection("start_exactly and start_within; allowed: one of them");
+  }
+  if (model.ekf) {
+    return objection(
+        "start_exactly of a filter in [model.ekf], whose start is not followed; allowed: start_within, or "
+        "its "
+        "recursion as a step of up to 4 states");
+  }
+  if (model.states.size() > kMostFollowed) {
+    return objection("start_exactly of more than 4 states, which are not followed; allowed: start_within");
+  }
+  if (assume.gaussian) {
+    return objection("start_exactly with Gaussian noise; allowed: noise with a bound");
+  }
+  if (!rigor::certainly_less_equal(assume.slew.value, Interval(0.0))) {
+    return objection("start_exactly with a slew; allowed: a constant frequency, slew = 0");
+  }
+  return std::nullopt;
 }
 
 std::optional<TableObjection> objection_to_model(const std::any& tables) {
@@ -291,9 +331,17 @@ std::optional<TableObjection> objection_to_model(const std::any& tables) {
         "amplitude, or noise with a bound",
         {}};
   }
+  if (auto objection = objection_to_exact_start(model, assume)) {
+    return objection;
+  }
+  if (require.captured_within && assume.start_exactly.empty()) {
+    return TableObjection{
+        "require", "captured_within without start_exactly, from which it counts; allowed: both of them", {}};
+  }
   try {
     const Model made = make_model(model, assume.signal);
     (void)start_deviations(made, model, assume.start_within);
+    (void)exact_start(made, model, assume.start_exactly);
     require_whole_turns(made, model, signal_of(model, assume.signal));
   } catch (const language::LanguageError& error) {
     return TableObjection{"model", error.what(), error.position()};

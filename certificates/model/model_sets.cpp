@@ -359,7 +359,10 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     std::swap(tasks[0], tasks[1]);  // what is required rests on it
   }
   const double locks = !assume.gaussian ? 0.0 : is_everything ? 2.0 : 1.0;
-  const double all = static_cast<double>(tasks.size()) + locks;
+  const bool follows_start =
+      !assume.start_exactly.empty() && (is_everything || tables.require.captured_within);
+  const double captures = follows_start ? 1.0 : 0.0;
+  const double all = static_cast<double>(tasks.size()) + locks + captures;
   double done = 0.0;
   const auto tell = [&](double share) {
     if (progress) {
@@ -409,6 +412,11 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   if (const auto& required = require.frequency_error_below) {
     ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
     deciding = meeting(tracker, std::move(deciding), deviations, *required);
+  }
+  if (follows_start) {
+    const ModelSet& deciding = sets.assumed ? *sets.assumed : sets.starts;
+    sets.capture = capture_of(model, tracker, exact_start(model, tables.model, assume.start_exactly),
+                              deciding.tubes, noise, deciding.frequency_error, deadline, tell);
   }
   if (is_everything && sets.assumed && !sets.assumed->tubes.tubes.empty()) {
     sets.linear = linear_over(tone, sets.assumed->tubes);

@@ -9,6 +9,7 @@
 #include "analysis/model/tube_set.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/model/model.hpp"
+#include "certificates/model/model_capture.hpp"
 #include "certificates/model/model_lock.hpp"
 
 namespace veritrack::certificates {
@@ -44,6 +45,7 @@ struct ModelSets {
   std::optional<ModelSet> long_run;     ///< of a filter: inside the lowest levels of `assumed`
   std::optional<ModelSet> slew;         ///< for the largest slew, without noise
   std::optional<ModelSet> noise;        ///< for the largest noise
+  std::optional<ModelCapture> capture;  ///< of start_exactly, into `assumed`, or `starts` without noise
   std::optional<ModelLock> gaussian;    ///< for the assumed Gaussian noise
   std::optional<ModelLock> lowest_snr;  ///< for as much Gaussian noise as can be proved
   std::vector<ModelCell> cells;         ///< of `starts`

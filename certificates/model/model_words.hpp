@@ -67,6 +67,10 @@ class ModelWords {
   [[nodiscard]] std::string started_in(const std::string& set) const {
     return "started in the set \"" + set + "\" of the certificate" + covariance_of(set);
   }
+  /// The state that the tracker is started in.
+  [[nodiscard]] std::string started_exactly() const {
+    return ", started exactly in {" + listed(assume_->start_exactly) + "} at any phase of the signal";
+  }
   /// The same, for statements that depend on how far inside a start is.
   [[nodiscard]] std::string start_inside(const std::string& set) const {
     return assume_->start_within.empty() ? ", started at a level of at most half of that of the set \"" +
@@ -81,12 +85,16 @@ class ModelWords {
   [[nodiscard]] std::string rate() const {
     return assume_->sample_rate ? fmt::format(" at {} samples per second", assume_->sample_rate->text) : "";
   }
-  [[nodiscard]] std::string start_within(const std::string& set) const {
+  /// "alpha: 0, w: 0.3".
+  static std::string listed(const std::vector<NamedText>& entries) {
     std::string states;
-    for (const NamedText& entry : assume_->start_within) {
+    for (const NamedText& entry : entries) {
       states += (states.empty() ? "" : ", ") + entry.name.text + ": " + entry.formula.text;
     }
-    return ", started within {" + states + "} of the curve of the set \"" + set +
+    return states;
+  }
+  [[nodiscard]] std::string start_within(const std::string& set) const {
+    return ", started within {" + listed(assume_->start_within) + "} of the curve of the set \"" + set +
            "\" of the certificate, the other states on it";
   }
 

@@ -214,7 +214,7 @@ class FileSays {
         list("model.signal", value);
       } else if (const toml::node* bound = name == "noise" ? bound_of(value) : nullptr) {
         leaf(path, *bound);
-      } else if (name == "start_within" || (name == "noise" && value.is_table())) {
+      } else if (name == "start_within" || name == "start_exactly" || (name == "noise" && value.is_table())) {
         members(path, value);
       } else {
         leaf(path, value);

@@ -118,10 +118,10 @@ class JacobianForms {
 /// A sample later, at every frequency that it moves to.
 TubeOver over_all_moves(const PhaseTube& tube, const TubePart& part, double slew) {
   if (slew == 0.0) {
-    return {tube, part, true};
+    return {tube, part, 1};
   }
   const FrequencyMove move{Ball(slew) / Ball(tube.half_width), BallPolynomial(Ball::within(one))};
-  return {tube, part, true, &move};
+  return {tube, part, 1, &move};
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ FilterStep::FilterStep(const TrackedModel& model, const PhaseTube& tube, const T
       part_(part),
       states_(tube.curve.size()),
       slew_(slew),
-      here_(tube, part, false),
+      here_(tube, part, 0),
       there_(over_all_moves(tube, part, slew)),
       signal_(signal_later(model, tube, part)) {
   // H has these values wherever the estimate is.
@@ -155,7 +155,7 @@ TubeOver FilterStep::moved() const {
   estimate.covariance_high.clear();
   const FrequencyMove move{Ball(slew_) / Ball(tube_->half_width),
                            BallPolynomial::variable(*monomials_, monomials_->first(2))};
-  return {estimate, part_, true, &move};
+  return {estimate, part_, 1, &move};
 }
 
 PlaceMatrix FilterStep::updated(const PlaceMatrix& predicted) const {

@@ -54,8 +54,8 @@ bool is_entered(const TrackedModel& model, const TubeSet& around, const TubeSet&
     const PhaseTube& tube = inner.tubes[number];
     const LongRunEntry& entry = *tube.entry;
     const double radius = around.tubes[number].levels.back();
-    const TubeOver from(around.tubes[number], part, false);
-    const TubeOver into(tube, part, false);
+    const TubeOver from(around.tubes[number], part, 0);
+    const TubeOver into(tube, part, 0);
     PartAnswer answer{questions, false};
     if (!from.has_shape() || !into.has_shape()) {
       return answer;

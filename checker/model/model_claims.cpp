@@ -1,10 +1,12 @@
 #include "checker/model/model_claims.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "checker/document/design_number.hpp"
 #include "checker/model/gaussian_drift.hpp"
 #include "checker/model/long_run.hpp"
+#include "checker/model/start_capture.hpp"
 #include "checker/numbers/decimal_text.hpp"
 
 namespace veritrack::checker {
@@ -19,6 +21,8 @@ const std::string kRadius = "model/frequency-error-radius";
 const std::string kBias = "model/bias";
 const std::string kRipple = "model/ripple";
 const std::string kGuarantee = "model/guarantee";
+const std::string kCapture = "model/capture";
+const std::string kCaptureTime = "model/capture-time";
 const std::string kLimits = "model/limits";
 const std::string kSlewLimit = "model/slew-limit";
 const std::string kSteadyState = "model/steady-state";
@@ -45,6 +49,15 @@ Ball written(const Tree& claim, const char* name) {
   return from_decimal(text);
 }
 
+/// A whole number from 1 to `most` that the claim writes, or 0 where it writes none.
+std::size_t whole_number(const Tree& claim, const char* name, std::size_t most) {
+  const Ball value = written(claim, name);
+  const double near = std::round(value.near());
+  const bool is_whole =
+      near >= 1.0 && near <= static_cast<double>(most) && certainly_equal(value, Ball(near));
+  return is_whole ? static_cast<std::size_t>(near) : 0;
+}
+
 }  // namespace
 
 ModelClaims::ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
@@ -66,6 +79,10 @@ std::string ModelClaims::short_text(const std::string& id) const {
   if (id == kSettlingTime) {
     return "from sample " + design_->settles_within->text + " on, the frequency error stays below " +
            design_->settled_below->text;
+  }
+  if (id == kCaptureTime) {
+    return "the tracker is in the set \"" + deciding_name() + "\" of the certificate after at most " +
+           design_->captured_within->text + " samples";
   }
   if (id == kLargestNoise) {
     return "the tracker tolerates noise up to " + design_->largest_noise->text +
@@ -98,6 +115,7 @@ std::vector<Requirement> ModelClaims::required() const {
   };
   require(design_->frequency_error_below.has_value(), kErrorBound);
   require(design_->settles_within.has_value(), kSettlingTime);
+  require(design_->captured_within.has_value(), kCaptureTime);
   require(design_->largest_noise.has_value(), kLargestNoise);
   require(design_->largest_slew.has_value(), kLargestSlew);
   require(design_->radius.has_value(), kRadius);
@@ -345,6 +363,56 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   return found;
 }
 
+Claim ModelClaims::captured_in_time() const {
+  constexpr double kMostSamples = 100'000.0;
+  constexpr std::size_t kPhases = 16;
+  const TubeSet* set = deciding_set();
+  // Whole samples that have passed by then. More than these do not help.
+  const double samples = std::floor(std::min(design_->captured_within->value.lower_double(), kMostSamples));
+  Claim found;
+  found.statement = words_.constant_tone() + words_.assumed_noise(design_->is_noisy()) +
+                    words_.started_exactly() + ", " + short_text(kCaptureTime) + ".";
+  found.verdict = proved_if(
+      set != nullptr && samples >= 1.0 &&
+      is_captured(*model_, *set,
+                  {design_->start, design_->noise, static_cast<std::size_t>(samples), {}, kPhases, 1},
+                  *cells_));
+  return found;
+}
+
+Claim ModelClaims::capture(const Tree& claim, const Part& part) const {
+  Claim found;
+  found.is_summary = true;
+  if (design_->start.empty()) {
+    return found;  // there is no start to speak of
+  }
+  constexpr std::size_t kMostSamples = 100'000;
+  constexpr std::size_t kMostParts = 1U << 14U;
+  const TubeSet* set = deciding_set(part);
+  const ModelWords words(*tree_, part, bound_covariance(*sets_));
+  StartClaim start{design_->start,
+                   design_->noise,
+                   whole_number(claim, "samples", kMostSamples),
+                   {},
+                   whole_number(claim, "phases", kMostParts),
+                   whole_number(claim, "frequencies", kMostParts)};
+  const Ball after = written(claim, "frequency_error");
+  found.statement = words.constant_tone() + words.assumed_noise(design_->is_noisy()) +
+                    words.started_exactly() + ", the tracker is in the set \"" + deciding_name() +
+                    "\" of the certificate after at most " + claim.at("samples").text() + " samples";
+  bool certain = set != nullptr && of(*set).error_is_at_most(first_level, after);
+  if (const Tree* error = claim.find("frequency_error_before")) {
+    found.statement += ", with a frequency error of at most " + units_.at_most(error->text()) + " until then";
+    start.frequency_error = written(claim, "frequency_error_before");
+    // Some are in the set before others.
+    certain = certain && of(*set).error_is_at_most(first_level, *start.frequency_error);
+  }
+  found.statement += ", and the frequency error stays at or below " +
+                     units_.at_most(claim.at("frequency_error").text()) + " for ever after.";
+  found.verdict = proved_if(certain && is_captured(*model_, *set, start, *cells_));
+  return found;
+}
+
 const TubeSet* ModelClaims::largest(std::initializer_list<const char*> names, double TubeSet::*size,
                                     const Part& part) const {
   const TubeSet* found = nullptr;
@@ -435,8 +503,8 @@ Claim ModelClaims::steady_state(const Tree& claim, const Part& part) const {
 Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
   const std::string& id = claim.at("id").text();
   const std::vector<Requirement> asked = required();
-  const bool is_told = id == kGuarantee || id == kLimits || id == kSlewLimit || id == kSteadyState ||
-                       id == kLock || id == kLowestSnr;
+  const bool is_told = id == kGuarantee || id == kCapture || id == kLimits || id == kSlewLimit ||
+                       id == kSteadyState || id == kLock || id == kLowestSnr;
   const bool is_asked = std::any_of(asked.begin(), asked.end(),
                                     [&](const Requirement& requirement) { return requirement.claim == id; });
   if (!is_told && !is_asked) {
@@ -446,6 +514,7 @@ Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
   const bool is_lock = id == kLock || id == kLowestSnr;
   const Part part = is_told && !is_lock ? part_of(claim, objections) : Part();
   Claim found = id == kGuarantee               ? guarantee(claim, part)
+                : id == kCapture               ? capture(claim, part)
                 : id == kLimits                ? limits(claim, part)
                 : id == kSlewLimit             ? slew_limit(claim, part)
                 : id == kSteadyState           ? steady_state(claim, part)
@@ -453,6 +522,7 @@ Claim ModelClaims::check(const Tree& claim, Objections& objections) const {
                 : id == kLosingLock            ? required_lock()
                 : id == kErrorBound            ? bound()
                 : id == kSettlingTime          ? settling()
+                : id == kCaptureTime           ? captured_in_time()
                 : id == kBias || id == kRipple ? long_run(id)
                                                : size(id);
   check_claim(claim, found, objections);

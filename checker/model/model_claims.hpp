@@ -61,6 +61,8 @@ class ModelClaims {
                                     bool strictly) const;
   [[nodiscard]] Claim required_lock() const;
   [[nodiscard]] Claim told_lock(const Tree& claim) const;
+  [[nodiscard]] Claim capture(const Tree& claim, const Part& part) const;
+  [[nodiscard]] Claim captured_in_time() const;
   [[nodiscard]] Claim guarantee(const Tree& claim, const Part& part) const;
   /// Of the sets with these names that cover the part and are never left, the one with the largest noise or
   /// slew, the first of equal ones; none where all are 0.

@@ -52,6 +52,16 @@ void read_amplitude(const Tree& amplitude, ModelDesign& design, Objections& obje
   design.amplitude = Ball::hull(least, largest);
 }
 
+/// The value of a formula that stands in sentences as it is written. What is not computed with, a comment,
+/// would stand there, too.
+Ball value_of_told(const Tree& formula, ModelRecursion& recursion, Objections& objections) {
+  const std::string& text = formula.text();
+  if (text.find_first_of("#\n\r") != std::string::npos) {
+    objections.emplace_back("a comment in a formula that is told in a sentence");
+  }
+  return recursion.constant_value(text);
+}
+
 void read_start(const Tree& start, ModelRecursion& recursion, ModelDesign& design, Objections& objections) {
   const std::vector<std::string>& names = recursion.state_names();
   design.start_within.assign(names.size(), zero);
@@ -65,10 +75,34 @@ void read_start(const Tree& start, ModelRecursion& recursion, ModelDesign& desig
       continue;
     }
     is_given[at] = true;
-    design.start_within[at] = recursion.constant_value(entry.at("formula").text());
+    design.start_within[at] = value_of_told(entry.at("formula"), recursion, objections);
     if (!certainly_not_negative(design.start_within[at])) {
       objections.push_back("start_within: " + name + " must not be negative");
     }
+  }
+}
+
+/// Each state once.
+void read_exact_start(const Tree& start, ModelRecursion& recursion, ModelDesign& design,
+                      Objections& objections) {
+  const std::vector<std::string>& names = recursion.state_names();
+  std::vector<std::optional<Ball>> state(names.size());
+  for (const Tree& entry : start.elements()) {
+    const std::string& name = entry.at("name").text();
+    const auto found = std::find(names.begin(), names.end(), name);
+    const auto at = static_cast<std::size_t>(found - names.begin());
+    if (found == names.end() || state[at]) {
+      objections.push_back("start_exactly: " + name + " is no state, or there twice");
+      return;
+    }
+    state[at] = value_of_told(entry.at("formula"), recursion, objections);
+  }
+  for (const std::optional<Ball>& value : state) {
+    if (!value) {
+      objections.emplace_back("start_exactly: a state is missing");
+      return;
+    }
+    design.start.push_back(*value);
   }
 }
 
@@ -109,10 +143,11 @@ RequiredNumber required_number(const std::string& name, const Tree& number, cons
 }
 
 void read_requirements(const Tree& require, const Tree& assume, ModelDesign& design, Objections& objections) {
-  const std::array<std::pair<std::string, std::optional<RequiredNumber>*>, 9> keys{
+  const std::array<std::pair<std::string, std::optional<RequiredNumber>*>, 10> keys{
       {{"frequency_error_below", &design.frequency_error_below},
        {"settles_within", &design.settles_within},
        {"settled_below", &design.settled_below},
+       {"captured_within", &design.captured_within},
        {"largest_noise_at_least", &design.largest_noise},
        {"largest_slew_at_least", &design.largest_slew},
        {"frequency_error_radius_at_least", &design.radius},
@@ -163,6 +198,15 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
   if (const Tree* start = assume.find("start_within")) {
     read_start(*start, recursion, design, objections);
   }
+  if (const Tree* start = assume.find("start_exactly")) {
+    read_exact_start(*start, recursion, design, objections);
+    if (recursion.filtered() > 0 || design.deviation || !certainly_equal(design.slew, zero) ||
+        !design.start_within.empty()) {
+      objections.emplace_back(
+          "start_exactly is for bounded noise and a constant frequency, not for ekf, and without "
+          "start_within");
+    }
+  }
   read_requirements(tree.at("require"), assume, design, objections);
   if (design.losing_lock && !design.deviation) {
     objections.emplace_back("a probability of losing lock is asked for Gaussian noise only");
@@ -172,6 +216,9 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
   }
   if (design.deviation && design.amplitude_varies) {
     objections.emplace_back("nothing is certified of Gaussian noise with a range of amplitudes");
+  }
+  if (design.captured_within && design.start.empty()) {
+    objections.emplace_back("captured_within is asked of start_exactly");
   }
   const bool asks_for_ever = design.frequency_error_below || design.settles_within || design.largest_noise ||
                              design.largest_slew || design.radius;
@@ -260,12 +307,25 @@ std::string ModelWords::started_in(const std::string& set) const {
   return "started in the set \"" + set + "\" of the certificate" + covariance_of(set);
 }
 
-std::string ModelWords::start_within(const std::string& set) const {
+namespace {
+
+/// "alpha: 0, w: 0.3".
+std::string listed(const Tree& entries) {
   std::string list;
-  for (const Tree& entry : assume().at("start_within").elements()) {
+  for (const Tree& entry : entries.elements()) {
     list += (list.empty() ? "" : ", ") + entry.at("name").text() + ": " + entry.at("formula").text();
   }
-  return ", started within {" + list + "} of the curve of the set \"" + set +
+  return list;
+}
+
+}  // namespace
+
+std::string ModelWords::started_exactly() const {
+  return ", started exactly in {" + listed(assume().at("start_exactly")) + "} at any phase of the signal";
+}
+
+std::string ModelWords::start_within(const std::string& set) const {
+  return ", started within {" + listed(assume().at("start_within")) + "} of the curve of the set \"" + set +
          "\" of the certificate, the other states on it";
 }
 

@@ -31,8 +31,9 @@ struct ModelDesign {
   Ball samples;
   Ball slew;                       ///< rad/sample per sample
   std::vector<Ball> start_within;  ///< of each state; empty: not given
+  std::vector<Ball> start;         ///< the state at the start; empty: not given
   std::optional<RequiredNumber> frequency_error_below, settles_within, settled_below, largest_noise,
-      largest_slew, radius, bias, ripple, losing_lock;
+      largest_slew, radius, bias, ripple, losing_lock, captured_within;
 
   [[nodiscard]] bool is_noisy() const { return !certainly_equal(noise, zero); }
   [[nodiscard]] bool moves() const { return !certainly_equal(slew, zero); }
@@ -71,6 +72,8 @@ class ModelWords {
   [[nodiscard]] std::string assumed_start(const std::string& set) const;
   /// A start in the set of that name.
   [[nodiscard]] std::string started_in(const std::string& set) const;
+  /// The state that the tracker is started in.
+  [[nodiscard]] std::string started_exactly() const;
   /// The same, for statements that depend on how far inside a start is.
   [[nodiscard]] std::string start_inside(const std::string& set) const;
   /// ", with Gaussian measurement noise of mean zero, ...": the assumed noise, or with this SNR in dB.

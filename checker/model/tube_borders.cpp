@@ -36,8 +36,8 @@ TubePart part_of_tube(const Crossing& crossing, const TubePart& part, const Phas
 
 /// Whether the bounds of the covariance of the one, narrower by the margin, are between those of the other.
 bool fits_covariance(const Crossing& crossing, const TubePart& part, double margin) {
-  const TubeOver from(*crossing.from, part_of_tube(crossing, part, *crossing.from), false);
-  const TubeOver to(*crossing.to, part_of_tube(crossing, part, *crossing.to), false);
+  const TubeOver from(*crossing.from, part_of_tube(crossing, part, *crossing.from), 0);
+  const TubeOver to(*crossing.to, part_of_tube(crossing, part, *crossing.to), 0);
   const std::size_t states = crossing.from->curve.size();
   const Ball left = one - Ball(margin);
   const auto is_below = [&](const std::vector<BallPolynomial>& low, const std::vector<BallPolynomial>& high) {
@@ -53,8 +53,8 @@ bool fits_covariance(const Crossing& crossing, const TubePart& part, double marg
 /// Of states of the one, in the coordinates of the other: U'^-1 (C - C' + radius U xi).
 std::vector<BallPolynomial> in_other_coordinates(const Crossing& crossing, const TubePart& part,
                                                  double radius, const VectorMonomials& monomials) {
-  const TubeOver from(*crossing.from, part_of_tube(crossing, part, *crossing.from), false);
-  const TubeOver to(*crossing.to, part_of_tube(crossing, part, *crossing.to), false);
+  const TubeOver from(*crossing.from, part_of_tube(crossing, part, *crossing.from), 0);
+  const TubeOver to(*crossing.to, part_of_tube(crossing, part, *crossing.to), 0);
   if (!from.has_shape() || !to.has_shape()) {
     return {};
   }

@@ -79,7 +79,7 @@ bool PhaseTubeCheck::error_is_within(const std::function<std::size_t(const Phase
   const VectorMonomials monomials(set_->tubes.front().curve.size(), 0);
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
     const PhaseTube& tube = set_->tubes[number];
-    const TubeOver over(tube, part, false);
+    const TubeOver over(tube, part, 0);
     const double radius = tube.levels.at(level(tube));
     const BallPolynomial error =
         frequency_error(*model_, tube, part, over.point(radius, components(monomials)));
@@ -100,9 +100,9 @@ bool PhaseTubeCheck::contains_errors(const Ball& reach) const {
     const TubePart middle = part.middle();
     const std::vector<double> direction =
         steepest(frequency_error(*model_, tube, middle,
-                                 TubeOver(tube, middle, false).point(radius, components(monomials))),
+                                 TubeOver(tube, middle, 0).point(radius, components(monomials))),
                  n);
-    const TubeOver over(tube, part, false);
+    const TubeOver over(tube, part, 0);
     bool certain = true;
     Extent extent;
     for (const double sign : {1.0, -1.0}) {
@@ -139,7 +139,7 @@ bool PhaseTubeCheck::contains_starts(const std::vector<Ball>& deviations, const 
   const std::size_t corners = moved.empty() ? 1 : std::size_t{1} << (moved.size() - 1);
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& /*only*/) {
     const PhaseTube& tube = set_->tubes[number];
-    const TubeOver over(tube, part, false);
+    const TubeOver over(tube, part, 0);
     bool certain = over.has_shape();
     Extent extent;
     for (std::size_t corner = 0; corner < corners && certain; ++corner) {
@@ -208,7 +208,7 @@ bool PhaseTubeCheck::holds_for_turns(
       part.half_z = here.half_z;
       errors.push_back(frequency_error(
           *model_, *here.tube, part,
-          TubeOver(*here.tube, part, false).point(here.tube->levels.back(), components(monomials))));
+          TubeOver(*here.tube, part, 0).point(here.tube->levels.back(), components(monomials))));
     }
     if (without_common) {
       take_away_common(errors);

@@ -13,7 +13,7 @@ namespace {
 /// cos and sin of h phi, times powers of z, for all that a tube needs.
 class HarmonicBasis {
  public:
-  HarmonicBasis(const PhaseTube& tube, const TubePart& part, bool later) {
+  HarmonicBasis(const PhaseTube& tube, const TubePart& part, std::size_t later) {
     std::size_t most_harmonics = 0;
     for (const std::vector<PhaseSeries>* list :
          {&tube.curve, &tube.shape, &tube.covariance_low, &tube.covariance_high}) {
@@ -33,9 +33,10 @@ class HarmonicBasis {
       const double turns = static_cast<double>(h) * part.turn;
       Ball constant = turn * Ball(turns - std::round(turns));
       Ball by_z;
-      if (later) {
-        constant += number * (Ball(tube.frequency) + width * Ball(part.z));
-        by_z = number * width * Ball(part.half_z);
+      if (later > 0) {
+        const Ball samples = number * Ball(static_cast<double>(later));
+        constant += samples * (Ball(tube.frequency) + width * Ball(part.z));
+        by_z = samples * width * Ball(part.half_z);
       }
       const CosineSine wave(constant, turn * number * Ball(part.half_turn), by_z);
       for (const PlacePolynomial& power : powers) {
@@ -81,12 +82,12 @@ class HarmonicBasis {
   std::vector<PlacePolynomial> functions_;
 };
 
-/// phi, or phi + omega.
-BallPolynomial phase_over(const PhaseTube& tube, const TubePart& part, bool later) {
+/// phi + later omega.
+BallPolynomial phase_over(const PhaseTube& tube, const TubePart& part, std::size_t later) {
   const Ball turn = two * pi();
   BallPolynomial phase = BallPolynomial(turn * Ball(part.turn));
   phase += BallPolynomial(turn * Ball(part.half_turn)) * BallPolynomial::phase();
-  return later ? phase + frequency_over(tube, part) : phase;
+  return later > 0 ? phase + static_cast<double>(later) * frequency_over(tube, part) : phase;
 }
 
 }  // namespace
@@ -109,7 +110,8 @@ TubePart TubePart::half_of_frequencies(bool second) const {
   return {turn, half_turn, second ? z + less : z - less, less, z_error};
 }
 
-TubeOver::TubeOver(const PhaseTube& tube, const TubePart& part, bool later, const FrequencyMove* move) {
+TubeOver::TubeOver(const PhaseTube& tube, const TubePart& part, std::size_t later,
+                   const FrequencyMove* move) {
   const HarmonicBasis basis(tube, part, later);
   const BallPolynomial phase = phase_over(tube, part, later);
   for (std::size_t i = 0; i < tube.curve.size(); ++i) {
@@ -160,8 +162,8 @@ std::vector<BallPolynomial> TubeOver::coordinates(const std::vector<BallPolynomi
 }
 
 std::vector<BallPolynomial> signal_later(const TrackedModel& model, const PhaseTube& tube,
-                                         const TubePart& part) {
-  return model.recursion->signal(BallPolynomial(model.amplitude), phase_over(tube, part, true));
+                                         const TubePart& part, std::size_t later) {
+  return model.recursion->signal(BallPolynomial(model.amplitude), phase_over(tube, part, later));
 }
 
 std::vector<BallPolynomial> with_noise(const TrackedModel& model, std::vector<BallPolynomial> signal,
@@ -210,18 +212,18 @@ std::vector<BallPolynomial> components(const VectorMonomials& monomials) {
 
 TubeOver TubeStep::after_step(const PhaseTube& tube, const TubePart& part, double slew) const {
   if (slew == 0.0) {
-    return {tube, part, true};
+    return {tube, part, 1};
   }
   const FrequencyMove move{Ball(slew) / Ball(tube.half_width),
                            BallPolynomial::variable(*monomials_, monomials_->first(2))};
-  return {tube, part, true, &move};
+  return {tube, part, 1, &move};
 }
 
 TubeStep::TubeStep(const TrackedModel& model, const PhaseTube& tube, const TubePart& part,
                    const VectorMonomials& monomials, double slew)
     : model_(&model),
       monomials_(&monomials),
-      here_(tube, part, false),
+      here_(tube, part, 0),
       there_(after_step(tube, part, slew)),
       signal_(signal_later(model, tube, part)) {}
 

@@ -50,14 +50,15 @@ struct FrequencyMove {
   BallPolynomial zeta;
 };
 
-/// The curve and the shape over a part of a tube, or where they are a sample later.
+/// The curve and the shape over a part of a tube, or where they are some samples later.
 struct TubeOver {
   std::vector<BallPolynomial> curve;
   std::vector<BallPolynomial> shape;                            ///< the lower triangle, row by row
   std::vector<BallPolynomial> covariance_low, covariance_high;  ///< of a filter: lower triangles
 
-  /// `later`: a sample later, at the same frequency or one that it moves to.
-  TubeOver(const PhaseTube& tube, const TubePart& part, bool later, const FrequencyMove* move = nullptr);
+  /// `later`: so many samples later, at the same frequency or one that it moves to.
+  TubeOver(const PhaseTube& tube, const TubePart& part, std::size_t later,
+           const FrequencyMove* move = nullptr);
   /// The diagonal of the shape is certainly positive.
   [[nodiscard]] bool has_shape() const;
   /// C + radius U x, for components x.
@@ -66,9 +67,9 @@ struct TubeOver {
   [[nodiscard]] std::vector<BallPolynomial> coordinates(const std::vector<BallPolynomial>& vector) const;
 };
 
-/// The signal over the part a sample later, without noise.
+/// The signal over the part so many samples later, without noise.
 std::vector<BallPolynomial> signal_later(const TrackedModel& model, const PhaseTube& tube,
-                                         const TubePart& part);
+                                         const TubePart& part, std::size_t later = 1);
 /// The same with |v| <= noise in signal units, v the second vector of the monomials. Where the amplitude
 /// varies, what it does to a sample is what the polynomials of the signal leave open: an error of the sample
 /// beside the noise, whose length is at most that of these errors.

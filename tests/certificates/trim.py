@@ -50,6 +50,8 @@ steady-pieces     as steady-set, with sets for pieces of the band
 From tests/certificates/model-observer.toml, a recursion of the design file at almost one frequency:
 model-observer    as it is: tubes with levels, with noise and without
 model-part        the same sets, which are a part of a wider band
+From tests/certificates/model-from-rest.toml, a recursion whose start is known:
+model-from-rest   its tube for the assumed noise, and the claims that rest on it
 From tests/certificates/model-moving.toml, a loop with an angle, and a frequency that moves:
 model-moving      its tube for what is assumed, in two cells
 From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian noise:
@@ -324,6 +326,13 @@ def model_part(certificate):
     certificate["verdict"] = "undecided"
 
 
+def model_from_rest(certificate):
+    """Without what is told of another noise than the assumed one."""
+    certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
+    certificate["claims"] = [claim for claim in certificate["claims"]
+                             if claim["id"] in ("model/guarantee", "model/capture", "model/capture-time")]
+
+
 def model_moving(certificate):
     """Without what is told of a frequency that does not move."""
     certificate["tubes"] = [tube for tube in certificate["tubes"] if tube["name"] == "assumed"]
@@ -446,6 +455,7 @@ KINDS = {
     "steady-pieces": steady_set,
     "model-observer": lambda certificate: None,
     "model-part": model_part,
+    "model-from-rest": model_from_rest,
     "model-moving": model_moving,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,

@@ -52,6 +52,25 @@ class ModelDocuments(CliTestCase):
         self.assertLessEqual(float(shares[2]), 1.0)
         self.assertNotIn("ALARM", document)
 
+    def test_a_start_that_is_known_is_followed_into_the_set(self):
+        text = self.text.replace("[0.1, 0.101]", "[0.1, 0.1005]").replace("noise = 0.01", "noise = 0.005")
+        known = "start_exactly = { x = 0, sigma = -0.01, theta = -0.01 }\n"
+        result, document = self.certify(text + known + "\n[require]\ncaptured_within = 100\n")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertTrue(document.startswith('# PROVED: the tracker is in the set "assumed" of the certificate after at '
+                                            'most 100 samples\n'))
+        certificate, _ = read_documents(self.folder / "out")
+        capture = next(claim for claim in certificate["claims"] if claim["id"] == "model/capture")
+        self.assertLess(int(capture["samples"]), 100)
+        self.assertIn("started exactly in {x: 0, sigma: -0.01, theta: -0.01} at any phase of the signal, the tracker is "
+                      f'in the set "assumed" of the certificate after at most {capture["samples"]} samples', document)
+        self.assertIn("`x = 0`, `sigma = -0.01`, `theta = -0.01`", document)
+        # Where nothing moves it towards the signal, it does not come there.
+        result, document = self.certify(text + known.replace("-0.01", "1"))
+        self.assertIn("That the tracker comes from its start, `start_exactly`, into the set is not proved: ", document)
+        certificate, _ = read_documents(self.folder / "out")
+        self.assertNotIn("model/capture", [claim["id"] for claim in certificate["claims"]])
+
     def test_gaussian_noise_has_a_section_and_a_probability(self):
         result, document = self.certify((ROOT / "tests" / "certificates" / "model-gaussian.toml").read_text())
         self.assertEqual(result.returncode, 0, result.stdout)

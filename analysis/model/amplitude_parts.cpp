@@ -124,8 +124,8 @@ TubeSet join_amplitudes(std::vector<TubeSet> sets, const std::vector<AmplitudeRa
     for (std::string& reason : set.reasons) {
       failures.add(std::move(reason), parts[k]);
     }
-    AmplitudePart part{parts[k].low,           parts[k].high, all.tubes.size(), 0,
-                       std::move(set.crossing), set.covariance_margin};
+    AmplitudePart part{parts[k].low,         parts[k].high, all.tubes.size(), 0, std::move(set.crossing),
+                       set.covariance_margin};
     std::move(set.tubes.begin(), set.tubes.end(), std::back_inserter(all.tubes));
     part.end = all.tubes.size();
     all.amplitudes.push_back(std::move(part));

@@ -157,12 +157,13 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
       "- The proof is in `docs/model-proof.md` of the program's sources. Every bound was computed with "
       "outward rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
       is_gaussian ? "the noise that a statement names" : "every noise within the assumed bound",
-      tables.assume.one_amplitude        ? "is exactly the assumed one"
-      : tables.assume.constant_amplitude ? "is constant and in the assumed range. The range is cut into parts, "
-                                           "each with tubes of its own: a set is the tubes of the part in "
-                                           "which the amplitude is,"
-                                         : "of every sample is in the assumed range and may be another one "
-                                           "at each sample",
+      tables.assume.one_amplitude ? "is exactly the assumed one"
+      : tables.assume.constant_amplitude
+          ? "is constant and in the assumed range. The range is cut into parts, "
+            "each with tubes of its own: a set is the tubes of the part in "
+            "which the amplitude is,"
+          : "of every sample is in the assumed range and may be another one "
+            "at each sample",
       is_gaussian ? "be noise of that kind" : "fit into the noise",
       moves
           ? "stays in the band and changes by no more than assumed, or is constant where a statement says so"

@@ -130,8 +130,7 @@ std::string disturbances_of(const model::TubeSet& set, const FrequencyUnits& uni
              : noise + ", at a constant frequency";
 }
 
-std::string sentence_of(const NamedSet& named, const FrequencyUnits& units,
-                        const ModelAssumptions& assume) {
+std::string sentence_of(const NamedSet& named, const FrequencyUnits& units, const ModelAssumptions& assume) {
   const ModelSet& set = *named.set;
   std::string text = fmt::format(
       "- *For {}{}*: {}{}, a start in this set stays in it for ever, with a frequency error of at most {}",
@@ -232,7 +231,8 @@ std::string parts_sentence(const ModelSets& sets) {
     parts = *set ? std::max(parts, (*set)->tubes.amplitudes.size()) : parts;
   }
   return fmt::format(
-      "The amplitude is constant and somewhere in its range. The range is cut into {}, each with tubes of its "
+      "The amplitude is constant and somewhere in its range. The range is cut into {}, each with tubes of "
+      "its "
       "own that are proved for every amplitude of the part: a start in the set is one in a tube of the part "
       "in which the amplitude is. The numbers below are the worst of all parts.\n\n",
       parts > 0 ? fmt::format("{} part{}", parts, parts == 1 ? "" : "s") : std::string("parts"));

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/rigor/decimal.hpp"
 #include "analysis/model/amplitude_parts.hpp"
+#include "analysis/rigor/decimal.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/assumptions_json.hpp"
 

@@ -268,8 +268,7 @@ std::optional<model::LinearWorstCase> linear_over(const model::TrackedTone& tone
 }
 
 TubeSet prove_task(const model::TrackedTone& tone, const model::TrackerModel& tracker,
-                   const SearchedBand& band, const model::SetTask& task,
-                   const model::SetProgress& progress) {
+                   const SearchedBand& band, const model::SetTask& task, const model::SetProgress& progress) {
   const bool moves = task.slew > 0.0 || task.largest_slew;
   return moves ? model::prove_moving_set(tone, tracker, band.low, band.high, task, progress)
                : model::prove_set(tone, tracker, band.low, band.high, task, progress);
@@ -302,7 +301,17 @@ class AmplitudeParts {
       const auto tell = [&](double share) {
         progress((static_cast<double>(k) + share) / static_cast<double>(ranges_.size()));
       };
-      sets.push_back(prove_task(tones_[k], tracker_at(k), *band_, task, tell));
+      TubeSet set = prove_task(tones_[k], tracker_at(k), *band_, task, tell);
+      // A shape that was not made for disturbances may have no room for the amplitudes.
+      if (!set.is_complete && task.objective != ShapeObjective::largest_noise && !deadline_.is_over()) {
+        model::SetTask for_noise = task;
+        for_noise.objective = ShapeObjective::largest_noise;
+        TubeSet other = prove_task(tones_[k], tracker_at(k), *band_, for_noise, {});
+        if (other.is_complete) {
+          set = std::move(other);
+        }
+      }
+      sets.push_back(std::move(set));
     }
     return model::join_amplitudes(std::move(sets), ranges_);
   }
@@ -318,8 +327,7 @@ class AmplitudeParts {
       }
       inner.push_back(*std::move(tubes));
     }
-    return inner.empty() ? std::nullopt
-                         : std::optional(model::join_amplitudes(std::move(inner), ranges_));
+    return inner.empty() ? std::nullopt : std::optional(model::join_amplitudes(std::move(inner), ranges_));
   }
 
   /// To first order, at the worst of the amplitudes in the middle of the parts: each of them is constant.
@@ -501,14 +509,14 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   if (is_constant_in_range(assume)) {
     parts.emplace(model, tracker, tone.filter, searched, deadline);
   }
-  const bool is_disturbed = tracker.amplitude_varies;
+  // Parts are narrow: shapes are those of one amplitude (and see AmplitudeParts::prove).
+  const bool is_disturbed = tracker.amplitude_varies && !parts;
   std::vector<model::SetTask> tasks(1);
   // An amplitude that varies is a disturbance, without noise, too.
-  tasks.front() = {
-      .name = "starts",
-      .objective = is_disturbed ? ShapeObjective::largest_noise : ShapeObjective::largest_starts,
-      .with_curve = true,
-      .deviations = sizes};
+  tasks.front() = {.name = "starts",
+                   .objective = is_disturbed ? ShapeObjective::largest_noise : ShapeObjective::largest_starts,
+                   .with_curve = true,
+                   .deviations = sizes};
   if (noise > 0.0 || slew > 0.0) {
     tasks.push_back({.name = "assumed",
                      .objective = noise > 0.0 ? ShapeObjective::largest_noise : ShapeObjective::largest_slew,
@@ -560,9 +568,7 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
       task.known_noise = task.largest_noise ? sets.assumed->tubes.noise : 0.0;
       task.known_slew = task.largest_slew ? sets.assumed->tubes.slew : 0.0;
     }
-    TubeSet tubes =
-        parts ? parts->prove(task, tell)
-              : prove_task(tone, tracker, searched, task, tell);
+    TubeSet tubes = parts ? parts->prove(task, tell) : prove_task(tone, tracker, searched, task, tell);
     tubes.is_complete = tubes.is_complete && searched.out_of_reach.empty();
     tubes.reasons.insert(tubes.reasons.begin(), searched.out_of_reach.begin(), searched.out_of_reach.end());
     const bool is_first = task.name == "starts";
@@ -591,8 +597,7 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     deciding = meeting(tracker, std::move(deciding), deviations, *required);
   }
   if (is_everything && sets.assumed && !sets.assumed->tubes.tubes.empty()) {
-    sets.linear =
-        parts ? parts->linear_over(sets.assumed->tubes) : linear_over(tone, sets.assumed->tubes);
+    sets.linear = parts ? parts->linear_over(sets.assumed->tubes) : linear_over(tone, sets.assumed->tubes);
   }
   return sets;
 }

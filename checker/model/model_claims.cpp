@@ -248,7 +248,8 @@ Claim ModelClaims::size(const std::string& id) const {
   } else if (id == kLargestSlew) {
     found.statement = words_.tone_in_band() + ", without noise";
     found.verdict = proved_if(std::any_of(sets_->begin(), sets_->end(), [this](const auto& set) {
-      return covers_all(set.second) && certainly_at_most(design_->largest_slew->value, Ball(set.second.slew()));
+      return covers_all(set.second) &&
+             certainly_at_most(design_->largest_slew->value, Ball(set.second.slew()));
     }));
   } else {
     const TubeFamily* set = deciding_set();
@@ -361,8 +362,8 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   return found;
 }
 
-const TubeFamily* ModelClaims::largest(std::initializer_list<const char*> names, double (TubeFamily::*tolerated)() const,
-                                    const Part& part) const {
+const TubeFamily* ModelClaims::largest(std::initializer_list<const char*> names,
+                                       double (TubeFamily::*tolerated)() const, const Part& part) const {
   const TubeFamily* found = nullptr;
   for (const char* name : names) {
     const TubeFamily* set = find(name, part);

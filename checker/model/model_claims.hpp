@@ -66,8 +66,8 @@ class ModelClaims {
   [[nodiscard]] Claim guarantee(const Tree& claim, const Part& part) const;
   /// Of the sets with these names that cover the part and are never left, the one with the largest noise or
   /// slew, the first of equal ones; none where all are 0.
-  [[nodiscard]] const TubeFamily* largest(std::initializer_list<const char*> names, double (TubeFamily::*tolerated)() const,
-                                       const Part& part) const;
+  [[nodiscard]] const TubeFamily* largest(std::initializer_list<const char*> names,
+                                          double (TubeFamily::*tolerated)() const, const Part& part) const;
   [[nodiscard]] Claim limits(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim slew_limit(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim steady_state(const Tree& claim, const Part& part) const;

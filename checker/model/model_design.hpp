@@ -25,9 +25,9 @@ struct ModelDesign {
   /// It is constant, and some number from the least to the largest one.
   bool is_constant_in_range = false;
   Ball least_amplitude, largest_amplitude;
-  Ball lowest, highest;           ///< of the frequency
-  Ball band_unit;                 ///< in which the design writes them: Hz, or 1
-  Ball noise;                     ///< bound on the length of the error of a sample, all channels together
+  Ball lowest, highest;  ///< of the frequency
+  Ball band_unit;        ///< in which the design writes them: Hz, or 1
+  Ball noise;            ///< bound on the length of the error of a sample, all channels together
   /// Gaussian noise in place of that bound: its deviation in each channel, signal units, and for how many
   /// samples a probability is asked.
   std::optional<Ball> deviation;

@@ -182,7 +182,8 @@ Figure draw_tube(const model::TrackerModel& design, const model::TubeSet& all, c
           "(turns). A start in the tube stays between the solid lines and ends between the dashed ones. "
           "Grey: {} simulated starts on the rim (dots), {} samples each{}. The lines are drawn in floating "
           "point, and the simulations prove nothing.",
-          units.drawn(frequency), unit, words_of_amplitudes(set), tube_disturbances(set, units), unit, kStarts, kSamples,
+          units.drawn(frequency), unit, words_of_amplitudes(set), tube_disturbances(set, units), unit,
+          kStarts, kSamples,
           set.noise > 0.0
               ? std::string(", with the noise") + (varies ? " and the amplitude that push" : " that pushes") +
                     " outward most at every sample, at a constant frequency"

@@ -159,9 +159,8 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
       is_gaussian ? "the noise that a statement names" : "every noise within the assumed bound",
       tables.assume.one_amplitude ? "is exactly the assumed one"
       : tables.assume.constant_amplitude
-          ? "is constant and in the assumed range. The range is cut into parts, "
-            "each with tubes of its own: a set is the tubes of the part in "
-            "which the amplitude is,"
+          ? "is constant and some number of the assumed range, which is cut into parts (a set has tubes for "
+            "each part: started in the set is started in those of the part in which the amplitude is)"
           : "of every sample is in the assumed range and may be another one "
             "at each sample",
       is_gaussian ? "be noise of that kind" : "fit into the noise",

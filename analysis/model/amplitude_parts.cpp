@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -55,7 +56,8 @@ std::vector<AmplitudeRange> equal_parts(const rigor::Interval& range, std::size_
   // A little more at both ends, so that another reading of their decimals is inside.
   constexpr double kMore = 0x1p-40;
   const double from = range.lower() * (1.0 - std::copysign(kMore, range.lower()));
-  const double to = range.upper() * (1.0 + std::copysign(kMore, range.upper()));
+  const double to = std::min(range.upper() * (1.0 + std::copysign(kMore, range.upper())),
+                             std::numeric_limits<double>::max());
   std::vector<AmplitudeRange> parts;
   for (std::size_t k = 0; k < count; ++k) {
     const double low = parts.empty() ? from : parts.back().high;

@@ -69,9 +69,9 @@ struct FrequencyRange {
 
 /// The tubes of a set that are for a part of a range of constant amplitudes (amplitude_parts.hpp).
 struct AmplitudePart {
-  double low = 0.0, high = 0.0;  ///< low < high, signal units
-  std::size_t first = 0;         ///< of its tubes, which go from low frequencies to high ones
-  std::size_t end = 0;           ///< and after the last one
+  double low = 0.0, high = 0.0;       ///< low < high, signal units
+  std::size_t first = 0;              ///< of its tubes, which go from low frequencies to high ones
+  std::size_t end = 0;                ///< and after the last one
   std::vector<double> crossing = {};  ///< with a slew: of borders between its tubes
   double covariance_margin = 0.0;     ///< likewise, of filters
 };

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -33,6 +34,8 @@ TEST_CASE("equal parts cover a range, from low amplitudes to high ones without g
       }
     }
   }
+  const double largest = std::numeric_limits<double>::max();
+  CHECK(equal_parts(Interval::from_bounds(1.0, largest), 3).back().high == largest);
   CHECK_THROWS_AS((void)equal_parts(Interval::from_bounds(0.9, 1.1), 0), std::invalid_argument);
   CHECK_THROWS_AS((void)equal_parts(Interval(1.0), 2), std::invalid_argument);
   CHECK_THROWS_AS((void)equal_parts(Interval::empty(), 2), std::invalid_argument);

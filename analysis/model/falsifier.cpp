@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "analysis/model/amplitude_parts.hpp"
 #include "analysis/rigor/rounding.hpp"
 
 namespace veritrack::model {
@@ -177,10 +178,35 @@ std::vector<AttackedSample> simulate_attack(const TrackerModel& model, const Tub
   return result;
 }
 
+namespace {
+
+/// Each tube at the amplitudes for which it is proved; the starts are shared between the parts.
+TubeAttack attack_parts(const TrackerModel& model, const TubeSet& set, const AttackSettings& settings) {
+  const std::vector<TubeSet> parts = sets_of_amplitudes(set);
+  TubeAttack attack;
+  attack.samples = settings.samples;
+  AttackSettings of_part = settings;
+  const int count = static_cast<int>(parts.size());
+  of_part.starts = (settings.starts + count - 1) / count;
+  for (const TubeSet& part : parts) {
+    const TubeAttack here = attack_tubes(on_amplitudes_of(model, part), part, of_part);
+    attack.starts += here.starts;
+    attack.level_share = std::max(attack.level_share, here.level_share);
+    attack.frequency_error = std::max(attack.frequency_error, here.frequency_error);
+    of_part.seed += static_cast<std::uint64_t>(of_part.starts);
+  }
+  return attack;
+}
+
+}  // namespace
+
 TubeAttack attack_tubes(const TrackerModel& model, const TubeSet& set, const AttackSettings& settings) {
   TubeAttack attack;
   if (set.tubes.empty()) {
     return attack;
+  }
+  if (set.amplitudes.size() > 1) {
+    return attack_parts(model, set, settings);
   }
   attack.starts = settings.starts;
   attack.samples = settings.samples;
@@ -188,13 +214,14 @@ TubeAttack attack_tubes(const TrackerModel& model, const TubeSet& set, const Att
     double level_share = 0.0;
     double frequency_error = 0.0;
   };
+  const TrackerModel tracker = on_amplitudes_of(model, set);
   std::vector<Reached> reached(static_cast<std::size_t>(settings.starts));
   tbb::parallel_for(std::size_t{0}, reached.size(), [&](std::size_t number) {
     const rigor::NearestRounding nearest;
     std::mt19937_64 engine(settings.seed + number);
     const ProvedTube& proved = set.tubes[number % set.tubes.size()];
     const double frequency = proved.tube.frequency + (2.0 * uniform(engine) - 1.0) * proved.tube.half_width;
-    AttackRun run(model, proved.tube, {frequency, kTurn * uniform(engine), set.noise, set.slew});
+    AttackRun run(tracker, proved.tube, {frequency, kTurn * uniform(engine), set.noise, set.slew});
     Eigen::VectorXd start =
         proved.levels.front() * random_direction(engine, static_cast<Eigen::Index>(proved.tube.curve.size()));
     if (proved.tube.bounds_covariance()) {

@@ -67,6 +67,15 @@ struct FrequencyRange {
   double high = 0.0;
 };
 
+/// The tubes of a set that are for a part of a range of constant amplitudes (amplitude_parts.hpp).
+struct AmplitudePart {
+  double low = 0.0, high = 0.0;       ///< low < high, signal units
+  std::size_t first = 0;              ///< of its tubes, which go from low frequencies to high ones
+  std::size_t end = 0;                ///< and after the last one
+  std::vector<double> crossing = {};  ///< with a slew: of borders between its tubes
+  double covariance_margin = 0.0;     ///< likewise, of filters
+};
+
 /// A set of tubes that covers a band, or the widest part of it for which tubes without gaps were proved.
 struct TubeSet {
   std::string name;
@@ -84,6 +93,9 @@ struct TubeSet {
   bool is_complete = false;          ///< every frequency of the band has a tube
   std::vector<std::string> reasons;  ///< otherwise: which part has none, and why
   FrequencyRange part;               ///< with tubes: what they cover of the band, rounded inward
+  /// Of an amplitude that is constant and somewhere in a range: the parts of the range, without gaps, each
+  /// with tubes of its own and what there is with a slew. Otherwise empty.
+  std::vector<AmplitudePart> amplitudes;
   /// All parts of the band for which tubes were proved, also those that were given up for a wider one.
   std::vector<FrequencyRange> parts;
 };

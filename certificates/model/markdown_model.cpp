@@ -83,6 +83,9 @@ std::string design_section(const Certificate& certificate, const ModelTables& ta
   rows.push_back(
       assume.one_amplitude
           ? std::vector<std::string>{"amplitude of the signal, constant", quoted(least.text), "signal units"}
+      : assume.constant_amplitude
+          ? std::vector<std::string>{"amplitude of the signal, constant, some number within",
+                                     fmt::format("[`{}`, `{}`]", least.text, largest.text), "signal units"}
           : std::vector<std::string>{"amplitude of the signal, of each sample, within",
                                      fmt::format("[`{}`, `{}`]", least.text, largest.text), "signal units"});
   const FrequencyUnits units(assume.sample_rate);
@@ -159,8 +162,11 @@ std::string coverage_section(const ModelTables& tables, bool bounds_covariance) 
       "outward rounding. Simulations are marked as not proved, and no verdict depends on them.\n\n",
       is_gaussian ? "the noise that a statement names" : "every noise within the assumed bound",
       tables.assume.one_amplitude ? "is exactly the assumed one"
-                                  : "of every sample is in the assumed range and may be another one at each "
-                                    "sample",
+      : tables.assume.constant_amplitude
+          ? "is constant and some number of the assumed range, which is cut into parts (a set has tubes for "
+            "each part: started in the set is started in those of the part in which the amplitude is)"
+          : "of every sample is in the assumed range and may be another one "
+            "at each sample",
       is_gaussian ? "be noise of that kind" : "fit into the noise",
       moves
           ? "stays in the band and changes by no more than assumed, or is constant where a statement says so"

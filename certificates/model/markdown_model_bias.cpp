@@ -60,8 +60,12 @@ std::string model_bias_section(const Certificate& certificate, const MarkdownOpt
   const FrequencyUnits units(assume.sample_rate);
   std::string text =
       std::string("## Bias and ripple\n\nWithout noise, at a constant frequency and in the long run, the ") +
-      (assume.one_amplitude
-           ? "estimate repeats itself with the phase of the signal. Its"
+      (assume.one_amplitude ? "estimate repeats itself with the phase of the signal. Its"
+       : assume.constant_amplitude
+           ? "frequency error stays between two bounds at each phase of the signal, at any constant "
+             "amplitude "
+             "of the range. The numbers are those of all these amplitudes, each known up to the width of the "
+             "parts into which the range is cut. The"
            : "frequency error stays between two bounds at each phase of the signal, at any amplitude of the "
              "range at each sample. The numbers are those of all such amplitudes. The") +
       " *bias* is the mean over the phase of the frequency error "

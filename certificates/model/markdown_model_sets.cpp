@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/model/amplitude_parts.hpp"
 #include "analysis/model/falsifier.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_text.hpp"
@@ -68,12 +69,15 @@ std::vector<NamedSet> named_sets(const ModelSets& sets, const ModelAssumptions& 
 /// After so many samples every start is at the lowest level.
 double samples_to_settle(const ModelSet& set, const ModelSet* long_run) {
   double samples = 0.0;
-  for (std::size_t i = 0; i < set.tubes.tubes.size(); ++i) {
-    const ProvedTube& tube = set.tubes.tubes[i];
-    const ProvedTube* inner = long_run != nullptr ? &long_run->tubes.tubes[i] : nullptr;
-    const double until = inner != nullptr ? samples_until_long_run(tube, *inner, inner->levels.size() - 1)
-                                          : samples_until(tube, tube.levels.size() - 1, set.tubes.crossing);
-    samples = std::isfinite(until) ? std::max(samples, until) : INFINITY;
+  std::size_t number = 0;  // of the tube, which is that of the long run's
+  for (const model::TubeSet& part : model::sets_of_amplitudes(set.tubes)) {
+    for (const ProvedTube& tube : part.tubes) {
+      const ProvedTube* inner = long_run != nullptr ? &long_run->tubes.tubes[number] : nullptr;
+      const double until = inner != nullptr ? samples_until_long_run(tube, *inner, inner->levels.size() - 1)
+                                            : samples_until(tube, tube.levels.size() - 1, part.crossing);
+      samples = std::isfinite(until) ? std::max(samples, until) : INFINITY;
+      ++number;
+    }
   }
   return samples;
 }
@@ -126,12 +130,14 @@ std::string disturbances_of(const model::TubeSet& set, const FrequencyUnits& uni
              : noise + ", at a constant frequency";
 }
 
-std::string sentence_of(const NamedSet& named, const FrequencyUnits& units, bool amplitude_varies) {
+std::string sentence_of(const NamedSet& named, const FrequencyUnits& units, const ModelAssumptions& assume) {
   const ModelSet& set = *named.set;
   std::string text = fmt::format(
       "- *For {}{}*: {}{}, a start in this set stays in it for ever, with a frequency error of at most {}",
       named.purpose, named.where, disturbances_of(set.tubes, units),
-      amplitude_varies ? ", at any amplitude of the range at each sample" : "",
+      assume.one_amplitude        ? ""
+      : assume.constant_amplitude ? ", at any constant amplitude of the range"
+                                  : ", at any amplitude of the range at each sample",
       units.at_most(set.frequency_error));
   const double samples = samples_to_settle(set, named.long_run);
   if (samples > 0.0 && std::isfinite(samples) && std::isfinite(named.settled_error())) {
@@ -218,6 +224,20 @@ std::string linear_comparison(const ModelSets& sets, const FrequencyUnits& units
   return text + "\n\n";
 }
 
+/// Into how many parts the range of a constant amplitude is cut.
+std::string parts_sentence(const ModelSets& sets) {
+  std::size_t parts = sets.starts.tubes.amplitudes.size();
+  for (const std::optional<ModelSet>* set : {&sets.assumed, &sets.noise, &sets.slew}) {
+    parts = *set ? std::max(parts, (*set)->tubes.amplitudes.size()) : parts;
+  }
+  return fmt::format(
+      "The amplitude is constant and somewhere in its range. The range is cut into {}, each with tubes of "
+      "its "
+      "own that are proved for every amplitude of the part: a start in the set is one in a tube of the part "
+      "in which the amplitude is. The numbers below are the worst of all parts.\n\n",
+      parts > 0 ? fmt::format("{} part{}", parts, parts == 1 ? "" : "s") : std::string("parts"));
+}
+
 }  // namespace
 
 std::string model_picture(const MarkdownOptions& options, std::string_view file) {
@@ -253,6 +273,9 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
             "as "
             "much as is said.\n\n"
           : "\n\n";
+  if (is_constant_in_range(assume)) {
+    text += parts_sentence(sets);
+  }
   const std::vector<NamedSet> all = named_sets(sets, assume);
   std::vector<std::vector<std::string>> rows;
   std::string meanings;
@@ -261,7 +284,7 @@ std::string model_sets_section(const Certificate& certificate, const Model& mode
   for (const NamedSet& named : all) {
     rows.push_back(row_of(named, units));
     if (named.is_any()) {
-      meanings += sentence_of(named, units, !assume.one_amplitude);
+      meanings += sentence_of(named, units, assume);
     }
     if (!named.set->is_proved()) {
       failures += objections(named);

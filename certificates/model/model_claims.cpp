@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/model/amplitude_parts.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/model/band_part.hpp"
 #include "certificates/model/model_limits.hpp"
@@ -366,18 +367,21 @@ class ModelClaims {
       return std::nullopt;
     };
     double samples = 0.0;
-    const std::vector<model::ProvedTube>& tubes = deciding_->tubes.tubes;
-    for (std::size_t i = 0; i < tubes.size(); ++i) {
-      double until = INFINITY;
-      if (const auto level = level_below(tubes[i])) {
-        until = model::samples_until(tubes[i], *level, deciding_->tubes.crossing);
-      } else if (sets_->long_run) {
-        const model::ProvedTube& inner = sets_->long_run->tubes.tubes[i];
-        if (const auto inner_level = level_below(inner)) {
-          until = model::samples_until_long_run(tubes[i], inner, *inner_level);
+    std::size_t number = 0;  // of the tube, which is that of the long run's
+    for (const model::TubeSet& part : model::sets_of_amplitudes(deciding_->tubes)) {
+      for (const model::ProvedTube& tube : part.tubes) {
+        double until = INFINITY;
+        if (const auto level = level_below(tube)) {
+          until = model::samples_until(tube, *level, part.crossing);
+        } else if (sets_->long_run) {
+          const model::ProvedTube& inner = sets_->long_run->tubes.tubes[number];
+          if (const auto inner_level = level_below(inner)) {
+            until = model::samples_until_long_run(tube, inner, *inner_level);
+          }
         }
+        samples = std::isfinite(until) ? std::max(samples, until) : INFINITY;
+        ++number;
       }
-      samples = std::isfinite(until) ? std::max(samples, until) : INFINITY;
     }
     return samples;
   }

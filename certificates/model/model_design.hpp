@@ -42,7 +42,8 @@ struct ModelTable {
 /// [assume] of a model.
 struct ModelAssumptions {
   std::array<Number, 2> amplitude;    ///< [least, largest], of each sample, signal units
-  bool one_amplitude = true;          ///< both are the same number; otherwise samples differ in it
+  bool one_amplitude = true;          ///< both are the same number
+  bool constant_amplitude = true;     ///< it is one number of the range; otherwise samples differ in it
   std::optional<Number> sample_rate;  ///< Hz
   std::array<Number, 2> frequency;    ///< [lowest, highest]
   bool frequency_in_hertz = false;    ///< otherwise rad/sample
@@ -56,6 +57,11 @@ struct ModelAssumptions {
   std::vector<NamedText> start_exactly;   ///< of all states: the state at the start; none: it is not known
   std::vector<SourceText> signal;         ///< a formula in A and phi for each sample; none: the tone alone
 };
+
+/// Whether the amplitude is constant, and known to be in a range only.
+[[nodiscard]] inline bool is_constant_in_range(const ModelAssumptions& assume) {
+  return assume.constant_amplitude && !assume.one_amplitude;
+}
 
 /// [require] of a model.
 struct ModelRequirements {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/model/amplitude_parts.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/assumptions_json.hpp"
@@ -69,6 +70,9 @@ Json hexadecimals(const std::vector<double>& numbers) {
 
 Json set_json(const model::TubeSet& set) {
   Json json{{"name", set.name}, {"cells", Json::array()}};
+  for (const model::AmplitudePart& part : set.amplitudes) {
+    json["amplitude"] = hexadecimals({part.low, part.high});
+  }
   if (set.gaussian) {
     const model::GaussianTerms& terms = *set.gaussian;
     json["gaussian"] = {{"deviation", rigor::to_hexadecimal(terms.deviation)},
@@ -134,6 +138,9 @@ Json model_design_json(const Design& design) {
   Json amplitude = number_json(assume.amplitude[0]);
   if (!assume.one_amplitude) {
     amplitude = Json::array({number_json(assume.amplitude[0]), number_json(assume.amplitude[1])});
+    if (assume.constant_amplitude) {
+      amplitude = Json{{"constant", amplitude}};
+    }
   }
   Json assumed{{"amplitude", amplitude},
                {"frequency", {number_json(assume.frequency[0]), number_json(assume.frequency[1])}},
@@ -170,10 +177,15 @@ Json model_design_json(const Design& design) {
 Json model_evidence_json(const Certificate& certificate) {
   const ModelSets& sets = model_sets(certificate);
   Json list = Json::array();
+  const auto list_all = [&](const model::TubeSet& set) {
+    for (const model::TubeSet& part : model::sets_of_amplitudes(set)) {
+      list.push_back(set_json(part));
+    }
+  };
   const auto add = [&](const ModelSet& set) {
     // Nothing is told of a part of the set for the largest slew.
     if (set.is_proved() || (set.has_part() && set.tubes.name != "slew")) {
-      list.push_back(set_json(set.tubes));
+      list_all(set.tubes);
     }
   };
   add(sets.starts);

@@ -171,20 +171,27 @@ void frequency_band(const TomlValue& value, ModelAssumptions& assume) {
   });
 }
 
-/// A number, or two of which the first is certainly the smaller one.
-void amplitude_of_samples(const TomlValue& value, ModelAssumptions& assume) {
-  assume.one_amplitude = !value.is_array();
-  if (assume.one_amplitude) {
-    const Number number = value.real(positive);
-    assume.amplitude = {number, number};
-    return;
-  }
+/// Two numbers, of which the first is certainly the smaller one.
+void range_of_amplitudes(const TomlValue& value, ModelAssumptions& assume) {
   const std::vector<TomlValue> ends = value.elements(2);
   assume.amplitude = {ends[0].real(positive), ends[1].real(positive)};
   if (!rigor::certainly_less(assume.amplitude[0].value, assume.amplitude[1].value)) {
     value.refuse(fmt::format("[{}, {}]", printable(assume.amplitude[0].text, 40),
                              printable(assume.amplitude[1].text, 40)));
   }
+}
+
+/// A number, a range in which samples differ, or { constant = range }.
+void amplitude_of_samples(const TomlValue& value, ModelAssumptions& assume) {
+  assume.one_amplitude = !value.is_array() && !value.is_table();
+  assume.constant_amplitude = true;
+  if (assume.one_amplitude) {
+    const Number number = value.real(positive);
+    assume.amplitude = {number, number};
+    return;
+  }
+  assume.constant_amplitude =
+      in_unit(value, "constant", [&](const TomlValue& range) { range_of_amplitudes(range, assume); });
 }
 
 void slew_rate(const TomlValue& value, ModelAssumptions& assume) {
@@ -200,7 +207,8 @@ using ModelAssume = ModelAssumptions;
 constexpr std::array kModelAssumeKeys{
     Key<ModelAssume>{
         "amplitude",
-        "a number above 0, or [least, largest] of amplitudes above 0 that may differ from sample to sample",
+        "a number above 0, [least, largest] of amplitudes above 0 that may differ from sample to sample, or "
+        "{ constant = [least, largest] } of one that is the same at every sample",
         amplitude_of_samples, defaults_to("1")},
     Key<ModelAssume>{"sample_rate", "a number above 0, in Hz", real<&ModelAssume::sample_rate, positive>,
                      kOptional},
@@ -305,6 +313,11 @@ std::optional<TableObjection> objection_to_exact_start(const ModelTable& model,
   }
   if (!rigor::certainly_less_equal(assume.slew.value, Interval(0.0))) {
     return objection("start_exactly with a slew; allowed: a constant frequency, slew = 0");
+  }
+  if (is_constant_in_range(assume)) {
+    return objection(
+        "start_exactly with a constant amplitude in a range; allowed: amplitude = one number, or [lowest, "
+        "highest], in which every sample may have another one");
   }
   return std::nullopt;
 }

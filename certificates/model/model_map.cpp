@@ -225,6 +225,12 @@ ModelMapResult map_model(const Design& design, const ModelMapRequest& request,
                                    model.states.size(), kMostMappedStates),
                        tables.model.ekf ? "model.ekf.states" : "model.states");
   }
+  if (is_constant_in_range(assume)) {
+    throw RequestError(
+        "a constant amplitude in a range: a map is for the tubes of one part of the range; allowed: one "
+        "amplitude, or [least, largest] of amplitudes that may differ from sample to sample",
+        "assume.amplitude");
+  }
   ModelMap map;
   choose_frequency(map, assume, request);
   if (request.with_noise && assume.gaussian) {

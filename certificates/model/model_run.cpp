@@ -149,7 +149,7 @@ TrackerOnSamples model_on_samples(const Design& design) {
   }
   const rigor::NearestRounding nearest;
   assume.amplitude = {tables.assume.amplitude[0].nearest, tables.assume.amplitude[1].nearest};
-  assume.amplitude_varies = !tables.assume.one_amplitude;
+  assume.amplitude_varies = !tables.assume.constant_amplitude;
   if (tables.assume.gaussian) {
     assume.noise_deviation =
         nearest_deviation(*tables.assume.gaussian, tables.assume.amplitude[0]) * assume.amplitude[0];

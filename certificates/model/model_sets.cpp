@@ -10,9 +10,11 @@
 #include <span>
 #include <utility>
 
+#include "analysis/model/amplitude_parts.hpp"
 #include "analysis/model/tube_errors.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/rounding.hpp"
+#include "certificates/model/model_amplitudes.hpp"
 #include "certificates/model/operation_words.hpp"
 
 namespace veritrack::certificates {
@@ -77,8 +79,8 @@ double size_of(const Interval& range) {
 }
 
 /// What follows from tubes, for the frequencies that they cover.
-ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::vector<Interval>& deviations,
-                  std::vector<ModelCell>* cells) {
+ModelSet conclude_of_tubes(const model::TrackerModel& tracker, TubeSet tubes,
+                           const std::vector<Interval>& deviations, std::vector<ModelCell>* cells) {
   const rigor::UpwardRounding upward;
   ModelSet set;
   set.tubes = std::move(tubes);
@@ -129,6 +131,84 @@ ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::
   return set;
 }
 
+/// Over the frequencies, what is true in each of several lists of cells; where all of them say something.
+std::vector<ModelCell> worst_of(const std::vector<std::vector<ModelCell>>& lists) {
+  std::vector<double> ends;
+  for (const std::vector<ModelCell>& list : lists) {
+    for (const ModelCell& cell : list) {
+      ends.insert(ends.end(), {cell.low, cell.high});
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<ModelCell> all;
+  double low = ends.empty() ? 0.0 : ends.front();
+  for (const double high : ends) {
+    constexpr double kNothing = 1e-9;  // neighbouring cells overlap by so little
+    if (!(high - low > kNothing * high)) {
+      continue;
+    }
+    ModelCell worst{low, high, Interval::empty(), 0.0, INFINITY};
+    bool is_covered = true;
+    bool is_known = true;
+    bool is_first = true;
+    for (const std::vector<ModelCell>& list : lists) {
+      bool is_here = false;
+      for (const ModelCell& cell : list) {
+        // A list whose cells end inside, up to the overlap, counts with both.
+        if (cell.low < high - 0.5 * kNothing * high && cell.high > low + 0.5 * kNothing * high) {
+          is_here = true;
+          is_known = is_known && rigor::is_finite(cell.bias);
+          worst.bias = is_first ? cell.bias : hull(worst.bias, cell.bias);
+          worst.ripple = larger(worst.ripple, cell.ripple);
+          worst.reach = cell.reach < worst.reach ? cell.reach : worst.reach;
+          is_first = false;
+        }
+      }
+      is_covered = is_covered && is_here;
+    }
+    if (!is_known) {
+      worst.bias = Interval::empty();
+    }
+    if (is_covered) {
+      all.push_back(worst);
+    }
+    low = high;
+  }
+  return all;
+}
+
+/// The same; of several parts of the amplitudes what is true for all of them.
+ModelSet conclude(const model::TrackerModel& tracker, TubeSet tubes, const std::vector<Interval>& deviations,
+                  std::vector<ModelCell>* cells) {
+  if (tubes.amplitudes.size() <= 1) {
+    return conclude_of_tubes(tracker, std::move(tubes), deviations, cells);
+  }
+  ModelSet worst;
+  bool is_first = true;
+  std::vector<std::vector<ModelCell>> of_parts;
+  for (TubeSet& part : model::sets_of_amplitudes(tubes)) {
+    std::vector<ModelCell>* of_part = cells != nullptr ? &of_parts.emplace_back() : nullptr;
+    ModelSet set = conclude_of_tubes(tracker, std::move(part), deviations, of_part);
+    if (is_first) {
+      worst = std::move(set);
+      is_first = false;
+      continue;
+    }
+    worst.frequency_error = larger(worst.frequency_error, set.frequency_error);
+    worst.settled_error = larger(worst.settled_error, set.settled_error);
+    worst.ripple = larger(worst.ripple, set.ripple);
+    worst.start_share = larger(worst.start_share, set.start_share);
+    worst.reach = set.reach < worst.reach ? set.reach : worst.reach;
+    const bool is_known = rigor::is_finite(worst.bias) && rigor::is_finite(set.bias);
+    worst.bias = is_known ? hull(worst.bias, set.bias) : Interval::empty();
+  }
+  if (cells != nullptr) {
+    *cells = worst_of(of_parts);
+  }
+  worst.tubes = std::move(tubes);
+  return worst;
+}
+
 /// The same set, begun at a lower level: a smaller tube, and the same proof.
 TubeSet from_level(TubeSet set, std::size_t level) {
   const auto drop = [&](std::vector<double>& factors) {
@@ -142,6 +222,9 @@ TubeSet from_level(TubeSet set, std::size_t level) {
     drop(proved.shrinking);
   }
   drop(set.crossing);
+  for (model::AmplitudePart& part : set.amplitudes) {
+    drop(part.crossing);
+  }
   return set;
 }
 
@@ -169,22 +252,6 @@ ModelSet meeting(const model::TrackerModel& tracker, ModelSet set, const std::ve
   return set;
 }
 
-/// To first order, at the worst of some frequencies of a set; nothing where one has no steady state.
-std::optional<model::LinearWorstCase> linear_over(const model::TrackedTone& tone, const TubeSet& set) {
-  constexpr int kFrequencies = 5;
-  std::optional<model::LinearWorstCase> worst;
-  for (int i = 0; i < kFrequencies; ++i) {
-    const double share = static_cast<double>(i) / (kFrequencies - 1);
-    const double frequency = set.part.low + share * (set.part.high - set.part.low);
-    const auto here = linear_worst_case(tone, frequency, set.noise, set.slew);
-    if (!here) {
-      return std::nullopt;
-    }
-    worst = !worst || here->disturbed > worst->disturbed ? here : worst;
-  }
-  return worst;
-}
-
 }  // namespace
 
 model::TrackerModel proved_model(const Model& model, const ModelAssumptions& assume) {
@@ -195,6 +262,7 @@ model::TrackerModel proved_model(const Model& model, const ModelAssumptions& ass
     tracker.constants.push_back(constant.value);
   }
   tracker.amplitude = hull(assume.amplitude[0].value, assume.amplitude[1].value);
+  // Of a constant one that is known to be in a range nothing is proved but part by part.
   tracker.amplitude_varies = !assume.one_amplitude;
   tracker.filter = model.filter ? &*model.filter : nullptr;
   return tracker;
@@ -214,12 +282,16 @@ bool bounds_covariance(const Model& model, const ModelTables& tables) {
 }
 
 model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume) {
+  // Curves and shapes are those of the middle.
+  return proposed_tone(model, 0.5 * (assume.amplitude[0].nearest + assume.amplitude[1].nearest),
+                       0.5 * (assume.amplitude[1].nearest - assume.amplitude[0].nearest));
+}
+
+model::TrackedTone proposed_tone(const Model& model, double amplitude, double deviation) {
   std::vector<double> constants;
   for (const language::Constant& constant : model.constants) {
     constants.push_back(constant.nearest);
   }
-  // Curves and shapes are those of the middle.
-  const double amplitude = 0.5 * (assume.amplitude[0].nearest + assume.amplitude[1].nearest);
   const auto start = [program = model.start, constants, amplitude](double omega) {
     std::vector<double> inputs = constants;
     inputs.push_back(amplitude);
@@ -236,7 +308,7 @@ model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& ass
           model.states,
           nullptr,
           objections_to_operations(model),
-          0.5 * (assume.amplitude[1].nearest - assume.amplitude[0].nearest)};
+          deviation};
 }
 
 Interval band_of(const ModelAssumptions& assume) {
@@ -324,13 +396,18 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   const double noise = assume.gaussian ? 0.0 : assume.noise.value.upper();
   const double slew = slew_of(assume).upper();
   const bool is_everything = extent == Extent::everything;
+  std::optional<AmplitudeParts> parts;
+  if (is_constant_in_range(assume)) {
+    parts.emplace(model, tracker, tone.filter, searched, deadline);
+  }
+  // Parts are narrow: shapes are those of one amplitude (and see AmplitudeParts::prove).
+  const bool is_disturbed = tracker.amplitude_varies && !parts;
   std::vector<model::SetTask> tasks(1);
   // An amplitude that varies is a disturbance, without noise, too.
-  tasks.front() = {
-      .name = "starts",
-      .objective = assume.one_amplitude ? ShapeObjective::largest_starts : ShapeObjective::largest_noise,
-      .with_curve = true,
-      .deviations = sizes};
+  tasks.front() = {.name = "starts",
+                   .objective = is_disturbed ? ShapeObjective::largest_noise : ShapeObjective::largest_starts,
+                   .with_curve = true,
+                   .deviations = sizes};
   if (noise > 0.0 || slew > 0.0) {
     tasks.push_back({.name = "assumed",
                      .objective = noise > 0.0 ? ShapeObjective::largest_noise : ShapeObjective::largest_slew,
@@ -346,7 +423,7 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
   }
   if (slew > 0.0 || require.largest_slew_at_least) {
     // A shape for the slew alone leaves no room for amplitudes; that of a filter is for both.
-    const bool is_alone = assume.one_amplitude || tone.filter != nullptr;
+    const bool is_alone = !is_disturbed || tone.filter != nullptr;
     tasks.push_back({.name = "slew",
                      .objective = is_alone ? ShapeObjective::largest_slew : ShapeObjective::largest_noise,
                      .largest_slew = true,
@@ -385,9 +462,7 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
       task.known_noise = task.largest_noise ? sets.assumed->tubes.noise : 0.0;
       task.known_slew = task.largest_slew ? sets.assumed->tubes.slew : 0.0;
     }
-    const bool moves = task.slew > 0.0 || task.largest_slew;
-    TubeSet tubes = moves ? model::prove_moving_set(tone, tracker, searched.low, searched.high, task, tell)
-                          : model::prove_set(tone, tracker, searched.low, searched.high, task, tell);
+    TubeSet tubes = parts ? parts->prove(task, tell) : prove_task(tone, tracker, searched, task, tell);
     tubes.is_complete = tubes.is_complete && searched.out_of_reach.empty();
     tubes.reasons.insert(tubes.reasons.begin(), searched.out_of_reach.begin(), searched.out_of_reach.end());
     const bool is_first = task.name == "starts";
@@ -402,7 +477,9 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
     done += 1.0;
   }
   if (sets.bounds_covariance && sets.assumed && !(slew > 0.0)) {
-    if (auto tubes = model::prove_long_run_set(tone, tracker, sets.assumed->tubes, deadline)) {
+    auto tubes = parts ? parts->prove_long_run(sets.assumed->tubes)
+                       : model::prove_long_run_set(tone, tracker, sets.assumed->tubes, deadline);
+    if (tubes) {
       ModelSet inner = conclude(tracker, *std::move(tubes), deviations, nullptr);
       if (inner.settled_error < sets.assumed->settled_error) {
         sets.long_run = std::move(inner);
@@ -419,7 +496,7 @@ ModelSets certify_sets(const ModelTables& tables, Extent extent, const search::D
                               deciding.tubes, noise, deciding.frequency_error, deadline, tell);
   }
   if (is_everything && sets.assumed && !sets.assumed->tubes.tubes.empty()) {
-    sets.linear = linear_over(tone, sets.assumed->tubes);
+    sets.linear = parts ? parts->linear_over(sets.assumed->tubes) : linear_over(tone, sets.assumed->tubes);
   }
   return sets;
 }

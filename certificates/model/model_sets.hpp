@@ -58,6 +58,8 @@ struct ModelSets {
 /// The tracker of a model on its signal: for proofs, and for proposals. The members refer to the model.
 [[nodiscard]] model::TrackerModel proved_model(const Model& model, const ModelAssumptions& assume);
 [[nodiscard]] model::TrackedTone proposed_tone(const Model& model, const ModelAssumptions& assume);
+/// On this amplitude, from which those of samples may deviate by so much; signal units.
+[[nodiscard]] model::TrackedTone proposed_tone(const Model& model, double amplitude, double deviation);
 
 /// Whether the covariance of a filter is bounded by matrices, so that tubes are those of its estimate alone:
 /// where no start names an entry of the covariance, and with a given Jacobian only for more than three

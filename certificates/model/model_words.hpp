@@ -26,6 +26,10 @@ class ModelWords {
   [[nodiscard]] std::string tone_with(const std::string& frequency) const {
     const std::string signal = assume_->signal.empty() ? "a tone" : "the signal of the design file";
     const auto& [least, largest] = assume_->amplitude;
+    if (is_constant_in_range(*assume_)) {
+      return fmt::format("{}, on {} of any constant amplitude in [{}, {}] with {}", kExactArithmetic, signal,
+                         least.text, largest.text, frequency);
+    }
     return assume_->one_amplitude
                ? fmt::format("{}, on {} of amplitude {} with {}", kExactArithmetic, signal, least.text,
                              frequency)

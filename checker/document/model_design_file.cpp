@@ -204,11 +204,7 @@ class FileSays {
         leaf(path, in_unit(value, "hz_per_second", "assume.slew_in_hertz_per_second"));
       } else if (name == "amplitude") {
         has_amplitude_ = true;
-        if (value.is_array()) {
-          list(path, value);
-        } else {
-          leaf(path, value);
-        }
+        amplitude(path, value);
       } else if (name == "signal") {
         has_signal_ = true;
         list("model.signal", value);
@@ -220,6 +216,18 @@ class FileSays {
         leaf(path, value);
       }
     });
+  }
+  /// A number, a list, or { constant = list }.
+  void amplitude(const std::string& path, const toml::node& value) {
+    const toml::table* table = value.as_table();
+    const toml::node* constant = table != nullptr && table->size() == 1 ? table->get("constant") : nullptr;
+    if (constant != nullptr && constant->is_array()) {
+      list(path + ".constant", *constant);
+    } else if (value.is_array()) {
+      list(path, value);
+    } else {
+      leaf(path, value);
+    }
   }
   /// The value of { bound = value }, or none.
   static const toml::node* bound_of(const toml::node& value) {

@@ -19,21 +19,54 @@ std::size_t states_of_tubes(const ModelRecursion& recursion, bool bounds_covaria
   return bounds_covariance ? recursion.filtered() : recursion.states();
 }
 
-/// The sets that are verified, with a part for each.
-std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedModel& model,
-                                             Verification& result) {
-  std::map<std::string, TubeSet> sets;
-  std::set<std::string> names;
+bool are_equal(const std::optional<AmplitudePart>& a, const std::optional<AmplitudePart>& b) {
+  return a.has_value() == b.has_value() && (!a || (a->low == b->low && a->high == b->high));
+}
+
+/// All sets, in the order of the certificate, by their names; `failed`: those of which one is not verified.
+/// With a part of the verification for each.
+struct ReadSets {
+  std::map<std::string, TubeFamily> families;
+  std::set<std::string> failed;
+};
+
+/// The set in whose lowest levels one of the long run is: of the same amplitudes; or none.
+const TubeSet* set_around(const std::map<std::string, TubeFamily>& families, const TubeSet& inner) {
+  const auto found = families.find("assumed");
+  if (found == families.end()) {
+    return nullptr;
+  }
+  for (const TubeSet& set : found->second.sets) {
+    if (are_equal(set.amplitudes, inner.amplitudes)) {
+      return &set;
+    }
+  }
+  return nullptr;
+}
+
+std::string name_of_part(const TubeSet& set, std::size_t number) {
+  return "tubes " + set.name + (set.amplitudes ? ", amplitudes " + std::to_string(number + 1) : "");
+}
+
+ReadSets read_sets(const Tree& tubes, const TrackedModel& tracked, const ModelDesign& design,
+                   Verification& result) {
+  ReadSets read;
   std::optional<bool> is_filter;
   for (const Tree& tree : tubes.elements()) {
     Objections objections;
-    TubeSet set = read_tube_set(tree, model.recursion->states(), objections, model.recursion->filtered());
+    TubeSet set = read_tube_set(tree, tracked.recursion->states(), objections, tracked.recursion->filtered());
+    const TrackedModel model = on_amplitudes_of(set, tracked, design, objections);
     const bool is_known = set.gaussian
                               ? set.name == "gaussian" || set.name == "lowest-snr"
                               : set.name == "starts" || set.name == "assumed" || set.name == kLongRun ||
                                     set.name == "noise" || set.name == "slew";
-    if (!is_known || !names.insert(set.name).second) {
-      objections.emplace_back(is_known ? "a second set of this name" : kUnknown);
+    if (!is_known) {
+      objections.emplace_back(kUnknown);
+    }
+    TubeFamily& family = read.families[set.name];
+    family.name = set.name;
+    if (!family.sets.empty() && !set.amplitudes) {
+      objections.emplace_back("a second set of this name");
     }
     if (states_of_tubes(*model.recursion, bounds_covariance(set)) > kMostStates) {
       objections.emplace_back("too many states");
@@ -49,20 +82,40 @@ std::map<std::string, TubeSet> verified_sets(const Tree& tubes, const TrackedMod
                           : PhaseTubeCheck(model, set, result.cells).is_never_left(objections));
     }
     if (set.name == kLongRun && objections.empty()) {
-      const auto around = sets.find("assumed");
-      if (around == sets.end()) {
+      const TubeSet* around = read.failed.contains("assumed") ? nullptr : set_around(read.families, set);
+      if (around == nullptr) {
         objections.emplace_back("no verified set is around it");
       } else {
-        (void)is_entered(model, around->second, set, result.cells, objections);
+        (void)is_entered(model, *around, set, result.cells, objections);
       }
     }
-    result.parts.push_back({"tubes " + set.name, objections});
-    if (objections.empty()) {
-      const std::string name = set.name;
-      sets.emplace(name, std::move(set));
+    result.parts.push_back({name_of_part(set, family.sets.size()), objections});
+    if (!objections.empty()) {
+      read.failed.insert(set.name);
+    }
+    family.sets.push_back(std::move(set));
+  }
+  return read;
+}
+
+/// The families of which all sets are verified, and which are for all amplitudes of the design.
+std::map<std::string, TubeFamily> verified_sets(const Tree& tubes, const TrackedModel& tracked,
+                                                const ModelDesign& design, Verification& result) {
+  ReadSets read = read_sets(tubes, tracked, design, result);
+  for (const auto& [name, family] : read.families) {
+    Objections objections;
+    check_amplitudes(family.sets, design, objections);
+    if (design.is_constant_in_range) {
+      result.parts.push_back({"amplitudes of tubes " + name, objections});
+    }
+    if (!objections.empty()) {
+      read.failed.insert(name);
     }
   }
-  return sets;
+  for (const std::string& name : read.failed) {
+    read.families.erase(name);
+  }
+  return std::move(read.families);
 }
 
 void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& result) {
@@ -81,7 +134,8 @@ void verify_model(const Tree& certificate, bool /*all_boxes*/, Verification& res
     result.parts.push_back({derivation.at("id").text(), {kUnknown}});
   }
   const TrackedModel model{&recursion, design.amplitude, design.amplitude_varies};
-  const std::map<std::string, TubeSet> sets = verified_sets(certificate.at("tubes"), model, result);
+  const std::map<std::string, TubeFamily> sets =
+      verified_sets(certificate.at("tubes"), model, design, result);
   const ModelClaims claims(tree, design, model, sets, result.cells);
   const auto check = [&](const Tree& claim, Objections& found) { return claims.check(claim, found); };
   check_claims(certificate, claims.required(), check, result);

@@ -30,9 +30,14 @@ const std::string kLosingLock = "model/probability-of-losing-lock";
 const std::string kLock = "model/losing-lock";
 const std::string kLowestSnr = "model/lowest-snr";
 
+/// A start is followed on the amplitude, or the range for each sample, that the tracker has.
+bool is_of_one_amplitude(const TubeFamily* family) {
+  return family != nullptr && family->sets.size() == 1 && !family->sets.front().amplitudes;
+}
+
 /// Whether the sets bound a covariance: all or none do (model_certificate.cpp).
-bool bound_covariance(const std::map<std::string, TubeSet>& sets) {
-  return !sets.empty() && bounds_covariance(sets.begin()->second);
+bool bound_covariance(const std::map<std::string, TubeFamily>& sets) {
+  return !sets.empty() && bounds_covariance(sets.begin()->second.sets.front());
 }
 
 std::size_t first_level(const PhaseTube& /*tube*/) {
@@ -61,7 +66,7 @@ std::size_t whole_number(const Tree& claim, const char* name, std::size_t most) 
 }  // namespace
 
 ModelClaims::ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
-                         const std::map<std::string, TubeSet>& sets, std::int64_t& cells)
+                         const std::map<std::string, TubeFamily>& sets, std::int64_t& cells)
     : tree_(&tree),
       design_(&design),
       model_(&model),
@@ -147,11 +152,13 @@ ModelClaims::Part ModelClaims::part_of(const Tree& claim, Objections& objections
   return part;
 }
 
-bool ModelClaims::covers_all(const TubeSet& set, const Part& part) const {
-  return part ? covers(set, part->lowest, part->highest) : covers(set, design_->lowest, design_->highest);
+bool ModelClaims::covers_all(const TubeFamily& family, const Part& part) const {
+  return !family.sets.empty() && std::all_of(family.sets.begin(), family.sets.end(), [&](const TubeSet& set) {
+    return part ? covers(set, part->lowest, part->highest) : covers(set, design_->lowest, design_->highest);
+  });
 }
 
-const TubeSet* ModelClaims::find(const std::string& name, const Part& part) const {
+const TubeFamily* ModelClaims::find(const std::string& name, const Part& part) const {
   const auto found = sets_->find(name);
   return found != sets_->end() && covers_all(found->second, part) ? &found->second : nullptr;
 }
@@ -160,25 +167,35 @@ std::string ModelClaims::deciding_name() const {
   return sets_->contains("assumed") ? "assumed" : "starts";
 }
 
-const TubeSet* ModelClaims::deciding_set(const Part& part) const {
+const TubeFamily* ModelClaims::deciding_set(const Part& part) const {
   if (design_->deviation) {
     return nullptr;  // nothing holds for ever
   }
-  const TubeSet* set = find("assumed", part);
+  const TubeFamily* set = find("assumed", part);
   if (set == nullptr && !design_->is_noisy() && !sets_->contains("assumed")) {
     set = find("starts", part);
   }
-  const bool is_enough = set != nullptr && certainly_at_most(design_->noise, Ball(set->noise)) &&
-                         certainly_at_most(design_->slew, Ball(set->slew));
+  const bool is_enough = set != nullptr && certainly_at_most(design_->noise, Ball(set->noise())) &&
+                         certainly_at_most(design_->slew, Ball(set->slew()));
   return is_enough ? set : nullptr;
 }
 
-const TubeSet* ModelClaims::long_run_set(const Part& part) const {
+const TubeFamily* ModelClaims::long_run_set(const Part& part) const {
   return deciding_name() == "assumed" && deciding_set(part) != nullptr ? find(kLongRun, part) : nullptr;
 }
 
-TubeSet ModelClaims::reached_by(const TubeSet& set, const Ball& sample) const {
-  const TubeSet* inner = long_run_set();
+std::vector<TubeSet> ModelClaims::reached_by(const TubeFamily& family, const Ball& sample) const {
+  const TubeFamily* inner = long_run_set();
+  // Of the same parts, which go in the same order (model_certificate.cpp).
+  const bool has_inner = inner != nullptr && inner->sets.size() == family.sets.size();
+  std::vector<TubeSet> reached;
+  for (std::size_t k = 0; k < family.sets.size(); ++k) {
+    reached.push_back(reached_by(family.sets[k], has_inner ? &inner->sets[k] : nullptr, sample));
+  }
+  return reached;
+}
+
+TubeSet ModelClaims::reached_by(const TubeSet& set, const TubeSet* inner, const Ball& sample) const {
   const auto last_reached = [&](const TubeSet& tubes, const PhaseTube& tube, const Ball& before) {
     std::size_t reached = 0;
     while (reached < last_level(tube) &&
@@ -204,22 +221,24 @@ TubeSet ModelClaims::reached_by(const TubeSet& set, const Ball& sample) const {
   return result;
 }
 
-bool ModelClaims::settles(const TubeSet& set) const {
-  return std::all_of(set.tubes.begin(), set.tubes.end(),
-                     [](const PhaseTube& tube) { return tube.levels.size() > 1; });
+bool ModelClaims::settles(const TubeFamily& family) const {
+  return std::all_of(family.sets.begin(), family.sets.end(), [](const TubeSet& set) {
+    return std::all_of(set.tubes.begin(), set.tubes.end(),
+                       [](const PhaseTube& tube) { return tube.levels.size() > 1; });
+  });
 }
 
-const TubeSet* ModelClaims::settling_set(const Part& part) const {
-  const TubeSet* set = find("starts", part);
+const TubeFamily* ModelClaims::settling_set(const Part& part) const {
+  const TubeFamily* set = find("starts", part);
   return set != nullptr && settles(*set) ? set : nullptr;
 }
 
-bool ModelClaims::contains_assumed_starts(const TubeSet& set) const {
-  return design_->start_within.empty() || of(set).contains_starts(design_->start_within);
+bool ModelClaims::contains_assumed_starts(const TubeFamily& family) const {
+  return design_->start_within.empty() || of(family).contains_starts(design_->start_within);
 }
 
 Claim ModelClaims::bound() const {
-  const TubeSet* set = deciding_set();
+  const TubeFamily* set = deciding_set();
   Claim found;
   found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
                     words_.assumed_start(deciding_name()) + ", " + short_text(kErrorBound) + ".";
@@ -229,13 +248,13 @@ Claim ModelClaims::bound() const {
 }
 
 Claim ModelClaims::settling() const {
-  const TubeSet* set = deciding_set();
+  const TubeFamily* set = deciding_set();
   Claim found;
   found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy()) +
                     words_.assumed_start(deciding_name()) + ", " + short_text(kSettlingTime) + ".";
   if (set != nullptr && contains_assumed_starts(*set)) {
     // The last levels that are reached in time.
-    const TubeSet reached = reached_by(*set, design_->settles_within->value);
+    const std::vector<TubeSet> reached = reached_by(*set, design_->settles_within->value);
     found.verdict = proved_if(of(reached).error_is_below(first_level, design_->settled_below->value));
   }
   return found;
@@ -247,15 +266,16 @@ Claim ModelClaims::size(const std::string& id) const {
     found.statement = words_.constant_tone();
     found.verdict = proved_if(std::any_of(sets_->begin(), sets_->end(), [this](const auto& set) {
       return covers_all(set.second) &&
-             certainly_at_most(design_->largest_noise->value, Ball(set.second.noise));
+             certainly_at_most(design_->largest_noise->value, Ball(set.second.noise()));
     }));
   } else if (id == kLargestSlew) {
     found.statement = words_.tone_in_band() + ", without noise";
     found.verdict = proved_if(std::any_of(sets_->begin(), sets_->end(), [this](const auto& set) {
-      return covers_all(set.second) && certainly_at_most(design_->largest_slew->value, Ball(set.second.slew));
+      return covers_all(set.second) &&
+             certainly_at_most(design_->largest_slew->value, Ball(set.second.slew()));
     }));
   } else {
-    const TubeSet* set = deciding_set();
+    const TubeFamily* set = deciding_set();
     found.statement = words_.assumed_tone(design_->moves()) + words_.assumed_noise(design_->is_noisy());
     found.verdict = proved_if(set != nullptr && of(*set).contains_errors(design_->radius->value));
   }
@@ -264,7 +284,7 @@ Claim ModelClaims::size(const std::string& id) const {
 }
 
 Claim ModelClaims::long_run(const std::string& id) const {
-  const TubeSet* set = settling_set();
+  const TubeFamily* set = settling_set();
   Claim found;
   if (id == kBias) {
     const Ball& most = design_->bias->value;
@@ -281,12 +301,14 @@ Claim ModelClaims::long_run(const std::string& id) const {
   return found;
 }
 
-bool ModelClaims::is_seldom_left(const TubeSet* set, const Ball& deviation, const Ball& probability,
+bool ModelClaims::is_seldom_left(const TubeFamily* set, const Ball& deviation, const Ball& probability,
                                  bool strictly) const {
-  if (set == nullptr || !set->gaussian || !certainly_at_most(deviation, Ball(set->gaussian->deviation))) {
+  // In Gaussian noise the amplitude is one number (model_design.cpp).
+  if (set == nullptr || set->sets.size() != 1 || !set->is_gaussian() ||
+      !certainly_at_most(deviation, Ball(set->sets.front().gaussian->deviation))) {
     return false;
   }
-  const GaussianTerms& terms = *set->gaussian;
+  const GaussianTerms& terms = *set->sets.front().gaussian;
   const auto leaves = [&](const Ball& share) {
     return leaving_probability(terms, model_->recursion->samples(), design_->samples, share);
   };
@@ -328,7 +350,7 @@ Claim ModelClaims::told_lock(const Tree& claim) const {
   if (!design_->deviation) {
     return found;
   }
-  const TubeSet* set = find(name);
+  const TubeFamily* set = find(name);
   const Ball deviation =
       is_lowest ? deviation_at(written(claim, "snr_db")) * design_->amplitude : *design_->deviation;
   found.statement = words_.constant_tone() + words_.gaussian_noise(decibels) + words_.start_inside(name) +
@@ -341,7 +363,7 @@ Claim ModelClaims::told_lock(const Tree& claim) const {
 }
 
 Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
-  const TubeSet* set = deciding_set(part);
+  const TubeFamily* set = deciding_set(part);
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   const Ball bound = written(claim, "frequency_error");
   Claim found;
@@ -353,7 +375,7 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
       set != nullptr && contains_assumed_starts(*set) && of(*set).error_is_at_most(first_level, bound);
   if (const Tree* settled = claim.find("settled_frequency_error")) {
     found.statement += ", and at or below " + units_.at_most(settled->text()) + " in the long run";
-    const TubeSet* inner = long_run_set(part);
+    const TubeFamily* inner = long_run_set(part);
     certain = certain && (inner != nullptr || settles(*set)) &&
               of(inner != nullptr ? *inner : *set)
                   .error_is_at_most(last_level, written(claim, "settled_frequency_error"));
@@ -366,15 +388,15 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
 Claim ModelClaims::captured_in_time() const {
   constexpr double kMostSamples = 100'000.0;
   constexpr std::size_t kPhases = 16;
-  const TubeSet* set = deciding_set();
+  const TubeFamily* set = deciding_set();
   // Whole samples that have passed by then. More than these do not help.
   const double samples = std::floor(std::min(design_->captured_within->value.lower_double(), kMostSamples));
   Claim found;
   found.statement = words_.constant_tone() + words_.assumed_noise(design_->is_noisy()) +
                     words_.started_exactly() + ", " + short_text(kCaptureTime) + ".";
   found.verdict = proved_if(
-      set != nullptr && samples >= 1.0 &&
-      is_captured(*model_, *set,
+      is_of_one_amplitude(set) && samples >= 1.0 &&
+      is_captured(*model_, set->sets.front(),
                   {design_->start, design_->noise, static_cast<std::size_t>(samples), {}, kPhases, 1},
                   *cells_));
   return found;
@@ -388,7 +410,7 @@ Claim ModelClaims::capture(const Tree& claim, const Part& part) const {
   }
   constexpr std::size_t kMostSamples = 100'000;
   constexpr std::size_t kMostParts = 1U << 14U;
-  const TubeSet* set = deciding_set(part);
+  const TubeFamily* set = deciding_set(part);
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   StartClaim start{design_->start,
                    design_->noise,
@@ -400,7 +422,7 @@ Claim ModelClaims::capture(const Tree& claim, const Part& part) const {
   found.statement = words.constant_tone() + words.assumed_noise(design_->is_noisy()) +
                     words.started_exactly() + ", the tracker is in the set \"" + deciding_name() +
                     "\" of the certificate after at most " + claim.at("samples").text() + " samples";
-  bool certain = set != nullptr && of(*set).error_is_at_most(first_level, after);
+  bool certain = is_of_one_amplitude(set) && of(*set).error_is_at_most(first_level, after);
   if (const Tree* error = claim.find("frequency_error_before")) {
     found.statement += ", with a frequency error of at most " + units_.at_most(error->text()) + " until then";
     start.frequency_error = written(claim, "frequency_error_before");
@@ -409,16 +431,17 @@ Claim ModelClaims::capture(const Tree& claim, const Part& part) const {
   }
   found.statement += ", and the frequency error stays at or below " +
                      units_.at_most(claim.at("frequency_error").text()) + " for ever after.";
-  found.verdict = proved_if(certain && is_captured(*model_, *set, start, *cells_));
+  found.verdict = proved_if(certain && is_captured(*model_, set->sets.front(), start, *cells_));
   return found;
 }
 
-const TubeSet* ModelClaims::largest(std::initializer_list<const char*> names, double TubeSet::*size,
-                                    const Part& part) const {
-  const TubeSet* found = nullptr;
+const TubeFamily* ModelClaims::largest(std::initializer_list<const char*> names,
+                                       double (TubeFamily::*tolerated)() const, const Part& part) const {
+  const TubeFamily* found = nullptr;
   for (const char* name : names) {
-    const TubeSet* set = find(name, part);
-    if (set != nullptr && !set->gaussian && set->*size > (found != nullptr ? found->*size : 0.0)) {
+    const TubeFamily* set = find(name, part);
+    if (set != nullptr && !set->is_gaussian() &&
+        (set->*tolerated)() > (found != nullptr ? (found->*tolerated)() : 0.0)) {
       found = set;
     }
   }
@@ -427,7 +450,7 @@ const TubeSet* ModelClaims::largest(std::initializer_list<const char*> names, do
 
 namespace {
 
-std::string by_set(const TubeSet* set, const std::string& usual) {
+std::string by_set(const TubeFamily* set, const std::string& usual) {
   return set == nullptr || set->name == usual ? std::string()
                                               : " (by the set \"" + set->name + "\" of the certificate)";
 }
@@ -435,7 +458,7 @@ std::string by_set(const TubeSet* set, const std::string& usual) {
 }  // namespace
 
 Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
-  const TubeSet* noise = largest({"noise", "assumed", "slew"}, &TubeSet::noise, part);
+  const TubeFamily* noise = largest({"noise", "assumed", "slew"}, &TubeFamily::noise, part);
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   Claim found;
   found.is_summary = true;
@@ -443,15 +466,15 @@ Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
                     claim.at("noise").text() + by_set(noise, "noise");
   const Ball tolerated = written(claim, "noise");
   bool certain =
-      noise != nullptr && certainly_positive(tolerated) && certainly_at_most(tolerated, Ball(noise->noise));
+      noise != nullptr && certainly_positive(tolerated) && certainly_at_most(tolerated, Ball(noise->noise()));
   if (const Tree* errors = claim.find("reach")) {
     const Ball reach = written(claim, "reach");
     found.statement += ", and without noise a certified invariant set contains frequency errors up to " +
                        units_.at_least(errors->text()) + " at every phase.";
     // A set for some noise is one without noise, too.
     const auto contains = [&](const char* name) {
-      const TubeSet* set = find(name, part);
-      return set != nullptr && !set->gaussian && of(*set).contains_errors(reach);
+      const TubeFamily* set = find(name, part);
+      return set != nullptr && !set->is_gaussian() && of(*set).contains_errors(reach);
     };
     certain = certain && certainly_positive(reach) &&
               (contains("starts") || contains("assumed") || contains("noise") || contains("slew"));
@@ -463,17 +486,17 @@ Claim ModelClaims::limits(const Tree& claim, const Part& part) const {
 }
 
 Claim ModelClaims::slew_limit(const Tree& claim, const Part& part) const {
-  const TubeSet* set = largest({"slew", "assumed"}, &TubeSet::slew, part);
+  const TubeFamily* set = largest({"slew", "assumed"}, &TubeFamily::slew, part);
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   const Ball slew = written(claim, "slew");
-  bool certain = set != nullptr && certainly_positive(slew) && certainly_at_most(slew, Ball(set->slew));
+  bool certain = set != nullptr && certainly_positive(slew) && certainly_at_most(slew, Ball(set->slew()));
   Claim found;
   found.is_summary = true;
   found.statement = words.tone_in_band();
   if (const Tree* noise = claim.find("noise")) {
     const Ball together = written(claim, "noise");
     found.statement += ", with noise of at most " + noise->text();
-    certain = certain && certainly_positive(together) && certainly_at_most(together, Ball(set->noise));
+    certain = certain && certainly_positive(together) && certainly_at_most(together, Ball(set->noise()));
   } else {
     found.statement += ", without noise";
   }
@@ -484,7 +507,7 @@ Claim ModelClaims::slew_limit(const Tree& claim, const Part& part) const {
 }
 
 Claim ModelClaims::steady_state(const Tree& claim, const Part& part) const {
-  const TubeSet* set = settling_set(part);
+  const TubeFamily* set = settling_set(part);
   const ModelWords words(*tree_, part, bound_covariance(*sets_));
   Claim found;
   found.is_summary = true;

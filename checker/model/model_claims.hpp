@@ -10,7 +10,7 @@
 
 #include "checker/document/parts.hpp"
 #include "checker/model/model_design.hpp"
-#include "checker/model/tube_check.hpp"
+#include "checker/model/tube_family.hpp"
 #include "checker/sets/frequency_words.hpp"
 
 namespace veritrack::checker {
@@ -19,7 +19,7 @@ class ModelClaims {
  public:
   /// `sets`: those that are verified, by name. All must outlive this.
   ModelClaims(const Tree& tree, const ModelDesign& design, const TrackedModel& model,
-              const std::map<std::string, TubeSet>& sets, std::int64_t& cells);
+              const std::map<std::string, TubeFamily>& sets, std::int64_t& cells);
 
   /// What [require] asks for.
   [[nodiscard]] std::vector<Requirement> required() const;
@@ -31,24 +31,26 @@ class ModelClaims {
   using Part = std::optional<BandPart>;
   /// That of a claim that may name one. Objects to what is no part of the assumed band.
   [[nodiscard]] Part part_of(const Tree& claim, Objections& objections) const;
-  [[nodiscard]] bool covers_all(const TubeSet& set, const Part& part = {}) const;
+  [[nodiscard]] bool covers_all(const TubeFamily& family, const Part& part = {}) const;
   /// A set of that name that covers the part.
-  [[nodiscard]] const TubeSet* find(const std::string& name, const Part& part = {}) const;
+  [[nodiscard]] const TubeFamily* find(const std::string& name, const Part& part = {}) const;
   /// Whose noise and slew are at least the assumed ones.
-  [[nodiscard]] const TubeSet* deciding_set(const Part& part = {}) const;
+  [[nodiscard]] const TubeFamily* deciding_set(const Part& part = {}) const;
   /// Inside the deciding set, where states are in the long run; or none.
-  [[nodiscard]] const TubeSet* long_run_set(const Part& part = {}) const;
+  [[nodiscard]] const TubeFamily* long_run_set(const Part& part = {}) const;
   /// The tubes of the deciding set, or of the long run, in which all states are from this sample on; each
   /// with one level.
-  [[nodiscard]] TubeSet reached_by(const TubeSet& set, const Ball& sample) const;
+  [[nodiscard]] std::vector<TubeSet> reached_by(const TubeFamily& family, const Ball& sample) const;
+  [[nodiscard]] TubeSet reached_by(const TubeSet& set, const TubeSet* inner, const Ball& sample) const;
   /// The name of the set that a guarantee is about.
   [[nodiscard]] std::string deciding_name() const;
   /// "starts", if there are levels to come down to.
-  [[nodiscard]] const TubeSet* settling_set(const Part& part = {}) const;
-  [[nodiscard]] PhaseTubeCheck of(const TubeSet& set) const { return {*model_, set, *cells_}; }
+  [[nodiscard]] const TubeFamily* settling_set(const Part& part = {}) const;
+  [[nodiscard]] FamilyCheck of(const TubeFamily& family) const { return of(family.sets); }
+  [[nodiscard]] FamilyCheck of(const std::vector<TubeSet>& sets) const { return {*model_, sets, *cells_}; }
   /// Starts as they are assumed are in the set.
-  [[nodiscard]] bool contains_assumed_starts(const TubeSet& set) const;
-  [[nodiscard]] bool settles(const TubeSet& set) const;
+  [[nodiscard]] bool contains_assumed_starts(const TubeFamily& family) const;
+  [[nodiscard]] bool settles(const TubeFamily& family) const;
 
   [[nodiscard]] std::string short_text(const std::string& id) const;
   [[nodiscard]] Claim bound() const;
@@ -57,7 +59,7 @@ class ModelClaims {
   [[nodiscard]] Claim long_run(const std::string& id) const;
   /// In Gaussian noise of this deviation the assumed starts leave the set with a probability of at most so
   /// much, or less than that.
-  [[nodiscard]] bool is_seldom_left(const TubeSet* set, const Ball& deviation, const Ball& probability,
+  [[nodiscard]] bool is_seldom_left(const TubeFamily* set, const Ball& deviation, const Ball& probability,
                                     bool strictly) const;
   [[nodiscard]] Claim required_lock() const;
   [[nodiscard]] Claim told_lock(const Tree& claim) const;
@@ -66,8 +68,8 @@ class ModelClaims {
   [[nodiscard]] Claim guarantee(const Tree& claim, const Part& part) const;
   /// Of the sets with these names that cover the part and are never left, the one with the largest noise or
   /// slew, the first of equal ones; none where all are 0.
-  [[nodiscard]] const TubeSet* largest(std::initializer_list<const char*> names, double TubeSet::*size,
-                                       const Part& part) const;
+  [[nodiscard]] const TubeFamily* largest(std::initializer_list<const char*> names,
+                                          double (TubeFamily::*tolerated)() const, const Part& part) const;
   [[nodiscard]] Claim limits(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim slew_limit(const Tree& claim, const Part& part) const;
   [[nodiscard]] Claim steady_state(const Tree& claim, const Part& part) const;
@@ -75,7 +77,7 @@ class ModelClaims {
   const Tree* tree_;
   const ModelDesign* design_;
   const TrackedModel* model_;
-  const std::map<std::string, TubeSet>* sets_;
+  const std::map<std::string, TubeFamily>* sets_;
   std::int64_t* cells_;
   ModelWords words_;
   FrequencyWords units_;

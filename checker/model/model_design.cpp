@@ -34,22 +34,36 @@ void read_model_band(const Tree& assume, ModelDesign& design, Objections& object
   }
 }
 
-/// A number, or a range [least, largest] in which that of every sample is.
+/// The range of a constant amplitude; nothing where it is another assumption.
+const Tree* constant_range(const Tree& amplitude) {
+  return amplitude.kind() == Tree::Kind::object ? amplitude.find("constant") : nullptr;
+}
+
+/// A number, or a range [least, largest] in which that of every sample is, or in which a constant one is.
 void read_amplitude(const Tree& amplitude, ModelDesign& design, Objections& objections) {
+  const Tree* constant = constant_range(amplitude);
+  design.is_constant_in_range = constant != nullptr;
   design.amplitude_varies = amplitude.kind() == Tree::Kind::array;
-  if (!design.amplitude_varies) {
+  if (!design.amplitude_varies && !design.is_constant_in_range) {
     design.amplitude = read_positive(amplitude, "amplitude", objections);
+    design.least_amplitude = design.largest_amplitude = design.amplitude;
     return;
   }
-  if (amplitude.elements().size() != 2) {
+  if (constant != nullptr && amplitude.members().size() != 1) {
+    throw Malformed("a constant amplitude has a range and nothing else");
+  }
+  const Tree& range = constant != nullptr ? *constant : amplitude;
+  if (range.elements().size() != 2) {
     throw Malformed("a range of amplitudes has two ends");
   }
-  const Ball least = read_positive(amplitude.at(0), "amplitude", objections);
-  const Ball largest = read_positive(amplitude.at(1), "amplitude", objections);
+  const Ball least = read_positive(range.at(0), "amplitude", objections);
+  const Ball largest = read_positive(range.at(1), "amplitude", objections);
   if (!certainly_less(least, largest)) {
     objections.emplace_back("the amplitudes must go from low to high");
   }
   design.amplitude = Ball::hull(least, largest);
+  design.least_amplitude = least;
+  design.largest_amplitude = largest;
 }
 
 /// The value of a formula that stands in sentences as it is written. What is not computed with, a comment,
@@ -214,7 +228,7 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
   if (design.deviation && !certainly_equal(design.slew, zero)) {
     objections.emplace_back("nothing is certified of Gaussian noise with a slew");
   }
-  if (design.deviation && design.amplitude_varies) {
+  if (design.deviation && (design.amplitude_varies || design.is_constant_in_range)) {
     objections.emplace_back("nothing is certified of Gaussian noise with a range of amplitudes");
   }
   if (design.captured_within && design.start.empty()) {
@@ -230,6 +244,10 @@ ModelDesign read_model_design(const Tree& tree, ModelRecursion& recursion, Objec
 
 std::string ModelWords::amplitude() const {
   const Tree& amplitude = assume().at("amplitude");
+  if (const Tree* range = constant_range(amplitude)) {
+    return "of any constant amplitude in [" + text_of(range->at(0)) + ", " + text_of(range->at(1)) +
+           "] with ";
+  }
   return amplitude.kind() != Tree::Kind::array
              ? "of amplitude " + text_of(amplitude) + " with "
              : "with an amplitude in [" + text_of(amplitude.at(0)) + ", " + text_of(amplitude.at(1)) +

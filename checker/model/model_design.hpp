@@ -20,11 +20,14 @@ struct RequiredNumber {
 
 /// In rad/sample and signal units: each number both as the decimal and as the double nearest to it.
 struct ModelDesign {
-  Ball amplitude;                 ///< of each sample
-  bool amplitude_varies = false;  ///< from sample to sample, in that range; otherwise it is one number
-  Ball lowest, highest;           ///< of the frequency
-  Ball band_unit;                 ///< in which the design writes them: Hz, or 1
-  Ball noise;                     ///< bound on the length of the error of a sample, all channels together
+  Ball amplitude;                 ///< of each sample: all that it may have
+  bool amplitude_varies = false;  ///< from sample to sample, in that range; otherwise it is constant
+  /// It is constant, and some number from the least to the largest one.
+  bool is_constant_in_range = false;
+  Ball least_amplitude, largest_amplitude;
+  Ball lowest, highest;  ///< of the frequency
+  Ball band_unit;        ///< in which the design writes them: Hz, or 1
+  Ball noise;            ///< bound on the length of the error of a sample, all channels together
   /// Gaussian noise in place of that bound: its deviation in each channel, signal units, and for how many
   /// samples a probability is asked.
   std::optional<Ball> deviation;

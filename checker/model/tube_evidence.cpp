@@ -143,6 +143,17 @@ PhaseTube tube_from(const Tree& cell, std::size_t all_states, std::size_t estima
   return tube;
 }
 
+AmplitudePart amplitudes_from(const Tree& tree, Objections& objections) {
+  const std::vector<double> ends = doubles_from(tree);
+  if (ends.size() != 2) {
+    throw Malformed("a part of the amplitudes has two ends");
+  }
+  if (!certainly_positive(Ball(ends[0])) || !certainly_less(Ball(ends[0]), Ball(ends[1]))) {
+    objections.emplace_back("the amplitudes of a part are positive and go from low to high");
+  }
+  return {ends[0], ends[1]};
+}
+
 GaussianTerms terms_from(const Tree& tree, Objections& objections) {
   GaussianTerms terms;
   for (const auto& [name, member] :
@@ -165,6 +176,9 @@ GaussianTerms terms_from(const Tree& tree, Objections& objections) {
 TubeSet read_tube_set(const Tree& set, std::size_t states, Objections& objections, std::size_t estimated) {
   TubeSet result;
   result.name = set.at("name").text();
+  if (const Tree* amplitudes = set.find("amplitude")) {
+    result.amplitudes = amplitudes_from(*amplitudes, objections);
+  }
   if (const Tree* terms = set.find("gaussian")) {
     result.gaussian = terms_from(*terms, objections);
   } else {

@@ -52,9 +52,17 @@ struct GaussianTerms {
   double constant = 0.0;    ///< c_0
 };
 
+/// Amplitudes from low to high, in signal units, of which every sample may have another one.
+struct AmplitudePart {
+  double low = 0.0;
+  double high = 0.0;
+};
+
 /// Tubes for the frequencies of a band, for so much noise (signal units) and slew (rad/sample per sample).
 struct TubeSet {
   std::string name;
+  /// Of a constant amplitude that is known to be in a range: the part of it for which the tubes are.
+  std::optional<AmplitudePart> amplitudes;
   double slew = 0.0;
   double noise = 0.0;
   std::optional<GaussianTerms> gaussian;  ///< then there is no noise and no slew besides, and one level

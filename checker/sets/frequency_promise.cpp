@@ -65,7 +65,8 @@ std::optional<FrequencyPromise> frequency_promise(const Tree& certificate, const
   const bool has_bound = assume.at("noise").find("text") != nullptr;
   if (!all_verified || sentence == found.sentences.end() || claim == nullptr || !has_bound ||
       (is_model && (!sees_the_tone_alone(design.at("model")) || !is_in_radians(assume) ||
-                    assume.at("amplitude").kind() == Tree::Kind::array))) {
+                    assume.at("amplitude").kind() == Tree::Kind::array ||
+                    assume.at("amplitude").find("text") == nullptr))) {
     return std::nullopt;
   }
   FrequencyPromise promise;

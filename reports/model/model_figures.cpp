@@ -43,6 +43,23 @@ FigureTable table_of_cells(const std::vector<ModelCell>& cells, const FrequencyU
   return table;
 }
 
+/// Lines are not drawn from the tubes of a part of the amplitudes to those of the next one, which begin at
+/// low frequencies again.
+class LinesOfParts {
+ public:
+  explicit LinesOfParts(FigureTable& table) : table_(&table) {}
+  void begin(const ProvedTube& proved) {
+    if (proved.tube.frequency < last_) {
+      table_->gap();
+    }
+    last_ = proved.tube.frequency;
+  }
+
+ private:
+  FigureTable* table_;
+  double last_ = 0.0;
+};
+
 /// The mean and the range of the frequency error on the curve of a tube, in floating point, over its
 /// frequencies.
 FigureTable table_on_curve(const model::TrackerModel& tracker, const std::vector<ProvedTube>& tubes,
@@ -54,7 +71,9 @@ FigureTable table_on_curve(const model::TrackerModel& tracker, const std::vector
   model::PointFrame frame;
   FigureTable table("curve", {in_unit("frequency of the signal", units), in_unit("bias, not proved", units),
                               in_unit("ripple, not proved", units)});
+  LinesOfParts lines(table);
   for (const ProvedTube& proved : tubes) {
+    lines.begin(proved);
     for (std::size_t i = 0; i <= each; ++i) {
       const double z = 2.0 * static_cast<double>(i) / static_cast<double>(each) - 1.0;
       const double frequency = proved.tube.frequency + z * proved.tube.half_width;
@@ -113,7 +132,9 @@ Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::
 /// Adds how far each tube of a set reaches, proved as for the whole set.
 void add_reach(const std::string& name, const ModelSet& set, const model::TrackerModel& tracker,
                const FrequencyUnits& units, FigureTable& table) {
+  LinesOfParts lines(table);
   for (const ProvedTube& proved : set.tubes.tubes) {
+    lines.begin(proved);
     const double reach = 0.999 * bound_reach(tracker, proved.tube, proved.levels.front(), {});
     for (const double z : {-1.0, 1.0}) {
       table.add({name, units.drawn(proved.tube.frequency + z * proved.tube.half_width), units.drawn(reach)});
@@ -152,8 +173,11 @@ Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& 
   return {"reach.svg",
           fmt::format("How far the certified sets reach, {}, against the frequency of the signal: at every "
                       "phase a set contains states with a frequency error of that size. Proved for each cell "
-                      "of frequencies.",
-                      units.drawn_unit()),
+                      "of frequencies{}.",
+                      units.drawn_unit(),
+                      sets.front().second->tubes.amplitudes.size() > 1
+                          ? ", with a line for each part of the amplitudes"
+                          : ""),
           script + plot + "\n",
           "How far the certified sets reach",
           {std::move(table)}};
@@ -163,7 +187,9 @@ Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& 
 FigureTable table_of_own(const char* name, const char* quantity, const model::TubeSet& set,
                          double model::ProvedTube::*own, const FrequencyUnits& units) {
   FigureTable table(name, {in_unit("frequency of the signal", units), quantity});
+  LinesOfParts lines(table);
   for (const ProvedTube& proved : set.tubes) {
+    lines.begin(proved);
     for (const double z : {-1.0, 1.0}) {
       table.add({units.drawn(proved.tube.frequency + z * proved.tube.half_width), proved.*own});
     }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/model/amplitude_parts.hpp"
 #include "analysis/model/falsifier.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -120,8 +121,25 @@ void add_run(double number, const std::vector<model::AttackedSample>& run, const
 
 }  // namespace
 
-Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, const FrequencyUnits& units) {
+namespace {
+
+/// " and amplitudes from 0.99 to 1.01", of a part of the amplitudes.
+std::string words_of_amplitudes(const model::TubeSet& set) {
+  std::string text;
+  for (const model::AmplitudePart& part : set.amplitudes) {
+    text = fmt::format(" and amplitudes from {:.6g} to {:.6g}", part.low, part.high);
+  }
+  return text;
+}
+
+}  // namespace
+
+Figure draw_tube(const model::TrackerModel& design, const model::TubeSet& all, const FrequencyUnits& units) {
   const rigor::NearestRounding nearest;
+  // Of several parts of the amplitudes the one in the middle.
+  const std::vector<model::TubeSet> parts = model::sets_of_amplitudes(all);
+  const model::TubeSet& set = parts[parts.size() / 2];
+  const model::TrackerModel tracker = model::on_amplitudes_of(design, set);
   const model::Tube& first = set.tubes.front().tube;
   const model::Tube& last = set.tubes.back().tube;
   const double frequency = 0.5 * (first.frequency - first.half_width + last.frequency + last.half_width);
@@ -160,11 +178,12 @@ Figure draw_tube(const model::TrackerModel& tracker, const model::TubeSet& set, 
   return {
       "tube.svg",
       fmt::format(
-          "The certified tube at {:.6g} {}, {}: frequency error ({}) against the phase of the signal "
+          "The certified tube at {:.6g} {}{}, {}: frequency error ({}) against the phase of the signal "
           "(turns). A start in the tube stays between the solid lines and ends between the dashed ones. "
           "Grey: {} simulated starts on the rim (dots), {} samples each{}. The lines are drawn in floating "
           "point, and the simulations prove nothing.",
-          units.drawn(frequency), unit, tube_disturbances(set, units), unit, kStarts, kSamples,
+          units.drawn(frequency), unit, words_of_amplitudes(set), tube_disturbances(set, units), unit,
+          kStarts, kSamples,
           set.noise > 0.0
               ? std::string(", with the noise") + (varies ? " and the amplitude that push" : " that pushes") +
                     " outward most at every sample, at a constant frequency"

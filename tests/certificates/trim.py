@@ -54,6 +54,8 @@ From tests/certificates/model-from-rest.toml, a recursion whose start is known:
 model-from-rest   its tube for the assumed noise, and the claims that rest on it
 From tests/certificates/model-moving.toml, a loop with an angle, and a frequency that moves:
 model-moving      its tube for what is assumed, in two cells
+From tests/certificates/model-constant-amplitude.toml, such a loop, and a constant amplitude in a range:
+model-constant-amplitude  its tubes for what is assumed, for two parts of the range
 From tests/certificates/model-gaussian.toml, a loop with an angle in Gaussian noise:
 model-gaussian    its tubes for the assumed noise and for as much as was proved
 From tests/certificates/model-filter.toml, an extended Kalman filter at almost one frequency:
@@ -457,6 +459,7 @@ KINDS = {
     "model-part": model_part,
     "model-from-rest": model_from_rest,
     "model-moving": model_moving,
+    "model-constant-amplitude": model_moving,
     "model-gaussian": model_gaussian,
     "model-filter": model_filter,
     "model-filter-gaussian": model_gaussian,

@@ -113,6 +113,11 @@ class ModelMap(CliTestCase):
                 self.assertEqual(result.returncode, 2, result.stdout)
                 self.assertRegex(result.stderr, message)
                 self.assertEqual(self.files(), [])
+        self.write(LOOP.replace("amplitude = 1", "amplitude = { constant = [0.9, 1.1] }"), "range.toml")
+        result = self.run_here("map", "range.toml")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"range.toml:18:\d+: a constant amplitude in a range: a map is for the tubes of "
+                                        "one part of the range; allowed: one amplitude")
         self.write(DESIGN, "other.toml")
         result = self.run_here("map", "other.toml", "--at", "1")
         self.assertEqual(result.returncode, 2)

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "analysis/model/amplitude_parts.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "reports/model/tube_figure.hpp"
 #include "tests/certificates/model/model_certificates.hpp"
@@ -64,6 +65,26 @@ TEST_CASE("what each cell tolerates is a figure of its own, where it was looked 
   sets.slew.reset();
   certificate.particulars = sets;
   CHECK(draw_model_figures(certificate).size() == 3);
+}
+
+TEST_CASE("tubes of parts of the amplitudes are lines of their own") {
+  certificates::Certificate certificate = test::loop_certificate();
+  certificates::ModelSets sets = model_sets(certificate);
+  const std::size_t tubes = sets.starts.tubes.tubes.size();
+  for (certificates::ModelSet* set : {&sets.starts, &*sets.assumed}) {
+    set->tubes = model::join_amplitudes({set->tubes, set->tubes, set->tubes},
+                                        {{0.995, 0.999}, {0.999, 1.001}, {1.001, 1.005}});
+    REQUIRE(set->tubes.is_complete);
+  }
+  certificate.particulars = sets;
+  const std::vector<Figure> figures = with_pictures(draw_model_figures(certificate));
+  REQUIRE(figures.size() == 3);
+  CHECK(figures[0].caption.find(", with a line for each part of the amplitudes") != std::string::npos);
+  CHECK(figures[0].data[0].size() == 2 * 3 * (tubes + sets.assumed->tubes.tubes.size() / 3));
+  CHECK(figures[1].caption.find("and amplitudes from 0.999 to 1.001") != std::string::npos);
+  CHECK(figures[1].caption.find("the noise and the amplitude that push") != std::string::npos);
+  CHECK(draw_figures(test::loop_certificate())[0].caption.find("part of the amplitudes") ==
+        std::string::npos);
 }
 
 TEST_CASE("only what is proved is drawn") {

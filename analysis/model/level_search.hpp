@@ -127,8 +127,8 @@ class LevelSearch {
     }
     if (proved_.tube.bounds_covariance()) {
       constexpr std::size_t kFirst = 2;
-      for (const int most : {kFewestForFilter, kUsualForFilter}) {
-        most_for_filter_ = most;
+      for (const int cells : {kFewestForFilter, kUsualForFilter}) {
+        most_for_filter_ = cells;
         if (auto found = found_among(kFirst)) {
           return found;
         }

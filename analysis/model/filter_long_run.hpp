@@ -122,6 +122,9 @@ class LongRunSearch {
     return high;
   }
   [[nodiscard]] ScoredPoint score(const VectorXd& x) const {
+    if (x[2] < kLeastLogit) {
+      return {};
+    }
     constexpr int kSamples = 20;
     const auto at_middle = [&](const FilterParameters& parameters) {
       return worth_there(1, parameters, 1e-2, kSamples, FilterSearch::kLargestGrowth);

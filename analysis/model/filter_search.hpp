@@ -103,6 +103,10 @@ inline int memory_of(double rate_squared, const FilterParameters& parameters, do
   return std::clamp(static_cast<int>(std::ceil(std::log(share) / std::log(factor))), 12, 4000);
 }
 
+/// The least logit of lambda that is searched: nearer to the square of the rate a shape is settled after
+/// thousands of samples only, each of which is followed in every trial.
+inline constexpr double kLeastLogit = -2.5;
+
 /// A point of a search and what it is worth; minus infinity: nothing.
 struct ScoredPoint {
   double value = -std::numeric_limits<double>::infinity();
@@ -227,7 +231,8 @@ class FilterSearch {
       return grows ? low : -std::numeric_limits<double>::infinity();
     }
     double high = low + kStep;
-    const int halvings = coordinates_.exponent > 0.0 ? 12 : 6;  // the value is that of the noise alone
+    // Of a disturbance, whose size is the value that is climbed: steps of it would hide what is gained.
+    const int halvings = coordinates_.exponent > 0.0 ? 12 : coordinates_.finds() ? 10 : 6;
     for (int i = 0; i < halvings; ++i) {
       const double middle = 0.5 * (low + high);
       (may_be(middle) ? low : high) = middle;
@@ -235,7 +240,7 @@ class FilterSearch {
     return low;
   }
   [[nodiscard]] ScoredPoint score(const VectorXd& x) const {
-    if (deadline_.is_over()) {
+    if (deadline_.is_over() || x[2] < kLeastLogit) {
       return {};
     }
     constexpr int kSamples = 20;
@@ -297,6 +302,16 @@ class FilterSearch {
     if (starts.size() > 1) {
       improve(best, 0.5);
       improve(best, 0.8);
+    }
+    // Of the largest disturbance a search that begins anew finds more, again and again.
+    const int most_rounds = coordinates_.finds() && !(coordinates_.exponent > 0.0) ? 6 : 0;
+    constexpr double kLeastGain = 0.004;
+    for (int round = 0; round < most_rounds; ++round) {
+      const double before = best.value;
+      improve(best, round % 2 == 0 ? 1.0 : 0.5);
+      if (!(best.value > before + kLeastGain)) {
+        break;
+      }
     }
     // At the ends of the cell a smaller tube may be needed, not only less noise.
     constexpr int kSamples = 40;

@@ -41,10 +41,23 @@ class LevelSearch {
     for (int i = 0; i < 60 && radius > 0.0 && !is_locked(*model_, proved_.tube, radius); ++i) {
       radius *= 0.93;
     }
+    if (radius > 0.0 && proved_.tube.bounds_covariance()) {
+      // A little less than what points allow takes a fraction of the cells.
+      most_for_filter_ = kFewForFilter;
+      for (const double factor : {kFactors[0], kFactors[1], kFactors[2]}) {
+        if (proves_with_lower(factor * radius, noise)) {
+          descend(noise);
+          return proved_;
+        }
+      }
+      most_for_filter_ = kMostForFilter;
+    }
     std::optional<ProvedTube> largest;
     int tries = 0;
     for (const double factor : kFactors) {
-      if (radius > 0.0 && proves(factor * radius, noise)) {
+      const bool is_proved =
+          radius > 0.0 && (proves_with_lower(factor * radius, noise) || proves(factor * radius, noise));
+      if (is_proved) {
         descend(noise);
         // Near the largest radius nothing may shrink; a little below it there are levels.
         if (proved_.levels.size() > 1) {
@@ -101,13 +114,28 @@ class LevelSearch {
       before = best_noise;
       try_radius(kSmaller * best_radius, 0.0);
     }
-    for (const double factor : kFactors) {
-      if (best_noise > 0.0 && proves(best_radius, factor * best_noise)) {
-        constexpr double kRoomOfChecker = 0.98;
-        return std::pair(proved_, kRoomOfChecker * factor * best_noise);
-      }
+    const auto is_proved = [&](double factor) { return proves(best_radius, factor * best_noise); };
+    const auto found_among = [&](std::size_t so_many) -> std::optional<std::pair<ProvedTube, double>> {
+      const auto last = kFactors.begin() + static_cast<std::ptrdiff_t>(so_many);
+      const auto found = std::find_if(kFactors.begin(), last, is_proved);
+      constexpr double kRoomOfChecker = 0.98;
+      return found != last ? std::optional(std::pair(proved_, kRoomOfChecker * *found * best_noise))
+                           : std::nullopt;
+    };
+    if (!(best_noise > 0.0)) {
+      return std::nullopt;
     }
-    return std::nullopt;
+    if (proved_.tube.bounds_covariance()) {
+      constexpr std::size_t kFirst = 2;
+      for (const int cells : {kFewestForFilter, kUsualForFilter}) {
+        most_for_filter_ = cells;
+        if (auto found = found_among(kFirst)) {
+          return found;
+        }
+      }
+      most_for_filter_ = kMostForFilter;
+    }
+    return found_among(kFactors.size());
   }
 
   /// The radius from which the search begins.
@@ -145,8 +173,39 @@ class LevelSearch {
     proved_.shrinking = {slow_};
     return true;
   }
+  /// Of a filter, whose cells are dear: together with a level below.
+  bool proves_with_lower(double radius, double noise) {
+    if (!proved_.tube.bounds_covariance() || !is_locked(*model_, proved_.tube, radius)) {
+      return false;
+    }
+    const auto begins = [&](double factor) {
+      return may_be_below(radius, noise, {factor, slow_}) &&
+             holds({radius, noise, factor * (1.0 - 1e-12), slow_});
+    };
+    const auto found = std::find_if(kNear.begin(), kNear.end(), begins);
+    if (found == kNear.end()) {
+      return false;
+    }
+    proved_.levels = {radius, *found * radius};
+    proved_.shrinking = {slow_};
+    return true;
+  }
 
-  bool holds(LevelQuestion question) { return holds(question, proved_.grid); }
+  bool holds(const LevelQuestion& question) {
+    if (!proved_.tube.bounds_covariance()) {
+      return holds(question, proved_.grid);
+    }
+    LevelQuestion verified = question;
+    verified.shrinking = with_room(question.shrinking);
+    grid_.deadline = proved_.grid.deadline;
+    grid_.most_cells = 2 * static_cast<std::size_t>(most_for_filter_);
+    const auto grid = coarsest_grid(*model_, proved_.tube, verified, grid_, most_for_filter_, &places_);
+    if (!grid || !holds(question, *grid)) {
+      return false;
+    }
+    grid_ = *grid;
+    return true;
+  }
   bool holds(LevelQuestion question, const VerificationBudget& grid) {
     question.shrinking = with_room(question.shrinking);
     const LevelResult result = verify_level(*model_, proved_.tube, question, grid, &places_);
@@ -163,6 +222,12 @@ class LevelSearch {
     // Where cells become many, the curve itself is what the models cannot resolve.
     const std::size_t most_cells = 3 * last_cells_ + 1000;
     proved_.grid.most_cells = std::min(proved_.grid.most_cells, 2 * most_cells);
+    if (proved_.tube.bounds_covariance()) {
+      if (proved_.levels.size() < 2) {
+        return;  // it was tried
+      }
+      most_for_filter_ = std::clamp(static_cast<int>(2 * last_cells_), kFewestForFilter, kMostForFilter);
+    }
     while (proved_.levels.back() > least && proved_.levels.size() < kMostLevels && last_cells_ < most_cells) {
       if (is_for_curve() ? !step_to_curve() : !step_down(noise)) {
         break;
@@ -195,7 +260,13 @@ class LevelSearch {
     for (double next = kLowest; next < 0.5 * radius && tries < kMostTries; next *= 2.0) {
       question.least_scale = next / radius * (1.0 - 1e-12);
       const double most = next < kAsLowAsWanted ? 2048.0 : std::clamp(65536.0 * share_, 1024.0, 16384.0);
-      const auto grid = task_->deadline.is_over() ? std::nullopt : grid_for(question, static_cast<int>(most));
+      VerificationBudget first = proved_.grid;
+      first.most_cells = 2 * static_cast<std::size_t>(most);
+      LevelQuestion verified = question;
+      verified.shrinking = with_room(question.shrinking);
+      const auto grid = task_->deadline.is_over()
+                            ? std::nullopt
+                            : coarsest_grid(*model_, proved_.tube, verified, first, static_cast<int>(most));
       if (!grid) {
         continue;
       }
@@ -208,49 +279,31 @@ class LevelSearch {
     }
     return false;
   }
-  /// The coarsest grid whose cells hold, as far as some of them tell; nothing where it is too fine.
-  [[nodiscard]] std::optional<VerificationBudget> grid_for(const LevelQuestion& question, int most) const {
-    VerificationBudget grid = proved_.grid;
-    grid.most_cells = 2 * static_cast<std::size_t>(most);
-    const auto growth_with = [&](int phases, int frequencies) {
-      VerificationBudget tried = grid;
-      tried.phases *= phases;
-      tried.frequencies *= frequencies;
-      return growth_on_grid(*model_, proved_.tube, question, tried);
-    };
-    double growth = growth_with(1, 1);
-    while (!(growth <= with_room(question.shrinking))) {
-      if (2 * grid.phases * grid.frequencies > most) {
-        return std::nullopt;
-      }
-      const double by_phase = growth_with(2, 1);
-      const double by_frequency = growth_with(1, 2);
-      (by_frequency < by_phase ? grid.frequencies : grid.phases) *= 2;
-      growth = std::min(by_phase, by_frequency);
-    }
-    return grid;
+  struct Step {
+    double factor, shrinking;
+  };
+  /// Whether points allow the level that is this step below. They are cheap, and where they fail nothing is
+  /// verified.
+  [[nodiscard]] bool may_be_below(double radius, double noise, const Step& step) {
+    constexpr int kPhases = 16;
+    LevelQuestion below{step.factor * radius, noise};
+    below.with_covariance = false;  // shown with the largest radius
+    return !task_->deadline.is_over() &&
+           may_shrink(*model_, proved_.tube, below, kPhases, with_room(step.shrinking), &places_);
   }
 
   bool step_down(double noise) {
-    struct Step {
-      double factor, shrinking;
-    };
     const bool is_first = proved_.levels.size() == 1;
     // Near the largest radius levels hardly shrink.
     const std::array<Step, 5> far{{{0.125, fast_}, {0.25, fast_}, {0.5, fast_}, {0.7, slow_}, {0.9, slow_}}};
     // Far down the curve is what models cannot resolve, and a step that fails has cost many cells.
     const std::array<Step, 2> deep{{{0.25, fast_}, {0.5, fast_}}};
     const bool is_deep = task_->with_curve && proved_.levels.back() < kDeep * proved_.levels.front();
-    const std::array<Step, 3> near{{{0.5, slow_}, {0.7, slow_}, {0.9, slow_}}};
+    const std::array<Step, kNear.size()> near{{{kNear[0], slow_}, {kNear[1], slow_}, {kNear[2], slow_}}};
     const auto take = [&](const Step& step) {
       const double radius = proved_.levels.back();
       const double next = step.factor * radius;
-      // Points are cheap, and where they fail nothing is verified.
-      constexpr int kPhases = 16;
-      LevelQuestion below{next, noise};
-      below.with_covariance = false;  // shown with the largest radius
-      if (task_->deadline.is_over() ||
-          !may_shrink(*model_, proved_.tube, below, kPhases, with_room(step.shrinking), &places_)) {
+      if (!may_be_below(radius, noise, step)) {
         return false;
       }
       // What is verified is from this number up.
@@ -272,14 +325,24 @@ class LevelSearch {
                      : std::any_of(far.begin(), far.end(), take);
   }
 
+  /// Of a filter, cells of a grid: for the first level; for lower ones, unless the first took more.
+  static constexpr int kMostForFilter = 8192;
+  static constexpr int kUsualForFilter = 2048;
+  static constexpr int kFewForFilter = 512;
+  static constexpr int kFewestForFilter = 1024;
+  /// How far below the first level the second may be.
+  static constexpr std::array<double, 3> kNear{0.5, 0.7, 0.9};
+
   const TrackerModel* model_;
   const TubeProposal* proposal_;
   const SetTask* task_;
   double share_;
   ProvedTube proved_;
   PlaceStore places_;
-  std::size_t last_cells_ = 0;  ///< of the last verification that succeeded
-  double kept_radius_ = 0.0;    ///< for which points allow that bounds of a covariance are kept
+  std::size_t last_cells_ = 0;      ///< of the last verification that succeeded
+  VerificationBudget grid_{16, 1};  ///< of a filter: from which the next verification begins
+  int most_for_filter_ = kMostForFilter;
+  double kept_radius_ = 0.0;  ///< for which points allow that bounds of a covariance are kept
   double slow_ = 1.0;
   double fast_ = 1.0;
 };

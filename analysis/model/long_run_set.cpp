@@ -28,6 +28,8 @@ class LongRunLevels {
     proved_.tube = *proposal.tube;
     proved_.parameters = proposal.shape.parameters;
     proved_.grid = around.grid;
+    grid_.deadline = around.grid.deadline;
+    grid_.most_cells = 2 * static_cast<std::size_t>(kMostCells);
     slow_ = 1.0 - 0.05 * room;
     fast_ = 1.0 - 0.5 * room;
   }
@@ -66,6 +68,8 @@ class LongRunLevels {
 
  private:
   static constexpr double kBytesOfPlaces = 6.4e7;
+  static constexpr int kMostCells = 8192;
+  static constexpr int kFewerCells = 2048;
   struct Step {
     double factor, shrinking;
   };
@@ -79,7 +83,12 @@ class LongRunLevels {
                                      {0.93, slow_},
                                      {0.97, slow_},
                                      {0.99, slow_}}};
-    return std::any_of(steps.begin(), steps.end(), [&](const Step& step) { return takes(step); });
+    // The last levels come near to what is possible, and would take most of the time.
+    constexpr int kMany = 1024;
+    constexpr std::size_t kWideSteps = 6;
+    const bool is_dear = grid_.phases * grid_.frequencies > kMany;
+    const auto last = steps.begin() + static_cast<std::ptrdiff_t>(is_dear ? kWideSteps : steps.size());
+    return std::any_of(steps.begin(), last, [&](const Step& step) { return takes(step); });
   }
   [[nodiscard]] bool takes(const Step& step) {
     const double radius = proved_.levels.back();
@@ -94,10 +103,17 @@ class LongRunLevels {
     // What is verified is from this number up.
     LevelQuestion between{radius, noise_, step.factor * (1.0 - 1e-12), with_room(step.shrinking)};
     between.with_covariance = false;
-    const LevelResult result = verify_level(*model_, proved_.tube, between, proved_.grid, &places_);
+    const bool is_first = proved_.levels.size() == 1;
+    const int most = is_first ? kMostCells : std::max(kFewerCells, grid_.phases * grid_.frequencies);
+    const auto grid = coarsest_grid(*model_, proved_.tube, between, grid_, most, &places_);
+    if (!grid) {
+      return false;
+    }
+    const LevelResult result = verify_level(*model_, proved_.tube, between, *grid, &places_);
     if (result.verdict != rigor::Verdict::proved) {
       return false;
     }
+    grid_ = *grid;
     proved_.cells += result.cells;
     proved_.levels.push_back(next);
     proved_.shrinking.push_back(step.shrinking);
@@ -109,6 +125,7 @@ class LongRunLevels {
   double noise_;
   ProvedTube proved_;
   PlaceStore places_;
+  VerificationBudget grid_{16, 1};  ///< from which the next verification begins
   double slow_ = 1.0;
   double fast_ = 1.0;
 };

@@ -52,6 +52,8 @@ class MovingSearch {
     if (set.tubes.front().tube.bounds_covariance()) {
       set.covariance_margin = margin_at_borders();
     }
+    constexpr int kFirstPhases = 16;
+    grids_.assign(set.tubes.size(), {kFirstPhases, 1, 2 * static_cast<std::size_t>(kMostForFilter)});
     slow_ = 1.0 - 0.05 * (1.0 - rate);
     fast_ = 1.0 - 0.5 * (1.0 - rate);
     // All tubes are searched together.
@@ -148,6 +150,7 @@ class MovingSearch {
   [[nodiscard]] const std::vector<std::size_t>& failed() const { return failed_; }
 
  private:
+  static constexpr int kMostForFilter = 4096;  ///< cells of a grid
   static constexpr std::array<double, 8> kFactors{0.98, 0.95, 0.91, 0.86, 0.8, 0.72, 0.62, 0.5};
 
   [[nodiscard]] bool may_hold(const ProvedTube& proved, double radius, double slew) const {
@@ -208,12 +211,25 @@ class MovingSearch {
   /// Whether levels from `scale` radius to radius shrink by the factor in a cell.
   [[nodiscard]] bool shrinks(ProvedTube& proved, double radius, double scale, double factor, double slew) {
     // Of the largest radius, with the bounds of the covariance.
-    const LevelResult result = verify_level(
-        *model_, proved.tube,
-        {radius, set_->noise, scale, with_room(factor), slew, scale == 1.0, set_->covariance_margin},
-        proved.grid, places_of(proved, slew));
+    const LevelQuestion question{
+        radius, set_->noise, scale, with_room(factor), slew, scale == 1.0, set_->covariance_margin};
+    PlaceStore* const places = places_of(proved, slew);
+    std::optional<VerificationBudget> grid = proved.grid;
+    VerificationBudget& begun = grids_[static_cast<std::size_t>(&proved - set_->tubes.data())];
+    if (proved.tube.bounds_covariance()) {
+      begun.deadline = proved.grid.deadline;
+      grid = coarsest_grid(*model_, proved.tube, question, begun, kMostForFilter, places);
+    }
+    if (!grid) {
+      return false;
+    }
+    const LevelResult result = verify_level(*model_, proved.tube, question, *grid, places);
     proved.cells += result.cells;
-    return result.verdict == Verdict::proved;
+    if (result.verdict != Verdict::proved) {
+      return false;
+    }
+    begun = *grid;
+    return true;
   }
   [[nodiscard]] bool shrinks(double radius, double scale, double factor, double slew) {
     return std::all_of(set_->tubes.begin(), set_->tubes.end(),
@@ -338,6 +354,7 @@ class MovingSearch {
   const search::Deadline* deadline_;
   TubeSet* set_;
   std::vector<std::size_t> failed_;
+  std::vector<VerificationBudget> grids_;            ///< of filters: from which the next verification begins
   std::vector<std::unique_ptr<PlaceStore>> places_;  ///< of the tubes of the set
   double kept_slew_ = -1.0;                          ///< none
   double level_ = 0.0;

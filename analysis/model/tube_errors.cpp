@@ -40,16 +40,25 @@ void require_grid(const ErrorGrid& grid) {
   }
 }
 
+/// The tube without the bounds of a covariance, which say nothing of errors.
+Tube of_estimate(const Tube& tube) {
+  Tube estimate = tube;
+  estimate.covariance_low.clear();
+  estimate.covariance_high.clear();
+  return estimate;
+}
+
 /// Calls `work` for each cell, in any order; each in the upward rounding mode, with ball models of so many
 /// variables.
 template <typename Work>
 void for_each_cell(const TrackerModel& model, const Tube& tube, const ErrorGrid& grid, const Work& work) {
   require_grid(grid);
   require_sizes(model, tube);
+  const Tube estimate = of_estimate(tube);
   const auto cells = static_cast<std::size_t>(grid.phases) * static_cast<std::size_t>(grid.frequencies);
   tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t number) {
     const rigor::BallModelScope scope(static_cast<int>(tube.curve.size()), 0);
-    work(number, frame_of(model, tube, cell_of(grid, number), FrameParts::here));
+    work(number, frame_of(model, estimate, cell_of(grid, number), FrameParts::here));
   });
 }
 
@@ -168,6 +177,7 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
   for_each_cell(model, tube, grid,
                 [&](std::size_t number, const CellFrame& frame) { cells[number] = errors_in(frame); });
   // The parts of a cell in phase.
+  const Tube estimate = of_estimate(tube);
   const auto parts_of = [&](std::size_t number) {
     const rigor::BallModelScope scope(static_cast<int>(tube.curve.size()), 0);
     const TubeCell whole = cell_of(grid, number);
@@ -175,7 +185,7 @@ TubeErrors bound_errors(const TrackerModel& model, const Tube& tube, double radi
     std::vector<CellErrors> parts;
     for (int i = 0; i < grid.finer && grid.finer > 1; ++i) {
       const TubeCell part{whole.turn - whole.half_turn + (2.0 * i + 1.0) * half, half, whole.z, whole.half_z};
-      parts.push_back(errors_in(frame_of(model, tube, part, FrameParts::here)));
+      parts.push_back(errors_in(frame_of(model, estimate, part, FrameParts::here)));
     }
     return parts;
   };

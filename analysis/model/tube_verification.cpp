@@ -150,22 +150,22 @@ bool may_shrink(const TrackerModel& model, const Tube& tube, const LevelQuestion
 }
 
 double growth_on_grid(const TrackerModel& model, const Tube& tube, const LevelQuestion& question,
-                      const VerificationBudget& grid) {
+                      const VerificationBudget& grid, PlaceStore* store) {
   constexpr std::size_t kPhases = 6;
-  constexpr std::size_t kPlacesOfGrid = 3;
+  const auto rows = static_cast<std::size_t>(std::min(3, grid.frequencies));
   const auto phases = static_cast<double>(grid.phases);
   const auto frequencies = static_cast<double>(grid.frequencies);
   const std::array<double, 2> scales{1.0, question.least_scale};
-  std::vector<double> growths(kPhases * kPlacesOfGrid);
+  std::vector<double> growths(kPhases * rows);
   tbb::parallel_for(std::size_t{0}, growths.size(), [&](std::size_t number) {
     const rigor::UpwardRounding upward;
-    const std::size_t phase = number / kPlacesOfGrid;
-    const std::size_t place = number % kPlacesOfGrid;
+    const std::size_t phase = number / rows;
+    const std::size_t place = number % rows;
     const double share = (static_cast<double>(phase) + 0.3) / kPhases;
-    const double row = std::floor(static_cast<double>(place) / kPlacesOfGrid * frequencies);
+    const double row = std::floor(static_cast<double>(place) / static_cast<double>(rows) * frequencies);
     const TubeCell cell{(std::floor(share * phases) + 0.5) / phases, 0.5 / phases,
                         (2.0 * row + 1.0) / frequencies - 1.0, 1.0 / frequencies};
-    const StepBounds bounds = bounds_of(model, tube, cell, question, {scales.begin(), scales.end()}, nullptr);
+    const StepBounds bounds = bounds_of(model, tube, cell, question, {scales.begin(), scales.end()}, store);
     double largest = bounds.steps.size() == scales.size() ? 0.0 : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < scales.size() && std::isfinite(largest); ++i) {
       const double here = bounds.steps[i] / (scales.at(i) * question.radius);
@@ -174,6 +174,33 @@ double growth_on_grid(const TrackerModel& model, const Tube& tube, const LevelQu
     growths[number] = largest;
   });
   return *std::max_element(growths.begin(), growths.end());
+}
+
+std::optional<VerificationBudget> coarsest_grid(const TrackerModel& model, const Tube& tube,
+                                                const LevelQuestion& question, VerificationBudget grid,
+                                                int most, PlaceStore* store) {
+  const auto growth_with = [&](int phases, int frequencies) {
+    VerificationBudget tried = grid;
+    tried.phases *= phases;
+    tried.frequencies *= frequencies;
+    return growth_on_grid(model, tube, question, tried, store);
+  };
+  double growth = growth_with(1, 1);
+  while (!(growth <= question.shrinking)) {
+    if (2 * grid.phases * grid.frequencies > most || grid.deadline.is_over()) {
+      return std::nullopt;
+    }
+    const double by_phase = growth_with(2, 1);
+    const double by_frequency = growth_with(1, 2);
+    // Where nothing is known yet, both take their turns.
+    constexpr int kPhasesAsWide = 32;
+    const bool is_known = std::isfinite(by_phase) || std::isfinite(by_frequency);
+    const bool divides_frequencies =
+        is_known ? by_frequency < by_phase : grid.phases > kPhasesAsWide * grid.frequencies;
+    (divides_frequencies ? grid.frequencies : grid.phases) *= 2;
+    growth = divides_frequencies ? by_frequency : by_phase;
+  }
+  return grid;
 }
 
 }  // namespace veritrack::model

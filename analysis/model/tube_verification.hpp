@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "analysis/model/cell_cover.hpp"
@@ -68,6 +69,15 @@ struct LevelResult {
 /// About the largest |F| over scale radius, at the radius and at its least scale, in the cells of a grid: of
 /// some of them. For proposals; proves nothing. Infinity when nothing is known.
 [[nodiscard]] double growth_on_grid(const TrackerModel& model, const Tube& tube,
-                                    const LevelQuestion& question, const VerificationBudget& grid);
+                                    const LevelQuestion& question, const VerificationBudget& grid,
+                                    PlaceStore* store = nullptr);
+
+/// The coarsest grid of at most `most` cells, from `grid` on, in whose cells a step shrinks as asked, as far
+/// as some of them tell; nothing where it has to be finer, and after the deadline of the grid. A verification
+/// that begins too coarse costs three times as much. For proposals; proves nothing.
+[[nodiscard]] std::optional<VerificationBudget> coarsest_grid(const TrackerModel& model, const Tube& tube,
+                                                              const LevelQuestion& question,
+                                                              VerificationBudget grid, int most,
+                                                              PlaceStore* store = nullptr);
 
 }  // namespace veritrack::model

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/model/angle_check.hpp"
+#include "analysis/model/place_store.hpp"
 #include "analysis/model/tube_proposal.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "tests/analysis/model/tube_examples.hpp"
@@ -222,6 +223,39 @@ TEST_CASE("questions and budgets that cannot be answered are not proved") {
   CHECK(verdict({0.01, 0.0}, {0, 1, 1000}) == Verdict::undecided);
   // The same cells with any first grid that is fine enough.
   CHECK(verdict({0.01, 0.0}, {64, 2, 20000}) == Verdict::proved);
+}
+
+TEST_CASE("the coarsest grid is fine enough where it is tried, and the next coarser one is not") {
+  const Example loop(test::phase_locked_loop());
+  const Tube tube = proposed(loop, 0.3, 0.04, ShapeObjective::largest_starts);
+  const LevelQuestion question{0.0125, 0.0, 0.5, 0.999};
+  constexpr int kMost = 4096;
+  const VerificationBudget first{1, 1, 20000};
+  const auto grid = coarsest_grid(loop.model, tube, question, first, kMost);
+  REQUIRE(grid.has_value());
+  CAPTURE(grid->phases);
+  CAPTURE(grid->frequencies);
+  REQUIRE(grid->phases > 1);
+  CHECK(growth_on_grid(loop.model, tube, question, *grid) <= question.shrinking);
+  CHECK(growth_on_grid(loop.model, tube, question, first) > question.shrinking);
+  // What is found is verified with few halvings, and what is kept of places changes nothing.
+  const LevelResult result = verify_level(loop.model, tube, question, *grid);
+  CHECK(result.verdict == Verdict::proved);
+  const auto cells = static_cast<std::size_t>(grid->phases * grid->frequencies);
+  CHECK(result.cells < 2 * cells);
+  PlaceStore places(loop.model, tube, 1000);
+  const auto again = coarsest_grid(loop.model, tube, question, first, kMost, &places);
+  REQUIRE(again.has_value());
+  CHECK(again->phases == grid->phases);
+  CHECK(again->frequencies == grid->frequencies);
+  // From that grid on it is this one; with fewer cells there is none, nor where a step grows.
+  CHECK(coarsest_grid(loop.model, tube, question, *grid, 1).value().phases == grid->phases);
+  const int fewer = grid->phases * grid->frequencies - 1;
+  CHECK_FALSE(coarsest_grid(loop.model, tube, question, first, fewer).has_value());
+  CHECK_FALSE(coarsest_grid(loop.model, tube, {0.02, 0.0, 0.5, 0.999}, first, kMost).has_value());
+  VerificationBudget late = first;
+  late.deadline = search::Deadline(0.0);
+  CHECK_FALSE(coarsest_grid(loop.model, tube, question, late, kMost).has_value());
 }
 
 TEST_CASE("whole turns: what depends on them, and what does not") {

@@ -231,8 +231,8 @@ class FilterSearch {
       return grows ? low : -std::numeric_limits<double>::infinity();
     }
     double high = low + kStep;
-    // Of a disturbance, whose size is the value that is climbed: steps of it would hide what is gained.
-    const int halvings = coordinates_.exponent > 0.0 ? 12 : coordinates_.finds() ? 10 : 6;
+    const int halvings =
+        coordinates_.exponent > 0.0 ? 12 : halvings_;  // the value is that of the noise alone
     for (int i = 0; i < halvings; ++i) {
       const double middle = 0.5 * (low + high);
       (may_be(middle) ? low : high) = middle;
@@ -304,11 +304,15 @@ class FilterSearch {
       improve(best, 0.8);
     }
     // Of the largest disturbance a search that begins anew finds more, again and again.
-    const int most_rounds = coordinates_.finds() && !(coordinates_.exponent > 0.0) ? 6 : 0;
+    // Its size is the value that is climbed, whose steps would hide what is gained.
+    constexpr int kFineHalvings = 10;
+    halvings_ = coordinates_.finds() ? kFineHalvings : halvings_;
+    const int most_rounds = coordinates_.finds() && !(coordinates_.exponent > 0.0) ? 4 : 0;
     constexpr double kLeastGain = 0.004;
     for (int round = 0; round < most_rounds; ++round) {
       const double before = best.value;
-      improve(best, round % 2 == 0 ? 1.0 : 0.5);
+      improve(best, 1.0);
+      improve(best, 0.5);
       if (!(best.value > before + kLeastGain)) {
         break;
       }
@@ -384,6 +388,7 @@ class FilterSearch {
   FilterCoordinates coordinates_;
   double largest_reach_ = 0.0;
   int evaluations_ = 0;  ///< of each round
+  int halvings_ = 6;     ///< to find a scale
   search::Deadline deadline_;
 };
 

@@ -47,8 +47,8 @@ double length_by_components(const std::vector<BallPolynomial>& vector) {
 /// One that is hardly larger than it has to be; `near`: a guess. Infinite when nothing is known.
 double length_of_rest(const std::vector<BallPolynomial>& vector, double near) {
   const double most = length_by_components(vector);
-  if (!(most < kNothingKnown) || !(most > 0.0)) {
-    return most > 0.0 ? kNothingKnown : most;
+  if (!(most > 0.0) || !(most < kNothingKnown)) {
+    return most;
   }
   const LengthBound bound(vector);
   double high = std::min(near, most);
@@ -120,7 +120,10 @@ class FollowedStart {
     constexpr double kLeast = 0x1p-40;  // so that a vector of the ball is always there
     const double length =
         here_->has_shape() ? length_of_rest(here_->coordinates(next), 0.75 * radius_) : kNothingKnown;
-    radius_ = length >= 0.0 ? std::max(length, kLeast * tube_->levels.front()) : kNothingKnown;
+    radius_ = kNothingKnown;
+    if (length >= 0.0) {
+      radius_ = std::max(length, kLeast * tube_->levels.front());
+    }
   }
 
   void begin() {

@@ -8,12 +8,14 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/model/point_tube.hpp"
 #include "analysis/rigor/rounding.hpp"
 #include "certificates/model/model_sets.hpp"
 #include "certificates/sets/frequency_units.hpp"
 #include "reports/gnuplot.hpp"
+#include "reports/model/least_of_parts.hpp"
 #include "reports/model/tube_figure.hpp"
 
 namespace veritrack::reports {
@@ -132,13 +134,12 @@ Figure bias_and_ripple_figure(const certificates::ModelSets& sets, const model::
 /// Adds how far each tube of a set reaches, proved as for the whole set.
 void add_reach(const std::string& name, const ModelSet& set, const model::TrackerModel& tracker,
                const FrequencyUnits& units, FigureTable& table) {
-  LinesOfParts lines(table);
-  for (const ProvedTube& proved : set.tubes.tubes) {
-    lines.begin(proved);
-    const double reach = 0.999 * bound_reach(tracker, proved.tube, proved.levels.front(), {});
-    for (const double z : {-1.0, 1.0}) {
-      table.add({name, units.drawn(proved.tube.frequency + z * proved.tube.half_width), units.drawn(reach)});
-    }
+  const auto reach_of = [&](const ProvedTube& proved) {
+    return 0.999 * bound_reach(tracker, proved.tube, proved.levels.front(), {});
+  };
+  for (const OverTube& tube : least_of_parts(set.tubes, reach_of)) {
+    table.add({name, units.drawn(tube.low), units.drawn(tube.value)});
+    table.add({name, units.drawn(tube.high), units.drawn(tube.value)});
   }
 }
 
@@ -176,7 +177,7 @@ Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& 
                       "of frequencies{}.",
                       units.drawn_unit(),
                       sets.front().second->tubes.amplitudes.size() > 1
-                          ? ", with a line for each part of the amplitudes"
+                          ? ", the least of all parts of the amplitudes"
                           : ""),
           script + plot + "\n",
           "How far the certified sets reach",
@@ -187,12 +188,9 @@ Figure reach_figure(const std::vector<std::pair<std::string, const ModelSet*>>& 
 FigureTable table_of_own(const char* name, const char* quantity, const model::TubeSet& set,
                          double model::ProvedTube::*own, const FrequencyUnits& units) {
   FigureTable table(name, {in_unit("frequency of the signal", units), quantity});
-  LinesOfParts lines(table);
-  for (const ProvedTube& proved : set.tubes) {
-    lines.begin(proved);
-    for (const double z : {-1.0, 1.0}) {
-      table.add({units.drawn(proved.tube.frequency + z * proved.tube.half_width), proved.*own});
-    }
+  for (const OverTube& tube : least_of_parts(set, [own](const ProvedTube& proved) { return proved.*own; })) {
+    table.add({units.drawn(tube.low), tube.value});
+    table.add({units.drawn(tube.high), tube.value});
   }
   return table;
 }

@@ -67,20 +67,27 @@ TEST_CASE("what each cell tolerates is a figure of its own, where it was looked 
   CHECK(draw_model_figures(certificate).size() == 3);
 }
 
-TEST_CASE("tubes of parts of the amplitudes are lines of their own") {
+TEST_CASE("of parts of the amplitudes the least is drawn at each frequency, in whichever part it is") {
   certificates::Certificate certificate = test::loop_certificate();
-  certificates::ModelSets sets = model_sets(certificate);
-  const std::size_t tubes = sets.starts.tubes.tubes.size();
-  for (certificates::ModelSet* set : {&sets.starts, &*sets.assumed}) {
-    set->tubes = model::join_amplitudes({set->tubes, set->tubes, set->tubes},
-                                        {{0.995, 0.999}, {0.999, 1.001}, {1.001, 1.005}});
-    REQUIRE(set->tubes.is_complete);
-  }
-  certificate.particulars = sets;
-  const std::vector<Figure> figures = with_pictures(draw_model_figures(certificate));
+  const certificates::ModelSets whole = model_sets(certificate);
+  const auto figures_with = [&](std::size_t least, double share) {
+    certificates::ModelSets sets = whole;
+    for (certificates::ModelSet* set : {&sets.starts, &*sets.assumed}) {
+      std::vector<model::TubeSet> parts(3, set->tubes);
+      parts[least].tubes.front().levels.front() *= share;
+      set->tubes = model::join_amplitudes(parts, {{0.995, 0.999}, {0.999, 1.001}, {1.001, 1.005}});
+      REQUIRE(set->tubes.is_complete);
+    }
+    certificate.particulars = sets;
+    return with_pictures(draw_model_figures(certificate));
+  };
+  const std::vector<Figure> figures = figures_with(0, 0.9);
   REQUIRE(figures.size() == 3);
-  CHECK(figures[0].caption.find(", with a line for each part of the amplitudes") != std::string::npos);
-  CHECK(figures[0].data[0].size() == 2 * 3 * (tubes + sets.assumed->tubes.tubes.size() / 3));
+  CHECK(figures[0].caption.find(", the least of all parts of the amplitudes") != std::string::npos);
+  CHECK(figures[0].data[0].size() ==
+        2 * (whole.starts.tubes.tubes.size() + whole.assumed->tubes.tubes.size()));
+  CHECK(figures[0].script == figures_with(2, 0.9)[0].script);
+  CHECK(figures[0].script != figures_with(0, 1.0)[0].script);
   CHECK(figures[1].caption.find("and amplitudes from 0.999 to 1.001") != std::string::npos);
   CHECK(figures[1].caption.find("the noise and the amplitude that push") != std::string::npos);
   CHECK(draw_figures(test::loop_certificate())[0].caption.find("part of the amplitudes") ==

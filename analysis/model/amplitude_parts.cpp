@@ -117,9 +117,8 @@ TubeSet join_amplitudes(std::vector<TubeSet> sets, const std::vector<AmplitudeRa
   FailedParts failures;
   for (std::size_t k = 0; k < sets.size(); ++k) {
     TubeSet& set = sets[k];
-    // Not std::min, which keeps what is no number.
-    all.noise = set.noise < all.noise ? set.noise : all.noise;
-    all.slew = set.slew < all.slew ? set.slew : all.slew;
+    all.noise = std::min(all.noise, set.noise);
+    all.slew = std::min(all.slew, set.slew);
     all.part = {std::max(all.part.low, set.part.low), std::min(all.part.high, set.part.high)};
     all.is_complete = all.is_complete && set.is_complete;
     is_any = is_any && !set.tubes.empty();

@@ -21,7 +21,7 @@ namespace veritrack::certificates {
                                                                 const model::TubeSet& set);
 
 /// A constant amplitude in a range: parts of the range, with tubes for each (docs/model-proof.md, section
-/// 16).
+/// 17).
 class AmplitudeParts {
  public:
   /// `tracker`: on the amplitudes of the range. `filter`: of which the covariance is to be bounded, or none.

@@ -90,7 +90,7 @@ std::string false_lock_section(const Certificate& certificate) {
 }
 
 /// "1234 (61.2 to 66.1 %)"
-std::string counted_share(const CountedShare& share) {
+std::string share_text(const CountedShare& share) {
   return fmt::format("{} ({:.2f} to {:.2f} %)", share.count, 100.0 * share.low, 100.0 * share.high);
 }
 
@@ -102,8 +102,7 @@ std::string landing_section(const Certificate& certificate) {
   std::vector<std::vector<std::string>> rows;
   rows.reserve(landings.size());
   for (const InitialLanding& one : landings) {
-    rows.push_back(
-        {fmt::format("{:.4g} dB", one.snr_db), counted_share(one.near), counted_share(one.in_set)});
+    rows.push_back({fmt::format("{:.4g} dB", one.snr_db), share_text(one.near), share_text(one.in_set)});
   }
   return fmt::format(
              "## Where the initialisation lands\n\n*Sampled*, not proved: {} starts each by (4.35) and "

@@ -1,4 +1,6 @@
 // The keys of a design file for the tracker "dft-block-ekf".
+#include <fmt/format.h>
+
 #include <array>
 #include <limits>
 
@@ -110,9 +112,9 @@ constexpr std::array kBlockDesignKeys{
     Key<Chosen>{"q3", kPositive, real<&Chosen::q3, positive>, kRequired},
     Key<Chosen>{"r", kPositive, real<&Chosen::r, positive>, kRequired},
     Key<Chosen>{"half_width", "a whole number from 1 to 8", half_width, defaults_to("2")},
-    Key<Chosen>{"block_length", "a whole number of samples from 4 to 1e9",
-                whole_samples<&Chosen::block_length, 4>, kOptional},
-    Key<Chosen>{"centre", "a whole number from 1 to 1e9", whole_samples<&Chosen::centre, 1>, kOptional},
+    Key<Chosen>{"block_length", "a whole number of samples from 7 to 1e9",
+                whole_samples<&Chosen::block_length, 7>, kOptional},
+    Key<Chosen>{"centre", "a whole number from 2 to 1e9", whole_samples<&Chosen::centre, 2>, kOptional},
 };
 using Assumed = BlockAssumptions;
 constexpr std::array kBlockAssumeKeys{
@@ -189,10 +191,34 @@ std::optional<TableObjection> objection_to_noise(const BlockTables& read) {
                                : "probability_of_losing_lock_below with a bound on the noise; allowed: "
                                  "with Gaussian noise"};
   }
-  if (read.design.centre && !read.design.block_length) {
-    return TableObjection{"design", "centre without block_length; allowed: both, or block_length alone"};
-  }
   return std::nullopt;
+}
+
+/// White noise is independent from bin to bin strictly between bin 0 and bin T/2: those two are real, and bin
+/// T - m is the conjugate of bin m. Without a centre, M = L + 1 is the lowest for which all bins are there.
+std::optional<TableObjection> objection_to_bins(const BlockDesignTable& design) {
+  if (!design.block_length) {
+    return design.centre ? std::optional(TableObjection{
+                               "design", "centre without block_length; allowed: both, or block_length alone"})
+                         : std::nullopt;
+  }
+  const Interval width = design.half_width.value;
+  const Interval centre = design.centre ? design.centre->value : width + Interval(1.0);
+  if (rigor::certainly_less(width, centre) &&
+      rigor::certainly_less(Interval(2.0) * (centre + width), design.block_length->value)) {
+    return std::nullopt;
+  }
+  return TableObjection{
+      "design",
+      fmt::format("the bins M - L ... M + L, {}, are not all between 1 and half of block_length = {}, where "
+                  "white noise is independent from bin to bin; allowed: {}",
+                  design.centre
+                      ? fmt::format("{} - {} ... {} + {}", design.centre->text, design.half_width.text,
+                                    design.centre->text, design.half_width.text)
+                      : fmt::format("2*{} + 1 of them", design.half_width.text),
+                  design.block_length->text,
+                  design.centre ? "half_width < centre < block_length/2 - half_width"
+                                : "block_length > 4 half_width + 2")};
 }
 
 std::optional<TableObjection> block_objection(const std::any& tables) {
@@ -204,6 +230,9 @@ std::optional<TableObjection> block_objection(const std::any& tables) {
     return TableObjection{"assume",
                           "initial_covariance \"steady-state\" with a range of amplitudes, each of which has "
                           "another; allowed: a matrix"};
+  }
+  if (auto objection = objection_to_bins(read.design)) {
+    return objection;
   }
   return objection_to_noise(read);
 }

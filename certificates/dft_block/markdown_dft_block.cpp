@@ -17,8 +17,8 @@ std::string block_filter_section(const Certificate& certificate) {
   const Design& design = certificate.design;
   const BlockTables& tables = block_tables(design);
   std::string text = "## The tracker\n\n";
-  text += fmt::format("{} — tracker `{}`", markdown::escaped(design.name), design.tracker);
-  text += design.source.empty() ? ".\n\n" : fmt::format(", from: {}.\n\n", markdown::escaped(design.source));
+  text += fmt::format("{}The tracker is `{}`.\n\n", markdown::quotation(design.name, design.source),
+                      design.tracker);
   text += fmt::format(
       "The filter of chapter 4 of La Scala's thesis sees {} bins of the Fourier transform of each block of "
       "$`T`$ "

@@ -84,10 +84,10 @@ std::string checker_section(const Certificate& certificate, const MarkdownOption
 }
 
 std::string reproduction_section(const Certificate& certificate, const MarkdownOptions& options) {
+  const std::string file = markdown::file_name(certificate.design_file);
   std::string text = "## How to reproduce it\n\n";
-  text += fmt::format("Save the design file below as `{}` and run\n\n", certificate.design_file);
-  text += markdown::fenced(
-      "veritrack certify " + certificate.design_file + (certificate.formal_proofs ? " --coq" : ""), "");
+  text += fmt::format("Save the design file below as `{}` and run\n\n", file);
+  text += markdown::fenced("veritrack certify " + file + (certificate.formal_proofs ? " --coq" : ""), "");
   text += certificate.deadline.has_struck()
               ? "\nThis run was stopped by the time limit of `--timeout`. Without it the same file gives the "
                 "same bytes. "
@@ -103,8 +103,7 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
     rows.push_back({"figures", escaped(options.drawn_with)});
   }
   text += markdown::table({"Software", "Version"}, rows) + "\n";
-  return text + fmt::format("`{}`:\n\n", certificate.design_file) +
-         markdown::fenced(certificate.design_text, "toml");
+  return text + fmt::format("`{}`:\n\n", file);
 }
 
 }  // namespace
@@ -131,12 +130,11 @@ std::string to_published_markdown(const Certificate& certificate, const Markdown
   if (!has_published(certificate)) {
     return "";
   }
-  return fmt::format(
+  return markdown::plain(
              "# What published theorems say of this design\n\nBeside [certificate.md](certificate.md), for "
-             "the "
-             "design {}. No requirement and no guarantee of that certificate depends on anything here.\n\n",
-             escaped(certificate.design.name)) +
-         kind_of(certificate.design).published(certificate) +
+             "the same design. No requirement and no guarantee of that certificate depends on anything "
+             "here.\n\n" +
+             kind_of(certificate.design).published(certificate)) +
          fmt::format(
              "## What the checker verifies\n\n`veritrack-verify certificate.json --markdown "
              "published-theorems.md` verifies these sentences from `certificate.json` (SHA-256 `{}`), and "
@@ -155,10 +153,11 @@ std::string to_markdown(const Certificate& certificate, const MarkdownOptions& o
                                     "reached in time is UNDECIDED, "
                                     "and another run may reach more or less.\n\n"
                                   : "";
-  return "# " + headline(certificate) + "\n\n" + stopped + kind.summary(certificate) +
-         requirement_section(certificate) + kind.sections(certificate, options) +
-         checker_section(certificate, options) + formal_proofs_section(certificate) +
-         reproduction_section(certificate, options);
+  return markdown::plain("# " + headline(certificate) + "\n\n" + stopped + kind.summary(certificate) +
+                         requirement_section(certificate) + kind.sections(certificate, options) +
+                         checker_section(certificate, options) + formal_proofs_section(certificate) +
+                         reproduction_section(certificate, options)) +
+         markdown::fenced(certificate.design_text, "toml");
 }
 
 }  // namespace veritrack::certificates

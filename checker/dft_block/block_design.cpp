@@ -48,16 +48,38 @@ void BlockDesign::read_design(Objections& objections) {
       problem_.half_width = i;
     }
   }
-  for (const char* key : {"block_length", "centre"}) {
-    if (chosen.find(key) != nullptr) {
-      const Ball number = read_positive(chosen.at(key), key, objections);
-      if (arb_is_int(number.raw()) == 0) {
-        objections.push_back(std::string(key) + " must be a whole number");
-      }
-    }
-  }
   if (problem_.half_width == 0) {
     objections.emplace_back("half_width must be a whole number from 1 to 8");
+  }
+  read_bins(objections);
+}
+
+/// The noise of the samples is independent from bin to bin, with the same variance in real and imaginary
+/// part, in the bins strictly between 0 and T/2: bins 0 and T/2 are real, and bin T - m is the conjugate of
+/// bin m. Those are M - L ... M + L; without a centre there has to be one for which they are, and L + 1 is
+/// the lowest.
+void BlockDesign::read_bins(Objections& objections) const {
+  const Tree& chosen = design_.at("design");
+  const auto whole = [&](const char* key) {
+    Ball number = read_positive(chosen.at(key), key, objections);
+    if (arb_is_int(number.raw()) == 0) {
+      objections.push_back(std::string(key) + " must be a whole number");
+    }
+    return number;
+  };
+  if (chosen.find("block_length") == nullptr) {
+    if (chosen.find("centre") != nullptr) {
+      objections.emplace_back("a centre goes with block_length");
+    }
+    return;
+  }
+  const Ball width(static_cast<double>(problem_.half_width));
+  const Ball length = whole("block_length");
+  const Ball centre = chosen.find("centre") != nullptr ? whole("centre") : width + one;
+  if (!certainly_less(width, centre) || !certainly_less(two * (centre + width), length)) {
+    objections.emplace_back(
+        "the bins M - L ... M + L are not all between 1 and half of block_length, where white noise is "
+        "independent from bin to bin");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "checker/document/evidence.hpp"
+#include "checker/numbers/budget.hpp"
 
 namespace veritrack::checker {
 
@@ -41,9 +42,14 @@ bool cover_band(const std::vector<PieceEnds>& ends, const Design& design) {
 SteadyPiece check_piece(const Tree& item, const Design& design, const std::vector<SteadyCell>& wide,
                         const std::vector<SteadyCell>& narrow, std::int64_t& cells, Objections& objections) {
   Objections coarse;
-  SteadyPiece piece{check_steady_set(item, design, wide, cells, coarse), narrow};
+  SteadyPiece piece{check_steady_set(item, design, wide, cells, coarse), {}};
   if (!piece.set.verified) {
     piece.set = check_steady_set(item, design, narrow, cells, objections);
+  }
+  if (piece.set.verified) {
+    // A certificate chooses how many pieces there are.
+    spend(static_cast<std::int64_t>(narrow.size() * sizeof(SteadyCell)));
+    piece.cells = narrow;
   }
   return piece;
 }

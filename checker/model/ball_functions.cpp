@@ -46,12 +46,12 @@ BallPolynomial value_of_taylor(const std::array<Ball, kTerms + 1>& f, const Ball
     near[k] = f[k].near();
     error = bound_on(error * size + abs(f[k] - Ball(near[k])).upper_double());
   }
-  const BallPolynomial square = x * x;
-  BallPolynomial high(near[2]);
-  high.add(x, near[3]).add(square, near[4]);
-  BallPolynomial value = square * high;
-  value.add(x, near[1]);
-  value += BallPolynomial(near[0]);
+  // By Horner's scheme: what alternates cancels before it is cut off.
+  BallPolynomial value(near[kTerms - 1]);
+  for (std::size_t k = kTerms - 1; k-- > 0;) {
+    value = value * x;
+    value += BallPolynomial(near[k]);
+  }
   return value.widen(error);
 }
 

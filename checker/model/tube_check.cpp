@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "checker/model/filter_step.hpp"
 #include "checker/model/length_bound.hpp"
@@ -61,6 +62,26 @@ bool is_wider_in_frequency(const PhaseTube& tube, const TubePart& part) {
   constexpr double kMore = 3.0;
   constexpr double kTurn = 6.283;
   return kMore * part.half_z * tube.half_width > kTurn * part.half_turn;
+}
+
+/// Whether halving the frequencies leaves less of what is cut off than halving the phases does: both are
+/// tried. A guess, as everything that chooses parts.
+bool is_cut_off_by_frequency(const std::function<std::vector<BallPolynomial>(const TubePart&)>& map_over,
+                             const PhaseTube& tube, const TubePart& part) {
+  const auto cut_off = [&](const TubePart& smaller) {
+    double sum = 0.0;
+    for (const BallPolynomial& component : map_over(smaller)) {
+      sum += component.error() * component.error();
+    }
+    return sum;
+  };
+  TubePart narrower = part;
+  narrower.half_z /= 2.0;
+  TubePart shorter = part;
+  shorter.half_turn /= 2.0;
+  const double of_narrower = cut_off(narrower);
+  const double of_shorter = cut_off(shorter);
+  return of_narrower == of_shorter ? is_wider_in_frequency(tube, part) : of_narrower < of_shorter;
 }
 
 /// Of a filter: with the largest radius also that the bounds of the covariance are kept.
@@ -167,7 +188,7 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
     }
     double by_phase = 0.0;
     double by_frequency = 0.0;
-    bool is_by_error = false;
+    std::optional<std::size_t> by_error;
     for (const std::size_t j : pairs) {
       const double radius = tube.levels[j];
       const auto bound_up_to = [&](double r) { return LengthBound(step.map(r, set_->noise)); };
@@ -175,12 +196,16 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
       const double low_end = low_end_of(*set_, tube, j, common);
       if (!shrinks(bound, tube, j, low_end, bound_up_to)) {
         answer.open.push_back(j);
-        is_by_error = is_by_error || fails_by_error(bound, tube.shrinking[j], low_end);
+        by_error = fails_by_error(bound, tube.shrinking[j], low_end) ? j : by_error;
         by_phase += bound.by_phase() / radius;
         by_frequency += bound.by_frequency() / radius;
       }
     }
-    answer.halve_frequencies = is_by_error ? is_wider_in_frequency(tube, part) : by_frequency > by_phase;
+    const auto map_over = [&](const TubePart& over) {
+      return TubeStep(*model_, tube, over, monomials, set_->slew).map(tube.levels[*by_error], set_->noise);
+    };
+    answer.halve_frequencies =
+        by_error ? is_cut_off_by_frequency(map_over, tube, part) : by_frequency > by_phase;
     return answer;
   };
   std::vector<FirstGrid> grids;

@@ -10,7 +10,6 @@ namespace veritrack::checker {
 namespace {
 
 constexpr std::size_t kMostParts = 1U << 16U;
-constexpr std::size_t kMostPowers = 32;
 constexpr std::size_t kMostHarmonics = 512;
 
 double double_from(const Tree& number) {

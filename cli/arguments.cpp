@@ -28,7 +28,7 @@ constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
     {"check",
      "  veritrack check my-design.toml\n"
      "  veritrack check designs/ --strict --junit verdicts.xml\n"
-     "  veritrack check designs/ --jobs 4 --timeout 600 --no-cache"},
+     "  veritrack check designs/ --jobs 4 --timeout 600 --verify --no-cache"},
     {"diff",
      "  veritrack diff old/certificate.json new/certificate.json\n"
      "  veritrack diff old.toml new.toml"},
@@ -103,14 +103,22 @@ void add_commands(CLI::App& app, Arguments& into) {
   certify
       ->add_option("--timeout", into.certify.seconds,
                    "end the search of a design with tracker model after so many seconds, and write what is "
-                   "proved by then")
+                   "proved by then; the verification at the end is not counted")
       ->check(seconds);
+  certify->add_flag(
+      "--no-verify", into.certify.no_verify,
+      "do not have the certificate verified by veritrack-verify at the end, which takes seconds, "
+      "and minutes for recursions with a large proof");
 
   CLI::App* check =
       app.add_subcommand("check", "the same verdicts without the documents, one line per requirement");
   check->add_option("DESIGN", into.check.designs, "design files (TOML), or folders of them")->required();
   check->add_option("--jobs", into.check.jobs, "designs at a time (default: one for each core)")
       ->check(CLI::Range(1, 1024));
+  check->add_flag(
+      "--verify", into.check.verify,
+      "also have each certificate verified by veritrack-verify, as certify does: what it refuses is "
+      "UNDECIDED");
   check->add_flag("--no-cache", into.check.no_cache,
                   "check again what this program has checked before (docs/ci.md)");
   check->add_option("--json", into.check.json, "also write the verdicts as JSON");
@@ -118,8 +126,10 @@ void add_commands(CLI::App& app, Arguments& into) {
   check->add_option("--sarif", into.check.sarif, "also write what is not PROVED as SARIF 2.1.0");
 
   check
-      ->add_option("--timeout", into.check.seconds,
-                   "stop each design after so many seconds: what is not decided by then is UNDECIDED")
+      ->add_option(
+          "--timeout", into.check.seconds,
+          "stop each design after so many seconds, its verification included: what is not decided by "
+          "then is UNDECIDED")
       ->check(seconds);
   check->add_flag("--strict", into.check.strict, "a design that requires nothing is 1, not 0");
 

@@ -15,10 +15,12 @@
 #include "certificates/design/design_reader.hpp"
 #include "certificates/design/input_error.hpp"
 #include "certificates/document/certificate.hpp"
+#include "certificates/document/json.hpp"
 #include "certificates/document/output_files.hpp"
 #include "certificates/document/tracker_kind.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/verifier.hpp"
 #include "cli/workers.hpp"
 #include "reports/check/check_cache.hpp"
 #include "reports/check/check_reports.hpp"
@@ -86,7 +88,8 @@ CheckTask read_task(const std::string& path, const std::optional<reports::CheckC
 }
 
 /// Certifies in a process of its own, with its share of the cores.
-std::string work_on(const CheckTask& task, const CheckOptions& options, std::size_t at_once, bool is_alone) {
+std::string work_on(const CheckTask& task, const CheckOptions& options,
+                    const std::optional<Verifier>& verifier, std::size_t at_once, bool is_alone) {
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const tbb::global_control share(tbb::global_control::max_allowed_parallelism,
                                   std::max<std::size_t>(1, cores / at_once));
@@ -96,7 +99,16 @@ std::string work_on(const CheckTask& task, const CheckOptions& options, std::siz
   const certificates::Certificate certificate =
       certificates::certify(*task.design, fs::path(task.path).filename().string(), task.text, std::cref(line),
                             certificates::Extent::verdicts, deadline);
-  return reports::to_text({task.path, reports::requirements_of(certificate), std::nullopt});
+  CheckedDesign checked{task.path, reports::requirements_of(certificate)};
+  if (verifier) {
+    const certificates::Verification found = (*verifier)({certificates::to_json(certificate), task.text});
+    if (!found.failure.empty()) {
+      throw std::runtime_error(refusal_sentence(found));
+    }
+    const bool is_verified = found.outcome == certificates::Verification::Outcome::verified;
+    reports::note_verification(checked, is_verified ? "" : refusal_sentence(found));
+  }
+  return reports::to_text(checked);
 }
 
 /// Searches that know of the limit end by themselves, a little later.
@@ -138,8 +150,9 @@ ExitStatus print(const CheckedDesign& design, const CheckOptions& options) {
     fmt::print("{}", reports::to_annotations(design));
   }
   if (const auto& objection = design.objection) {
-    if (objection->kind == Kind::time_limit) {
-      fmt::print("{}: undecided: {}\n", design.path, objection->message);
+    if (objection->kind == Kind::time_limit || objection->kind == Kind::not_verified) {
+      fmt::print("{}: {}: {}\n", design.path,
+                 objection->kind == Kind::time_limit ? "undecided" : "not verified", objection->message);
       return not_proved;
     }
     std::fflush(stdout);
@@ -147,14 +160,15 @@ ExitStatus print(const CheckedDesign& design, const CheckOptions& options) {
                certificates::InputError(design.path, objection->position, objection->message).what());
     return bad_input;
   }
+  const char* verified = design.verified.value_or(false) ? ", verified" : "";
   if (design.requirements.empty()) {
-    fmt::print("{}: nothing required\n", design.path);
+    fmt::print("{}: nothing required{}\n", design.path, verified);
     return options.strict ? not_proved : all_proved;
   }
   ExitStatus status = all_proved;
   for (const reports::CheckedRequirement& each : design.requirements) {
-    fmt::print("{}:{}: {}: {} ({})\n", design.path, each.position.line, rigor::to_string(each.verdict),
-               each.requirement, each.reason);
+    fmt::print("{}:{}: {}{}: {} ({})\n", design.path, each.position.line, rigor::to_string(each.verdict),
+               each.verdict == rigor::Verdict::undecided ? "" : verified, each.requirement, each.reason);
     status = each.verdict == rigor::Verdict::proved ? status : not_proved;
   }
   return status;
@@ -185,10 +199,13 @@ ExitStatus run_check(const CheckOptions& options) {
     certificates::OutputFiles files;
     stage_reports(options, designs, files, {});
   }
+  const std::optional<Verifier> verifier =
+      options.verify ? std::optional<Verifier>(std::in_place) : std::nullopt;
   std::optional<reports::CheckCache> cache;
   const fs::path cache_folder = options.no_cache ? fs::path() : reports::default_cache_folder();
   if (const std::string program = cache_folder.empty() ? "" : reports::program_identity(); !program.empty()) {
-    cache.emplace(cache_folder, program);
+    cache.emplace(cache_folder,
+                  verifier ? program + " and " + reports::program_identity(verifier->path()) : program);
   }
   std::vector<CheckTask> tasks;
   tasks.reserve(designs.size());
@@ -224,7 +241,7 @@ ExitStatus run_check(const CheckOptions& options) {
                                                         : std::max(1U, std::thread::hardware_concurrency()),
                                        std::max<std::size_t>(1, open.size()));
   plan.work = [&](std::size_t piece) {
-    return work_on(tasks[open[piece]], options, plan.at_once, tasks.size() == 1);
+    return work_on(tasks[open[piece]], options, verifier, plan.at_once, tasks.size() == 1);
   };
   plan.limit = [&](std::size_t piece) { return patience(tasks[open[piece]], options.seconds); };
   plan.done = [&](std::size_t piece, const WorkerResult& result) {

@@ -1,6 +1,7 @@
 #include "certificates/document/markdown.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -83,6 +84,34 @@ std::string checker_section(const Certificate& certificate, const MarkdownOption
          sentences(certificate, false);
 }
 
+/// Whether the certificate was verified, and how to do it again.
+std::string verification_paragraph(const Certificate& certificate, const Verification& verification) {
+  constexpr std::string_view kChecker = "`veritrack-verify` " VERITRACK_VERSION;
+  std::string text;
+  switch (verification.outcome) {
+    case Verification::Outcome::left_out:
+      text = "*Not verified* when this document was written. To verify it:";
+      break;
+    case Verification::Outcome::verified:
+      text = fmt::format(
+          "*Verified* by {}, which shares no code with the program that wrote this document. To repeat it:",
+          kChecker);
+      break;
+    case Verification::Outcome::refused:
+      text = fmt::format("*NOT VERIFIED*: {} gave no answer.", kChecker);
+      if (verification.failure.empty()) {
+        std::vector<std::string> names;
+        for (const RefusedPart& part : verification.refused) {
+          names.push_back(escaped(part.name));
+        }
+        text = fmt::format("*NOT VERIFIED*: {} refuses {} of {} parts: {}.", kChecker, names.size(),
+                           verification.parts, fmt::join(names, "; "));
+      }
+      text += " One of the two programs is wrong: rely on nothing in this document. To repeat it:";
+  }
+  return text + "\n\n" + markdown::fenced(checking_command(certificate), "") + "\n";
+}
+
 std::string reproduction_section(const Certificate& certificate, const MarkdownOptions& options) {
   const std::string file = markdown::file_name(certificate.design_file);
   std::string text = "## How to reproduce it\n\n";
@@ -108,9 +137,10 @@ std::string reproduction_section(const Certificate& certificate, const MarkdownO
 
 }  // namespace
 
-std::string headline(const Certificate& certificate) {
+std::string headline(const Certificate& certificate, const Verification& verification) {
+  const std::string refused = verification.outcome == Verification::Outcome::refused ? "NOT VERIFIED. " : "";
   if (!certificate.verdict) {
-    return "Nothing is required of this design";
+    return refused + "Nothing is required of this design";
   }
   std::string text;
   for (const Claim& claim : certificate.claims) {
@@ -119,7 +149,13 @@ std::string headline(const Certificate& certificate) {
       text += upper_case(rigor::to_string(claim.verdict)) + ": " + claim.requirement;
     }
   }
-  return (*certificate.verdict == Verdict::proved ? "" : "NOT PROVED. ") + text;
+  return refused + (*certificate.verdict == Verdict::proved ? "" : "NOT PROVED. ") + text;
+}
+
+std::string checking_command(const Certificate& certificate) {
+  return fmt::format("veritrack-verify certificate.json --full --design {} --markdown certificate.md{}",
+                     certificate.design_file,
+                     has_published(certificate) ? " --markdown published-theorems.md" : "");
 }
 
 std::string picture(const FigureReference& figure) {
@@ -153,7 +189,9 @@ std::string to_markdown(const Certificate& certificate, const MarkdownOptions& o
                                     "reached in time is UNDECIDED, "
                                     "and another run may reach more or less.\n\n"
                                   : "";
-  return markdown::plain("# " + headline(certificate) + "\n\n" + stopped + kind.summary(certificate) +
+  return markdown::plain("# " + headline(certificate, options.verification) + "\n\n" + stopped +
+                         kind.summary(certificate) +
+                         verification_paragraph(certificate, options.verification) +
                          requirement_section(certificate) + kind.sections(certificate, options) +
                          checker_section(certificate, options) + formal_proofs_section(certificate) +
                          reproduction_section(certificate, options)) +

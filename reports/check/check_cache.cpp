@@ -95,8 +95,8 @@ std::filesystem::path default_cache_folder() {
   return {};
 }
 
-std::string program_identity() {
-  std::ifstream program("/proc/self/exe", std::ios::binary);
+std::string program_identity(const std::filesystem::path& file) {
+  std::ifstream program(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(program), std::istreambuf_iterator<char>()};
   if (!program || bytes.empty()) {
     return {};

@@ -33,7 +33,8 @@ class CheckCache {
 /// empty when there is none.
 [[nodiscard]] std::filesystem::path default_cache_folder();
 
-/// Which program this is: the SHA-256 of the file that runs, with the version; empty when it cannot be told.
-[[nodiscard]] std::string program_identity();
+/// Which program this is, or the one in the file: its SHA-256, with the version; empty when it cannot be
+/// told.
+[[nodiscard]] std::string program_identity(const std::filesystem::path& file = "/proc/self/exe");
 
 }  // namespace veritrack::reports

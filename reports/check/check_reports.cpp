@@ -78,6 +78,8 @@ std::string rule_of(CheckObjection::Kind kind) {
       return "a design file must be one that can be used";
     case CheckObjection::Kind::failure:
       return "a design must be one that can be worked on to the end";
+    case CheckObjection::Kind::not_verified:
+      return "the certificate of a design must be verified";
     case CheckObjection::Kind::time_limit:
       break;
   }
@@ -133,6 +135,9 @@ Json checked_json(const CheckedDesign& design) {
                                        : std::string(rigor::to_string(rigor::conjunction(verdicts)));
     json["requirements"] = requirements;
   }
+  if (design.verified) {
+    json["verified"] = *design.verified;
+  }
   return json;
 }
 
@@ -163,6 +168,11 @@ std::string to_junit(const std::vector<CheckedDesign>& designs) {
         fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n",
                     xml_escaped(design.path), design.requirements.size() + static_cast<std::size_t>(errors),
                     failures, errors, design.seconds);
+    if (design.verified) {
+      text += fmt::format(
+          "    <properties>\n      <property name=\"verified\" value=\"{}\"/>\n    </properties>\n",
+          *design.verified);
+    }
     text += design.objection ? junit_error(design.path, *design.objection) : "";
     for (const CheckedRequirement& requirement : design.requirements) {
       text += junit_case(design.path, requirement);

@@ -12,7 +12,7 @@ using rigor::Verdict;
 using Json = nlohmann::ordered_json;
 using Kind = CheckObjection::Kind;
 
-constexpr std::array kKinds{Kind::bad_input, Kind::failure, Kind::time_limit};
+constexpr std::array kKinds{Kind::bad_input, Kind::failure, Kind::time_limit, Kind::not_verified};
 constexpr std::array kVerdicts{Verdict::proved, Verdict::refuted, Verdict::undecided};
 
 Json position_json(const Position& position) {
@@ -46,8 +46,32 @@ std::vector<CheckedRequirement> requirements_of(const certificates::Certificate&
   return requirements;
 }
 
+void note_verification(CheckedDesign& design, const std::string& refusal) {
+  design.verified = refusal.empty();
+  if (refusal.empty()) {
+    return;
+  }
+  for (CheckedRequirement& requirement : design.requirements) {
+    requirement.reason = "not verified: " + refusal;
+    requirement.verdict = Verdict::undecided;
+  }
+  if (design.requirements.empty()) {
+    design.objection = CheckObjection{Kind::not_verified, refusal, {}};
+  }
+}
+
 std::string to_string(CheckObjection::Kind kind) {
-  return kind == Kind::bad_input ? "bad-input" : kind == Kind::failure ? "failure" : "time-limit";
+  switch (kind) {
+    case Kind::bad_input:
+      return "bad-input";
+    case Kind::failure:
+      return "failure";
+    case Kind::time_limit:
+      return "time-limit";
+    case Kind::not_verified:
+      break;
+  }
+  return "not-verified";
 }
 
 std::string to_text(const CheckedDesign& design) {
@@ -58,6 +82,9 @@ std::string to_text(const CheckedDesign& design) {
                                     {"reason", requirement.reason},
                                     {"verdict", rigor::to_string(requirement.verdict)},
                                     {"position", position_json(requirement.position)}});
+  }
+  if (design.verified) {
+    json["verified"] = *design.verified;
   }
   if (design.objection) {
     json["objection"] = {{"kind", to_string(design.objection->kind)},
@@ -77,6 +104,9 @@ std::optional<CheckedDesign> checked_from_text(const std::string& text) {
           {each.at("claim").get<std::string>(), each.at("requirement").get<std::string>(),
            each.at("reason").get<std::string>(), named(kVerdicts, each.at("verdict").get<std::string>()),
            position_from(each.at("position"))});
+    }
+    if (json.contains("verified")) {
+      design.verified = json.at("verified").get<bool>();
     }
     if (json.contains("objection")) {
       const Json& objection = json.at("objection");

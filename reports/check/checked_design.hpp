@@ -21,9 +21,10 @@ struct CheckedRequirement {
 /// Why there are no verdicts.
 struct CheckObjection {
   enum class Kind {
-    bad_input,  ///< the file cannot be used
-    failure,    ///< the program could not go on with it
-    time_limit  ///< it was stopped; everything that is required is UNDECIDED
+    bad_input,    ///< the file cannot be used
+    failure,      ///< the program could not go on with it
+    time_limit,   ///< it was stopped; everything that is required is UNDECIDED
+    not_verified  ///< the checker refuses its certificate, and nothing is required
   };
   Kind kind = Kind::bad_input;
   std::string message;              ///< one line
@@ -34,14 +35,19 @@ struct CheckObjection {
 struct CheckedDesign {
   std::string path;
   std::vector<CheckedRequirement> requirements;  ///< none: nothing is required
-  std::optional<CheckObjection> objection;       ///< then there are no requirements
-  double seconds = 0.0;  ///< that it took, or took when it was done; not in every report
+  std::optional<CheckObjection> objection = {};  ///< then there are no requirements
+  double seconds = 0.0;               ///< that it took, or took when it was done; not in every report
+  std::optional<bool> verified = {};  ///< by the checker; nothing: it was not asked
 };
 
 /// The requirements with their verdicts.
 [[nodiscard]] std::vector<CheckedRequirement> requirements_of(const certificates::Certificate& certificate);
 
-/// "bad-input", "failure" or "time-limit".
+/// Notes what the checker says of the certificate: `refusal` is why it does not verify it, in one line, or
+/// empty. What it refuses is UNDECIDED for this reason, whatever the certificate says.
+void note_verification(CheckedDesign& design, const std::string& refusal);
+
+/// "bad-input", "failure", "time-limit" or "not-verified".
 [[nodiscard]] std::string to_string(CheckObjection::Kind kind);
 
 /// All but the path as one line of JSON, and back; nothing when the text is not what `to_text` writes.

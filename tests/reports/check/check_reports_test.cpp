@@ -39,6 +39,25 @@ TEST_CASE("JUnit counts failures and errors, and escapes") {
   CHECK(text.find("<error type=\"time-limit\" message=\"stopped\"/>") != std::string::npos);
 }
 
+TEST_CASE("whether a design was verified is in JUnit and JSON, where it was asked") {
+  std::vector<CheckedDesign> designs = examples();
+  CHECK(to_junit(designs).find("verified") == std::string::npos);
+  CHECK(to_check_json(designs).find("verified") == std::string::npos);
+  note_verification(designs[0], "");
+  note_verification(designs[1], "part 2 (why)");
+  const std::string text = to_junit(designs);
+  CHECK(text.find("<property name=\"verified\" value=\"true\"/>") != std::string::npos);
+  CHECK(text.find("<property name=\"verified\" value=\"false\"/>") != std::string::npos);
+  CHECK(text.find("<error type=\"not-verified\" message=\"part 2 (why)\"/>") != std::string::npos);
+  const auto report = nlohmann::json::parse(to_check_json(designs));
+  CHECK(report.at("designs").at(0).at("verified") == true);
+  CHECK(report.at("designs").at(1).at("verified") == false);
+  CHECK(report.at("designs").at(1).at("error").at("kind") == "not-verified");
+  CHECK_FALSE(report.at("designs").at(2).contains("verified"));
+  CHECK(nlohmann::json::parse(to_sarif(designs)).at("runs").at(0).at("results").at(1).at("ruleId") ==
+        "not-verified");
+}
+
 TEST_CASE("SARIF has an error for each that is not proved") {
   const auto report = nlohmann::json::parse(to_sarif(examples()));
   const auto& results = report.at("runs").at(0).at("results");

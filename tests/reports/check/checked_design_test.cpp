@@ -34,8 +34,8 @@ TEST_CASE("what is told comes back, but for the path") {
 }
 
 TEST_CASE("an objection comes back with its kind and place") {
-  for (const auto kind :
-       {CheckObjection::Kind::bad_input, CheckObjection::Kind::failure, CheckObjection::Kind::time_limit}) {
+  for (const auto kind : {CheckObjection::Kind::bad_input, CheckObjection::Kind::failure,
+                          CheckObjection::Kind::time_limit, CheckObjection::Kind::not_verified}) {
     const auto back = checked_from_text(to_text({"x", {}, CheckObjection{kind, "why", {7, 8}}}));
     REQUIRE(back);
     REQUIRE(back->objection);
@@ -43,6 +43,34 @@ TEST_CASE("an objection comes back with its kind and place") {
     CHECK(back->objection->message == "why");
     CHECK(back->objection->position.line == 7);
   }
+}
+
+TEST_CASE("whether it was verified comes back") {
+  CheckedDesign design = example();
+  CHECK_FALSE(checked_from_text(to_text(design))->verified.has_value());
+  note_verification(design, "");
+  CHECK(checked_from_text(to_text(design))->verified == true);
+  CHECK(design.requirements[0].verdict == rigor::Verdict::proved);
+  CHECK(design.requirements[0].reason == "reason");
+}
+
+TEST_CASE("what the checker refuses is undecided, whatever it was; without requirements it is an objection") {
+  CheckedDesign design = example();
+  design.requirements[1].verdict = rigor::Verdict::refuted;
+  note_verification(design, "contraction (radius)");
+  const auto back = checked_from_text(to_text(design));
+  REQUIRE(back);
+  CHECK(back->verified == false);
+  CHECK_FALSE(back->objection);
+  for (const CheckedRequirement& requirement : back->requirements) {
+    CHECK(requirement.verdict == rigor::Verdict::undecided);
+    CHECK(requirement.reason == "not verified: contraction (radius)");
+  }
+  CheckedDesign nothing{"x", {}};
+  note_verification(nothing, "contraction (radius)");
+  REQUIRE(nothing.objection);
+  CHECK(nothing.objection->kind == CheckObjection::Kind::not_verified);
+  CHECK(nothing.objection->message == "contraction (radius)");
 }
 
 TEST_CASE("half a text, or a changed word, is nothing") {

@@ -224,7 +224,8 @@ Ball BlockDesign::asked(const char* key) const {
 std::string BlockDesign::required_text(const std::string& id) const {
   if (id == kProbability) {
     return "within the first " + text_of(assume_.at("blocks")) +
-           " blocks lock is lost with a probability below " + asked_text("probability_of_losing_lock_below");
+           " blocks lock is lost, the offset error exceeding half a bin, with a probability below " +
+           asked_text("probability_of_losing_lock_below");
   }
   return id == kOffsetError
              ? "the offset error is below " + asked_text("offset_error_below") + " bins in every block"
@@ -263,7 +264,7 @@ std::string BlockDesign::gaussian_words(const Ball& deviation, const std::string
          "block "
          "to block and from bin to bin, with independent real and imaginary parts of a deviation of at "
          "most " +
-         lower_decimal(deviation) + " each: that of blocks of " +
+         lower_decimal(deviation) + " each: that of the bins between 0 and T/2 of blocks of T = " +
          text_of(design_.at("design").at("block_length")) + " samples with white noise and " + of_samples;
 }
 

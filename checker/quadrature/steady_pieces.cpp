@@ -171,15 +171,28 @@ Ball slowest(const SteadyPieces& cover) {
   return rate;
 }
 
-Ball ultimate_error(const SteadyPieces& cover) {
-  Ball ultimate = zero;
+namespace {
+
+/// At least |x3 - omega| at that level of each set.
+Ball error_at(const SteadyPieces& cover, const Ball& (*level)(const std::vector<Ball>& levels)) {
+  Ball most = zero;
   for (const SteadyPiece& piece : cover.pieces) {
-    const Ball about = piece.set.levels.back() * error_radii(piece.set)[2];
+    const Ball about = level(piece.set.levels) * error_radii(piece.set)[2];
     for (const SteadyCell& cell : piece.cells) {
-      ultimate = max(ultimate, abs(cell.at(cell.frequency)[2]) + about);
+      most = max(most, abs(cell.at(cell.frequency)[2]) + about);
     }
   }
-  return ultimate;
+  return most;
+}
+
+}  // namespace
+
+Ball ultimate_error(const SteadyPieces& cover) {
+  return error_at(cover, [](const std::vector<Ball>& levels) -> const Ball& { return levels.back(); });
+}
+
+Ball largest_error(const SteadyPieces& cover) {
+  return error_at(cover, [](const std::vector<Ball>& levels) -> const Ball& { return levels.front(); });
 }
 
 std::optional<SteadyStart> steady_start(const Design& design, const SteadyPieces& cover,

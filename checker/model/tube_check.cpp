@@ -167,8 +167,7 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
   }
   const bool is_filter = bounds_covariance(*set_);
   if (is_filter && !bounds_suit(recursion)) {
-    objections.emplace_back(
-        "bounds of a covariance are for filters with a linear measurement and symmetric Q and R");
+    objections.emplace_back("bounds of a covariance are for filters with a linear measurement");
     return false;
   }
   const VectorMonomials monomials(is_filter ? recursion.filtered() : recursion.states(),

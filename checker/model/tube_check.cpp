@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <optional>
+#include <tuple>
 
 #include "checker/model/filter_step.hpp"
 #include "checker/model/length_bound.hpp"
@@ -64,25 +67,40 @@ bool is_wider_in_frequency(const PhaseTube& tube, const TubePart& part) {
   return kMore * part.half_z * tube.half_width > kTurn * part.half_turn;
 }
 
-/// Whether halving the frequencies leaves less of what is cut off than halving the phases does: both are
-/// tried. A guess, as everything that chooses parts.
-bool is_cut_off_by_frequency(const std::function<std::vector<BallPolynomial>(const TubePart&)>& map_over,
-                             const PhaseTube& tube, const TubePart& part) {
-  const auto cut_off = [&](const TubePart& smaller) {
+/// Whether halving the frequencies of a part leaves less of what is cut off than halving its phases does.
+/// Both are tried once for all parts of the same widths, in the middle of a turn: whichever part asks first,
+/// the answer is the same. A guess, as everything that chooses parts.
+class TriedHalvings {
+ public:
+  /// `map_over` is the step for the pair of levels of the tube, both with their numbers.
+  bool by_frequency(std::size_t number, std::size_t pair, const PhaseTube& tube, const TubePart& part,
+                    const std::function<std::vector<BallPolynomial>(const TubePart&)>& map_over) {
+    const std::lock_guard lock(mutex_);
+    const auto [place, is_new] = tried_.try_emplace({number, pair, part.half_turn, part.half_z}, false);
+    if (is_new) {
+      const double of_narrower =
+          cut_off(map_over({kMiddle, part.half_turn, 0.0, part.half_z / 2.0, part.z_error}));
+      const double of_shorter =
+          cut_off(map_over({kMiddle, part.half_turn / 2.0, 0.0, part.half_z, part.z_error}));
+      place->second =
+          of_narrower == of_shorter ? is_wider_in_frequency(tube, part) : of_narrower < of_shorter;
+    }
+    return place->second;
+  }
+
+ private:
+  static constexpr double kMiddle = 0.5;
+  static double cut_off(const std::vector<BallPolynomial>& map) {
     double sum = 0.0;
-    for (const BallPolynomial& component : map_over(smaller)) {
+    for (const BallPolynomial& component : map) {
       sum += component.error() * component.error();
     }
     return sum;
-  };
-  TubePart narrower = part;
-  narrower.half_z /= 2.0;
-  TubePart shorter = part;
-  shorter.half_turn /= 2.0;
-  const double of_narrower = cut_off(narrower);
-  const double of_shorter = cut_off(shorter);
-  return of_narrower == of_shorter ? is_wider_in_frequency(tube, part) : of_narrower < of_shorter;
-}
+  }
+
+  std::mutex mutex_;
+  std::map<std::tuple<std::size_t, std::size_t, double, double>, bool> tried_;
+};
 
 /// Of a filter: with the largest radius also that the bounds of the covariance are kept.
 PartAnswer ask_of_filter(const TubeSet& set, std::size_t number, const FilterStep& step,
@@ -173,6 +191,7 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
   const VectorMonomials monomials(is_filter ? recursion.filtered() : recursion.states(),
                                   is_noisy ? recursion.samples() : 0, moves ? 1 : 0);
   const std::vector<Ball> common = common_levels(*set_);
+  TriedHalvings tried;
   const auto ask = [&](std::size_t number, const TubePart& part, const std::vector<std::size_t>& pairs) {
     const PhaseTube& tube = set_->tubes[number];
     PartAnswer answer;
@@ -204,7 +223,7 @@ bool PhaseTubeCheck::is_never_left(Objections& objections) const {
       return TubeStep(*model_, tube, over, monomials, set_->slew).map(tube.levels[*by_error], set_->noise);
     };
     answer.halve_frequencies =
-        by_error ? is_cut_off_by_frequency(map_over, tube, part) : by_frequency > by_phase;
+        by_error ? tried.by_frequency(number, *by_error, tube, part, map_over) : by_frequency > by_phase;
     return answer;
   };
   std::vector<FirstGrid> grids;

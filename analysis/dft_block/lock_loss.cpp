@@ -1,10 +1,12 @@
 #include "analysis/dft_block/lock_loss.hpp"
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "analysis/dft_block/lock_search.hpp"
 #include "analysis/dft_block/loss_proposals.hpp"
+#include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/rigor/linear_solve.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -76,6 +78,7 @@ std::optional<LossBound> loss_bound(const LossQuestion& question, const LockFram
   // E log W+ <= log factor + power log W: it stays below what it tends to, or begins with.
   const Interval tends_to = max(log_factor, Interval(0.0)) / (Interval(1.0) - power);
   found.mean_square = Interval(2.0) * max(found.start_level, tends_to) / theta;
+  found.mean_square_without_start = Interval(2.0) * tends_to / theta;
   if (!rigor::is_finite(found.probability) || !rigor::is_finite(found.level) ||
       !rigor::is_finite(found.mean_square)) {
     return std::nullopt;
@@ -124,6 +127,15 @@ void conclude_loss(Derivation& derivation, const LossQuestion& question,
   add_loss(derivation, "rms_offset_error", "\\sup_k E[\\tilde\\delta_k^2;\\, k < \\tau]^{1/2}",
            "the root mean square of the offset error in lock, bins",
            sqrt(found->bound.mean_square) * frame->reach(2));
+  add_loss(derivation, "rms_offset_error_without_start", "", "the same from an exact start, bins",
+           sqrt(found->bound.mean_square_without_start) * frame->reach(2));
+  derivation.notes.push_back(
+      std::string(found->bound.mean_square_without_start.upper() < found->bound.mean_square.upper()
+                      ? "The assumed start dominates the root mean square in lock, which is for every block, "
+                        "the first ones included."
+                      : "The noise, and not the assumed start, dominates the root mean square in lock.") +
+      " From an exact start it would be at most " +
+      rigor::upper_decimal(sqrt(found->bound.mean_square_without_start) * frame->reach(2), 3) + " bins.");
   add_loss(derivation, "phase_error_bound", "\\sup_{k < \\tau} |\\tilde\\varphi_k|",
            "the phase error of the prediction at the middle of every block until then, rad",
            radius * frame->reach(1));

@@ -22,10 +22,11 @@ struct LossQuestion {
 
 /// What follows from a drift that is verified.
 struct LossBound {
-  rigor::Interval level;        ///< theta radius^2 / 2
-  rigor::Interval start_level;  ///< theta |e_1|^2 / 2 at most
-  rigor::Interval probability;  ///< that it is left within the blocks, at most
-  rigor::Interval mean_square;  ///< E |e_k|^2 in lock, at most, in every block
+  rigor::Interval level;                      ///< theta radius^2 / 2
+  rigor::Interval start_level;                ///< theta |e_1|^2 / 2 at most
+  rigor::Interval probability;                ///< that it is left within the blocks, at most
+  rigor::Interval mean_square;                ///< E |e_k|^2 in lock, at most, in every block
+  rigor::Interval mean_square_without_start;  ///< the same from an exact start
 };
 
 /// `slew_share` is zeta > 0, by which |Ae + ws|^2 <= (1 + zeta)|Ae|^2 + (1 + 1/zeta)|ws|^2; without slew it

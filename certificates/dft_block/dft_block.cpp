@@ -156,7 +156,8 @@ class BlockClaims {
     claim.evidence = {*ever, *last};
     const theorems::Quantity* blocks = quantity("settling_blocks");
     const theorems::Quantity* settled = quantity("settled_offset_error");
-    if (blocks != nullptr && settled != nullptr) {
+    if (blocks != nullptr && settled != nullptr && settled->value.upper() < ever->value.upper() &&
+        most(settled) != most(ever)) {
       claim.statement += fmt::format("; from block {} on at most {} bins", most(blocks), most(settled));
       claim.evidence.insert(claim.evidence.end(), {*blocks, *settled});
     }

@@ -50,7 +50,7 @@ std::string lowest_snr_section(const Certificate& certificate) {
   }
   return "## The lowest signal-to-noise ratio: conditions " + markdown::satisfied(found->verdict) + "\n\n" +
          found->title + ".\n\n" + markdown::conditions_table(*found) + "\n" + markdown::values_table(*found) +
-         "\n";
+         "\n" + markdown::notes_list(*found) + "\n";
 }
 
 /// What is proved of starts that never find the tone.

@@ -140,7 +140,7 @@ std::string sentence_of(const NamedSet& named, const FrequencyUnits& units, cons
                                   : ", at any amplitude of the range at each sample",
       units.at_most(set.frequency_error));
   const double samples = samples_to_settle(set, named.long_run);
-  if (samples > 0.0 && std::isfinite(samples) && std::isfinite(named.settled_error())) {
+  if (samples > 0.0 && std::isfinite(samples) && named.settled_error() < set.frequency_error) {
     text += fmt::format("; from sample {} on the error is at most {}", samples,
                         units.at_most(named.settled_error()));
   }

@@ -61,7 +61,8 @@ class ModelClaims {
       add_part(claim, scope.part);
       claim.statement +=
           fmt::format(", the frequency error stays at or below {} for ever", units_.at_most(bound));
-      if (std::isfinite(settled_error()) && settles()) {
+      // No less in the long run than ever says nothing.
+      if (settled_error() < deciding_->frequency_error && above(settled_error()) != bound && settles()) {
         const std::string settled = above(settled_error());
         claim.values.emplace_back("settled_frequency_error", settled);
         claim.statement += fmt::format(", and at or below {} in the long run", units_.at_most(settled));

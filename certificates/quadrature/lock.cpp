@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/quadrature/gaussian/lock_certificate.hpp"
+#include "analysis/quadrature/gaussian/lock_answer.hpp"
 #include "analysis/rigor/decimal.hpp"
 #include "certificates/document/markdown_derivation.hpp"
 #include "certificates/document/markdown_text.hpp"
@@ -133,8 +133,16 @@ void add_lock(Certificate& certificate) {
     const rigor::NearestRounding nearest;
     particulars.start_covariance = start_covariance_text(tables);
   }
-  const quadrature::LockQuestion question = lock_question(tables);
-  quadrature::LockCertificate found = quadrature::certify_lock(question);
+  quadrature::LockQuestion question = lock_question(tables);
+  const auto& required_rms = tables.require.rms_frequency_error_below;
+  if (required_rms) {
+    question.required_rms = required_rms->nearest;
+    question.enough_rms =
+        certificate.extent == Extent::everything ? std::nullopt : std::optional(required_rms->nearest);
+  }
+  quadrature::LockAnswer answer =
+      quadrature::answer_lock(question, certificate.extent == Extent::everything || required_rms);
+  quadrature::LockCertificate found = answer.lock;
   particulars.lock_sets = found.sets;
   if (!found.sets.empty()) {
     add_start_covariance(particulars.start_covariance, found.covariance_multiples, found.derivation);
@@ -147,8 +155,8 @@ void add_lock(Certificate& certificate) {
                              true,
                              covariance_words(particulars.start_covariance, found.covariance_multiples),
                              kDoublePrecision};
-  if (certificate.extent == Extent::everything || tables.require.rms_frequency_error_below) {
-    add_mean_square(certificate, question, found);
+  if (answer.mean_square) {
+    add_mean_square(certificate, question, std::move(answer));
   }
   if (tables.require.probability_of_losing_lock_below) {
     certificate.claims.push_back(probability_claim(derivation, terms));

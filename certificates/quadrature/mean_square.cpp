@@ -33,21 +33,19 @@ constexpr const char* kRms = "rms_frequency_error";
 
 /// The root mean square of the linearised filter; with a leak the largest at the ends of the pieces of the
 /// band.
-std::optional<double> linear_rms(const trackers::ToneModel<double>& design,
+std::optional<double> linear_rms(const trackers::ToneModel<double>& design, double deviation, double walk,
                                  const std::vector<quadrature::LockSet>& sets) {
   if (design.epsilon == 0.0) {
     const quadrature::LockSet& set = sets.front();
     const auto filter = quadrature::linear_filter(design, set.centre);
-    return filter ? std::optional(std::sqrt(
-                        quadrature::frequency_variance(*filter, set.noise_deviation, set.frequency_walk)))
+    return filter ? std::optional(std::sqrt(quadrature::frequency_variance(*filter, deviation, walk)))
                   : std::nullopt;
   }
   double largest = 0.0;
   for (const quadrature::LockSet& set : sets) {
     for (const double frequency : {set.lowest_frequency, set.highest_frequency}) {
       const auto filter = quadrature::leaking_filter(design, frequency);
-      const auto square =
-          filter ? quadrature::mean_square_frequency_error(*filter, set.noise_deviation) : std::nullopt;
+      const auto square = filter ? quadrature::mean_square_frequency_error(*filter, deviation) : std::nullopt;
       if (!square) {
         return std::nullopt;
       }
@@ -63,8 +61,10 @@ void add_linear(const quadrature::LockQuestion& question, const std::vector<quad
   const rigor::NearestRounding nearest;
   const auto& d = question.design;
   const bool leaks = !(d.epsilon == rigor::Interval(0.0));
-  if (const auto rms =
-          linear_rms({midpoint(d.q1), midpoint(d.q2), midpoint(d.r), midpoint(d.epsilon)}, sets)) {
+  const double deviation = question.noise_deviation.upper();
+  const double walk = question.frequency_walk.upper();
+  if (const auto rms = linear_rms({midpoint(d.q1), midpoint(d.q2), midpoint(d.r), midpoint(d.epsilon)},
+                                  deviation, walk, sets)) {
     quadrature::add_sampled(
         derivation,
         {"linear_rms_frequency_error",
@@ -80,23 +80,34 @@ void add_linear(const quadrature::LockQuestion& question, const std::vector<quad
         derivation,
         {"least_rms_frequency_error",
          "the posterior Cramér-Rao bound: no tracker has less, in floating point, rad/sample"},
-        {"", "", "docs/gaussian.md"},
-        std::sqrt(quadrature::least_frequency_variance(set.noise_deviation, set.frequency_walk)));
+        {"", "", "docs/gaussian.md"}, std::sqrt(quadrature::least_frequency_variance(deviation, walk)));
   }
+}
+
+/// Whether the start or the noise decides the bound, and what it would be without the start.
+std::string shares_of(const theorems::Derivation& derivation) {
+  const theorems::Quantity* rms = theorems::applicable_quantity(derivation, kRms);
+  const theorems::Quantity* rest = theorems::applicable_quantity(derivation, quadrature::kRmsWithoutStart);
+  if (rms == nullptr || rest == nullptr) {
+    return {};
+  }
+  const double ratio = rest->value.upper() / rms->value.upper();
+  const double share = 1.0 - ratio * ratio;
+  return fmt::format(
+      "{} dominates the root mean square: about {:.0f} % of its square come from the start and are spread "
+      "over the samples, the rest comes from the noise at every sample. Without the start's share it would "
+      "be at most {} rad/sample.\n\n",
+      share > 0.5 ? "The start" : "The noise", 100.0 * share,
+      rigor::upper_decimal(rest->value, kShownRmsDigits));
 }
 
 }  // namespace
 
 void add_mean_square(Certificate& certificate, const quadrature::LockQuestion& question,
-                     const quadrature::LockCertificate& found) {
-  quadrature::LockQuestion asked = question;
-  const auto& required = quadrature_tables(certificate.design).require.rms_frequency_error_below;
-  if (certificate.extent != Extent::everything && required) {
-    asked.enough_rms = required->nearest;
-  }
-  quadrature::MeanSquareCertificate mean_square = quadrature::certify_mean_square(asked, found);
-  if (!found.sets.empty()) {
-    add_linear(question, found.sets, mean_square.derivation);
+                     quadrature::LockAnswer answer) {
+  quadrature::MeanSquareCertificate& mean_square = answer.mean_square.value();
+  if (!answer.lock.sets.empty()) {
+    add_linear(question, answer.lock.sets, mean_square.derivation);
   }
   quadrature_particulars(certificate).lock_mean_squares = std::move(mean_square.mean_squares);
   certificate.derivations.push_back(std::move(mean_square.derivation));
@@ -150,7 +161,7 @@ std::string mean_square_section(const Certificate& certificate) {
   return fmt::format("## The mean square of the frequency error in lock, conditions {}\n\n{}.\n\n",
                      markdown::satisfied(derivation->verdict), derivation->title) +
          markdown::conditions_table(*derivation) + "\n" + markdown::quantities_table(*derivation) + "\n" +
-         (derivation->notes.empty() ? "" : markdown::notes_list(*derivation) + "\n");
+         shares_of(*derivation) + (derivation->notes.empty() ? "" : markdown::notes_list(*derivation) + "\n");
 }
 
 }  // namespace veritrack::certificates

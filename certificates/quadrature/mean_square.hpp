@@ -3,16 +3,16 @@
 
 #include <string>
 
-#include "analysis/quadrature/gaussian/lock_certificate.hpp"
+#include "analysis/quadrature/gaussian/lock_answer.hpp"
 #include "certificates/document/certificate.hpp"
 #include "certificates/sets/guarantee_sentence.hpp"
 
 namespace veritrack::certificates {
 
-/// Adds the derivation "mean-square", with what the linearised filter does beside it, and its evidence. Call
-/// after the derivation "lock" was added. Needs the upward mode.
+/// Adds the derivation "mean-square", with what the linearised filter does beside it, and its evidence: the
+/// answer must have one. Call after the derivation "lock" was added. Needs the upward mode.
 void add_mean_square(Certificate& certificate, const quadrature::LockQuestion& question,
-                     const quadrature::LockCertificate& found);
+                     quadrature::LockAnswer answer);
 
 /// The claim "ekf/rms-frequency-error", which [require] must ask for: decided by the derivation
 /// "mean-square".

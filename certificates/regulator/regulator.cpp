@@ -187,7 +187,8 @@ class RegulatorClaims {
     const theorems::Quantity* samples = quantity("settling_samples");
     const theorems::Quantity* settled = quantity("settled_output");
     const theorems::Quantity* settled_by = quantity("settled_attenuation");
-    if (samples != nullptr && settled != nullptr && settled_by != nullptr) {
+    if (samples != nullptr && settled != nullptr && settled_by != nullptr &&
+        settled->value.upper() < output->value.upper() && most(settled) != most(output)) {
       claim.statement +=
           fmt::format("; from sample {} on it stays at or below {}, at least {} dB below the tone",
                       most(samples), most(settled), least(settled_by));

@@ -42,6 +42,14 @@ bool is_zero(const Number& number) {
   return number.value == Interval(0.0);
 }
 
+/// Is the error that it settles to below what it never exceeds, as sentences write the two? Else to name it
+/// says nothing.
+bool settles_below(const sets::StartResult& starts, const Interval& bound, const FrequencyUnits& units) {
+  const theorems::Quantity& settled = starts.settled_frequency_error;
+  return starts.settling_samples.applies() && settled.applies() && settled.value.upper() < bound.upper() &&
+         units.at_most(settled.value, kDigits) != units.at_most(bound, kDigits);
+}
+
 /// Why the bound is true, and its value in the long run.
 std::string ground(const sets::StartResult& starts) {
   const std::optional<theorems::Quantity>& captured = starts.capture_samples;
@@ -152,7 +160,7 @@ Claim guarantee_claim(const Certificate& certificate, const GuaranteeTerms& term
     claim.verdict = Verdict::proved;
     claim.statement += ": the frequency error never exceeds " + units.at_most(*bound, kDigits);
     claim.evidence = {starts.frequency_error_bound};
-    if (starts.settling_samples.applies() && starts.settled_frequency_error.applies()) {
+    if (settles_below(starts, *bound, units)) {
       claim.statement += fmt::format("; from sample {} on it stays at or below {}",
                                      rigor::upper_decimal(starts.settling_samples.value, kDigits),
                                      units.at_most(starts.settled_frequency_error.value, kDigits));

@@ -252,7 +252,10 @@ class BlockVerifier {
     found.statement = hypotheses_ + "the offset error of every estimate and prediction is at most " +
                       most("offset_error_bound") + " bins, and in the long run at most " +
                       most("ultimate_offset_error") + " bins";
-    if (evidence.find("settling_blocks") != nullptr || evidence.find("settled_offset_error") != nullptr) {
+    const Tree* settled = evidence.find("settled_offset_error");
+    // No less than is said of every block says nothing.
+    if (settled != nullptr && certainly_less(high_of(*settled), high_of(evidence.at("offset_error_bound"))) &&
+        most("settled_offset_error") != most("offset_error_bound")) {
       found.statement +=
           "; from block " + most("settling_blocks") + " on at most " + most("settled_offset_error") + " bins";
     }

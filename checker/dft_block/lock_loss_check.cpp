@@ -9,6 +9,7 @@ namespace {
 struct Loss {
   Ball probability = Ball::everything();  ///< that |e| exceeds the radius within the blocks, at most
   Ball mean_square = Ball::everything();  ///< E |e_k|^2 until then, at most, in every block
+  Ball mean_square_without_start = Ball::everything();  ///< the same from an exact start
 };
 
 /// With theta = tilt r/deviation^2 and W = exp(theta |e|^2/2): E W+ <= factor W^power, factor at least
@@ -40,8 +41,9 @@ Loss loss_of(const BlockProblem& problem, const BlockNoise& noise, const BlockLo
   const Ball log_constant = (log(power) + log_factor) / (one - power) + log((one - power) / power);
   const Ball level = half * theta * square(drift.radius);
   const Ball start_level = half * theta * square(lock.length_of(noise.start));
+  const Ball tends_to = max(log_factor, zero) / (one - power);
   return {exp(start_level - level) + noise.blocks * exp(log_constant - level),
-          two * max(start_level, max(log_factor, zero) / (one - power)) / theta};
+          two * max(start_level, tends_to) / theta, two * tends_to / theta};
 }
 
 bool is_drift(const BlockDrift& drift) {
@@ -104,6 +106,7 @@ Derivation lock_in_noise(const Tree& derivation, const BlockProblem& problem, co
   // An estimate is the next prediction before the slew, of which the mean square is no larger.
   add("offset_error_bound", drift.radius * lock.reach(2) + problem.slew);
   add("rms_offset_error", sqrt(loss.mean_square) * lock.reach(2));
+  add("rms_offset_error_without_start", sqrt(loss.mean_square_without_start) * lock.reach(2));
   add("phase_error_bound", drift.radius * lock.reach(1));
   add("amplitude_error_bound", drift.radius * lock.reach(0));
   if (is_lowest) {

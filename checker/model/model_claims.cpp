@@ -404,7 +404,9 @@ Claim ModelClaims::guarantee(const Tree& claim, const Part& part) const {
   bool certain =
       set != nullptr && contains_assumed_starts(*set) && of(*set).error_is_at_most(first_level, bound);
   if (const Tree* settled = claim.find("settled_frequency_error")) {
-    found.statement += ", and at or below " + units_.at_most(settled->text()) + " in the long run";
+    if (certainly_less(written(claim, "settled_frequency_error"), bound)) {
+      found.statement += ", and at or below " + units_.at_most(settled->text()) + " in the long run";
+    }
     const TubeFamily* inner = long_run_set(part);
     certain = certain && (inner != nullptr || settles(*set)) &&
               of(inner != nullptr ? *inner : *set)

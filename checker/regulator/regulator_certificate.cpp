@@ -255,7 +255,12 @@ class RegulatorVerifier {
       found.evidence.push_back(bounded(output, at_most(output)));
       found.evidence.push_back(at_least_so(attenuation, at_least(attenuation)));
     };
-    if (const Tree* settling = evidence.find("settling_samples")) {
+    const Tree* settling = evidence.find("settling_samples");
+    // No less than is said of every sample says nothing.
+    if (settling != nullptr &&
+        certainly_less(high_of(evidence.at("settled_output")), high_of(evidence.at("output_bound"))) &&
+        upper_decimal(high_of(evidence.at("settled_output"))) !=
+            upper_decimal(high_of(evidence.at("output_bound")))) {
       found.evidence.push_back(bounded("settling_samples", at_most("settling_samples")));
       add("settled_output", "settled_attenuation",
           "; from sample " + upper_decimal(high_of(*settling)) + " on it stays at or below ");

@@ -392,12 +392,18 @@ Claim Guarantee::sentence(const Tree& claim, const Promises& promises) const {
   found.evidence.push_back({"ultimate_frequency_error", of(promises.ultimate), Sense::bounds_above});
   // What the evidence says is checked beside this.
   const Tree& evidence = claim.at("evidence");
-  if (const Tree* bound = evidence.find("frequency_error_bound")) {
+  const Tree* bound = evidence.find("frequency_error_bound");
+  if (bound != nullptr) {
     found.statement += ": the frequency error never exceeds " + words_.at_most(high_of(*bound));
   }
   if (const auto settled = settling_claim(evidence)) {
-    found.statement += "; from sample " + upper_decimal(settled->samples) + " on it stays at or below " +
-                       words_.at_most(settled->frequency_error);
+    const std::string error = words_.at_most(settled->frequency_error);
+    // No less than what is said to be exceeded never says nothing.
+    if (bound == nullptr || (certainly_less(settled->frequency_error, high_of(*bound)) &&
+                             error != words_.at_most(high_of(*bound)))) {
+      found.statement +=
+          "; from sample " + upper_decimal(settled->samples) + " on it stays at or below " + error;
+    }
   }
   if (const Tree* ultimate = evidence.find("ultimate_frequency_error")) {
     found.statement += "; in the long run it is at most " + words_.at_most(high_of(*ultimate));

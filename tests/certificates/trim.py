@@ -296,6 +296,8 @@ def with_larger_mean_square(certificate, larger):
     rms = float.fromhex(certificate["derivations"][1]["quantities"]["rms_frequency_error"]["hi"])
     form["bound"] = float.hex(float.fromhex(form["bound"]) + larger ** 2 - rms ** 2)
     certificate["derivations"][1]["quantities"]["rms_frequency_error"] = at_most(larger * (1.0 + 1e-12))
+    without_start = math.sqrt(float.fromhex(form["bound"])) * (1.0 + 1e-12)
+    certificate["derivations"][1]["quantities"]["rms_frequency_error_without_start"] = at_most(without_start)
     for claim in certificate["claims"]:
         if "rms_frequency_error" in claim["evidence"]:
             claim["evidence"]["rms_frequency_error"] = at_most(larger * (1.0 + 1e-12))

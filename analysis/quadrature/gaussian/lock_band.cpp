@@ -21,8 +21,14 @@ std::string frequencies_of(const LockRequest& request) {
 }
 
 /// Adds the sets of a piece; false, with the reason, when one was not found.
-bool prove_piece(const trackers::ToneModel<Interval>& design, const LockRequest& piece, int halvings,
-                 LockBand& band) {
+bool prove_piece(const trackers::ToneModel<Interval>& design, const LockRequest& piece,
+                 const Interval& needed, int halvings, LockBand& band) {
+  const bool is_point = piece.lowest_frequency == piece.highest_frequency;
+  const bool is_lower = piece.highest_frequency <= needed.lower();
+  const bool is_upper = needed.upper() <= piece.lowest_frequency && needed.lower() < piece.lowest_frequency;
+  if (!is_point && (is_lower || is_upper)) {
+    return true;  // what it shares with the needed ones, its neighbour has
+  }
   const double middle = 0.5 * (piece.lowest_frequency + piece.highest_frequency);
   LockRequest alone = piece;
   alone.lowest_frequency = alone.highest_frequency = middle;
@@ -50,14 +56,16 @@ bool prove_piece(const trackers::ToneModel<Interval>& design, const LockRequest&
   LockRequest lower = piece;
   LockRequest upper = piece;
   lower.highest_frequency = upper.lowest_frequency = middle;
-  return prove_piece(design, lower, halvings - 1, band) && prove_piece(design, upper, halvings - 1, band);
+  return prove_piece(design, lower, needed, halvings - 1, band) &&
+         prove_piece(design, upper, needed, halvings - 1, band);
 }
 
 }  // namespace
 
-LockBand prove_lock_band(const trackers::ToneModel<Interval>& design, const LockRequest& request) {
+LockBand prove_lock_band(const trackers::ToneModel<Interval>& design, const LockRequest& request,
+                         const Interval& needed) {
   LockBand band;
-  if (prove_piece(design, request, kMostHalvings, band)) {
+  if (prove_piece(design, request, needed, kMostHalvings, band) && !band.sets.empty()) {
     band.reason.clear();
   } else {
     band.sets.clear();

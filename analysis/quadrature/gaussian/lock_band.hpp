@@ -13,15 +13,17 @@ namespace veritrack::quadrature {
 
 /// What was found for a band.
 struct LockBand {
-  /// Proved sets whose frequencies adjoin and cover the band, from its lowest on; empty when there are none.
+  /// Proved sets whose frequencies adjoin and cover the band that is needed, from its lowest on; empty when
+  /// there are none.
   std::vector<LockSet> sets;
   std::int64_t cells = 0;  ///< examined; of the proofs of these sets
   std::string reason;      ///< why there are none, as the end of a sentence
 };
 
 /// Searches and verifies, for the frequencies of the request: pieces are halved, five times at most, until
-/// the set of a piece is hardly worse than one for its middle alone, and proved. Needs the upward mode.
+/// the set of a piece is hardly worse than one for its middle alone, and proved. The request may be for more
+/// than the frequencies that are needed: pieces beyond those are left out. Needs the upward mode.
 [[nodiscard]] LockBand prove_lock_band(const trackers::ToneModel<rigor::Interval>& design,
-                                       const LockRequest& request);
+                                       const LockRequest& request, const rigor::Interval& needed);
 
 }  // namespace veritrack::quadrature

@@ -25,8 +25,6 @@ constexpr const char* kDriftInequality = "E[W(k+1) \\mid k] \\le \\kappa W(k) + 
 constexpr const char* kIllPosed =
     "there is no steady state to search about: the statement needs q1, q2, r and the noise to be "
     "certainly positive.";
-/// What the starts may add to the probability, next to the samples: c_0 times exp of that level.
-constexpr double kStartLevel = 8.0;
 /// What is added to the level of the starts.
 constexpr double kLevelFactor = 1.01;
 constexpr double kLevelRoom = 0.01;
@@ -155,50 +153,20 @@ Condition start_condition(const Interval& level, const LockSet& set) {
           theorems::Sense::at_most};
 }
 
-}  // namespace
-
-Interval expected_weight(const LockSet& set, const Interval& start_level) {
-  return rigor::exp(start_level) + Interval(set.drift) / (Interval(1.0) - Interval(set.decay));
+/// Does each of the sets begin where the one before ends, or sooner, and has one of them every frequency?
+bool cover(const std::vector<LockSet>& sets, const Interval& frequencies) {
+  double covered = frequencies.lower();
+  for (const LockSet& set : sets) {
+    if (!(set.lowest_frequency <= covered)) {
+      return false;
+    }
+    covered = set.highest_frequency;
+  }
+  return frequencies.upper() <= covered;
 }
 
-bool is_well_posed(const LockQuestion& question) {
-  return certainly_positive(question.design.q1) && certainly_positive(question.design.q2) &&
-         certainly_positive(question.design.r) && certainly_positive(question.noise_deviation) &&
-         certainly_not_negative(question.frequency_walk) &&
-         certainly_less_equal(Interval(1.0), question.samples) && question.probability > 0.0 &&
-         question.probability < 1.0;
-}
-
-LockRequest proposal_request(const LockQuestion& question) {
-  LockRequest request;
-  const auto& d = question.design;
-  request.design = {midpoint(d.q1), midpoint(d.q2), midpoint(d.r), midpoint(d.epsilon)};
-  request.noise_deviation = question.noise_deviation.upper();
-  request.frequency_walk = question.frequency_walk.upper();
-  request.decay = kDecay;
-  request.drift = question.design.epsilon == Interval(0.0) ? kDrift : kDriftWithLeak;
-  request.level = std::log((question.samples.upper() + std::exp(kStartLevel) + 1.0 / (1.0 - kDecay)) *
-                           request.drift / question.probability) +
-                  1e-6;
-  request.lowest_frequency = question.frequencies.lower();
-  request.highest_frequency = question.frequencies.upper();
-  return request;
-}
-
-Interval losing_probability(const LockSet& set, const Interval& start_level, const Interval& samples) {
-  return rigor::exp(-Interval(set.level)) *
-             (expected_weight(set, start_level) + samples * Interval(set.drift)) +
-         probability_beyond(samples);
-}
-
-LockCertificate certify_lock(const LockQuestion& question) {
-  const rigor::UpwardRounding upward;
-  const bool sensible = question.design.epsilon == Interval(0.0) && is_well_posed(question);
-  return certify_lock(question, sensible ? propose_lock_set(proposal_request(question)) : std::nullopt);
-}
-
-LockCertificate certify_lock(const LockQuestion& question, const std::optional<LockProposal>& proposal,
-                             std::int64_t most_cells) {
+LockCertificate certify(const LockQuestion& question, const LockRequest& request,
+                        const std::optional<LockProposal>& proposal, std::int64_t most_cells) {
   LockCertificate result;
   result.proposal = proposal;
   result.covariance_multiples = question.starts.covariance.multiples;
@@ -222,7 +190,7 @@ LockCertificate certify_lock(const LockQuestion& question, const std::optional<L
     }
   } else if (sensible) {
     const LockBand band = is_well_posed(question)
-                              ? prove_lock_band(question.design, proposal_request(question))
+                              ? prove_lock_band(question.design, request, question.frequencies)
                               : LockBand{{}, 0, kIllPosed};
     derivation.conditions.push_back(drift_over_band(question, band));
     sets = band.sets;
@@ -234,12 +202,12 @@ LockCertificate certify_lock(const LockQuestion& question, const std::optional<L
   if (!sets.empty()) {
     LockStarts starts = question.starts;
     starts.covariance.multiples = widest_multiples(
-        sets, starts, (kStartLevel + std::log(sets.front().drift) - kLevelRoom) / kLevelFactor);
+        sets, starts, (kUsualStartLevel + std::log(sets.front().drift) - kLevelRoom) / kLevelFactor);
     result.covariance_multiples = starts.covariance.multiples;
     // A little more, so that another program finds it below this.
     level = Interval((start_level(sets, starts) * Interval(kLevelFactor) + Interval(kLevelRoom)).upper());
     bool has_room = true;
-    bool tolerates = true;
+    bool tolerates = !leaks || cover(sets, question.frequencies);
     for (const LockSet& set : sets) {
       has_room = has_room && lock_rounding(question.design, question.signal, set, question.samples).has_room;
       // What the set says it tolerates is at least what is assumed.
@@ -289,6 +257,64 @@ LockCertificate certify_lock(const LockQuestion& question, const std::optional<L
                           "how far out in the set the assumed starts lie", theorems::Sense::at_most},
                          result.sets.empty() ? Interval() : level, kNone);
   return result;
+}
+
+/// What is asked of a proposal; of none where the question has no answer.
+LockRequest usual_request(const LockQuestion& question) {
+  return is_well_posed(question) ? proposal_request(question) : LockRequest{};
+}
+
+}  // namespace
+
+Interval expected_weight(const LockSet& set, const Interval& start_level) {
+  return rigor::exp(start_level) + Interval(set.drift) / (Interval(1.0) - Interval(set.decay));
+}
+
+bool is_well_posed(const LockQuestion& question) {
+  return certainly_positive(question.design.q1) && certainly_positive(question.design.q2) &&
+         certainly_positive(question.design.r) && certainly_positive(question.noise_deviation) &&
+         certainly_not_negative(question.frequency_walk) &&
+         certainly_less_equal(Interval(1.0), question.samples) && question.probability > 0.0 &&
+         question.probability < 1.0;
+}
+
+LockRequest proposal_request(const LockQuestion& question, double start_level) {
+  LockRequest request;
+  const auto& d = question.design;
+  request.design = {midpoint(d.q1), midpoint(d.q2), midpoint(d.r), midpoint(d.epsilon)};
+  request.noise_deviation = question.noise_deviation.upper();
+  request.frequency_walk = question.frequency_walk.upper();
+  request.decay = kDecay;
+  request.drift = question.design.epsilon == Interval(0.0) ? kDrift : kDriftWithLeak;
+  request.level = std::log((question.samples.upper() + std::exp(start_level) + 1.0 / (1.0 - kDecay)) *
+                           request.drift / question.probability) +
+                  1e-6;
+  request.lowest_frequency = question.frequencies.lower();
+  request.highest_frequency = question.frequencies.upper();
+  return request;
+}
+
+Interval losing_probability(const LockSet& set, const Interval& start_level, const Interval& samples) {
+  return rigor::exp(-Interval(set.level)) *
+             (expected_weight(set, start_level) + samples * Interval(set.drift)) +
+         probability_beyond(samples);
+}
+
+LockCertificate certify_lock(const LockQuestion& question) {
+  const rigor::UpwardRounding upward;
+  return certify_lock(question, usual_request(question));
+}
+
+LockCertificate certify_lock(const LockQuestion& question, const LockRequest& request) {
+  const rigor::UpwardRounding upward;
+  const bool sensible = question.design.epsilon == Interval(0.0) && is_well_posed(question);
+  return certify(question, request, sensible ? propose_lock_set(request) : std::nullopt, kMostLockCells);
+}
+
+LockCertificate certify_lock(const LockQuestion& question, const std::optional<LockProposal>& proposal,
+                             std::int64_t most_cells) {
+  const rigor::UpwardRounding upward;
+  return certify(question, usual_request(question), proposal, most_cells);
 }
 
 }  // namespace veritrack::quadrature

@@ -26,6 +26,8 @@ struct LockQuestion {
   double probability = 1e-6;  ///< which the search is to reach
   /// Root mean square of the frequency error that is enough, rad/sample: found faster than the least.
   std::optional<double> enough_rms;
+  /// The same, which is to be reached, however much more there is to find.
+  std::optional<double> required_rms;
 };
 
 struct LockCertificate {
@@ -44,8 +46,12 @@ struct LockCertificate {
 /// Searches and verifies. Sets its own rounding mode.
 [[nodiscard]] LockCertificate certify_lock(const LockQuestion& question);
 
-/// The same without a search: for this proposal, with as many cells in each part (verify_lock_set). Sets its
-/// own rounding mode.
+/// The same with a search for what is requested: for more noise, or more frequencies, than the question's. A
+/// set for more is one for less. Sets its own rounding mode.
+[[nodiscard]] LockCertificate certify_lock(const LockQuestion& question, const LockRequest& request);
+
+/// The same without a search, without a leak: for this proposal, with as many cells in each part
+/// (verify_lock_set). Sets its own rounding mode.
 [[nodiscard]] LockCertificate certify_lock(const LockQuestion& question,
                                            const std::optional<LockProposal>& proposal,
                                            std::int64_t most_cells = kMostLockCells);
@@ -54,8 +60,13 @@ struct LockCertificate {
 /// mode.
 [[nodiscard]] bool is_well_posed(const LockQuestion& question);
 
-/// What is asked of a proposal that is to answer the question. Needs the upward mode.
-[[nodiscard]] LockRequest proposal_request(const LockQuestion& question);
+/// The level that the assumed starts may have for a probability that hardly depends on them.
+inline constexpr double kUsualStartLevel = 8.0;
+
+/// What is asked of a proposal that is to answer the question, with starts up to that level. Needs the upward
+/// mode.
+[[nodiscard]] LockRequest proposal_request(const LockQuestion& question,
+                                           double start_level = kUsualStartLevel);
 
 /// exp(start level) + c_0/(1 - kappa): an upper bound on E[W; lock] at every sample. Needs the upward mode.
 [[nodiscard]] rigor::Interval expected_weight(const LockSet& set, const rigor::Interval& start_level);

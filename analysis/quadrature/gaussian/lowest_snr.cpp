@@ -30,12 +30,6 @@ double nearest_decibels(double deviation) {
   return -10.0 * std::log10(2.0 * deviation * deviation);
 }
 
-/// A little more noise than at that ratio, so that rounding does not spoil the number.
-double deviation_at(int quarters) {
-  constexpr double kHair = 1.0 + 1e-9;
-  return kHair * std::sqrt(0.5 * std::pow(10.0, -0.025 * quarters));
-}
-
 /// Looks for the ratio, each time from the set for the last noise that was good.
 class SnrSearch {
  public:
@@ -167,6 +161,11 @@ LowestSnr as_lowest(LockCertificate found) {
 }
 
 }  // namespace
+
+double deviation_at(int quarters) {
+  constexpr double kHair = 1.0 + 1e-9;  // so that rounding does not spoil the number
+  return kHair * std::sqrt(0.5 * std::pow(10.0, -0.025 * quarters));
+}
 
 Interval decibels_of(const Interval& deviation) {
   return -(Interval(10.0) * rigor::log(Interval(2.0) * rigor::square(deviation)) /

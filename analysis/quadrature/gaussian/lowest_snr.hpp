@@ -25,6 +25,10 @@ struct LowestSnr {
                                            const std::optional<LockProposal>& at_its_noise,
                                            std::int64_t affordable_cells = 600'000);
 
+/// A little more than the deviation at a ratio of so many quarters of a decibel: the ratios that are looked
+/// at, whatever is assumed.
+[[nodiscard]] double deviation_at(int quarters);
+
 /// The signal-to-noise ratio in dB of a deviation in each channel, at amplitude 1: -10 log10(2 sigma^2).
 /// Needs the upward mode.
 [[nodiscard]] rigor::Interval decibels_of(const rigor::Interval& deviation);

@@ -125,10 +125,12 @@ MeanSquareCertificate certify_mean_square(const LockQuestion& question, const Lo
        bounded ? "it is proved in " + std::to_string(result.cells) + " cells that cover the set."
                : "no quadratic form was found for which it could be proved."});
   Interval root;
+  Interval without_start;
   if (bounded) {
-    root = Interval(0.0);
+    root = without_start = Interval(0.0);
     for (std::size_t k = 0; k < forms.size(); ++k) {
       root = max(root, root_mean_square(lock.sets[k], forms[k].form, start->value, question.samples));
+      without_start = max(without_start, rigor::sqrt(Interval(forms[k].form.bound)));
     }
     derivation.notes.push_back(
         std::string(leaks ? "U = |R (e - f)|^2 + g s(P)^2 + beta W" : "U = |R e|^2 + g s(P)^2 + beta W") +
@@ -144,6 +146,12 @@ MeanSquareCertificate certify_mean_square(const LockQuestion& question, const Lo
                           "successive samples, rad/sample",
                           theorems::Sense::at_most},
                          root, "No quadratic form could be certified.");
+  theorems::add_quantity(derivation,
+                         {kRmsWithoutStart, "\\mathrm{rms}_\\infty", "\\sqrt{c}", "docs/gaussian.md",
+                          "the same without the share of the start, which is spread over the samples, "
+                          "rad/sample",
+                          theorems::Sense::at_most},
+                         without_start, "No quadratic form could be certified.");
   return result;
 }
 

@@ -9,6 +9,9 @@
 
 namespace veritrack::quadrature {
 
+/// The quantity of the derivation: what its root mean square falls to as the samples become more.
+inline constexpr const char* kRmsWithoutStart = "rms_frequency_error_without_start";
+
 struct MeanSquareCertificate {
   /// "mean-square": the conditions, and what follows from them.
   theorems::Derivation derivation;

@@ -121,6 +121,16 @@ TEST_CASE("the sentence says no number that its evidence does not have, and evid
   CHECK(settled("0x1.cp+3", "0x1.ap-3").objections.empty());
   CHECK(!settled("0x1.ap+3", "0x1.ap-3").objections.empty());
   CHECK(!settled("0x1.cp+3", "0x1.8p-3").objections.empty());
+  // What is no less than what is never exceeded, or reads the same, is not repeated.
+  const auto bounded = [&](const std::string& error) {
+    return with(at_most("frequency_error_bound", "0x1.7p-1") + "," + at_most("settling_samples", "0x1.cp+3") +
+                "," + at_most("settled_frequency_error", error));
+  };
+  CHECK(bounded("0x1.ap-3").says("never exceeds 0.719 rad/sample; from sample 14 on"));
+  CHECK_FALSE(bounded("0x1.8p-1").says("from sample 14 on"));
+  CHECK(bounded("0x1.8p-1").objections.empty());
+  CHECK_FALSE(bounded("0x1.7p-1").says("from sample 14 on"));
+  CHECK_FALSE(bounded("0x1.6ffffp-1").says("from sample 14 on"));
   CHECK(with(at_most("ultimate_frequency_error", "0x1.ap-4"))
             .says("in the long run it is at most 0.102 rad/sample"));
   CHECK(!with(at_most("ultimate_frequency_error", "0x1.8p-4")).objections.empty());

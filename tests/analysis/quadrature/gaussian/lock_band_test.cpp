@@ -22,10 +22,14 @@ LockRequest band_request(double decibels, double lowest, double highest) {
   request.highest_frequency = highest;
   return request;
 }
-LockBand prove(const LockRequest& request) {
+LockBand prove(const LockRequest& request, const Interval& needed) {
   const rigor::UpwardRounding upward;
   const trackers::ToneModel<double>& d = request.design;
-  return prove_lock_band({Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(d.epsilon)}, request);
+  return prove_lock_band({Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(d.epsilon)}, request,
+                         needed);
+}
+LockBand prove(const LockRequest& request) {
+  return prove(request, Interval::from_bounds(request.lowest_frequency, request.highest_frequency));
 }
 
 }  // namespace
@@ -47,6 +51,18 @@ TEST_CASE("the sets of a band adjoin and cover it, and each is proved for its fr
   const LockVerification again = verify_lock_set(
       {Interval(d.q1), Interval(d.q2), Interval(d.r), Interval(d.epsilon)}, found.sets.front());
   CHECK(again.verdict == rigor::Verdict::proved);
+}
+
+TEST_CASE("of a band that is wider than is needed only the pieces that are needed are proved") {
+  const LockBand found = prove(band_request(34.0, 0.0, 3.0), Interval::from_bounds(0.8, 1.2));
+  CAPTURE(found.reason);
+  REQUIRE_FALSE(found.sets.empty());
+  CHECK(found.sets.front().lowest_frequency <= 0.8);
+  CHECK(found.sets.back().highest_frequency >= 1.2);
+  for (const LockSet& set : found.sets) {
+    CHECK(set.highest_frequency > 0.8);
+    CHECK(set.lowest_frequency < 1.2);
+  }
 }
 
 TEST_CASE("where no set is found the reason names the frequency") {

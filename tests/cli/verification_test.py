@@ -96,6 +96,13 @@ class Verification(CliTestCase):
         self.assertRegex(result.stderr, r"will not be verified: the veritrack-verify beside veritrack is not that of release")
         self.assertEqual(self.document(), (unverified() / "certificate.md").read_text())
 
+    def test_an_interruption_leaves_out_what_is_not_done(self):
+        self.write(REQUIRED)
+        result = self.with_checker("kill -INT $PPID; kill -INT $$")("certify", "--quiet", "design.toml", "--out", "out")
+        self.assertEqual((result.returncode, len(result.stdout.splitlines())), (1, 1), result.stdout)
+        self.assertEqual(result.stderr, "design.toml: not verified: interrupted\n")
+        self.assertEqual(self.document(), (unverified() / "certificate.md").read_text())
+
     def test_what_the_checker_refuses(self):
         self.write(DESIGN)
         copy = self.with_checker(f"printf %s {shlex.quote(json.dumps(REFUSAL))}; exit 3")

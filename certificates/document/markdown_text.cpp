@@ -82,8 +82,8 @@ std::string quotation(std::string_view name, std::string_view source) {
 }
 
 std::string plain(std::string_view document) {
-  constexpr std::array<std::string_view, 16> kOther{"—", "–", "²", "∈", "≈", "≤", "≥", "±",
-                                                    "·", "×", "→", "−", "π", "é", "°", "µ"};
+  constexpr std::array<std::string_view, 18> kOther{"—", "–", "²", "∈", "≈", "≤", "≥", "±", "·",
+                                                    "×", "→", "−", "π", "é", "°", "µ", "α", "ε"};
   const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
   std::string result;
   for (std::size_t i = 0; i < document.size();) {

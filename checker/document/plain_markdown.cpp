@@ -12,9 +12,9 @@ namespace {
 /// What the program escapes with a backslash.
 constexpr std::string_view kEscapable = R"(\`*_{}[]<>#+!|$~&)";
 
-/// Beyond ASCII. None of them looks like a letter of a verdict.
-constexpr std::array<std::string_view, 16> kOther{"—", "–", "²", "∈", "≈", "≤", "≥", "±",
-                                                  "·", "×", "→", "−", "π", "é", "°", "µ"};
+/// Beyond ASCII. None of them looks like a letter of a verdict but for one, which is taken for it.
+constexpr std::array<std::string_view, 18> kOther{"—", "–", "²", "∈", "≈", "≤", "≥", "±", "·",
+                                                  "×", "→", "−", "π", "é", "°", "µ", "α", "ε"};
 
 /// The commands of TeX in formulas. None of them changes letters, or draws one that PROVED or REFUTED has.
 const std::set<std::string, std::less<>>& commands() {
@@ -110,6 +110,8 @@ class Line {
     }
     if (is_letter_or_digit(rest()[0])) {
       seen_ += rest()[0];
+    } else if (rest().starts_with("ε")) {
+      seen_ += 'E';  // which it looks like
     }
     at_ += length;
   }

@@ -55,6 +55,7 @@ TEST_CASE("no word of a verdict is seen, however it is written") {
                            "| PRO | VED |",
                            "PR0VED",
                            "pROVED",
+                           "PROV\u03b5D",
                            "PRO\\_VED",
                            "PRO\\*VED",
                            "$`\\text{PRO}\\text{VED}`$",

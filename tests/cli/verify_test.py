@@ -1,6 +1,7 @@
 """Certificates as written, checked by a program that shares no code with the one that wrote them."""
 
 import json
+import math
 import os
 import pathlib
 import re
@@ -126,6 +127,41 @@ class Verify(CliTestCase):
         self.assertIn("**UNDECIDED**: ", top)
         self.assertRegex(top, r"Why not: .* every P\(0\|0\) from 0.01 M to 1 M, .* a narrower range may help")
         self.assertEqual(verify(self.folder / "wide/certificate.json").returncode, 1)
+
+    def test_two_channels_that_are_not_at_right_angles(self):
+        # The loop of a public motor controller: its angle is that of a point on an ellipse.
+        design = self.write("""\
+name = "a motor's phase, its sine and cosine 0.1 rad off"
+tracker = "model"
+source = "ours"
+
+[model]
+samples = ['ca', 'sa']
+parameters = { dt = '1/12500', kp = 2000, ki = 30000 }
+states = ['phase', 'speed']
+angles = ['phase']
+step = '''
+delta  = atan2(sa*cos(phase) - ca*sin(phase), ca*cos(phase) + sa*sin(phase))
+phase' = phase + (speed + kp*delta)*dt
+speed' = speed + ki*delta*dt
+'''
+frequency = 'speed*dt'
+start = { phase = 0, speed = 'omega/dt' }
+
+[assume]
+amplitude = 1
+sample_rate = 12500
+frequency = { hz = [200, 200.1] }
+noise = 0
+signal = ['A*cos(phi + 0.1)', 'A*sin(phi)']
+""")
+        self.run_here("certify", design, "--out", "out")
+        folder = self.folder / "out"
+        result = verify("--design", design, *documents(folder), folder / "certificate.json")
+        self.assertEqual(result.returncode, 1, result.stdout)  # VERIFIED, and nothing is required
+        ripple = re.search(r"varies by at most (\S+) rad/sample", result.stdout)
+        # Simulations have 0.1574 Hz.
+        self.assertAlmostEqual(float(ripple[1]) * 12500 / (2 * math.pi), 0.1574, delta=0.0002)
 
     def test_exit_status(self):
         certificates = ROOT / "tests" / "certificates"

@@ -26,7 +26,7 @@ SignalAssumptions signal_assumptions(const Assumptions& assume) {
     signal.samples = assume.samples->nearest;
   }
   signal.start = {
-      fmt::format("frequency off by at most {} rad/sample", assume.initial_frequency_error.text),
+      fmt::format("frequency off by at most {:.4g} rad/sample", assume.initial_frequency_error.nearest),
       fmt::format("phase off by at most {} rad", assume.initial_phase_error.text),
       fmt::format("amplitude off by at most {}", assume.initial_amplitude_error.text),
       assume.initial_covariance || assume.covariance_range || assume.covariance_multiples

@@ -37,10 +37,8 @@ class List {
     add_slew();
     assume_.noise_deviation ? add_gaussian_noise() : add_bounded_noise();
     add_samples();
-    for (const std::string& start : assume_.start) {
-      rows_.push_back({"start", start, "", Outcome::not_testable,
-                       "the run starts in the state in which the tracker has followed this tone for long"});
-    }
+    rows_.push_back({"start", fmt::format("{}", fmt::join(assume_.start, "; ")), "", Outcome::not_testable,
+                     "the run starts in the state in which the tracker has followed this tone for long"});
     return std::move(rows_);
   }
 
@@ -50,7 +48,7 @@ class List {
   void add_measured(const std::string& name, const std::string& assumed, const std::string& seen,
                     const SampleRanges& exceeded) {
     if (found_.judged == 0) {
-      rows_.push_back({name, assumed, "", Outcome::not_testable, kNoneJudged});
+      rows_.push_back({name, assumed, "", Outcome::not_testable, why_none_judged(report_.result)});
       return;
     }
     rows_.push_back({name, assumed, seen, exceeded.count() > 0 ? Outcome::not_kept : Outcome::kept,
@@ -76,18 +74,19 @@ class List {
                        found_.judged == 0 ? Outcome::not_testable
                        : is_beyond        ? Outcome::not_kept
                                           : Outcome::kept,
-                       found_.judged == 0 ? kNoneJudged
+                       found_.judged == 0 ? why_none_judged(report_.result)
                        : is_beyond        ? fmt::format("{}", fmt::join(where, "; "))
                        : names.empty()    ? ""
                                           : "counts as noise, and is within the bound"});
       return;
     }
     const bool is_judged = found_.judged > 0 || !names.empty();
-    rows_.push_back({"signal", assumed + ", and Gaussian noise", fmt::format("{}", fmt::join(names, ", ")),
-                     !names.empty() ? Outcome::not_kept
-                     : is_judged    ? Outcome::kept
-                                    : Outcome::not_testable,
-                     is_judged ? fmt::format("{}", fmt::join(where, "; ")) : kNoneJudged});
+    rows_.push_back(
+        {"signal", assumed + ", and Gaussian noise", fmt::format("{}", fmt::join(names, ", ")),
+         !names.empty() ? Outcome::not_kept
+         : is_judged    ? Outcome::kept
+                        : Outcome::not_testable,
+         is_judged ? fmt::format("{}", fmt::join(where, "; ")) : why_none_judged(report_.result)});
   }
 
   void add_amplitude() {
@@ -105,7 +104,7 @@ class List {
       return;
     }
     if (found_.judged == 0) {
-      rows_.push_back({"amplitude", assumed, "", Outcome::not_testable, kNoneJudged});
+      rows_.push_back({"amplitude", assumed, "", Outcome::not_testable, why_none_judged(report_.result)});
       return;
     }
     const bool is_other = found_.amplitude_exceeded.count() > 0;
@@ -151,25 +150,25 @@ class List {
         {"noise, outside of the samples judged", fmt::format("at most {:.4g}, for ever", bound), "",
          Outcome::not_testable,
          found_.judged == 0
-             ? std::string(kNoneJudged)
+             ? std::string(why_none_judged(report_.result))
              : fmt::format("a recording shows the deviation, {:.3g}, and not the bound, of noise to come",
                            found_.distance_deviation)});
   }
 
   void add_gaussian_noise() {
-    add_measured("noise",
+    add_measured("noise deviation",
                  fmt::format("a deviation of at most {:.4g} in each channel", *assume_.noise_deviation),
                  fmt::format("{:.4g}", found_.distance_deviation), found_.noise_exceeded);
-    rows_.push_back({"noise", "Gaussian", "", Outcome::not_testable,
+    rows_.push_back({"Gaussian noise", "in every sample", "", Outcome::not_testable,
                      "the probability of losing lock rests on values too rare for a recording"});
     const bool is_derived = report_.result.quadrature_is_derived;
     const Outcome outcome = is_derived ? Outcome::not_kept : Outcome::not_testable;
-    rows_.push_back({"noise", "independent from sample to sample", "", outcome,
+    rows_.push_back({"independent noise", "from sample to sample", "", outcome,
                      is_derived
                          ? "all samples: the Hilbert filter makes each from many"
                          : "the fit takes a part of the noise, and what it leaves is not white by itself"});
     if (report_.result.channels > 1) {
-      rows_.push_back({"noise", "independent from channel to channel", "", outcome,
+      rows_.push_back({"independent noise", "from channel to channel", "", outcome,
                        is_derived ? "all samples: the Hilbert filter makes one channel from the other"
                                   : "uncorrelated noise need not be independent"});
     }
@@ -191,7 +190,7 @@ class List {
                      fmt::format("{}", fmt::join(where, "; "))});
     if (assume_.samples) {
       const bool is_within = static_cast<double>(result.samples) <= *assume_.samples;
-      rows_.push_back({"samples", fmt::format("at most {:.6g} after the start", *assume_.samples),
+      rows_.push_back({"samples", fmt::format("at most {:.0f} after the start", *assume_.samples),
                        fmt::format("{}", result.samples), is_within ? Outcome::kept : Outcome::not_kept,
                        is_within ? "" : fmt::format("from sample {:.0f} on", *assume_.samples)});
     }

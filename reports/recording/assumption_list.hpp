@@ -9,8 +9,11 @@
 
 namespace veritrack::reports {
 
-/// Why nothing was measured.
-inline constexpr const char* kNoneJudged = "no stretch was in lock and without gaps for long enough";
+/// Why nothing was measured, where that is so.
+[[nodiscard]] inline const char* why_none_judged(const TrackResult& result) {
+  return result.blocks.empty() ? "no stretch was in lock and without gaps for long enough"
+                               : "the tone is too weak in single samples; its lock is judged by blocks";
+}
 
 /// One assumption.
 struct TestedAssumption {

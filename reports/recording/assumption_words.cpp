@@ -38,7 +38,7 @@ std::string assumptions_sentence(const TrackReport& report) {
   }
   if (report.result.assumptions.judged == 0) {
     return "Whether the recording keeps to the certificate's assumptions was not tested: " +
-           std::string(kNoneJudged) + ".";
+           std::string(why_none_judged(report.result)) + ".";
   }
   return fmt::format("Tested and kept, as far as estimates tell: {}. Not testable here: {}.",
                      names_with(rows, TestedAssumption::Outcome::kept), open);

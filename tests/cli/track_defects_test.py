@@ -141,10 +141,10 @@ class TrackDefects(CliTestCase):
             "sample nor from channel to channel. Kept lock"), sentence)
         self.assertEqual(status, 1)
         text = self.document("mono")
-        self.assertIn("| noise | independent from sample to sample |  | **not kept** |", text)
+        self.assertIn("| independent noise | from sample to sample |  | **not kept** |", text)
         sentence, status = self.track("stereo", recording(), "--strict")
         self.assertTrue(sentence.startswith("Kept lock"), sentence)
-        self.assertIn("| noise | independent from channel to channel |  | not testable here |", self.document("stereo"))
+        self.assertIn("| independent noise | from channel to channel |  | not testable here |", self.document("stereo"))
         self.assertEqual(status, 0)
 
     def test_a_note_whose_second_harmonic_is_stronger(self):

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLineApart = 3.0;  // bins
 constexpr double kToneApart = 5.0;  // bins; the tone's polynomials take some
 constexpr int kHighestOrder = 7;
-constexpr std::array kHum{50.0, 60.0};  // Hz
+constexpr std::array kHum{50.0, 60.0, 40.0, 70.0};  // Hz; the last two for comparison
 
 double middle_of(const ToneStretch& stretch) {
   return static_cast<double>(stretch.first) + 0.5 * static_cast<double>(stretch.length - 1);

@@ -59,7 +59,7 @@ struct ExaminedBlock {
   double noise_deviation = 0.0;                ///< of each channel: of what no part explains
   FittedPart offset;
   std::vector<FittedPart> harmonics;
-  std::vector<FittedPart> hum;
+  std::vector<FittedPart> hum;         ///< and the lines at 40 and 70 Hz beside it
   std::vector<FittedPart> amplitudes;  ///< of the tone, at a few places
 
   [[nodiscard]] std::int64_t last() const { return first + static_cast<std::int64_t>(samples.size()) - 1; }

@@ -14,12 +14,17 @@ class HumDetector : public Detector {
  public:
   bool judge(const ExaminedBlock& block) override {
     const FittedPart* largest = nullptr;
+    double beside = 0.0;  // breath or wind, which is all about, is no hum
     for (const FittedPart& each : block.hum) {
-      if (is_there(each, block.amplitude, 2) && (largest == nullptr || each.size > largest->size)) {
+      const bool is_mains = each.hertz == 50.0 || each.hertz == 60.0;
+      beside = is_mains ? beside : std::max(beside, each.size);
+      if (is_mains && is_there(each, block.amplitude, 2) &&
+          (largest == nullptr || each.size > largest->size)) {
         largest = &each;
       }
     }
-    if (largest != nullptr) {
+    constexpr double kStandsOut = 3.0;
+    if (largest != nullptr && largest->size > kStandsOut * beside) {
       Seen& seen = seen_[largest->hertz];
       seen.sizes += largest->size;
       seen.amplitudes += block.amplitude;

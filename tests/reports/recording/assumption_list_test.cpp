@@ -110,12 +110,12 @@ TEST_CASE("a sweep that was seen outside of lock, and missing samples") {
 TEST_CASE("after a Hilbert filter a Gaussian certificate does not apply, and one for a bound may") {
   TrackReport gaussian = clean(true);
   CHECK_FALSE(hilbert_excludes_certificate(gaussian));
-  CHECK(outcome_of(gaussian, "noise", "from sample to sample") == Outcome::not_testable);
+  CHECK(outcome_of(gaussian, "independent noise", "from sample to sample") == Outcome::not_testable);
   gaussian.result.quadrature_is_derived = true;
   CHECK(hilbert_excludes_certificate(gaussian));
   CHECK_FALSE(keeps_to_tested(gaussian));
-  CHECK(outcome_of(gaussian, "noise", "from sample to sample") == Outcome::not_kept);
-  CHECK(outcome_of(gaussian, "noise", "from channel to channel") == Outcome::not_kept);
+  CHECK(outcome_of(gaussian, "independent noise", "from sample to sample") == Outcome::not_kept);
+  CHECK(outcome_of(gaussian, "independent noise", "from channel to channel") == Outcome::not_kept);
   CHECK(headline(gaussian).starts_with(
       "The Gaussian certificate does not apply: after the Hilbert filter, noise is"));
   TrackReport bounded = clean(false);

@@ -47,7 +47,7 @@ TEST_CASE("every part has its size, and the noise the rest") {
                                     [](const FittedPart& each) { return each.order == 3; });
     REQUIRE(third != block->harmonics.end());
     CHECK(third->size == doctest::Approx(0.05).epsilon(0.05));
-    REQUIRE(block->hum.size() == 2);
+    REQUIRE(block->hum.size() == 4);
     CHECK(block->hum.front().hertz == 50.0);
     CHECK(block->hum.front().size == doctest::Approx(0.02).epsilon(0.1));
     CHECK(block->hum.back().size < 0.003);

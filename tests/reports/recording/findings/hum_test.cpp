@@ -43,5 +43,14 @@ TEST_CASE("without a sample rate no line is the mains'; a tone at 50 Hz is none"
   CHECK(names(examined(made(grid), 1, assume)) == "nothing");
 }
 
+TEST_CASE("low noise of all frequencies, as of breath, is no hum") {
+  MadeTone tone;
+  tone.added = [random = trackers::RandomStream(5), low = 0.0](std::size_t, double) mutable {
+    low = 0.97 * low + 0.01 * random.normal();
+    return low;
+  };
+  CHECK(names(examined(made(tone), 1)).find("hum") == std::string::npos);
+}
+
 }  // namespace
 }  // namespace veritrack::reports

@@ -249,7 +249,7 @@ void add_commands(CLI::App& app, Arguments& into) {
       ->check(CLI::Range(1e-9, 3.15));
   track->add_option("--start-hz", into.track.start_hertz, "the same in Hz")->check(CLI::Range(1e-9, 1e15));
   track->add_flag("--strict", into.track.strict,
-                  "1 when lock is lost or the recording exceeds what the certificate assumes");
+                  "1 when lock is lost, or when the recording does not keep to an assumption");
 
   CLI::App* reproduce = app.add_subcommand(
       "reproduce",

@@ -124,6 +124,11 @@ TrackerOnSamples track_dft_block(const Design& design) {
     result.assume.noise_deviation =
         nearest_deviation(*assume.gaussian, assume.amplitude[0]) * assume.amplitude[0].nearest;
   }
+  result.assume.start = {
+      fmt::format("offset off by at most {} bins", assume.initial_offset_error.text),
+      fmt::format("phase off by at most {} rad", assume.initial_phase_error.text),
+      fmt::format("amplitude off by at most a part of {}", assume.initial_amplitude_error.text),
+  };
   result.assume.slew = kTurn * assume.slew.nearest / (length * length);
   return result;
 }

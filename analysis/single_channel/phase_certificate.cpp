@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/rigor/decimal.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/sets/controllability.hpp"
+#include "analysis/sets/harder_questions.hpp"
 #include "analysis/sets/lock_limit.hpp"
 #include "analysis/single_channel/phase_promises.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
@@ -229,6 +231,27 @@ theorems::Evidence evidence_of(const char* name, const PhaseSet& set) {
   return evidence;
 }
 
+/// Where what is required is not proved: a set for more that does it.
+void add_set_for_more(const PhaseQuestion& question, PhaseCertificate& certificate) {
+  constexpr std::size_t kMost = 5;
+  const Interval band = sets::aligned_band(question.band);
+  std::vector<sets::ContractionQuestion> questions = sets::harder_questions(question.tracker);
+  questions.resize(std::min(questions.size(), kMost));
+  for (const sets::ContractionQuestion& harder : questions) {
+    if (certificate.bound_set && satisfies(question, *certificate.bound_set)) {
+      return;
+    }
+    std::optional<PhaseSet> found = PhaseSearch({harder, band}).sufficient_set();
+    if (found && certainly_less_equal(question.tracker.noise, found->noise) &&
+        certainly_less_equal(question.tracker.slew, found->slew) && satisfies(question, *found)) {
+      certificate.bound_set = std::move(found);
+      if (!certificate.set) {
+        certificate.set = certificate.bound_set;
+      }
+    }
+  }
+}
+
 /// As far as the question wants. What one set proves of what is required, a search for everything proves,
 /// too.
 void look_for_sets(const PhaseQuestion& question, PhaseCertificate& certificate, double& level_seen) {
@@ -252,6 +275,9 @@ void look_for_sets(const PhaseQuestion& question, PhaseCertificate& certificate,
       }
     }
     level_seen = search.start_level_seen(*certificate.set);
+  }
+  if (asked.required.any() && !asked.start_covariance) {
+    add_set_for_more(question, certificate);
   }
   if (asked.with_limits || !certificate.set) {
     certificate.noise_set = search.largest_noise();

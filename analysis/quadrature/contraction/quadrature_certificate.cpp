@@ -12,6 +12,7 @@
 #include "analysis/quadrature/falsifier/sampled_quantities.hpp"
 #include "analysis/quadrature/start_covariance.hpp"
 #include "analysis/rigor/decimal.hpp"
+#include "analysis/sets/harder_questions.hpp"
 #include "analysis/sets/lock_limit.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 
@@ -256,11 +257,24 @@ void find_sets(const sets::ContractionQuestion& question, ContractionCertificate
     }
   }
   find_all_sets(question, certificate);
-  if (question.effort == sets::SearchEffort::everything && question.required.any() &&
-      !Promises(question, sets_of(question, certificate)).satisfy(question.required)) {
-    if (auto sufficient = find_sufficient_set(question)) {
+  const auto is_satisfied = [&] {
+    return !question.required.any() ||
+           Promises(question, sets_of(question, certificate)).satisfy(question.required);
+  };
+  const auto add = [&](std::optional<Verification> sufficient) {
+    if (sufficient) {
       (certificate.set ? certificate.settling_set : certificate.set) = std::move(sufficient);
     }
+  };
+  if (question.effort == sets::SearchEffort::everything && !is_satisfied()) {
+    add(find_sufficient_set(question));
+  }
+  // A set for more does it for less.
+  for (const sets::ContractionQuestion& harder : sets::harder_questions(question)) {
+    if (is_satisfied()) {
+      return;
+    }
+    add(find_sufficient_set(harder));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "analysis/quadrature/falsifier/steady_sampled_quantities.hpp"
 #include "analysis/quadrature/leak/steady_report.hpp"
@@ -10,6 +11,7 @@
 #include "analysis/quadrature/start_covariance.hpp"
 #include "analysis/rigor/elementary.hpp"
 #include "analysis/sets/fixed_point_bias.hpp"
+#include "analysis/sets/harder_questions.hpp"
 #include "analysis/sets/lock_limit.hpp"
 #include "analysis/theorems/derivation_builder.hpp"
 
@@ -106,6 +108,60 @@ Search search(const LeakQuestion& question, LeakCertificate& certificate) {
   return search;
 }
 
+/// True only when the set, which must be PROVED, does all that is required of the assumed starts.
+bool satisfies(const sets::ContractionQuestion& question, const SteadyReport& report) {
+  const std::optional<Interval> bound = report.bound();
+  const sets::RequiredBounds& required = question.required;
+  return bound &&
+         (!required.frequency_error || certainly_less(*bound, Interval(*required.frequency_error))) &&
+         (!required.samples ||
+          (certainly_less_equal(report.settling(), Interval(*required.samples)) &&
+           question.settled_frequency_error &&
+           certainly_less_equal(report.ultimate(), Interval(*question.settled_frequency_error))));
+}
+
+bool is_proved(const std::optional<SteadyVerification>& set) {
+  return set && set->verdict == Verdict::proved;
+}
+
+/// Where what is required is not proved: a set for more, over more frequencies, that does it.
+void replace_by_set_for_more(const LeakQuestion& question, Search& search, LeakCertificate& certificate) {
+  const sets::ContractionQuestion& tracker = question.tracker;
+  const auto is_enough = [&](const std::optional<SteadyVerification>& set) {
+    return is_proved(set) && certainly_less_equal(tracker.noise, Interval(set->set.noise)) &&
+           certainly_less_equal(tracker.slew, Interval(set->set.slew)) &&
+           satisfies(tracker, SteadyReport(tracker, search.branch, set->set));
+  };
+  if (!tracker.required.any() || search.branch.verdict != Verdict::proved || is_enough(certificate.set)) {
+    return;
+  }
+  constexpr double kCellWidth = 0.1;  // rad/sample
+  constexpr std::size_t kMost = 3;
+  const sets::LockBranch wider =
+      sets::verify_lock_branch(tracker.design, sets::aligned_band(question.band), {.largest = kCellWidth});
+  std::vector<sets::ContractionQuestion> questions = sets::harder_questions(tracker);
+  questions.resize(std::min(questions.size(), kMost));
+  for (sets::ContractionQuestion& harder : questions) {
+    harder.with_limits = false;
+    const SteadySearch found =
+        search_steady_sets(harder, wider.verdict == Verdict::proved ? wider : search.branch);
+    if (!found.found()) {
+      continue;
+    }
+    auto here = verify_steady_set(tracker.design, search.branch.cells, found.set->set,
+                                  {tracker.amplitude, tracker.largest_frequency});
+    if (is_enough(here)) {
+      certificate.set = std::move(here);
+      search.why = certificate.set->reason;
+      std::erase_if(certificate.derivation.evidence,
+                    [](const theorems::Evidence& one) { return one.name == "start-error"; });
+      certificate.derivation.evidence.insert(certificate.derivation.evidence.begin(),
+                                             evidence_of("start-error", certificate.set->set));
+      return;
+    }
+  }
+}
+
 Condition invariant_set(const LeakQuestion& question, const Search& search,
                         const std::optional<Interval>& rate) {
   Condition invariant{"invariant-set",
@@ -194,7 +250,10 @@ LeakCertificate certify_with_leak(const LeakQuestion& asked) {
       "every frequency of the band, for a signal of constant amplitude.",
       "With a leak the tracker settles with a bias; radii are measured from that state, error bounds from "
       "the true signal. Amplitude error and noise are relative to the true amplitude."};
-  const Search found = search(question, certificate);
+  Search found = search(question, certificate);
+  if (is_finite(question.band) && sets::is_well_posed(question.tracker)) {
+    replace_by_set_for_more(question, found, certificate);
+  }
   std::optional<SteadyReport> report;
   std::optional<Interval> rate;
   if (certificate.set && certificate.set->verdict == Verdict::proved) {

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/quadrature/leak/steady_samples.hpp"
 #include "analysis/rigor/rounding.hpp"
@@ -120,7 +121,7 @@ class LimitSearch {
 }  // namespace
 
 std::optional<SteadyLimit> propose_steady_limit(const SteadyRequest& request, double SteadyRequest::*size,
-                                                double target) {
+                                                double target, const std::vector<SteadyLimit>& harder) {
   const rigor::NearestRounding nearest;
   // Where to begin, as a share of the amplitude, rad/sample per sample or rad/sample, and how to go on from
   // one frequency. A small set has no room for the noise.
@@ -138,10 +139,22 @@ std::optional<SteadyLimit> propose_steady_limit(const SteadyRequest& request, do
   x[5] = -0.7;
   double most = first;
   LimitSearch(last, size, target).climb(x, most, kRounds);
-  most = std::max(first, kShare * most);
   const LimitSearch all(request, size, target);
-  all.climb(x, most, kRounds);
-  return all.limit_of(x, most, 1.0);
+  if (request.steady.size() > 1) {
+    most = std::max(first, kShare * most);
+    all.climb(x, most, kRounds);
+  }
+  std::optional<SteadyLimit> best = all.limit_of(x, most, 1.0);
+  for (const SteadyLimit& known : harder) {
+    x = known.point;
+    most = known.size;
+    all.climb(x, most, kRounds);
+    std::optional<SteadyLimit> found = all.limit_of(x, most, 1.0);
+    if (found && (!best || found->size > best->size)) {
+      best = std::move(found);
+    }
+  }
+  return best;
 }
 
 std::optional<SteadyLimit> propose_steady_size(const SteadyRequest& request, double SteadyRequest::*size,

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "analysis/quadrature/leak/steady_proposal.hpp"
 
@@ -22,10 +23,12 @@ struct SteadyLimit {
 /// Raises `size` (the noise, the slew or the radius of the request, the others stay as they are) from a small
 /// value as far as a shape can be found that allows it: first for the last of the request's steady states,
 /// then for all of them. Each round searches for the shape with the least rate at the present size, and then
-/// raises the size as far as this shape maps level 1 into `target` < 1: what is left is for the proof.
-/// Deterministic; nothing when no shape is found at all.
+/// raises the size as far as this shape maps level 1 into `target` < 1: what is left is for the proof. The
+/// same from each of `harder`, limits for higher frequencies; the largest is returned. Deterministic; nothing
+/// when no shape is found at all.
 [[nodiscard]] std::optional<SteadyLimit> propose_steady_limit(const SteadyRequest& request,
-                                                              double SteadyRequest::*size, double target);
+                                                              double SteadyRequest::*size, double target,
+                                                              const std::vector<SteadyLimit>& harder = {});
 
 /// A shape that maps level 1 into `target` < 1 at the size of the request, searched for from `point`; nothing
 /// when none is found. Deterministic.

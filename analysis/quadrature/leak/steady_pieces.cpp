@@ -19,15 +19,27 @@ using Cells = std::vector<sets::QuadratureTube>;
 
 /// The share of level 1 into which samples of a proposed set may map it: what is left is for the proof.
 constexpr double kTarget = 0.975;
+/// rad/sample: the narrowest pieces are a cell wide.
+constexpr double kCellWidth = 0.05;
 
 class PieceSearch {
  public:
-  PieceSearch(const sets::ContractionQuestion& question, Cells cells, double SteadyRequest::*which)
+  /// `harder` are cells at higher frequencies, for which nothing is to be proved: what is tolerated there is
+  /// tolerated here, so that the search begins from there as well.
+  PieceSearch(const sets::ContractionQuestion& question, Cells cells, const Cells& harder,
+              double SteadyRequest::*which)
       : question_(question), cells_(std::move(cells)), which_(which) {
     request_.design = {midpoint(question.design.q1), midpoint(question.design.q2),
                        midpoint(question.design.r), midpoint(question.design.epsilon)};
     request_.noise = which == &SteadyRequest::noise ? 0.0 : question.noise.upper();
     request_.evaluations = question.search_evaluations;
+    for (const sets::QuadratureTube& cell : harder) {
+      fit_to({cell});
+      request_.steady = {request_.steady.back()};  // the hard end decides
+      if (auto limit = propose_steady_limit(request_, which_, kTarget)) {
+        harder_.push_back(*std::move(limit));
+      }
+    }
   }
 
   /// From the hard end, which decides, to the other; empty when the size would not exceed `known`.
@@ -122,7 +134,8 @@ class PieceSearch {
     fit_to(part);
     for (const double target : {kTarget, 0.96, 0.93, 0.9}) {
       request_.*which_ = 0.0;
-      auto limit = propose_steady_limit(request_, which_, target);
+      auto limit =
+          propose_steady_limit(request_, which_, target, size_ > 0.0 ? std::vector<SteadyLimit>() : harder_);
       if (!limit) {
         continue;
       }
@@ -151,23 +164,47 @@ class PieceSearch {
   Cells cells_;
   double SteadyRequest::*which_;
   SteadyRequest request_;
+  std::vector<SteadyLimit> harder_;
   double size_ = 0.0;  ///< of all pieces so far
   Eigen::VectorXd point_;
 };
+
+/// Cells at frequencies beyond the hard end of the band: at multiples of a step, whatever the band is.
+Cells beyond(const sets::ContractionQuestion& question, const Interval& band) {
+  constexpr double kStep = 0.25;  // rad/sample
+  constexpr int kMost = 1;  // each costs a search, in every certificate with a leak
+  constexpr double kNyquist = 3.14;
+  const bool is_upper = std::fabs(band.upper()) >= std::fabs(band.lower());
+  const double sign = is_upper ? 1.0 : -1.0;
+  const double end = sign * (is_upper ? band.upper() : band.lower());
+  Cells cells;
+  for (int k = 0; k < kMost; ++k) {
+    const double frequency = kStep * (std::floor(end / kStep) + 1.0 + k);
+    if (!(frequency < kNyquist)) {
+      break;
+    }
+    const sets::LockBranch branch = sets::verify_lock_branch(
+        question.design, hull(Interval(sign * (frequency - kCellWidth)), Interval(sign * frequency)),
+        {.largest = kCellWidth});
+    if (branch.verdict != Verdict::proved || branch.cells.empty()) {
+      break;
+    }
+    cells.push_back(is_upper ? branch.cells.back() : branch.cells.front());
+  }
+  return cells;
+}
 
 }  // namespace
 
 std::vector<SteadyPiece> search_steady_pieces(const sets::ContractionQuestion& question,
                                               const sets::LockBranch& branch, double SteadyRequest::*size,
                                               double known) {
-  // The narrowest pieces are a cell wide.
-  constexpr double kCellWidth = 0.05;  // rad/sample
   const sets::LockBranch narrow =
       sets::verify_lock_branch(question.design, branch.band, {.largest = kCellWidth});
   if (narrow.verdict != Verdict::proved || narrow.cells.empty()) {
     return {};
   }
-  return PieceSearch(question, narrow.cells, size).cover(known);
+  return PieceSearch(question, narrow.cells, beyond(question, branch.band), size).cover(known);
 }
 
 }  // namespace veritrack::quadrature

@@ -31,7 +31,8 @@ constexpr std::array<std::pair<const char*, const char*>, 13> kExamples{{
      "  veritrack check designs/ --jobs 4 --timeout 600 --verify --no-cache"},
     {"diff",
      "  veritrack diff old/certificate.json new/certificate.json\n"
-     "  veritrack diff old.toml new.toml"},
+     "  veritrack diff old.toml new.toml\n"
+     "  veritrack diff old.toml new.toml --accept assume.noise"},
     {"map",
      "  veritrack map my-design.toml\n"
      "  veritrack map my-design.toml --frequency 0.5 --phase 1 --noise --html\n"
@@ -137,12 +138,15 @@ void add_commands(CLI::App& app, Arguments& into) {
   diff->add_option("OLD", into.diff.before, "design file (TOML), certificate.json, or its folder")
       ->required();
   diff->add_option("NEW", into.diff.after, "likewise")->required();
-  diff->add_option("--tolerance", into.diff.tolerance, "relative changes up to this count as none")
+  diff->add_option("--tolerance", into.diff.tolerance, "relative changes of bounds up to this count as none")
       ->check([](const std::string& text) {
         const double value = rigor::nearest_double(text);
         return value >= 0.0 && value < 1.0 ? std::string() : std::string("allowed: a number from 0, below 1");
       })
       ->capture_default_str();
+  diff->add_option("--accept", into.diff.accepted,
+                   "a change for the worse that is meant, by its key, such as assume.noise; may be repeated")
+      ->allow_extra_args(false);
 
   CLI::App* map = app.add_subcommand("map", "draw the proved region of attraction: which starts lock");
   map->add_option(

@@ -42,8 +42,9 @@ struct CheckOptions {
 struct DiffOptions {
   std::string before;  ///< a design file, a certificate.json, or its folder
   std::string after;
-  std::string tolerance = "0.001";  ///< relative changes up to it count as none
-  bool quiet = false;               ///< no progress on standard error
+  std::string tolerance = "0.001";    ///< relative changes up to it count as none
+  std::vector<std::string> accepted;  ///< keys of what is worse and meant
+  bool quiet = false;                 ///< no progress on standard error
 };
 
 struct MapOptions {

@@ -107,51 +107,54 @@ void settles_within_blocks(const TomlValue& value, BlockRequirements& require) {
 
 using Chosen = BlockDesignTable;
 constexpr std::array kBlockDesignKeys{
-    Key<Chosen>{"q1", kPositive, real<&Chosen::q1, positive>, kRequired},
-    Key<Chosen>{"q2", kPositive, real<&Chosen::q2, positive>, kRequired},
-    Key<Chosen>{"q3", kPositive, real<&Chosen::q3, positive>, kRequired},
-    Key<Chosen>{"r", kPositive, real<&Chosen::r, positive>, kRequired},
-    Key<Chosen>{"half_width", "a whole number from 1 to 8", half_width, defaults_to("2")},
+    Key<Chosen>{"q1", kPositive, real<&Chosen::q1, positive>, kRequired, kNoContract},
+    Key<Chosen>{"q2", kPositive, real<&Chosen::q2, positive>, kRequired, kNoContract},
+    Key<Chosen>{"q3", kPositive, real<&Chosen::q3, positive>, kRequired, kNoContract},
+    Key<Chosen>{"r", kPositive, real<&Chosen::r, positive>, kRequired, kNoContract},
+    Key<Chosen>{"half_width", "a whole number from 1 to 8", half_width, defaults_to("2"), kNoContract},
     Key<Chosen>{"block_length", "a whole number of samples from 7 to 1e9",
-                whole_samples<&Chosen::block_length, 7>, kOptional},
-    Key<Chosen>{"centre", "a whole number from 2 to 1e9", whole_samples<&Chosen::centre, 2>, kOptional},
+                whole_samples<&Chosen::block_length, 7>, kOptional, kOnlyEqual},
+    Key<Chosen>{"centre", "a whole number from 2 to 1e9", whole_samples<&Chosen::centre, 2>, kOptional,
+                kOnlyEqual},
 };
 using Assumed = BlockAssumptions;
 constexpr std::array kBlockAssumeKeys{
     Key<Assumed>{"amplitude", "a number above 0, or [lowest, highest] of two", block_amplitude,
-                 defaults_to("1")},
-    Key<Assumed>{"offset", "[lowest, highest], two numbers of bins from -8 to 8", block_offset, kRequired},
-    Key<Assumed>{"noise", kNoiseThatMayBeGaussian, block_noise, kRequired},
-    Key<Assumed>{"blocks", kSamplesOfProbability, probability_blocks, kOptional},
-    Key<Assumed>{"slew", kNotNegative, real<&Assumed::slew, not_negative>, defaults_to("0")},
+                 defaults_to("1"), kWider},
+    Key<Assumed>{"offset", "[lowest, highest], two numbers of bins from -8 to 8", block_offset, kRequired,
+                 kWider},
+    Key<Assumed>{"noise", kNoiseThatMayBeGaussian, block_noise, kRequired, kContractOfNoise},
+    Key<Assumed>{"blocks", kSamplesOfProbability, probability_blocks, kOptional, kMore},
+    Key<Assumed>{"slew", kNotNegative, real<&Assumed::slew, not_negative>, defaults_to("0"), kMore},
     Key<Assumed>{"initial_amplitude_error", kAtLeastZeroBelowOne,
-                 real<&Assumed::initial_amplitude_error, at_least_zero_below_one>, kRequired},
+                 real<&Assumed::initial_amplitude_error, at_least_zero_below_one>, kRequired, kMore},
     Key<Assumed>{"initial_phase_error", kNotNegative, real<&Assumed::initial_phase_error, not_negative>,
-                 kRequired},
+                 kRequired, kMore},
     Key<Assumed>{"initial_offset_error", kNotNegative, real<&Assumed::initial_offset_error, not_negative>,
-                 kRequired},
+                 kRequired, kMore},
     Key<Assumed>{"initial_covariance",
                  "\"steady-state\", or a symmetric array of three arrays of three numbers", block_covariance,
-                 defaults_to("\"steady-state\"")},
+                 defaults_to("\"steady-state\""), kWider},
 };
 using Required = BlockRequirements;
 constexpr std::array kBlockRequireKeys{
     Key<Required>{"offset_error_below", kPositive, block_requirement<&Required::offset_error_below>,
-                  kOptional},
+                  kOptional, kLess},
     Key<Required>{"settles_within", "a whole number of blocks, 1 or more; with settled_below",
-                  settles_within_blocks, kOptional},
+                  settles_within_blocks, kOptional, kLess},
     Key<Required>{"settled_below", "a number above 0; with settles_within",
-                  block_requirement<&Required::settled_below>, kOptional},
+                  block_requirement<&Required::settled_below>, kOptional, kLess},
     Key<Required>{"probability_of_losing_lock_below", "a number above 0 and below 1; with Gaussian noise",
-                  block_probability, kOptional},
+                  block_probability, kOptional, kLess},
 };
 using Simulated = BlockSimulation;
 constexpr std::int64_t kMostBlocks = 100'000;
 constexpr std::array kBlockSimulateKeys{
     Key<Simulated>{"blocks", "a whole number from 1 to 100000", integer<&Simulated::blocks, 1, kMostBlocks>,
-                   defaults_to("60")},
+                   defaults_to("60"), kNoContract},
     Key<Simulated>{"seed", "a whole number, 0 or more",
-                   integer<&Simulated::seed, 0, std::numeric_limits<std::int64_t>::max()>, defaults_to("1")},
+                   integer<&Simulated::seed, 0, std::numeric_limits<std::int64_t>::max()>, defaults_to("1"),
+                   kNoContract},
 };
 
 std::vector<BoundTable> bind_block_tables(std::any& tables) {

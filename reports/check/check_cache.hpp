@@ -19,7 +19,7 @@ class CheckCache {
 
   /// What was kept of a design with this text. What cannot be read, or is no such thing, is nothing.
   [[nodiscard]] std::optional<CheckedDesign> find(const std::string& design_text) const;
-  /// Keeps it, unless it has an objection. What cannot be written is not kept, and nothing is said of it.
+  /// Keeps what `is_final`. What cannot be written is not kept, and nothing is said of it.
   void keep(const std::string& design_text, const CheckedDesign& design) const;
 
  private:

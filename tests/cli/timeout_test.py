@@ -38,6 +38,7 @@ class Timeout(CliTestCase):
         result = self.run_here("check", "one.toml", "two.toml", "--timeout", "0.001", "--sarif", "report.sarif")
         self.assertEqual(result.returncode, 1, result.stderr)
         lines = result.stdout.splitlines()
+        self.assertEqual(lines.pop(), "2 designs: 2 undecided")
         self.assertEqual(len(lines), 2)
         for line in lines:
             self.assertIn("undecided: ", line)

@@ -75,8 +75,13 @@ class Output(CliTestCase):
         self.assertEqual((self.folder / "certificate.json").read_text(), DESIGN)
 
     def test_two_reports_need_two_files(self):
-        self.assertEqual(self.run_here("check", "design.toml", "--junit", "a", "--sarif", "./a").returncode, 2)
-        self.assertEqual(self.files(), [])
+        result = self.run_here("check", "design.toml", "--junit", "a", "--sarif", "./a")
+        self.assertEqual(result.returncode, 2)
+        self.assertTrue(result.stderr.startswith("./a: cannot be written: "), result.stderr)
+        # The first one says it, and no design was checked.
+        self.assertEqual(self.files(), ["a"])
+        (suite,) = xml.etree.ElementTree.parse(self.folder / "a").getroot()
+        self.assertEqual((suite.get("name"), suite.get("errors")), ("./a", "1"))
 
     def test_standard_output_that_cannot_be_written(self):
         for arguments in (("check", "design.toml"), ("certify", "--no-verify", "design.toml"), ("--help",), ("--version",)):

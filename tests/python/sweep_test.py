@@ -494,7 +494,7 @@ def test_a_bound_of_an_early_stop_does_not_look_like_the_best_one():
         early = dataclasses.replace(full, early=np.ones(6, bool))
         mixed = dataclasses.replace(full, early=np.array([True] + 5 * [False]))
         drawn = [figures.region_figure(each, *axes, None) for each in (full, early, mixed)]
-        assert [figure.count("<pattern") for figure in drawn] == [0, 1, 1]
+        assert ["<pattern" in figure for figure in drawn] == [False, True, True]
         assert len(set(drawn)) == 3
     # Elsewhere a marker of its own, and in a line and a front a white one.
     stopped = dataclasses.replace(values, early=np.array([True, False] * 3))

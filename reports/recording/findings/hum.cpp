@@ -24,6 +24,7 @@ class HumDetector : public Detector {
       }
     }
     constexpr double kStandsOut = 3.0;
+    ++blocks_;
     if (largest != nullptr && largest->size > kStandsOut * beside) {
       Seen& seen = seen_[largest->hertz];
       seen.sizes += largest->size;
@@ -36,7 +37,13 @@ class HumDetector : public Detector {
 
   [[nodiscard]] std::optional<Finding> finding(const FindingContext& context) const override {
     (void)context;
-    if (seen_.empty()) {
+    // The mains are always there; low noise stands out in a block now and then.
+    constexpr std::int64_t kOftenEnough = 3;
+    std::int64_t with_hum = 0;
+    for (const auto& each : seen_) {
+      with_hum += each.second.blocks;
+    }
+    if (kOftenEnough * with_hum < blocks_ || with_hum == 0) {
       return std::nullopt;
     }
     const auto& [hertz, seen] = *std::max_element(
@@ -64,6 +71,7 @@ class HumDetector : public Detector {
   };
 
   std::map<double, Seen> seen_;
+  std::int64_t blocks_ = 0;  ///< all that were judged
   SampleRanges where_;
 };
 

@@ -1,5 +1,7 @@
 #include "certificates/dft_block/dft_block_track.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
